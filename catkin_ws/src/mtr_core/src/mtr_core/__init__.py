@@ -1,0 +1,1 @@
+"""Pure Python shared by the robot's nodes."""

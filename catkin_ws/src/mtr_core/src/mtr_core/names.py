@@ -1,0 +1,43 @@
+"""Names of topics and frames that more than one package uses."""
+# SPDX-License-Identifier: Apache-2.0
+
+# Frames (REP-105)
+MAP = "map"
+ODOM = "odom"
+BASE = "base_link"
+CAR = "car"
+KEY = "key"
+FRONT_LIDAR = "front_lidar"
+REAR_LIDAR = "rear_lidar"
+IMU = "imu"
+
+# Sensors and wheels, as on a Jackal
+FRONT_SCAN = "/front/scan"
+REAR_SCAN = "/rear/scan"
+IMU_DATA = "/imu/data"
+WHEEL_ODOMETRY = "/jackal_velocity_controller/odom"
+WHEEL_COMMAND = "/jackal_velocity_controller/cmd_vel"
+BATTERY = "/battery"
+
+# Between the robot's nodes
+DESIRED_STATE = "/dispatcher/desired"
+ROBOT_MODE = "/state_machine/mode"
+CAR_ESTIMATE = "/car_locator/car"
+LOCALIZED_POSE = "/localization/pose"
+MOTION_STATUS = "/motion_planner/status"
+MOTION_PATH = "/motion_planner/path"
+PLANNER_VELOCITY = "/drive/command/planner"
+MANUAL_VELOCITY = "/drive/command/manual"
+MOTION_LOCK = "/drive/lock"
+DRIVE_STATUS = "/drive/status"
+PERIPHERALS_STATE = "/peripherals/state"
+OPERATOR_LOG = "/operator_log"
+
+# Host to firmware and back
+FIRMWARE_COMMAND = "/firmware/command"
+FIRMWARE_PRESS = "/firmware/press"
+FIRMWARE_STATE = "/firmware/state"
+
+# Simulation
+SIM_HOLD = "/sim/hold"
+SIM_TRUTH = "/sim/truth"

@@ -1,0 +1,47 @@
+"""Rigid motions of the plane.
+
+A transform reads `target_from_source`: it takes coordinates in source to coordinates in target. Metres, radians
+counterclockwise.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import Tuple
+
+
+def wrap_angle(angle: float) -> float:
+    """Same direction within (-pi, pi]."""
+    wrapped = math.remainder(angle, 2.0 * math.pi)
+    return math.pi if wrapped == -math.pi else wrapped
+
+
+@dataclass(frozen=True)
+class Pose2:
+    """Pose, or transform, in the plane: x and y in m, heading in rad."""
+
+    x: float
+    y: float
+    heading: float
+
+    def __matmul__(self, other: "Pose2") -> "Pose2":
+        """a_from_b @ b_from_c == a_from_c."""
+        x, y = self.apply(other.x, other.y)
+        return Pose2(x, y, wrap_angle(self.heading + other.heading))
+
+    def apply(self, x: float, y: float) -> Tuple[float, float]:
+        """Coordinates in target of the point (x, y) in source."""
+        cos, sin = math.cos(self.heading), math.sin(self.heading)
+        return self.x + cos * x - sin * y, self.y + sin * x + cos * y
+
+    def inverse(self) -> "Pose2":
+        """source_from_target."""
+        cos, sin = math.cos(self.heading), math.sin(self.heading)
+        return Pose2(-cos * self.x - sin * self.y, sin * self.x - cos * self.y, wrap_angle(-self.heading))
+
+    def distance_to(self, other: "Pose2") -> float:
+        """Distance of the origins in m."""
+        return math.hypot(other.x - self.x, other.y - self.y)
+
+    def is_finite(self) -> bool:
+        """True when no component is NaN or infinite."""
+        return all(map(math.isfinite, (self.x, self.y, self.heading)))

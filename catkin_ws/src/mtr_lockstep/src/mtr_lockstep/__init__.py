@@ -1,0 +1,6 @@
+"""Ticks that a simulated clock waits for, and inputs that are due at a tick."""
+# SPDX-License-Identifier: Apache-2.0
+from .inputs import TickInput
+from .ticker import Ticker
+
+__all__ = ["TickInput", "Ticker"]

@@ -1,0 +1,66 @@
+"""Samples of one periodic producer, and which of them a consumer reads at its tick. No ROS inside."""
+# SPDX-License-Identifier: Apache-2.0
+import bisect
+import threading
+import time
+from typing import Callable, Generic, List, Optional, TypeVar
+
+from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS, Slot
+
+T = TypeVar("T")
+
+# A producer that lets a simulated tick wait longer than this (wall time) is taken for dead: nobody waits for it any
+# more until it speaks again, and the consumer sees its sample grow old.
+PRODUCER_LOST_AFTER_WALL_S = 5.0
+KEPT_SAMPLES = 64
+
+
+class Samples(Generic[T]):
+    """Thread-safe history of stamped samples of one producer.
+
+    Attributes:
+        slot: the producer's ticks.
+        lag_ns: a sample is due this long after its stamp; 0 for sensors, which precede the clock.
+        waits: True in lock-step, where `at` returns the same sample however fast the machine is.
+    """
+
+    def __init__(self, slot: Slot, lag_ns: int = CLOCK_STEP.period_ns, waits: bool = True,
+                 wall_clock: Callable[[], float] = time.monotonic):
+        self.slot, self.lag_ns, self.waits = slot, lag_ns, waits
+        self._wall_clock = wall_clock
+        self._changed = threading.Condition()
+        self._stamps: List[int] = []
+        self._values: List[T] = []
+        self._lost = False
+
+    def add(self, stamp_ns: int, value: T) -> None:
+        """Take the producer's next sample; one that is not newer than the last replaces history (a restart)."""
+        with self._changed:
+            if self._stamps and stamp_ns <= self._stamps[-1]:
+                self._stamps.clear()
+                self._values.clear()
+            self._stamps.append(stamp_ns)
+            self._values.append(value)
+            del self._stamps[:-KEPT_SAMPLES], self._values[:-KEPT_SAMPLES]
+            self._lost = False
+            self._changed.notify_all()
+
+    def at(self, tick_ns: int) -> Optional[T]:
+        """Sample that a consumer reads at its tick: in lock-step the one that is due, else the newest."""
+        with self._changed:
+            if not self.waits:
+                return self._values[-1] if self._values else None
+            self._wait_for(self.slot.last_at(tick_ns - self.lag_ns))
+            index = bisect.bisect_right(self._stamps, tick_ns - self.lag_ns)
+            return self._values[index - 1] if index else None
+
+    def _wait_for(self, due_ns: int) -> None:
+        if due_ns <= SIMULATION_START_NS:
+            return
+        deadline = self._wall_clock() + PRODUCER_LOST_AFTER_WALL_S
+        while not self._lost and not (self._stamps and self._stamps[-1] >= due_ns):
+            remaining = deadline - self._wall_clock()
+            if remaining <= 0.0:
+                self._lost = True
+                return
+            self._changed.wait(remaining)

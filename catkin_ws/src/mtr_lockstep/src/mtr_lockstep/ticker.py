@@ -1,0 +1,42 @@
+"""The rate of a periodic node: a simulated clock does not pass a tick before its work is done."""
+# SPDX-License-Identifier: Apache-2.0
+import rospy
+from std_msgs.msg import Header
+
+from mtr_core import names
+from mtr_core.schedule import Slot
+
+from . import clock
+
+
+class Ticker:
+    """Wakes at the ticks of a slot of the schedule.
+
+    In simulation each sleep first publishes a hold: frame_id is the node, stamp its next tick, seq the number of
+    messages that it has sent to the simulator so far. The simulator does not advance past the stamp and waits until
+    the messages have arrived. On the robot's own clock nothing is published.
+
+    Attributes:
+        messages_sent: messages sent to the simulator since the start; the owner increments it.
+    """
+
+    def __init__(self, slot: Slot):
+        self._slot = slot
+        self.messages_sent = 0
+        self._holds = None
+        if clock.is_simulated():
+            self._holds = rospy.Publisher(names.SIM_HOLD, Header, queue_size=20, tcp_nodelay=True, latch=True)
+
+    def sleep(self) -> int:
+        """Wait for the next tick and return it in ns of the ROS clock; rospy.ROSInterruptException on shutdown.
+
+        A node that took longer than a period goes on at the next tick that is still to come.
+        """
+        tick = self._slot.next_after(clock.now_ns())
+        self._hold(tick)
+        clock.wait_until(tick)
+        return tick
+
+    def _hold(self, tick_ns: int) -> None:
+        if self._holds:
+            self._holds.publish(Header(self.messages_sent, clock.stamp_of(tick_ns), rospy.get_name()))

@@ -1,0 +1,1 @@
+"""Decisions of the Operator's application: pure Python, no Qt, sockets or CAN."""

@@ -1,0 +1,34 @@
+"""Error tree of the Operator's application; each text is one sentence for a person.
+
+OperatorError
+├── InvalidParameter     a scenario or connection parameter is out of range
+├── ConnectionFailed     robot or Car cannot be reached, or the port or adapter is wrong
+├── LinkLost             robot or Car fell silent during a test
+├── ProgressFileError    a progress file cannot be read or belongs to something else
+└── OutputError          a result cannot be written
+"""
+# SPDX-License-Identifier: Apache-2.0
+
+
+class OperatorError(Exception):
+    """Base of all errors that the application raises for a person to read."""
+
+
+class InvalidParameter(OperatorError):
+    """A parameter is out of range."""
+
+
+class ConnectionFailed(OperatorError):
+    """Robot or Car cannot be reached."""
+
+
+class LinkLost(OperatorError):
+    """Robot or Car fell silent during a test."""
+
+
+class ProgressFileError(OperatorError):
+    """A progress file cannot be read or belongs to something else."""
+
+
+class OutputError(OperatorError):
+    """A result cannot be written."""

@@ -1,0 +1,238 @@
+"""What the scenarios' runner needs from the outside: a link to the robot and a link to the Car.
+
+The application is driven by Status messages: the runner takes the next Status, reads the Car's events up to its time,
+lets the scenario decide, and sends the desired state back as the answer to that Status. Nothing else makes a decision,
+so that the order of events is that of the robot's clock and not of threads and sockets.
+
+All times are seconds of the robot's clock; poses are of base_link in the Car coordinate system, in metres and radians.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import enum
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, field
+from typing import List, Optional, Tuple
+
+
+class Direction(enum.Enum):
+    """Direction of travel on the last straight piece before a waypoint."""
+
+    ANY = 0
+    FORWARD = 1
+    BACKWARD = 2
+
+
+class Mode(enum.Enum):
+    """High-level state of the robot."""
+
+    UNKNOWN = 0
+    STARTING = 1
+    READY_TO_MAP_CAR = 2
+    MAPPING_CAR = 3
+    FOLLOWING_WAYPOINT = 4
+    FAULT = 5
+
+
+class WaypointResult(enum.Enum):
+    """What the robot says of the newest waypoint."""
+
+    NONE = 0
+    PENDING = 1
+    REACHED = 2
+    REFUSED = 3
+    BLOCKED = 4
+
+
+class LockState(enum.Enum):
+    """State of the Car's locks."""
+
+    UNKNOWN = "unknown"
+    LOCKED = "locked"
+    UNLOCKED = "unlocked"
+
+
+@dataclass(frozen=True)
+class Waypoint:
+    """A pose of base_link to reach; id is unique within the session and never 0."""
+
+    id: int
+    x: float
+    y: float
+    heading: float
+    direction: Direction = Direction.ANY
+
+
+@dataclass(frozen=True)
+class ButtonPress:
+    """A press of one or more key buttons (1 lock, 2 unlock); strength 0 to 1, duration in s."""
+
+    id: int
+    buttons: Tuple[int, ...]
+    strength: float
+    duration_s: float
+
+
+@dataclass(frozen=True)
+class DesiredState:
+    """The whole desired final state of the robot. Immutable: a change is a new object with a new id."""
+
+    stop: bool = False
+    waypoint: Optional[Waypoint] = None
+    max_speed_mps: Optional[float] = None
+    key_height_m: Optional[float] = None
+    press: Optional[ButtonPress] = None
+    map_car_id: int = 0
+
+
+@dataclass(frozen=True)
+class PressConfirmation:
+    """One press as executed; error is empty when it was."""
+
+    id: int
+    start_s: float
+    end_s: float
+    error: str = ""
+
+
+@dataclass(frozen=True)
+class CarDimensions:
+    """Length and width of the Car as the robot measured them, with 1 sigma, in m."""
+
+    length: float
+    width: float
+    length_sigma: float
+    width_sigma: float
+
+
+@dataclass(frozen=True)
+class Notification:
+    """A sentence that concerns the Operator now. severity: 1 info, 2 warning, 3 error."""
+
+    code: str
+    severity: int
+    text: str
+
+
+@dataclass(frozen=True)
+class LogMessage:
+    """A sentence of the robot's log; id tells repetitions."""
+
+    id: int
+    stamp_s: float
+    severity: int
+    source: str
+    text: str
+
+
+@dataclass(frozen=True)
+class RobotStatus:
+    """One Status message. NaN or None where the robot did not say."""
+
+    id: int
+    robot_session_id: int
+    stamp_s: float
+    x: float = math.nan
+    y: float = math.nan
+    heading: float = math.nan
+    speed_mps: float = 0.0
+    yaw_rate_radps: float = 0.0
+    pose_valid: bool = False
+    position_sigma_m: float = math.nan
+    heading_sigma_rad: float = math.nan
+    key_x: float = 0.0
+    key_y: float = 0.0
+    key_height_m: float = math.nan
+    pressed_buttons: Tuple[int, ...] = ()
+    localization_accuracy_cm: Optional[int] = None
+    battery_percent: Optional[int] = None
+    is_mapping_car: bool = False
+    mode: Mode = Mode.UNKNOWN
+    car: Optional[CarDimensions] = None
+    session_id: int = 0
+    command_id: int = 0
+    waypoint_id: int = 0
+    waypoint_result: WaypointResult = WaypointResult.NONE
+    waypoint_message: str = ""
+    presses: Tuple[PressConfirmation, ...] = ()
+    map_car_id: int = 0
+    log: Tuple[LogMessage, ...] = ()
+    notifications: Tuple[Notification, ...] = ()
+    rejected_messages: int = 0
+    software_version: str = ""
+
+
+@dataclass(frozen=True)
+class CarEvent:
+    """The Car's locks changed. time_s: robot's clock; time_sigma_s: 1 sigma of that time."""
+
+    time_s: float
+    time_sigma_s: float
+    lock_state: LockState
+
+
+@dataclass
+class LinkStatistics:
+    """Counts since the connection was made."""
+
+    received: int = 0
+    undecodable: int = 0
+    oversized: int = 0
+    lost: int = 0
+    last_error: str = field(default="")
+
+
+class RobotLink(ABC):
+    """Connection to the robot (or its substitute)."""
+
+    statistics: LinkStatistics
+
+    @abstractmethod
+    def connect(self) -> None:
+        """Connect, or raise errors.ConnectionFailed with a sentence that says which address or port is wrong."""
+
+    @abstractmethod
+    def next_status(self, timeout_s: float) -> Optional[RobotStatus]:
+        """The next Status in order, None when none came within timeout_s of wall time."""
+
+    @abstractmethod
+    def send(self, desired: DesiredState) -> None:
+        """Send the desired state as the answer to the newest Status taken by next_status.
+
+        A changed content gets a new id; calling it again with an equal one sends it again with the same id.
+        """
+
+    @abstractmethod
+    def close(self) -> None:
+        """Say goodbye (the robot stops) and disconnect; safe to call twice."""
+
+
+class CarLink(ABC):
+    """Connection to the Car's CAN bus (or its substitute)."""
+
+    @abstractmethod
+    def connect(self) -> None:
+        """Connect, or raise errors.ConnectionFailed with a sentence that says what is wrong with adapter or database."""
+
+    @abstractmethod
+    def observe(self, status: RobotStatus) -> List[CarEvent]:
+        """Map clocks with this Status; return the events not later than its stamp that were not returned before.
+
+        It waits a bounded wall time for the bus to catch up with the stamp, so that an event that precedes the Status
+        is never missed. Events come in order of time.
+        """
+
+    @property
+    @abstractmethod
+    def lock_state(self) -> LockState:
+        """Lock state at the stamp of the last observed Status; UNKNOWN while the bus is silent or in error."""
+
+    @property
+    @abstractmethod
+    def problem(self) -> str:
+        """Empty when the bus is healthy; else one sentence (silent, bus-off, error frames, clock not mapped yet)."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Disconnect; safe to call twice."""
