@@ -1,7 +1,7 @@
 """Names of topics and frames that more than one package uses."""
 # SPDX-License-Identifier: Apache-2.0
 
-# Frames (REP-105)
+# Frames (REP-103, REP-105)
 MAP = "map"
 ODOM = "odom"
 BASE = "base_link"

@@ -34,11 +34,11 @@ class Samples(Generic[T]):
         self._lost = False
 
     def add(self, stamp_ns: int, value: T) -> None:
-        """Take the producer's next sample; one that is not newer than the last replaces history (a restart)."""
+        """Take the producer's next sample; an older one replaces history (a restart), an equal one the last."""
         with self._changed:
-            if self._stamps and stamp_ns <= self._stamps[-1]:
-                self._stamps.clear()
-                self._values.clear()
+            while self._stamps and stamp_ns <= self._stamps[-1]:
+                restarted = stamp_ns < self._stamps[-1]
+                del self._stamps[0 if restarted else -1:], self._values[0 if restarted else -1:]
             self._stamps.append(stamp_ns)
             self._values.append(value)
             del self._stamps[:-KEPT_SAMPLES], self._values[:-KEPT_SAMPLES]

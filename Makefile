@@ -1,0 +1,59 @@
+# Everything a developer does; `make help` lists it. Each target installs and builds first what it needs.
+# SPDX-License-Identifier: Apache-2.0
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.PHONY: help setup build demo test lint unit rostest system sim clean bench
+
+SEED ?= 1
+# Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
+FACTOR ?= 1
+RVIZ ?= $(if $(DISPLAY),true,false)
+
+STAMPS := .setup
+RUN := source setup/env.bash &&
+BUILD_INPUTS := $(shell find -L catkin_ws/src proto launch tests -not -path '*/.*' \( -name CMakeLists.txt -o -name package.xml \
+	-o -name setup.py -o -name '*.msg' -o -name '*.proto' -o -name '*.cpp' -o -name '*.hpp' -o -path '*/scripts/*' \) \
+	-type f 2>/dev/null)
+
+help: ## List the targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+setup: ## Install the missing Debian and Python packages
+	@setup/install.sh
+
+build: $(STAMPS)/build ## Build the proto and the catkin workspace
+
+$(STAMPS)/build: $(BUILD_INPUTS) setup/debian-packages.txt setup/python-requirements.txt | setup
+	@setup/build.sh
+	@touch $@
+
+demo: setup build ## Run both scenarios on the simulated robot and Car; results in out/demo
+	@$(RUN) python -m mtr_bringup.demo --seed $(SEED) --out out/demo
+
+sim: setup build ## Start the simulated robot and Car for an application on ports 3333 and 3334 (Ctrl-C ends)
+	@mkdir -p out/sim
+	@$(RUN) roslaunch mtr_bringup sim.launch seed:=$(SEED) real_time_factor:=$(FACTOR) rviz:=$(RVIZ) \
+		car_port_link:=$(CURDIR)/out/sim/can truth_dir:=$(CURDIR)/out/sim
+
+test: setup build ## Lint, layer test, unit tests, rostest suites and system tests
+	@$(RUN) python setup/run_tests.py all
+
+lint: setup build ## Only the lint
+	@$(RUN) python setup/run_tests.py lint
+
+unit: setup build ## Only the tests that need no ROS master
+	@$(RUN) python setup/run_tests.py lint unit gtest
+
+rostest: setup build ## Only the rostest suites
+	@$(RUN) python setup/run_tests.py rostest
+
+system: setup build ## Only the tests of the whole stack
+	@$(RUN) python setup/run_tests.py system
+
+bench: setup build ## Benchmarks; figures in out/bench
+	@$(RUN) python -m mtr_bringup.bench --out out/bench
+
+clean: ## Remove everything that was built or written
+	rm -rf out $(STAMPS) .venv catkin_ws/{build,devel,logs,.catkin_tools} proto/src/mtr_proto/*_pb2.py

@@ -1,0 +1,1 @@
+"""Starting and stopping the whole system on one machine."""

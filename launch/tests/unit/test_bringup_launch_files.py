@@ -1,0 +1,38 @@
+"""Shipped launch and configuration files load, and say what their arguments are for."""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+import yaml
+
+TOP = pathlib.Path(__file__).resolve().parents[3]
+LAUNCH_FILES = sorted((TOP / "launch" / "launch").glob("*.launch"))
+YAML_FILES = sorted(path for path in [*(TOP / "catkin_ws" / "src").glob("*/config/*.yaml"),
+                                      *(TOP / "operator_gui").rglob("*.yaml")] if "build" not in path.parts)
+
+
+def test_the_four_launch_files_are_there():
+    assert {path.stem for path in LAUNCH_FILES} >= {"robot", "sim", "view", "replay"}
+
+
+@pytest.mark.parametrize("path", LAUNCH_FILES, ids=lambda path: path.name)
+def test_every_argument_of_a_launch_file_is_documented(path):
+    arguments = [node for node in ElementTree.parse(path).getroot().findall("arg")]
+    assert all(argument.get("doc") for argument in arguments)
+
+
+@pytest.mark.parametrize("path", LAUNCH_FILES, ids=lambda path: path.name)
+def test_every_node_of_a_launch_file_exists(path):
+    for node in ElementTree.parse(path).getroot().iter("node"):
+        package, executable = node.get("pkg"), node.get("type")
+        folder = TOP / "catkin_ws" / "src" / package
+        if not package.startswith("mtr_"):
+            continue
+        cmake = (folder / "CMakeLists.txt").read_text(encoding="utf-8")
+        assert executable in cmake, f"{package} does not build or install {executable}"
+
+
+@pytest.mark.parametrize("path", YAML_FILES, ids=lambda path: str(path.relative_to(TOP)))
+def test_every_configuration_file_loads(path):
+    assert isinstance(yaml.safe_load(path.read_text(encoding="utf-8")), dict)

@@ -1,0 +1,1 @@
+"""Messages of the link between laptop and robot, generated from robot_link.proto."""

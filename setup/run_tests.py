@@ -1,0 +1,149 @@
+"""Runs the test suites one after the other and prints one line with the sum of their results.
+
+Usage: run_tests.py all | [lint] [unit] [gtest] [rostest] [system]
+"""
+# SPDX-License-Identifier: Apache-2.0
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree as ElementTree
+from typing import Callable, Dict, List, Tuple
+
+TOP = pathlib.Path(__file__).resolve().parent.parent
+RESULTS = TOP / "out" / "test"
+PACKAGES = TOP / "catkin_ws" / "src"
+Counts = Tuple[int, int]
+
+
+def main(wanted: List[str]) -> int:
+    """Run the wanted suites; the exit status says whether everything passed."""
+    names = list(SUITES) if wanted in ([], ["all"]) else wanted
+    unknown = [name for name in names if name not in SUITES]
+    if unknown:
+        print(f"Unknown suite {unknown[0]}; there are: {', '.join(SUITES)}.", file=sys.stderr)
+        return 2
+    passed = failed = 0
+    for name in names:
+        shutil.rmtree(RESULTS / name, ignore_errors=True)
+        (RESULTS / name).mkdir(parents=True)
+        started = time.monotonic()
+        good, bad = SUITES[name]()
+        print(f"--- {name}: {good} good, {bad} bad, {time.monotonic() - started:.0f} s", flush=True)
+        passed, failed = passed + good, failed + bad
+    print(f"{passed} passed, {failed} failed")
+    return 1 if failed or not passed else 0
+
+
+def lint() -> Counts:
+    """Style, unused code and the Python version of the robot; formatting of the C++."""
+    python = [str(path) for path in tracked("*.py") + node_scripts()]
+    robot = [path for path in python if "/operator_gui/" not in path and "/setup/" not in path]
+    cpp = [str(path) for path in tracked("*.cpp") + tracked("*.hpp")]
+    packages = sorted(str(path.parent) for path in PACKAGES.glob("*/package.xml"))
+    checks = {
+        "ruff": ["ruff", "check", "--quiet", *python],
+        "python-3.8": ["vermin", "--quiet", "-t=3.8-", "--no-tips", "--violations", *robot],
+        "clang-format": ["clang-format", "--dry-run", "-Werror", *cpp],
+        "catkin-lint": ["/usr/bin/catkin_lint", "--quiet", "-W1", *packages],
+    }
+    results = [check(name, command) for name, command in checks.items()]
+    return results.count(True), results.count(False)
+
+
+def check(name: str, command: List[str]) -> bool:
+    """Run one lint command; print what it found."""
+    done = subprocess.run(command, cwd=TOP, text=True, capture_output=True, check=False)
+    good = done.returncode == 0
+    if not good:
+        print(f"{name}:\n{done.stdout}{done.stderr}")
+    return good
+
+
+def tracked(pattern: str) -> List[pathlib.Path]:
+    """Files of the project by name pattern, generated ones excluded."""
+    roots = ["catkin_ws/src", "proto", "launch", "tests", "operator_gui", "setup"]
+    found = {path.resolve() for root in roots for path in (TOP / root).rglob(pattern)}
+    return sorted(path for path in found if not path.name.endswith("_pb2.py") and "/build/" not in str(path))
+
+
+def node_scripts() -> List[pathlib.Path]:
+    """Executable Python files without suffix."""
+    return sorted(path.resolve() for path in PACKAGES.glob("*/scripts/*") if path.is_file() and not path.suffix)
+
+
+def unit() -> Counts:
+    """Tests without a ROS master."""
+    folders = [*PACKAGES.glob("*/tests/unit"), TOP / "operator_gui" / "tests", TOP / "launch" / "tests" / "unit",
+               TOP / "tests" / "architecture", TOP / "tests" / "contract"]
+    paths = sorted({str(folder.resolve()) for folder in folders if any(folder.rglob("test_*.py"))})
+    return pytest("unit", paths, 60)
+
+
+def system() -> Counts:
+    """Tests of the whole stack."""
+    return pytest("system", [str(TOP / "tests" / "system")], 600)
+
+
+def pytest(name: str, paths: List[str], timeout_s: int) -> Counts:
+    """Run pytest on the paths; each test may take timeout_s."""
+    report = RESULTS / name / "pytest.xml"
+    command = [sys.executable, "-m", "pytest", "-q", "--import-mode=importlib", "-p", "no:cacheprovider",
+               f"--timeout={timeout_s}", f"--junitxml={report}", f"--rootdir={TOP}", *paths]
+    status = subprocess.run(command, cwd=TOP, check=False).returncode
+    return counts_of([report], status)
+
+
+def gtest() -> Counts:
+    """C++ unit tests: build the test targets, run each binary."""
+    environment = dict(os.environ, PATH="/usr/bin:" + os.environ["PATH"])
+    command = ["catkin", "build", "--no-status", "--no-notify", "-j2", "--catkin-make-args", "tests"]
+    built = subprocess.run(command, cwd=TOP / "catkin_ws", env=environment, text=True, capture_output=True, check=False)
+    if built.returncode:
+        print(built.stdout + built.stderr)
+        return 0, 1
+    reports, status = [], 0
+    for binary in sorted((TOP / "catkin_ws" / "devel" / ".private").glob("*/lib/*/*_test")):
+        report = RESULTS / "gtest" / f"{binary.name}.xml"
+        done = subprocess.run([str(binary), f"--gtest_output=xml:{report}", "--gtest_brief=1"], check=False)
+        status = status or done.returncode
+        reports.append(report)
+    return counts_of(reports, status)
+
+
+def rostest() -> Counts:
+    """Every *.test file, with a master of its own."""
+    files = sorted(path.resolve() for path in [*PACKAGES.glob("*/tests/rostest/*.test"), *PACKAGES.glob("mtr_tests/rostest/*.test")])
+    environment = dict(os.environ, ROS_TEST_RESULTS_DIR=str(RESULTS / "rostest"))
+    status = 0
+    for path in files:
+        done = subprocess.run(["rostest", str(path)], env=environment, cwd=TOP, text=True, capture_output=True, check=False)
+        if done.returncode:
+            print(done.stdout[-20000:] + done.stderr[-5000:])
+        status = status or done.returncode
+    return counts_of(sorted((RESULTS / "rostest").rglob("*.xml")), status)
+
+
+def counts_of(reports: List[pathlib.Path], status: int) -> Counts:
+    """Sum of JUnit reports. A missing report, or a failed run whose reports show no failure, is one failure."""
+    passed = failed = 0
+    for report in reports:
+        if not report.exists():
+            failed += 1
+            continue
+        root = ElementTree.parse(report).getroot()
+        for suite in [root] if root.tag == "testsuite" else root.findall("testsuite"):
+            bad = int(suite.get("failures", 0)) + int(suite.get("errors", 0))
+            passed += int(suite.get("tests", 0)) - bad - int(suite.get("skipped", 0) or 0)
+            failed += bad
+    return passed, failed or (1 if status else 0)
+
+
+SUITES: Dict[str, Callable[[], Counts]] = {
+    "lint": lint, "unit": unit, "gtest": gtest, "rostest": rostest, "system": system,
+}
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

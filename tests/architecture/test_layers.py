@@ -1,0 +1,103 @@
+"""The direction of dependence: pure code imports only pure code, and no layer reaches over its border."""
+# SPDX-License-Identifier: Apache-2.0
+import ast
+import pathlib
+from typing import Iterator, Set
+
+import pytest
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+PACKAGES = TOP / "catkin_ws" / "src"
+OPERATOR = TOP / "operator_gui" / "src" / "mtr_operator"
+
+ROS = {"rospy", "roslib", "rostest", "rosbag", "roslaunch", "tf2_ros", "tf", "actionlib"}
+ROS_MESSAGES = {"std_msgs", "sensor_msgs", "nav_msgs", "geometry_msgs", "rosgraph_msgs", "visualization_msgs",
+                "diagnostic_msgs", "mtr_msgs", "genpy"}
+QT = {"PyQt5", "qasync", "pyqtgraph"}
+SOCKETS = {"socket", "zmq", "serial", "asyncio"}
+CAN = {"can", "cantools"}
+OWN_ROBOT = {"mtr_core", "mtr_lockstep"}
+
+# Files of a robot package that may import ROS: the shell around the core.
+SHELL = {"node.py", "conversions.py", "parameters_ros.py"}
+# Packages whose job is the border itself.
+BORDER_PACKAGES = {"mtr_lockstep", "mtr_bringup", "mtr_tests"}
+
+
+def imports(path: pathlib.Path) -> Set[str]:
+    """Top-level names of all absolute imports of a file."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name.split(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            found.add(node.module.split(".")[0])
+    return found
+
+
+def robot_files() -> Iterator[pathlib.Path]:
+    """Python files of the robot's packages, tests and set-up excluded."""
+    for package in sorted(PACKAGES.iterdir()):
+        if package.name not in BORDER_PACKAGES:
+            yield from sorted((package / "src").rglob("*.py"))
+
+
+def operator_files(folder: pathlib.Path = OPERATOR) -> Iterator[pathlib.Path]:
+    """Python files of the Operator's application."""
+    yield from sorted(folder.rglob("*.py"))
+
+
+def ids(path: pathlib.Path) -> str:
+    """Path within the project."""
+    return str(path.relative_to(TOP)) if path.is_relative_to(TOP) else str(path)
+
+
+def test_there_are_files_to_look_at():
+    assert len(list(robot_files())) > 20
+    assert len(list(operator_files())) > 10
+
+
+@pytest.mark.parametrize("path", [path for path in robot_files() if path.name not in SHELL], ids=ids)
+def test_robot_core_imports_no_ros(path):
+    assert not imports(path) & (ROS | ROS_MESSAGES | {"mtr_lockstep"})
+
+
+@pytest.mark.parametrize("path", list(robot_files()), ids=ids)
+def test_robot_imports_nothing_of_the_operator(path):
+    assert not imports(path) & (QT | {"mtr_operator"})
+
+
+@pytest.mark.parametrize("path", sorted((PACKAGES / "mtr_core").rglob("src/**/*.py")), ids=ids)
+def test_shared_core_imports_neither_ros_nor_sockets(path):
+    assert not imports(path) & (ROS | ROS_MESSAGES | SOCKETS | CAN | QT)
+
+
+@pytest.mark.parametrize("path", list(operator_files()), ids=ids)
+def test_operator_imports_no_ros(path):
+    assert not imports(path) & (ROS | ROS_MESSAGES | OWN_ROBOT)
+
+
+@pytest.mark.parametrize("path", list(operator_files(OPERATOR / "domain")), ids=ids)
+def test_domain_is_pure(path):
+    assert not imports(path) & (QT | SOCKETS | CAN | {"yaml", "tqdm", "matplotlib", "mtr_proto", "google"})
+
+
+@pytest.mark.parametrize("path", [path for path in operator_files() if "gui" not in path.parts], ids=ids)
+def test_only_the_gui_imports_qt(path):
+    assert not imports(path) & QT
+
+
+@pytest.mark.parametrize("path", [path for path in operator_files() if "robot_link" not in path.parts], ids=ids)
+def test_only_the_robot_link_speaks_zeromq_and_protobuf(path):
+    assert not imports(path) & {"zmq", "mtr_proto", "google"}
+
+
+@pytest.mark.parametrize("path", [path for path in operator_files() if "car_link" not in path.parts], ids=ids)
+def test_only_the_car_link_speaks_can(path):
+    assert not imports(path) & CAN
+
+
+def test_messages_and_proto_depend_on_nothing_local():
+    for package in ("mtr_msgs", "mtr_proto"):
+        text = (PACKAGES / package / "package.xml").read_text(encoding="utf-8")
+        assert text.count("mtr_") == 1, f"{package} depends on another package of the project"

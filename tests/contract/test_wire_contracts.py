@@ -1,0 +1,47 @@
+"""Promises to the outside: field numbers, result columns, the Car's database on both sides."""
+# SPDX-License-Identifier: Apache-2.0
+import filecmp
+import pathlib
+
+from mtr_proto import robot_link_pb2
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+
+# The thesis' listing 4.8; names in lower_snake_case.
+ROBOT_STATE = {
+    "x": (1, "float"), "y": (2, "float"), "heading": (3, "float"), "speed": (4, "float"),
+    "device_height": (5, "float"), "pressed_device_buttons": (6, "uint32"),
+    "localization_accuracy": (7, "int32"), "battery_level": (8, "uint32"), "is_mapping_car": (9, "bool"),
+}
+COMMAND = {
+    "session_id": 1, "id": 2, "sent_time_s": 3, "seen_status_id": 4, "seen_robot_time_s": 5, "stop": 6, "waypoint": 7,
+    "max_speed_mps": 8, "device_height_m": 9, "press": 10, "map_car_id": 11, "end_session": 12,
+}
+STATUS = {
+    "id": 1, "robot_session_id": 2, "sent_time_s": 3, "state": 4, "car": 5, "mode": 6, "session_id": 7,
+    "command_id": 8, "waypoint_id": 9, "waypoint_result": 10, "waypoint_message": 11, "presses": 12, "map_car_id": 13,
+    "log": 14, "notifications": 15, "rejected_messages": 16, "software_version": 17,
+}
+TYPE_NAMES = {2: "float", 5: "int32", 8: "bool", 13: "uint32"}
+
+
+def test_robot_state_keeps_the_numbers_and_types_of_the_thesis():
+    fields = robot_link_pb2.RobotState.DESCRIPTOR.fields_by_name
+    assert {name: (fields[name].number, TYPE_NAMES[fields[name].type]) for name in ROBOT_STATE} == ROBOT_STATE
+
+
+def test_command_and_status_keep_their_field_numbers():
+    for message, promised in ((robot_link_pb2.Command, COMMAND), (robot_link_pb2.Status, STATUS)):
+        fields = message.DESCRIPTOR.fields_by_name
+        assert {name: fields[name].number for name in promised} == promised
+
+
+def test_schema_is_proto2_so_that_every_field_has_presence():
+    assert (TOP / "proto" / "robot_link.proto").read_text(encoding="utf-8").count('syntax = "proto2";') == 1
+
+
+def test_simulated_car_and_application_use_the_same_database():
+    simulated = TOP / "catkin_ws/src/mtr_simulation/src/mtr_simulation/car/mtr_demo_car.dbc"
+    profiles = list((TOP / "operator_gui/src/mtr_operator/car_link/profiles").rglob("mtr_demo_car.dbc"))
+    assert len(profiles) == 1
+    assert filecmp.cmp(simulated, profiles[0], shallow=False)
