@@ -9,8 +9,8 @@ import shutil
 import subprocess
 import sys
 import time
-import xml.etree.ElementTree as ElementTree
 from typing import Callable, Dict, List, Tuple
+from xml.etree import ElementTree
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = TOP / "out" / "test"
@@ -115,11 +115,12 @@ def gtest() -> Counts:
 
 def rostest() -> Counts:
     """Every *.test file, with a master of its own."""
-    files = sorted(path.resolve() for path in [*PACKAGES.glob("*/tests/rostest/*.test"), *PACKAGES.glob("mtr_tests/rostest/*.test")])
+    found = [*PACKAGES.glob("*/tests/rostest/*.test"), *PACKAGES.glob("mtr_tests/rostest/*.test")]
     environment = dict(os.environ, ROS_TEST_RESULTS_DIR=str(RESULTS / "rostest"))
     status = 0
-    for path in files:
-        done = subprocess.run(["rostest", str(path)], env=environment, cwd=TOP, text=True, capture_output=True, check=False)
+    for path in sorted(path.resolve() for path in found):
+        done = subprocess.run(["rostest", str(path)], env=environment, cwd=TOP, text=True, capture_output=True,
+                              check=False)
         if done.returncode:
             print(done.stdout[-20000:] + done.stderr[-5000:])
         status = status or done.returncode

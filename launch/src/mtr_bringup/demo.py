@@ -67,13 +67,17 @@ def report(out: pathlib.Path, wall_s: float) -> int:
         rows = read_rows(folder / "results.csv")
         if len(rows) < least_lines:
             problems.append(f"{name}: {len(rows)} lines instead of at least {least_lines}")
-        times = [float(row[column]) for row in rows for column in row if column.endswith("robot_time_s") and row[column]]
-        robot_s = max([robot_s, *times])
+        robot_s = max([robot_s, *event_times(rows)])
     print(f"Robot time {robot_s:.0f} s in {wall_s:.0f} s of wall time: {robot_s / wall_s:.1f} x real time, "
           "start-up and pictures included.")
     for problem in problems:
         print(problem, file=sys.stderr)
     return 1 if problems else 0
+
+
+def event_times(rows: List[Dict[str, str]]) -> List[float]:
+    """Robot times, in s, of all events in the rows."""
+    return [float(value) for row in rows for column, value in row.items() if column.endswith("robot_time_s") and value]
 
 
 def read_rows(path: pathlib.Path) -> List[Dict[str, str]]:

@@ -1,7 +1,7 @@
 """Shipped launch and configuration files load, and say what their arguments are for."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
-import xml.etree.ElementTree as ElementTree
+from xml.etree import ElementTree
 
 import pytest
 import yaml
@@ -18,8 +18,7 @@ def test_the_four_launch_files_are_there():
 
 @pytest.mark.parametrize("path", LAUNCH_FILES, ids=lambda path: path.name)
 def test_every_argument_of_a_launch_file_is_documented(path):
-    arguments = [node for node in ElementTree.parse(path).getroot().findall("arg")]
-    assert all(argument.get("doc") for argument in arguments)
+    assert all(argument.get("doc") for argument in ElementTree.parse(path).getroot().findall("arg"))
 
 
 @pytest.mark.parametrize("path", LAUNCH_FILES, ids=lambda path: path.name)

@@ -1,0 +1,1 @@
+"""Manual controller with dead-man switch."""

@@ -1,0 +1,1 @@
+"""Gateway between the Operator's link and the robot's nodes."""

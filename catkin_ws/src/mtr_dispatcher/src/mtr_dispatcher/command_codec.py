@@ -1,0 +1,56 @@
+"""Bytes of the link to a Command."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import Optional
+
+from google.protobuf.message import DecodeError
+
+from mtr_core.errors import RobotError
+from mtr_proto import robot_link_pb2 as link
+
+from .command import Command, Press, Waypoint
+
+# A Command takes some 200 bytes.
+MAX_MESSAGE_BYTES = 64 * 1024
+
+
+class UndecodableError(RobotError):
+    """The bytes are no Command."""
+
+
+def decode(data: bytes) -> Command:
+    """Command in the bytes; raises UndecodableError with a sentence."""
+    if len(data) > MAX_MESSAGE_BYTES:
+        raise UndecodableError(f"A message of {len(data)} bytes was ignored; allowed are {MAX_MESSAGE_BYTES}.")
+    message = link.Command()
+    try:
+        message.ParseFromString(data)
+    except DecodeError:
+        raise UndecodableError(f"A message of {len(data)} bytes that is no Command was ignored.") from None
+    if not message.session_id or not message.id:
+        raise UndecodableError("A Command without session or id was ignored.")
+    return Command(
+        session_id=message.session_id, id=message.id, seen_status_id=message.seen_status_id,
+        seen_robot_time_s=_float(message, "seen_robot_time_s", math.nan), stop=message.stop,
+        waypoint=_waypoint(message), max_speed_mps=_float(message, "max_speed_mps", None),
+        key_height_m=_float(message, "device_height_m", None), press=_press(message), map_car_id=message.map_car_id,
+        end_session=message.end_session)
+
+
+def _float(message: object, name: str, absent: Optional[float]) -> Optional[float]:
+    return getattr(message, name) if message.HasField(name) else absent
+
+
+def _waypoint(message: link.Command) -> Optional[Waypoint]:
+    if not message.HasField("waypoint"):
+        return None
+    sent = message.waypoint
+    return Waypoint(sent.id, _float(sent, "x", math.nan), _float(sent, "y", math.nan),
+                    _float(sent, "heading", math.nan), sent.direction)
+
+
+def _press(message: link.Command) -> Optional[Press]:
+    if not message.HasField("press"):
+        return None
+    sent = message.press
+    return Press(sent.id, tuple(sent.buttons), _float(sent, "strength", 1.0), sent.duration_s)

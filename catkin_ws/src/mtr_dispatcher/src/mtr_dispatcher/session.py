@@ -1,0 +1,156 @@
+"""Who controls the robot, which of its Commands count, and what they ask for now."""
+# SPDX-License-Identifier: Apache-2.0
+import enum
+import math
+from dataclasses import dataclass
+from typing import Dict, Optional
+
+from .command import Command, problem_of
+from .parameters import Parameters
+
+# A message that was sent before goodbye may still arrive after it.
+REMEMBERED_SESSIONS = 16
+
+
+class Verdict(enum.Enum):
+    """What became of a Command."""
+
+    TAKEN = "taken"            # new content
+    REPEATED = "repeated"      # keeps the link alive
+    OUTDATED = "outdated"      # older than what was taken
+    EXPIRED = "expired"        # answers a Status that is too old, or that this robot never sent
+    FOREIGN = "foreign"        # another application controls the robot
+    REFUSED = "refused"        # its content is unacceptable; the robot stops
+    ENDED = "ended"            # goodbye
+
+
+# Commands that moved nothing and are counted as rejected.
+REJECTIONS = (Verdict.EXPIRED, Verdict.FOREIGN, Verdict.REFUSED)
+
+
+@dataclass(frozen=True)
+class Desired:
+    """What the robot shall do now. stop_reason is empty when it may move."""
+
+    session_id: int
+    command: Command
+    map_order: int
+    link_alive: bool
+    stop_reason: str
+
+
+class MapOrders:
+    """Numbers mapping orders so that those of different sessions differ; 0 is no order."""
+
+    def __init__(self) -> None:
+        self._number = 0
+        self._order = (0, 0)
+
+    def number_of(self, session_id: int, map_car_id: int) -> int:
+        """Number of a session's order."""
+        if not map_car_id:
+            return 0
+        if (session_id, map_car_id) != self._order:
+            self._number, self._order = self._number + 1, (session_id, map_car_id)
+        return self._number
+
+    def map_car_id_of(self, session_id: int, number: int) -> int:
+        """The session's own id of the order with this number, 0 when it is not its order."""
+        return self._order[1] if number and number == self._number and session_id == self._order[0] else 0
+
+
+class Session:
+    """Lets one application control the robot.
+
+    Attributes:
+        session_id: application in control, 0 for none.
+        command: newest Command that was taken.
+        refusal: why its newest Command was refused; empty when it was not.
+        answered_status_id: newest Status that the application in control has answered.
+        orders: numbers of the mapping orders.
+    """
+
+    def __init__(self, parameters: Parameters):
+        self._parameters = parameters
+        self.session_id = 0
+        self.command = Command()
+        self.refusal = ""
+        self.answered_status_id = 0
+        self.orders = MapOrders()
+        self._newest_id = 0
+        self._heard_s = -math.inf
+        self._former: Dict[int, int] = {}
+
+    def take(self, command: Command, now_s: float, newest_status_id: int) -> Verdict:
+        """Judge a Command that arrived at now_s, after the Status with the given id."""
+        lifetime_s = self._parameters.command_lifetime_s
+        if not abs(now_s - command.seen_robot_time_s) <= lifetime_s or command.seen_status_id > newest_status_id:
+            return Verdict.EXPIRED
+        if command.session_id != self.session_id and not self._hand_over(command, now_s):
+            return Verdict.OUTDATED if self._is_former(command) else Verdict.FOREIGN
+        self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
+        if command.id < self._newest_id:
+            return Verdict.OUTDATED
+        if command.end_session:
+            self._end(command)
+            return Verdict.ENDED
+        self._heard_s = now_s
+        return self._accept(command)
+
+    def link_alive(self, now_s: float) -> bool:
+        """True while the application in control is heard."""
+        return bool(self.session_id) and now_s - self._heard_s <= self._parameters.link_timeout_s
+
+    def desired(self, now_s: float) -> Desired:
+        """What the robot shall do at now_s."""
+        alive = self.link_alive(now_s)
+        order = self.orders.number_of(self.session_id, self.command.map_car_id)
+        return Desired(self.session_id, self.command, order, alive, self._stop_reason(alive))
+
+    def _stop_reason(self, alive: bool) -> str:
+        if not self.session_id:
+            return "No application controls the robot."
+        if not alive:
+            return f"The application has been silent for more than {self._parameters.link_timeout_s:g} s."
+        if self.refusal:
+            return f"Command refused: {self.refusal}"
+        return "The Operator stopped the robot." if self.command.stop else ""
+
+    def _accept(self, command: Command) -> Verdict:
+        if command.id == self._newest_id:
+            return Verdict.REFUSED if self.refusal else Verdict.REPEATED
+        self._newest_id = command.id
+        self.refusal = problem_of(command, self._parameters.platform_speed_mps)
+        if self.refusal:
+            return Verdict.REFUSED
+        self.command = command
+        return Verdict.TAKEN
+
+    def _hand_over(self, command: Command, now_s: float) -> bool:
+        silent = now_s - self._heard_s > self._parameters.takeover_after_s
+        if self._is_former(command) or command.end_session or (self.session_id and not silent):
+            return False
+        self._remember(self.session_id, self._newest_id)
+        self.session_id, self.command, self.refusal = command.session_id, Command(), ""
+        self._newest_id, self.answered_status_id = self._former.get(command.session_id, 0), 0
+        return True
+
+    def _end(self, command: Command) -> None:
+        self._remember(self.session_id, command.id)
+        self.session_id, self.command, self.refusal, self._newest_id = 0, Command(), "", 0
+
+    def _is_former(self, command: Command) -> bool:
+        return command.id <= self._former.get(command.session_id, 0)
+
+    def _remember(self, session_id: int, newest_id: int) -> None:
+        if session_id:
+            self._former.pop(session_id, None)
+            self._former[session_id] = newest_id
+            while len(self._former) > REMEMBERED_SESSIONS:
+                del self._former[next(iter(self._former))]
+
+
+def is_same(one: Optional[Desired], other: Desired) -> bool:
+    """True when both ask for the same; a repetition of a Command changes nothing."""
+    return one is not None and (one.session_id, one.link_alive, one.stop_reason, one.command.id) == (
+        other.session_id, other.link_alive, other.stop_reason, other.command.id)

@@ -1,0 +1,50 @@
+/// @file
+/// Reasons to stand still, one per owner; an owner that falls silent keeps its lock engaged.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mtr_lockstep/samples.hpp"
+
+namespace mtr_drive_control {
+
+/// State of one owner's lock.
+struct Lock {
+  std::int64_t stamp_ns;
+  bool engaged;
+  /// One sentence for the Operator.
+  std::string reason;
+};
+
+/// A lock that forbids motion now.
+struct EngagedLock {
+  std::string owner;
+  std::string reason;
+};
+
+/// True when stamp and tick are not farther apart than the time-out; a stamp far ahead means a clock that was set.
+bool is_fresh(std::int64_t stamp_ns, std::int64_t tick_ns, double timeout_s);
+
+/// Locks of the required owners, and of every other owner that was ever heard.
+class MotionLocks {
+ public:
+  /// @param waiting given in lock-step: the required owners with a slot in the schedule are waited for
+  MotionLocks(const std::vector<std::string>& required_owners, double timeout_s,
+              const std::optional<mtr_lockstep::Waiting>& waiting);
+
+  void take(const std::string& owner, const Lock& lock);
+
+  /// Locks that forbid motion at the tick, ordered by owner.
+  std::vector<EngagedLock> engaged_at(std::int64_t tick_ns);
+
+ private:
+  double timeout_s_;
+  std::map<std::string, mtr_lockstep::Samples<Lock>> locks_;
+};
+
+}  // namespace mtr_drive_control

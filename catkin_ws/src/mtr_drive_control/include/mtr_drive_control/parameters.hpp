@@ -1,0 +1,53 @@
+/// @file
+/// Parameters of drive control: limits of motion and time-outs, SI units.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "mtr_lockstep/parameter.hpp"
+
+namespace mtr_drive_control {
+
+/// A stop ordered by a lock must bring any permitted velocity to zero within this time, in s.
+inline constexpr double kStandstillWithinS = 0.5;
+
+/// Limits of what is sent to the wheels; acceleration limits keep the mast upright.
+struct Parameters {
+  double max_linear_mps = 1.5;
+  double max_angular_radps = 1.5;
+  double linear_acceleration_mps2 = 1.0;
+  double linear_deceleration_mps2 = 1.5;
+  double angular_acceleration_radps2 = 2.0;
+  /// Bound of |linear * angular|.
+  double lateral_acceleration_mps2 = 1.0;
+  /// Of stops by a lock or a dead source. 3.0: with the mast raised the wheels lift at 3.2 m/s2 and more (static
+  /// limit g * wheel distance / height of the centre of mass, measured in simulation).
+  double emergency_linear_deceleration_mps2 = 3.0;
+  double emergency_angular_deceleration_radps2 = 4.0;
+  /// An owner of a motion lock silent for longer counts as engaged; it speaks every 0.1 s.
+  double lock_timeout_s = 0.35;
+  /// A source of velocity commands silent for longer is dead; it speaks every 0.04 s.
+  double command_timeout_s = 0.2;
+};
+
+using Row = mtr_lockstep::ParameterRow<Parameters>;
+
+/// Range and unit of each parameter.
+inline constexpr std::array<Row, 10> kRows{{
+    {"max_linear_mps", &Parameters::max_linear_mps, 0.05, 2.0, "m/s"},
+    {"max_angular_radps", &Parameters::max_angular_radps, 0.1, 4.0, "rad/s"},
+    {"linear_acceleration_mps2", &Parameters::linear_acceleration_mps2, 0.1, 3.0, "m/s2"},
+    {"linear_deceleration_mps2", &Parameters::linear_deceleration_mps2, 0.1, 3.0, "m/s2"},
+    {"angular_acceleration_radps2", &Parameters::angular_acceleration_radps2, 0.1, 10.0, "rad/s2"},
+    {"lateral_acceleration_mps2", &Parameters::lateral_acceleration_mps2, 0.1, 3.0, "m/s2"},
+    {"emergency_linear_deceleration_mps2", &Parameters::emergency_linear_deceleration_mps2, 0.1, 10.0, "m/s2"},
+    {"emergency_angular_deceleration_radps2", &Parameters::emergency_angular_deceleration_radps2, 0.2, 20.0, "rad/s2"},
+    {"lock_timeout_s", &Parameters::lock_timeout_s, 0.12, 2.0, "s"},
+    {"command_timeout_s", &Parameters::command_timeout_s, 0.08, 1.0, "s"},
+}};
+
+/// Throws ConfigurationError unless each value is in its range and an emergency stop ends within kStandstillWithinS.
+void check(const Parameters& parameters);
+
+}  // namespace mtr_drive_control

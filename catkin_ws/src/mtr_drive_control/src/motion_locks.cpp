@@ -1,0 +1,55 @@
+/// @file
+/// Reasons to stand still, and the silence of their owners.
+// SPDX-License-Identifier: Apache-2.0
+#include "mtr_drive_control/motion_locks.hpp"
+
+#include <cmath>
+
+namespace mtr_drive_control {
+namespace {
+
+using mtr_lockstep::Samples;
+using mtr_lockstep::Slot;
+
+const std::map<std::string, Slot> kOwnerSlots{{"dispatcher", mtr_lockstep::kDispatcher},
+                                              {"state_machine", mtr_lockstep::kStateMachine}};
+
+}  // namespace
+
+bool is_fresh(std::int64_t stamp_ns, std::int64_t tick_ns, double timeout_s) {
+  return std::abs(static_cast<double>(tick_ns - stamp_ns)) <= timeout_s * 1e9;
+}
+
+MotionLocks::MotionLocks(const std::vector<std::string>& required_owners, double timeout_s,
+                         const std::optional<mtr_lockstep::Waiting>& waiting)
+    : timeout_s_(timeout_s) {
+  for (const std::string& owner : required_owners) {
+    const auto slot = kOwnerSlots.find(owner);
+    if (slot != kOwnerSlots.end()) {
+      locks_.emplace(owner, Samples<Lock>(slot->second, mtr_lockstep::kClockStep.period_ns, waiting));
+    } else {
+      locks_.emplace(owner, Samples<Lock>(mtr_lockstep::kClockStep));
+    }
+  }
+}
+
+void MotionLocks::take(const std::string& owner, const Lock& lock) {
+  locks_.try_emplace(owner, mtr_lockstep::kClockStep).first->second.add(lock.stamp_ns, lock);
+}
+
+std::vector<EngagedLock> MotionLocks::engaged_at(std::int64_t tick_ns) {
+  std::vector<EngagedLock> engaged;
+  for (auto& [owner, samples] : locks_) {
+    const std::optional<Lock> lock = samples.at(tick_ns);
+    if (!lock) {
+      engaged.push_back({owner, "Waiting for the motion lock of " + owner + "."});
+    } else if (!is_fresh(lock->stamp_ns, tick_ns, timeout_s_)) {
+      engaged.push_back({owner, "The motion lock of " + owner + " is silent."});
+    } else if (lock->engaged) {
+      engaged.push_back({owner, lock->reason});
+    }
+  }
+  return engaged;
+}
+
+}  // namespace mtr_drive_control

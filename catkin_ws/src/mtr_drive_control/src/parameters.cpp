@@ -1,0 +1,18 @@
+/// @file
+/// Checks of drive control's parameters.
+// SPDX-License-Identifier: Apache-2.0
+#include "mtr_drive_control/parameters.hpp"
+
+namespace mtr_drive_control {
+
+void check(const Parameters& parameters) {
+  for (const Row& row : kRows) {
+    mtr_lockstep::check_range(row.name, parameters.*(row.member), row.low, row.high, row.unit);
+  }
+  mtr_lockstep::check_range("emergency_linear_deceleration_mps2", parameters.emergency_linear_deceleration_mps2,
+                            parameters.max_linear_mps / kStandstillWithinS, 10.0, "m/s2");
+  mtr_lockstep::check_range("emergency_angular_deceleration_radps2", parameters.emergency_angular_deceleration_radps2,
+                            parameters.max_angular_radps / kStandstillWithinS, 20.0, "rad/s2");
+}
+
+}  // namespace mtr_drive_control

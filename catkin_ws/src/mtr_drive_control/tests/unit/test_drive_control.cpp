@@ -1,0 +1,113 @@
+/// @file
+/// Priority of the sources and what their faults get.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "mtr_drive_control/drive_control.hpp"
+
+namespace mtr_drive_control {
+namespace {
+
+constexpr std::int64_t kMs = mtr_lockstep::kMillisecondNs;
+constexpr std::int64_t kTickNs = 5000 * kMs;
+
+class DriveControlTest : public ::testing::Test {
+ protected:
+  static SourceCommand command(double linear_mps, bool active = true, std::int64_t stamp_ns = kTickNs - 20 * kMs) {
+    return {stamp_ns, {linear_mps, 0.0}, active};
+  }
+
+  Decision drive_at_full_speed() {
+    Decision decision;
+    for (int tick = 0; tick < 100; ++tick) {
+      decision = control.step(kTickNs, {{}, std::nullopt, command(1.5)});
+    }
+    return decision;
+  }
+
+  DriveControl control{Parameters{}, 0.02};
+};
+
+TEST_F(DriveControlTest, PlannerDrivesWhenNothingElseWantsTo) {
+  const Decision decision = control.step(kTickNs, {{}, std::nullopt, command(0.5)});
+  EXPECT_EQ(decision.source, "planner");
+  EXPECT_GT(decision.velocity.linear_mps, 0.0);
+  EXPECT_EQ(decision.message, "");
+}
+
+TEST_F(DriveControlTest, ManualControllerTakesPrecedenceOverThePlanner) {
+  const Decision decision = control.step(kTickNs, {{}, command(-0.5), command(0.5)});
+  EXPECT_EQ(decision.source, "manual");
+  EXPECT_LT(decision.velocity.linear_mps, 0.0);
+}
+
+TEST_F(DriveControlTest, InactiveManualControllerLeavesTheFloorToThePlanner) {
+  EXPECT_EQ(control.step(kTickNs, {{}, command(-0.5, false), command(0.5)}).source, "planner");
+}
+
+TEST_F(DriveControlTest, ManualControllerSilentWhileDrivingStopsTheRobotAndKeepsThePlannerOut) {
+  const Decision decision = control.step(kTickNs, {{}, command(0.5, true, kTickNs - 220 * kMs), command(0.5)});
+  EXPECT_EQ(decision.source, "none");
+  EXPECT_EQ(decision.velocity.linear_mps, 0.0);
+  EXPECT_EQ(decision.message, "The manual controller is silent.");
+}
+
+TEST_F(DriveControlTest, LockStopsEverySourceAndIsNamed) {
+  const Inputs inputs{{{"dispatcher", "The link is silent."}}, command(0.5), command(0.5)};
+  const Decision decision = control.step(kTickNs, inputs);
+  EXPECT_EQ(decision.source, "locked");
+  EXPECT_EQ(decision.velocity.linear_mps, 0.0);
+  EXPECT_EQ(decision.engaged_locks, std::vector<std::string>{"dispatcher"});
+  EXPECT_EQ(decision.message, "The link is silent.");
+}
+
+TEST_F(DriveControlTest, LockAtFullSpeedIsZeroAfterHalfASecond) {
+  ASSERT_DOUBLE_EQ(drive_at_full_speed().velocity.linear_mps, 1.5);
+  Decision decision;
+  for (int tick = 0; tick < 25; ++tick) {
+    decision = control.step(kTickNs, {{{"dispatcher", "Stop."}}, std::nullopt, command(1.5)});
+  }
+  EXPECT_EQ(decision.velocity.linear_mps, 0.0);
+}
+
+TEST_F(DriveControlTest, SilentPlannerIsAnEmergencyStop) {
+  drive_at_full_speed();
+  const Decision decision = control.step(kTickNs, {{}, std::nullopt, command(1.5, true, kTickNs - 220 * kMs)});
+  EXPECT_EQ(decision.source, "none");
+  EXPECT_NEAR(decision.velocity.linear_mps, 1.5 - 3.0 * 0.02, 1e-9);
+  EXPECT_EQ(decision.message, "The motion planner is silent.");
+}
+
+TEST_F(DriveControlTest, PlannerWithoutAWishIsBrakedForAtTheNormalLimit) {
+  drive_at_full_speed();
+  const Decision decision = control.step(kTickNs, {{}, std::nullopt, command(1.5, false)});
+  EXPECT_EQ(decision.source, "none");
+  EXPECT_NEAR(decision.velocity.linear_mps, 1.5 - 1.5 * 0.02, 1e-9);
+  EXPECT_EQ(decision.message, "");
+}
+
+TEST_F(DriveControlTest, NoPlannerYetStandsStillAndSaysSo) {
+  const Decision decision = control.step(kTickNs, {{}, std::nullopt, std::nullopt});
+  EXPECT_EQ(decision.velocity.linear_mps, 0.0);
+  EXPECT_EQ(decision.message, "Waiting for the motion planner.");
+}
+
+TEST_F(DriveControlTest, WishThatIsNotAFiniteNumberStopsTheRobotWithAMessage) {
+  for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const Decision decision = control.step(kTickNs, {{}, std::nullopt, command(wrong)});
+    EXPECT_EQ(decision.velocity.linear_mps, 0.0);
+    EXPECT_NE(decision.message, "");
+  }
+}
+
+TEST_F(DriveControlTest, WrongParameterIsRefusedAtConstruction) {
+  Parameters parameters;
+  parameters.max_linear_mps = -1.0;
+  EXPECT_THROW(DriveControl(parameters, 0.02), mtr_lockstep::ConfigurationError);
+}
+
+}  // namespace
+}  // namespace mtr_drive_control

@@ -1,0 +1,2 @@
+"""Path around the Car and along an axis, and the velocity that follows it."""
+# SPDX-License-Identifier: Apache-2.0

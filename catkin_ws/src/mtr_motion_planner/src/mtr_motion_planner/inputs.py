@@ -1,0 +1,91 @@
+"""What the motion planner is told at a tick, and the check that it may be used."""
+# SPDX-License-Identifier: Apache-2.0
+import enum
+import math
+from dataclasses import dataclass
+from typing import Optional, Tuple
+
+from mtr_core.se2 import Pose2
+
+Point = Tuple[float, float]
+
+
+class Direction(enum.IntEnum):
+    """Travel on the last straight piece; numbers of mtr_msgs/Waypoint."""
+
+    ANY = 0
+    FORWARD = 1
+    BACKWARD = 2
+
+
+@dataclass(frozen=True)
+class Goal:
+    """Pose of base_link to reach, in the Car's frame or in map; id 0: none."""
+
+    goal_id: int
+    in_car_frame: bool
+    pose: Pose2
+    direction: Direction
+
+
+NO_GOAL = Goal(0, False, Pose2(0.0, 0.0, 0.0), Direction.ANY)
+
+
+@dataclass(frozen=True)
+class Order:
+    """What the robot shall do; from the state machine."""
+
+    stamp_s: float
+    goal: Goal
+    max_speed_mps: float
+
+
+@dataclass(frozen=True)
+class RobotState:
+    """Where the robot is in map, and how it moves."""
+
+    stamp_s: float
+    valid: bool
+    pose: Pose2
+    speed_mps: float
+    yaw_rate_radps: float
+    message: str = ""
+
+
+@dataclass(frozen=True)
+class Car:
+    """Where the Car is in map; outline in its own frame. Before it is located both are a rough prior."""
+
+    stamp_s: float
+    located: bool
+    pose: Pose2
+    outline: Tuple[Point, ...]
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """Newest message of each kind at a tick, None before the first."""
+
+    tick_s: float
+    order: Optional[Order]
+    robot: Optional[RobotState]
+    car: Optional[Car]
+
+
+def fault_of(inputs: Inputs, age_limit_s: float) -> str:
+    """Sentence that says why the inputs must not move the robot; empty when they may."""
+    order, robot, car = inputs.order, inputs.robot, inputs.car
+    for name, message in (("order", order), ("pose", robot), ("position of the Car", car)):
+        if message is None:
+            return f"No {name} has arrived yet."
+        if not inputs.tick_s - message.stamp_s <= age_limit_s:
+            return f"The newest {name} is {inputs.tick_s - message.stamp_s:.2f} s old; allowed is {age_limit_s:g} s."
+    if not robot.valid:
+        return "The robot does not know where it is: " + (robot.message or "localization gave no reason.")
+    if not (robot.pose.is_finite() and math.isfinite(robot.speed_mps) and math.isfinite(robot.yaw_rate_radps)):
+        return "The robot's pose is not a number."
+    if not (car.pose.is_finite() and all(math.isfinite(c) for point in car.outline for c in point)):
+        return "The Car's position is not a number."
+    if not (math.isfinite(order.max_speed_mps) and order.max_speed_mps > 0.0):
+        return f"The maximum speed is {order.max_speed_mps:g} m/s; it must be above 0."
+    return ""

@@ -1,0 +1,1 @@
+"""Key height, button presses and LEDs between the robot's nodes and the firmware."""

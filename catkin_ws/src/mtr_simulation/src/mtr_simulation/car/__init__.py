@@ -1,0 +1,2 @@
+"""The simulated Car: radio, body ECU and CAN adapter."""
+# SPDX-License-Identifier: Apache-2.0

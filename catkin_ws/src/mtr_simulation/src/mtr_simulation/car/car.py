@@ -1,0 +1,81 @@
+"""The simulated Car: what its radio and locks do while the key moves, seen on its CAN bus and in the truth log."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import Optional, Tuple
+
+from mtr_simulation.truth.log import TruthLog
+
+from .button import ButtonContact, Closing
+from .can_port import CanPort
+from .ecu import BodyEcu, Command, LockState, PassiveEntry, Source
+from .frames import CarFrames
+from .parameters import CarParameters
+from .radio import PassiveEntryRadio, RemoteRadio
+
+Point = Tuple[float, float, float]
+
+STEP_NS = 20_000_000
+_EVENT = {LockState.UNLOCKED: "unlocked", LockState.LOCKED: "locked"}
+
+
+class SimulatedCar:
+    """Steps radio, contacts and ECU.
+
+    Attributes:
+        ecu: the body ECU, to look at its state.
+    """
+
+    def __init__(self, seed: int, parameters: CarParameters, port: CanPort, truth_log: TruthLog):
+        correlation_m = parameters.shadow_correlation_m
+        self.ecu = BodyEcu(parameters.boot_ms * 1_000_000)
+        self._port = port
+        self._truth_log = truth_log
+        self._frames = CarFrames(self.ecu)
+        self._passive_enabled = parameters.passive_entry.enabled
+        self._passive_radio = PassiveEntryRadio(seed, parameters.passive_entry, correlation_m)
+        self._passive = PassiveEntry(parameters.passive_entry)
+        self._poll_ns = parameters.passive_entry.poll_period_ms * 1_000_000
+        self._polls: Optional[int] = None
+        self._remote_radio = RemoteRadio(seed, parameters.remote, correlation_m)
+        self._contacts = (
+            (Command.LOCK, ButtonContact(parameters.remote)),
+            (Command.UNLOCK, ButtonContact(parameters.remote)),
+        )
+        self._transmissions = 0
+
+    def step(self, time_ns: int, key_xyz: Point, servo_us: Tuple[float, float]) -> None:
+        """Advance to time_ns, 20 ms after the step before; key_xyz in m in the true Car frame.
+
+        The frames of those 20 ms carry the state at their beginning; then the Car sees where the key is now.
+        """
+        self._port.poll()
+        for frame in self._frames.due(time_ns - STEP_NS, time_ns):
+            self._port.send(*frame)
+        self.ecu.step(time_ns)
+        for (command, contact), pulse_us in zip(self._contacts, servo_us):
+            closing = contact.update(time_ns, pulse_us, key_xyz)
+            if closing is not None:
+                self._transmit(command, closing, time_ns)
+        if self._passive_enabled:
+            self._poll_key(time_ns, key_xyz)
+
+    def _transmit(self, command: Command, closing: Closing, time_ns: int) -> None:
+        accepted = False
+        if closing.counts and self.ecu.lock_state is not LockState.UNKNOWN:
+            self._transmissions += 1
+            accepted = self._remote_radio.is_received(closing.key_xyz, self._transmissions)
+        self._truth_log.press(closing.time_ns, closing.key_xyz, accepted)
+        if accepted:
+            self._command(command, Source.KEY_BUTTON, time_ns, closing.key_xyz)
+
+    def _poll_key(self, time_ns: int, key_xyz: Point) -> None:
+        polls = time_ns // self._poll_ns
+        if polls == self._polls:
+            return
+        self._polls = polls
+        command = self._passive.poll(self._passive_radio.poll_db(key_xyz, polls))
+        if command is not None:
+            self._command(command, Source.PASSIVE_ENTRY, time_ns, key_xyz)
+
+    def _command(self, command: Command, source: Source, time_ns: int, key_xyz: Point) -> None:
+        if self.ecu.command(command, source, time_ns):
+            self._truth_log.lock_event(_EVENT[self.ecu.lock_state], time_ns, key_xyz)

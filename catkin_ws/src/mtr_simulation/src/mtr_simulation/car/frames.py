@@ -1,0 +1,61 @@
+"""CAN frames of the simulated Car, encoded with its DBC.
+
+Everything repeats, so each distinct frame goes through cantools once and comes from a cache afterwards.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import functools
+import pathlib
+from typing import Iterator, NamedTuple
+
+import cantools
+
+from .ecu import BodyEcu
+
+DBC_PATH = pathlib.Path(__file__).with_name("mtr_demo_car.dbc")
+LOCK_MESSAGE = "DoorLockStatus"
+
+# The bus' clock is the ECU's own and not in phase with the robot's 20 ms tick: no stamp coincides with a tick.
+PERIOD_NS = 20_000_000
+PHASE_NS = 7_000_000
+
+
+class Frame(NamedTuple):
+    """One data frame; time_ns is when it is on the bus."""
+
+    can_id: int
+    data: bytes
+    time_ns: int
+
+
+class CarFrames:
+    """Yields the frames that are due, with the state of the ECU."""
+
+    def __init__(self, ecu: BodyEcu):
+        self._ecu = ecu
+        self._database = cantools.database.load_file(str(DBC_PATH))
+        self._encode = functools.lru_cache(maxsize=4096)(self._encode_once)
+        messages = self._database.messages
+        self._every = sorted((m.frame_id, m.name, m.cycle_time * 1_000_000 // PERIOD_NS) for m in messages)
+
+    def due(self, after_ns: int, until_ns: int) -> Iterator[Frame]:
+        """Frames later than after_ns and not later than until_ns, in the order of the bus."""
+        first = (after_ns - PHASE_NS) // PERIOD_NS + 1
+        last = (until_ns - PHASE_NS) // PERIOD_NS
+        for number in range(first, last + 1):
+            time_ns = number * PERIOD_NS + PHASE_NS
+            for can_id, name, every in self._every:
+                if number % every == 0:
+                    yield Frame(can_id, self._encode(name, *self._values(name, number // every, time_ns)), time_ns)
+
+    def _values(self, name: str, count: int, time_ns: int):
+        if name == LOCK_MESSAGE:
+            ecu = self._ecu
+            changed = int(ecu.has_just_changed(time_ns))
+            return (int(ecu.lock_state), changed, int(ecu.last_source), ecu.command_counter % 256, count % 16)
+        if name == "VehicleSpeed":
+            return (0, 1, count % 16)
+        return (0, 12.6)
+
+    def _encode_once(self, name: str, *values) -> bytes:
+        message = self._database.get_message_by_name(name)
+        return bytes(message.encode({signal.name: value for signal, value in zip(message.signals, values)}))

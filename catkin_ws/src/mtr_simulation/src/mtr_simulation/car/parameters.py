@@ -1,0 +1,120 @@
+"""Parameters of the simulated Car: size, antennas, thresholds and times.
+
+Positions are in the true Car frame (origin on the ground under the Car's centre, x to its front, y to its left, z up).
+"""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import Tuple
+
+from mtr_core.errors import ConfigurationError, check_range
+
+
+@dataclass(frozen=True)
+class LfAntenna:
+    """One low-frequency antenna of the passive entry: a ferrite rod, which is a magnetic dipole."""
+
+    name: str
+    x_m: float
+    y_m: float
+    z_m: float
+    axis_rad: float  # direction of the rod in the ground plane
+    strength_db: float  # field 1 m beside the rod, over the key's reference
+    lobe_db: float  # the bodywork adds lobe_db towards lobe_rad and takes as much away opposite to it
+    lobe_rad: float
+
+    def __post_init__(self):
+        check_range(f"antenna {self.name}.strength_db", self.strength_db, -40.0, 40.0, "dB")
+        check_range(f"antenna {self.name}.lobe_db", self.lobe_db, 0.0, 10.0, "dB")
+
+
+@dataclass(frozen=True)
+class Lobe:
+    """One cosine of an antenna pattern: gain_db * cos(order * (azimuth - direction_rad))."""
+
+    order: int
+    gain_db: float
+    direction_rad: float
+
+
+# Ranges of a mid-size car: about 1.5 m for unlocking; the outlines differ per side on purpose.
+DEFAULT_ANTENNAS = (
+    LfAntenna("left_door", 0.05, 0.88, 0.75, 0.0, 11.2, 1.0, math.radians(100.0)),
+    LfAntenna("right_door", 0.05, -0.88, 0.75, 0.0, 10.6, 1.2, math.radians(-60.0)),
+    LfAntenna("boot", -2.15, 0.0, 0.60, math.radians(90.0), 11.8, 1.0, math.radians(150.0)),
+    LfAntenna("front", 2.10, 0.0, 0.55, math.radians(90.0), 11.6, 0.8, math.radians(-20.0)),
+)
+# Windscreen and rear window let more through than the doors with their pillars; the rest is asymmetry.
+DEFAULT_REMOTE_LOBES = (
+    Lobe(1, 0.6, math.radians(30.0)),
+    Lobe(2, 2.6, 0.0),
+    Lobe(3, 1.0, math.radians(75.0)),
+    Lobe(5, 0.6, math.radians(20.0)),
+)
+
+
+@dataclass(frozen=True)
+class PassiveEntryParameters:
+    """Locks that react to the key's vicinity."""
+
+    enabled: bool = True
+    antennas: Tuple[LfAntenna, ...] = DEFAULT_ANTENNAS
+    unlock_threshold_db: float = 0.0
+    lock_threshold_db: float = -12.0
+    poll_period_ms: int = 100
+    debounce_polls: int = 2
+    shadow_sigma_db: float = 1.0
+    noise_sigma_db: float = 0.2
+
+    def __post_init__(self):
+        if not self.antennas:
+            raise ConfigurationError("Parameter passive_entry.antennas is empty; allowed is one or more.")
+        check_range("passive_entry.lock_threshold_db", self.lock_threshold_db, -60.0, self.unlock_threshold_db, "dB")
+        check_range("passive_entry.poll_period_ms", self.poll_period_ms, 20, 1000, "ms")
+        check_range("passive_entry.debounce_polls", self.debounce_polls, 1, 10, "polls")
+        check_range("passive_entry.shadow_sigma_db", self.shadow_sigma_db, 0.0, 10.0, "dB")
+        check_range("passive_entry.noise_sigma_db", self.noise_sigma_db, 0.0, 10.0, "dB")
+
+
+@dataclass(frozen=True)
+class RemoteParameters:
+    """Button of the Remote key: UHF link from the key to the Receiver, and the contact below the button."""
+
+    receiver_xyz_m: Tuple[float, float, float] = (-0.20, 0.10, 1.15)
+    margin_at_1m_db: float = 24.8
+    path_loss_exponent: float = 4.0  # two rays, direct and from the ground, beyond their break point
+    lobes: Tuple[Lobe, ...] = DEFAULT_REMOTE_LOBES
+    best_height_m: float = 1.0
+    height_3db_m: float = 0.4  # 3 dB less this far above or below the best height
+    height_loss_limit_db: float = 12.0
+    shadow_sigma_db: float = 0.7
+    noise_sigma_db: float = 0.2
+    contact_travel: float = 0.6  # of the servo's full travel
+    contact_ms: int = 80  # a shorter contact is taken for bouncing
+
+    def __post_init__(self):
+        check_range("remote.margin_at_1m_db", self.margin_at_1m_db, -20.0, 80.0, "dB")
+        check_range("remote.path_loss_exponent", self.path_loss_exponent, 1.5, 6.0, "(exponent)")
+        check_range("remote.height_3db_m", self.height_3db_m, 0.05, 10.0, "m")
+        check_range("remote.shadow_sigma_db", self.shadow_sigma_db, 0.0, 10.0, "dB")
+        check_range("remote.noise_sigma_db", self.noise_sigma_db, 0.0, 10.0, "dB")
+        check_range("remote.contact_travel", self.contact_travel, 0.0, 1.0, "of full travel")
+        check_range("remote.contact_ms", self.contact_ms, 0, 2000, "ms")
+
+
+@dataclass(frozen=True)
+class CarParameters:
+    """The whole simulated Car. The default antennas are placed for the default size."""
+
+    length_m: float = 4.50
+    width_m: float = 1.80
+    boot_ms: int = 200  # until then the ECU reports its locks as unknown
+    shadow_correlation_m: float = 0.5
+    passive_entry: PassiveEntryParameters = PassiveEntryParameters()
+    remote: RemoteParameters = RemoteParameters()
+
+    def __post_init__(self):
+        check_range("car.length_m", self.length_m, 2.0, 8.0, "m")
+        check_range("car.width_m", self.width_m, 1.0, 3.0, "m")
+        check_range("car.boot_ms", self.boot_ms, 0, 10_000, "ms")
+        check_range("car.shadow_correlation_m", self.shadow_correlation_m, 0.05, 10.0, "m")

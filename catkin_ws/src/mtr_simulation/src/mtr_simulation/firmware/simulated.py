@@ -1,0 +1,140 @@
+"""The peripherals' firmware as the host sees it: lift, servos, LEDs, and what it does when the host falls silent."""
+# SPDX-License-Identifier: Apache-2.0
+import collections
+from typing import Deque, NamedTuple, Optional, Tuple
+
+from .lift import Lift
+from .press import Presser, PressOrder, PressState
+
+SILENCE_LIMIT_NS = 1_000_000_000
+FAULT_LINK_LOST = 3
+LED_LINK_LOST = 8
+LED_LAST = 8
+
+# Its clock starts two minutes before it wraps, so that each longer run meets the wrap (each 71 minutes on hardware).
+CLOCK_START_US = (1 << 32) - 120_000_000
+# A host may repeat an order for some time after the next one; these many ids are remembered.
+_REMEMBERED_IDS = 16
+
+
+class State(NamedTuple):
+    """Fields of mtr_msgs/FirmwareState."""
+
+    time_us: int
+    lift_height_m: float
+    servo_us: Tuple[int, int]
+    press_id: int
+    press_state: int
+    press_start_us: int
+    press_end_us: int
+    led_pattern: int
+    fault: int
+
+
+class SimulatedFirmware:
+    """Board without a board: command and press arrive from the host, step lets 20 ms pass.
+
+    Attributes:
+        refused_commands: commands that asked for what cannot be; the lift ignored them.
+    """
+
+    def __init__(self, clock_start_us: int = CLOCK_START_US):
+        self.refused_commands = 0
+        self._clock_start_us = clock_start_us
+        self._boot_ns: Optional[int] = None
+        self._now_ns = 0
+        self._heard_ns = 0
+        self._lift = Lift()
+        self._presser = Presser()
+        self._running_id = 0
+        self._seen_ids: Deque[int] = collections.deque(maxlen=_REMEMBERED_IDS)
+        self._press_id = 0
+        self._press_state = PressState.NONE
+        self._press_start_us = 0
+        self._press_end_us = 0
+        self._led = 0
+        self._fault = 0
+
+    @property
+    def lift_height_m(self) -> float:
+        """Height above the lower stop."""
+        return self._lift.height_m
+
+    @property
+    def servo_us(self) -> Tuple[float, float]:
+        """Pulse widths of lock and unlock servo."""
+        return self._presser.servo_us
+
+    def command(self, lift_height_m: float, led_pattern: int) -> None:
+        """Take a FirmwareCommand; a height that is out of range leaves the lift's order as it was."""
+        self._hear()
+        if not self._lift.order(lift_height_m):
+            self.refused_commands += 1
+        if 0 <= led_pattern <= LED_LAST:
+            self._led = led_pattern
+
+    def press(self, id: int, servos: int, strength: float, hold_ms: int) -> None:
+        """Take a FirmwarePress. What has been taken once, done or refused, is not taken again."""
+        self._hear()
+        if id == 0 or id in self._seen_ids:
+            return
+        self._seen_ids.append(id)
+        order = PressOrder(id, servos, strength, hold_ms)
+        if self._presser.is_busy or not order.is_valid():
+            self._report(id, PressState.REFUSED)
+            return
+        self._presser.start(order, self._now_ns)
+        self._running_id = id
+        self._report(id, PressState.PRESSING, start_ns=self._presser.reached_ns)
+
+    def step(self, time_ns: int) -> None:
+        """Advance to time_ns."""
+        if self._boot_ns is None:
+            self._boot_ns = self._heard_ns = self._now_ns = time_ns
+        dt_s = (time_ns - self._now_ns) * 1e-9
+        self._now_ns = time_ns
+        if time_ns - self._heard_ns > SILENCE_LIMIT_NS:
+            self._lose_link()
+        if dt_s > 0.0:
+            self._lift.step(dt_s)
+        released_ns = self._presser.step(time_ns)
+        if released_ns is not None:
+            self._report(self._running_id, PressState.DONE, self._presser.reached_ns, released_ns)
+
+    def state(self) -> State:
+        """What it reports to the host now."""
+        lock_us, unlock_us = self._presser.servo_us
+        return State(
+            time_us=self._clock_us(self._now_ns),
+            lift_height_m=self._lift.height_m,
+            servo_us=(round(lock_us), round(unlock_us)),
+            press_id=self._press_id,
+            press_state=int(self._press_state),
+            press_start_us=self._press_start_us,
+            press_end_us=self._press_end_us,
+            led_pattern=self._led,
+            fault=self._fault,
+        )
+
+    def _hear(self) -> None:
+        self._heard_ns = self._now_ns
+        self._fault = 0
+
+    def _lose_link(self) -> None:
+        self._fault, self._led = FAULT_LINK_LOST, LED_LINK_LOST
+        self._lift.order(float("nan"))
+        if self._presser.is_busy:
+            self._presser.abort(self._now_ns)
+            # A travel that was cut short pressed nothing.
+            reached_ns = self._presser.reached_ns
+            done = self._now_ns >= reached_ns
+            self._report(self._running_id, PressState.DONE if done else PressState.REFUSED, reached_ns, self._now_ns)
+
+    def _report(self, id: int, state: PressState, start_ns: Optional[int] = None, end_ns: Optional[int] = None) -> None:
+        self._press_id, self._press_state = id, state
+        self._press_start_us = 0 if start_ns is None else self._clock_us(start_ns)
+        self._press_end_us = 0 if end_ns is None else self._clock_us(end_ns)
+
+    def _clock_us(self, time_ns: int) -> int:
+        boot_ns = self._boot_ns or 0
+        return ((time_ns - boot_ns) // 1000 + self._clock_start_us) & 0xFFFFFFFF

@@ -1,0 +1,123 @@
+"""The link to the robot: ZeroMQ PUB/SUB over TCP with protobuf messages."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+import secrets
+import threading
+import time
+from typing import Optional
+
+import zmq
+
+from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.ports import DesiredState, LinkStatistics, RobotLink, RobotStatus
+
+from . import sockets
+from .address import PUBLISHER_PORT, SUBSCRIBER_PORT, RobotAddress
+from .conversions import CommandHeader, command_from_desired
+from .inbox import Inbox
+from .probe import probe
+
+# Wall time for which closing waits at most until the goodbye has left.
+_GOODBYE_LINGER_MS = 300
+_SESSION_BITS = 63
+
+
+class ZmqRobotLink(RobotLink):
+    """Talks to the robot, or to anything that speaks the same two ports.
+
+    Attributes:
+        session_id: random per instance and never 0, so that ids of an earlier start are never mistaken for ours.
+        statistics: counts since the connection was made.
+    """
+
+    def __init__(self, host: str, subscriber_port: int = SUBSCRIBER_PORT, publisher_port: int = PUBLISHER_PORT,
+                 connect_timeout_s: float = 2.0):
+        self.address = RobotAddress(host, subscriber_port, publisher_port)
+        self.session_id = secrets.randbelow(2 ** _SESSION_BITS - 1) + 1
+        self.statistics = LinkStatistics()
+        self._timeout_s = connect_timeout_s
+        self._context: Optional[zmq.Context] = None
+        self._subscriber: Optional[zmq.Socket] = None
+        self._publisher: Optional[zmq.Socket] = None
+        self._lock = threading.Lock()
+        self._inbox = Inbox(self.statistics)
+        self._desired: Optional[DesiredState] = None
+        self._command_id = 0
+        self._seen: Optional[RobotStatus] = None
+        self._answered: Optional[RobotStatus] = None
+
+    def connect(self) -> None:
+        """See RobotLink."""
+        if self._context is not None:
+            return
+        ip = probe(self.address, self._timeout_s)
+        context = zmq.Context()
+        try:
+            self._subscriber = sockets.subscribe(context, ip, self.address.subscriber_port, self._timeout_s)
+            self._publisher = sockets.publish(context, ip, self.address.publisher_port, self._timeout_s)
+        except BaseException:
+            self._subscriber = None
+            context.destroy(linger=0)
+            raise
+        self._context = context
+
+    def next_status(self, timeout_s: float) -> Optional[RobotStatus]:
+        """See RobotLink."""
+        if self._subscriber is None:
+            raise ConnectionFailed("The robot is not connected.")
+        deadline = time.monotonic() + timeout_s
+        while True:
+            self._receive_waiting()
+            status = self._inbox.take()
+            if status is not None:
+                self._seen = status
+                return status
+            left_s = deadline - time.monotonic()
+            if left_s <= 0 or not self._subscriber.poll(math.ceil(left_s * 1000)):
+                return None
+
+    def send(self, desired: DesiredState) -> None:
+        """See RobotLink."""
+        if desired != self._desired:
+            self._command_id += 1
+            self._desired = desired
+        self._publish(desired)
+        self._answered = self._seen
+
+    def close(self) -> None:
+        """See RobotLink."""
+        if self._context is None:
+            return
+        self._command_id += 1
+        self._publish(DesiredState(stop=True), end_session=True)
+        with self._lock:
+            self._publisher.close(linger=_GOODBYE_LINGER_MS)
+            self._publisher = None
+        self._subscriber.close(linger=0)
+        self._subscriber = None
+        self._context.term()
+        self._context = None
+
+    def _receive_waiting(self) -> None:
+        while True:
+            try:
+                parts = self._subscriber.recv_multipart(zmq.NOBLOCK)
+            except zmq.Again:
+                return
+            repeated = self._inbox.put(parts)
+            # The robot repeats a Status whose answer it misses; one that the runner still thinks about has none yet.
+            if repeated and self._desired is not None and self._answered is self._seen:
+                self._publish(self._desired)
+
+    def _publish(self, desired: DesiredState, end_session: bool = False) -> None:
+        seen = self._seen
+        header = CommandHeader(self.session_id, self._command_id, time.monotonic(),
+                               seen_status_id=seen.id if seen else None,
+                               seen_robot_time_s=seen.stamp_s if seen else None, end_session=end_session)
+        payload = command_from_desired(desired, header).SerializeToString()
+        with self._lock:
+            if self._publisher is None:
+                raise ConnectionFailed("The robot is not connected.")
+            self._publisher.send(payload)

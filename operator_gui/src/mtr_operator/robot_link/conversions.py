@@ -1,0 +1,157 @@
+"""Messages of the link to and from the types of the domain's ports."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Optional
+
+from google.protobuf.message import DecodeError
+from mtr_proto import robot_link_pb2 as pb
+
+from mtr_operator.domain import ports
+
+MAXIMUM_MESSAGE_BYTES = 64 * 1024
+
+
+class UndecodableMessage(ValueError):
+    """Bytes that are no message of the link."""
+
+
+@dataclass(frozen=True)
+class CommandHeader:
+    """What a Command carries beside the desired state; see the proto for the meaning of the fields."""
+
+    session_id: int
+    id: int
+    sent_time_s: float
+    seen_status_id: Optional[int] = None
+    seen_robot_time_s: Optional[float] = None
+    end_session: bool = False
+
+
+def command_from_desired(desired: ports.DesiredState, header: CommandHeader) -> pb.Command:
+    """Command with this header; None is an absent field."""
+    command = pb.Command(session_id=header.session_id, id=header.id, sent_time_s=header.sent_time_s,
+                         stop=desired.stop, map_car_id=desired.map_car_id)
+    for name, value in (("seen_status_id", header.seen_status_id), ("seen_robot_time_s", header.seen_robot_time_s),
+                        ("max_speed_mps", desired.max_speed_mps), ("device_height_m", desired.key_height_m)):
+        if value is not None:
+            setattr(command, name, value)
+    if header.end_session:
+        command.end_session = True
+    if desired.waypoint is not None:
+        goal = desired.waypoint
+        command.waypoint.CopyFrom(pb.Waypoint(id=goal.id, x=goal.x, y=goal.y, heading=goal.heading,
+                                              direction=goal.direction.value))
+    if desired.press is not None:
+        press = desired.press
+        command.press.CopyFrom(pb.ButtonPress(id=press.id, buttons=press.buttons, strength=press.strength,
+                                              duration_s=press.duration_s))
+    return command
+
+
+def desired_from_command(command: pb.Command) -> ports.DesiredState:
+    """Content of a Command; absent fields are None."""
+    waypoint = press = None
+    if command.HasField("waypoint"):
+        goal = command.waypoint
+        waypoint = ports.Waypoint(goal.id, goal.x, goal.y, goal.heading, ports.Direction(goal.direction))
+    if command.HasField("press"):
+        order = command.press
+        press = ports.ButtonPress(order.id, tuple(order.buttons), order.strength, order.duration_s)
+    return ports.DesiredState(stop=command.stop, waypoint=waypoint, press=press, map_car_id=command.map_car_id,
+                              max_speed_mps=_value(command, "max_speed_mps", None),
+                              key_height_m=_value(command, "device_height_m", None))
+
+
+def decode_command(payload: bytes) -> pb.Command:
+    """Command in one ZeroMQ frame, or UndecodableMessage."""
+    return _decode(payload, pb.Command(), ("session_id", "id"))
+
+
+def decode_status(payload: bytes) -> ports.RobotStatus:
+    """Status in one ZeroMQ frame, or UndecodableMessage."""
+    message = _decode(payload, pb.Status(), ("id", "robot_session_id", "sent_time_s"))
+    if not math.isfinite(message.sent_time_s):
+        raise UndecodableMessage(f"Status {message.id} has the time {message.sent_time_s}.")
+    return robot_status_from(message)
+
+
+def _decode(payload: bytes, message: Any, required: tuple) -> Any:
+    try:
+        message.ParseFromString(payload)
+    except DecodeError:
+        raise UndecodableMessage(f"{len(payload)} bytes are no {message.DESCRIPTOR.name}.") from None
+    for name in required:
+        if not message.HasField(name):
+            raise UndecodableMessage(f"A {message.DESCRIPTOR.name} lacks {name}.")
+    return message
+
+
+def robot_status_from(message: pb.Status) -> ports.RobotStatus:
+    """Status as the domain knows it.
+
+    stamp_s is the time of the pose while the pose is valid, else the time of sending: robot time goes on when the robot
+    is lost.
+    """
+    state = message.state
+    pose_time_s = _value(state, "stamp_s", math.nan)
+    on_time = state.pose_valid and math.isfinite(pose_time_s)
+    return ports.RobotStatus(
+        id=message.id, robot_session_id=message.robot_session_id,
+        stamp_s=pose_time_s if on_time else message.sent_time_s,
+        x=_value(state, "x", math.nan), y=_value(state, "y", math.nan), heading=_value(state, "heading", math.nan),
+        speed_mps=state.speed, yaw_rate_radps=state.yaw_rate_radps, pose_valid=state.pose_valid,
+        position_sigma_m=_value(state, "position_sigma_m", math.nan),
+        heading_sigma_rad=_value(state, "heading_sigma_rad", math.nan),
+        key_x=state.key_x, key_y=state.key_y, key_height_m=_value(state, "device_height", math.nan),
+        pressed_buttons=tuple(state.pressed_device_buttons),
+        localization_accuracy_cm=_value(state, "localization_accuracy", None),
+        battery_percent=_value(state, "battery_level", None), is_mapping_car=state.is_mapping_car,
+        mode=ports.Mode(message.mode), car=_car_from(message.car),
+        session_id=message.session_id, command_id=message.command_id, waypoint_id=message.waypoint_id,
+        waypoint_result=ports.WaypointResult(message.waypoint_result), waypoint_message=message.waypoint_message,
+        presses=tuple(ports.PressConfirmation(p.id, p.start_s, p.end_s, p.error) for p in message.presses),
+        map_car_id=message.map_car_id,
+        log=tuple(ports.LogMessage(m.id, m.stamp_s, m.severity, m.source, m.text) for m in message.log),
+        notifications=tuple(ports.Notification(n.code, n.severity, n.text) for n in message.notifications),
+        rejected_messages=message.rejected_messages, software_version=message.software_version)
+
+
+def status_message_from(status: ports.RobotStatus) -> pb.Status:
+    """Status message that a robot in this state sends; NaN and None are absent fields."""
+    state = pb.RobotState(
+        speed=status.speed_mps, yaw_rate_radps=status.yaw_rate_radps, pose_valid=status.pose_valid,
+        key_x=status.key_x, key_y=status.key_y, pressed_device_buttons=status.pressed_buttons,
+        is_mapping_car=status.is_mapping_car, stamp_s=status.stamp_s)
+    for name, value in (("x", status.x), ("y", status.y), ("heading", status.heading),
+                        ("device_height", status.key_height_m), ("position_sigma_m", status.position_sigma_m),
+                        ("heading_sigma_rad", status.heading_sigma_rad), ("battery_level", status.battery_percent),
+                        ("localization_accuracy", status.localization_accuracy_cm)):
+        if value is not None and not math.isnan(value):
+            setattr(state, name, value)
+    message = pb.Status(
+        id=status.id, robot_session_id=status.robot_session_id, sent_time_s=status.stamp_s, state=state,
+        mode=status.mode.value, session_id=status.session_id, command_id=status.command_id,
+        waypoint_id=status.waypoint_id, waypoint_result=status.waypoint_result.value,
+        waypoint_message=status.waypoint_message, map_car_id=status.map_car_id,
+        rejected_messages=status.rejected_messages, software_version=status.software_version,
+        presses=[pb.PressConfirmation(id=p.id, start_s=p.start_s, end_s=p.end_s, error=p.error)
+                 for p in status.presses],
+        log=[pb.LogMessage(id=m.id, stamp_s=m.stamp_s, severity=m.severity, source=m.source, text=m.text)
+             for m in status.log],
+        notifications=[pb.Notification(code=n.code, severity=n.severity, text=n.text) for n in status.notifications])
+    if status.car is not None:
+        car = status.car
+        message.car.CopyFrom(pb.CarDimensions(length=car.length, width=car.width, length_sigma=car.length_sigma,
+                                              width_sigma=car.width_sigma, mapped=True))
+    return message
+
+
+def _car_from(car: pb.CarDimensions) -> Optional[ports.CarDimensions]:
+    return ports.CarDimensions(car.length, car.width, car.length_sigma, car.width_sigma) if car.mapped else None
+
+
+def _value(message: Any, name: str, default: Any) -> Any:
+    return getattr(message, name) if message.HasField(name) else default

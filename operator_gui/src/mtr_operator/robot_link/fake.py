@@ -1,0 +1,58 @@
+"""The robot's fake in the same process: a virtual robot that answers at once, on a clock of its own."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import time
+from typing import Callable, Optional
+
+from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.ports import DesiredState, LinkStatistics, RobotLink, RobotStatus
+
+from .virtual_robot import STATUS_PERIOD_S, VirtualRobot, VirtualWorld
+
+_SESSION_ID = 1
+
+
+class FakeRobotLink(RobotLink):
+    """Each next_status lets 0.1 s of virtual time pass; deterministic for a seed.
+
+    time_factor: virtual seconds per second of wall time, 0 for as fast as the caller asks.
+    """
+
+    def __init__(self, seed: int = 1, time_factor: float = 0.0, world: VirtualWorld = VirtualWorld(),
+                 sleep: Callable[[float], None] = time.sleep):
+        self.statistics = LinkStatistics()
+        self._robot = VirtualRobot(seed, world)
+        self._pause_s = STATUS_PERIOD_S / time_factor if time_factor > 0 else 0.0
+        self._sleep = sleep
+        self._connected = False
+        self._desired: Optional[DesiredState] = None
+        self._command_id = 0
+
+    def connect(self) -> None:
+        """See RobotLink."""
+        self._connected = True
+
+    def next_status(self, timeout_s: float) -> Optional[RobotStatus]:
+        """See RobotLink; a Status is always there."""
+        if not self._connected:
+            raise ConnectionFailed("The robot is not connected.")
+        if self._pause_s:
+            self._sleep(self._pause_s)
+        self._robot.step()
+        self.statistics.received += 1
+        return self._robot.status()
+
+    def send(self, desired: DesiredState) -> None:
+        """See RobotLink."""
+        if not self._connected:
+            raise ConnectionFailed("The robot is not connected.")
+        if desired != self._desired:
+            self._command_id += 1
+            self._desired = desired
+        self._robot.take(_SESSION_ID, self._command_id, desired)
+
+    def close(self) -> None:
+        """See RobotLink."""
+        self._robot.halt()
+        self._connected = False

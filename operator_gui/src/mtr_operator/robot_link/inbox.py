@@ -1,0 +1,80 @@
+"""Status messages between socket and runner: decoded, counted, in order, without repetitions or old backlog."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import collections
+import dataclasses
+from typing import Deque, List, Optional
+
+from mtr_operator.domain.ports import LinkStatistics, Notification, RobotStatus
+
+from .conversions import MAXIMUM_MESSAGE_BYTES, UndecodableMessage, decode_status
+
+# Five seconds of Status: whoever is further behind wants the present, not the past.
+MAXIMUM_BACKLOG = 50
+
+RESTARTED = Notification("robot_restarted", 2, "The robot has restarted; the present order was sent to it again.")
+
+
+class Inbox:
+    """Queue of Status messages that were received and not yet taken."""
+
+    def __init__(self, statistics: LinkStatistics):
+        self._statistics = statistics
+        self._queue: Deque[RobotStatus] = collections.deque()
+        self._robot_session_id: Optional[int] = None
+        self._newest_id = 0
+
+    def put(self, parts: List[bytes]) -> bool:
+        """Queue one ZeroMQ message; True, and not queued, when it repeats the Status that was taken last."""
+        status = self._decoded(parts)
+        if status is None:
+            return False
+        if status.robot_session_id != self._robot_session_id:
+            status = self._begin_robot_session(status)
+        elif status.id <= self._newest_id:
+            return status.id == self._newest_id and not self._queue
+        else:
+            self._statistics.lost += status.id - self._newest_id - 1
+        self._newest_id = status.id
+        self._statistics.received += 1
+        self._queue.append(status)
+        if len(self._queue) > MAXIMUM_BACKLOG:
+            self._skip_to_newest()
+        return False
+
+    def take(self) -> Optional[RobotStatus]:
+        """Oldest Status of the queue, None when it is empty."""
+        return self._queue.popleft() if self._queue else None
+
+    def _begin_robot_session(self, status: RobotStatus) -> RobotStatus:
+        known = self._robot_session_id is not None
+        self._robot_session_id = status.robot_session_id
+        if not known:
+            return status
+        self._statistics.last_error = RESTARTED.text
+        return dataclasses.replace(status, notifications=(*status.notifications, RESTARTED))
+
+    def _skip_to_newest(self) -> None:
+        self._statistics.lost += len(self._queue) - 1
+        newest = self._queue[-1]
+        restarted = any(RESTARTED in status.notifications for status in self._queue)
+        if restarted and RESTARTED not in newest.notifications:
+            newest = dataclasses.replace(newest, notifications=(*newest.notifications, RESTARTED))
+        self._queue.clear()
+        self._queue.append(newest)
+
+    def _decoded(self, parts: List[bytes]) -> Optional[RobotStatus]:
+        if sum(map(len, parts)) > MAXIMUM_MESSAGE_BYTES:
+            self._statistics.oversized += 1
+            self._statistics.last_error = (f"A message of {sum(map(len, parts))} bytes was ignored; allowed is at most "
+                                           f"{MAXIMUM_MESSAGE_BYTES} bytes.")
+            return None
+        try:
+            if len(parts) != 1:
+                raise UndecodableMessage(f"A message of {len(parts)} frames came; the robot sends one.")
+            return decode_status(parts[0])
+        except UndecodableMessage as error:
+            self._statistics.undecodable += 1
+            self._statistics.last_error = f"A message was ignored: {error}"
+            return None

@@ -1,0 +1,58 @@
+"""The two bound ports of a robot, without a robot behind them."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Optional
+
+import zmq
+
+from mtr_operator.domain.errors import ConnectionFailed
+
+LOOPBACK = "127.0.0.1"
+
+
+class ConnectionServer:
+    """Binds Status (PUB) and Command (SUB) ports; a context manager. Port 0 lets the system choose.
+
+    Attributes:
+        subscriber_port: where the Operator subscribes; publisher_port: where the Operator publishes.
+    """
+
+    def __init__(self, subscriber_port: int = 0, publisher_port: int = 0, bind_address: str = LOOPBACK):
+        self.subscriber_port = subscriber_port
+        self.publisher_port = publisher_port
+        self._bind_address = bind_address
+        self._context: Optional[zmq.Context] = None
+        self.status_socket: Optional[zmq.Socket] = None
+        self.command_socket: Optional[zmq.Socket] = None
+
+    def open(self) -> None:
+        """Bind both ports, or raise ConnectionFailed naming the busy one."""
+        self._context = zmq.Context()
+        self.status_socket = self._context.socket(zmq.PUB)
+        self.command_socket = self._context.socket(zmq.SUB)
+        self.command_socket.setsockopt(zmq.SUBSCRIBE, b"")
+        self.subscriber_port = self._bind(self.status_socket, self.subscriber_port)
+        self.publisher_port = self._bind(self.command_socket, self.publisher_port)
+
+    def close(self) -> None:
+        """Release both ports; safe to call twice."""
+        if self._context is not None:
+            self._context.destroy(linger=0)
+            self._context = None
+
+    def __enter__(self) -> ConnectionServer:
+        self.open()
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        self.close()
+
+    def _bind(self, socket: zmq.Socket, port: int) -> int:
+        socket.setsockopt(zmq.LINGER, 0)
+        try:
+            socket.bind(f"tcp://{self._bind_address}:{port or '*'}")
+        except zmq.ZMQError as error:
+            self.close()
+            raise ConnectionFailed(f"Cannot listen on port {port} of {self._bind_address}: {error.strerror}.") from None
+        return int(socket.getsockopt(zmq.LAST_ENDPOINT).decode().rsplit(":", 1)[1])

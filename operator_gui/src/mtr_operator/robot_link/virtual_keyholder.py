@@ -1,0 +1,54 @@
+"""Lift and button servos of the virtual robot."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Optional, Tuple
+
+from mtr_operator.domain.ports import ButtonPress, PressConfirmation
+
+LOWEST_KEY_M = 0.35
+HIGHEST_KEY_M = 1.55
+LIFT_SPEED_MPS = 0.15
+# Time a servo needs to reach the button.
+SERVO_TRAVEL_S = 0.1
+_KEPT_CONFIRMATIONS = 5
+
+
+class VirtualKeyholder:
+    """Moves the key to a height and presses its buttons, each press once by id."""
+
+    def __init__(self) -> None:
+        self.height_m = LOWEST_KEY_M
+        self.confirmations: Tuple[PressConfirmation, ...] = ()
+        self._wanted_m = LOWEST_KEY_M
+        self._newest_press_id = 0
+        self._press: Optional[ButtonPress] = None
+        self._start_s = 0.0
+
+    def begin_session(self) -> None:
+        """Forget the ids of the former session."""
+        self.confirmations = ()
+        self._newest_press_id = 0
+
+    def order(self, height_m: Optional[float], press: Optional[ButtonPress], time_s: float) -> None:
+        """Take the desired height and press; None changes nothing."""
+        if height_m is not None and LOWEST_KEY_M <= height_m <= HIGHEST_KEY_M:
+            self._wanted_m = height_m
+        if press is not None and press.id > self._newest_press_id and self._press is None:
+            self._newest_press_id = press.id
+            self._press = press
+            self._start_s = time_s + SERVO_TRAVEL_S
+
+    def step(self, time_s: float, dt_s: float) -> None:
+        """Go on to time_s, which is dt_s later."""
+        reach_m = LIFT_SPEED_MPS * dt_s
+        self.height_m += min(max(self._wanted_m - self.height_m, -reach_m), reach_m)
+        press = self._press
+        if press is not None and time_s >= self._start_s + press.duration_s:
+            done = PressConfirmation(press.id, self._start_s, self._start_s + press.duration_s)
+            self.confirmations = (*self.confirmations, done)[-_KEPT_CONFIRMATIONS:]
+            self._press = None
+
+    def pressed_buttons(self, time_s: float) -> Tuple[int, ...]:
+        """Buttons held down at time_s."""
+        return self._press.buttons if self._press is not None and time_s >= self._start_s else ()

@@ -1,0 +1,149 @@
+"""A robot that exists only as numbers: it obeys Commands as the real one does, on a virtual clock."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+import random
+from dataclasses import dataclass
+from typing import List, Optional
+
+from mtr_operator import __version__
+from mtr_operator.domain.ports import CarDimensions, DesiredState, Mode, RobotStatus, Waypoint, WaypointResult
+
+from .virtual_keyholder import VirtualKeyholder
+from .virtual_route import Box, Point, advance, route
+
+STATUS_PERIOD_S = 0.1
+_START_TIME_S = 1.0
+_START_DISTANCE_M = 4.0
+_TURN_RATE_RADPS = 1.0
+_DEFAULT_SPEED_MPS = 0.5
+_MAXIMUM_SPEED_MPS = 2.0
+_POSITION_SIGMA_M = 0.02
+_HEADING_SIGMA_RAD = 0.005
+# Half diagonal of the robot's footprint (0.51 m x 0.43 m).
+_ROBOT_RADIUS_M = 0.34
+
+
+@dataclass(frozen=True)
+class VirtualWorld:
+    """The Car, and how long the robot takes to start and to map it."""
+
+    car_length_m: float = 4.5
+    car_width_m: float = 1.8
+    key_x_m: float = 0.25
+    starting_s: float = 0.5
+    mapping_s: float = 3.0
+
+
+class VirtualRobot:
+    """Virtual state of the robot; step() lets time pass, take() hands it a desired state."""
+
+    def __init__(self, seed: int, world: VirtualWorld = VirtualWorld()):
+        chance = random.Random(seed)
+        bearing = chance.uniform(-math.pi, math.pi)
+        self._world = world
+        self._box = Box(world.car_length_m / 2 + _ROBOT_RADIUS_M, world.car_width_m / 2 + _ROBOT_RADIUS_M)
+        self._robot_session_id = chance.randrange(1, 2 ** 63)
+        self._session_id = 0
+        self._command_id = 0
+        self._time_s = _START_TIME_S
+        self._here: Point = (_START_DISTANCE_M * math.cos(bearing), _START_DISTANCE_M * math.sin(bearing))
+        self._heading = math.remainder(bearing + math.pi, 2 * math.pi)
+        self._speed_mps = self._yaw_rate_radps = 0.0
+        self._key = VirtualKeyholder()
+        self._desired = DesiredState(stop=True)
+        self._goal: Optional[Waypoint] = None
+        self._way: List[Point] = []
+        self._result, self._result_text = WaypointResult.NONE, ""
+        self._map_car_id = 0
+        self._mapping_left_s = world.mapping_s
+        self._status_id = 0
+
+    @property
+    def time_s(self) -> float:
+        """Virtual clock."""
+        return self._time_s
+
+    def take(self, session_id: int, command_id: int, desired: DesiredState) -> None:
+        """Obey this desired state from now on. A new session forgets the ids of the old one."""
+        if session_id != self._session_id:
+            self._session_id, self._map_car_id, self._goal = session_id, 0, None
+            self._result, self._result_text = WaypointResult.NONE, ""
+            self._key.begin_session()
+        self._command_id, self._desired = command_id, desired
+        self._key.order(desired.key_height_m, desired.press, self._time_s)
+        if desired.map_car_id != self._map_car_id:
+            self._map_car_id = desired.map_car_id
+            self._mapping_left_s = self._world.mapping_s
+        goal = desired.waypoint
+        if goal is not None and (self._goal is None or goal.id != self._goal.id):
+            self._set_goal(goal)
+
+    def halt(self) -> None:
+        """Stand still until the next desired state: the Operator has gone or is silent."""
+        self._desired = DesiredState(stop=True)
+
+    def step(self, dt_s: float = STATUS_PERIOD_S) -> None:
+        """Let dt_s pass."""
+        self._time_s += dt_s
+        self._key.step(self._time_s, dt_s)
+        before, heading = self._here, self._heading
+        ordered = self._goal is not None and not self._desired.stop and self._desired.waypoint is not None
+        if ordered and self._time_s >= _START_TIME_S + self._world.starting_s:
+            if self._mapping_left_s > 0:
+                self._mapping_left_s -= dt_s
+            elif self._result == WaypointResult.PENDING:
+                self._drive(dt_s)
+        dx, dy = self._here[0] - before[0], self._here[1] - before[1]
+        ahead = math.cos(heading) * dx + math.sin(heading) * dy
+        self._speed_mps = math.copysign(math.hypot(dx, dy), ahead) / dt_s
+        self._yaw_rate_radps = math.remainder(self._heading - heading, 2 * math.pi) / dt_s
+
+    def status(self) -> RobotStatus:
+        """The next Status message."""
+        self._status_id += 1
+        mapped = self._mapping_left_s <= 0
+        world = self._world
+        return RobotStatus(
+            id=self._status_id, robot_session_id=self._robot_session_id, stamp_s=round(self._time_s, 6),
+            x=self._here[0], y=self._here[1], heading=self._heading, speed_mps=self._speed_mps,
+            yaw_rate_radps=self._yaw_rate_radps, pose_valid=mapped, position_sigma_m=_POSITION_SIGMA_M,
+            heading_sigma_rad=_HEADING_SIGMA_RAD, key_x=world.key_x_m, key_y=0.0, key_height_m=self._key.height_m,
+            pressed_buttons=self._key.pressed_buttons(self._time_s),
+            localization_accuracy_cm=round(_POSITION_SIGMA_M * 100), battery_percent=80,
+            is_mapping_car=self._mode() is Mode.MAPPING_CAR, mode=self._mode(),
+            car=CarDimensions(world.car_length_m, world.car_width_m, 0.01, 0.01) if mapped else None,
+            session_id=self._session_id, command_id=self._command_id,
+            waypoint_id=self._goal.id if self._goal else 0, waypoint_result=self._result,
+            waypoint_message=self._result_text, presses=self._key.confirmations, map_car_id=self._map_car_id,
+            software_version=f"{__version__} (substitute)")
+
+    def _mode(self) -> Mode:
+        if self._time_s < _START_TIME_S + self._world.starting_s:
+            return Mode.STARTING
+        if self._mapping_left_s <= 0:
+            return Mode.FOLLOWING_WAYPOINT
+        begun = self._goal is not None or self._mapping_left_s < self._world.mapping_s
+        return Mode.MAPPING_CAR if begun else Mode.READY_TO_MAP_CAR
+
+    def _set_goal(self, goal: Waypoint) -> None:
+        self._goal = goal
+        point = (goal.x, goal.y)
+        self._result, self._result_text = WaypointResult.PENDING, ""
+        if not all(map(math.isfinite, (goal.x, goal.y, goal.heading))):
+            self._result, self._result_text = WaypointResult.REFUSED, "The waypoint is not a number."
+        elif self._box.contains(point):
+            self._result = WaypointResult.REFUSED
+            self._result_text = f"The waypoint ({goal.x:.2f} m, {goal.y:.2f} m) is too close to the Car."
+        else:
+            self._way = route(self._here, point, self._box)
+
+    def _drive(self, dt_s: float) -> None:
+        limit_mps = self._desired.max_speed_mps or _DEFAULT_SPEED_MPS
+        self._here, self._way = advance(self._here, self._way, min(limit_mps, _MAXIMUM_SPEED_MPS) * dt_s)
+        turn = math.remainder(self._goal.heading - self._heading, 2 * math.pi)
+        reach = _TURN_RATE_RADPS * dt_s
+        self._heading = math.remainder(self._heading + min(max(turn, -reach), reach), 2 * math.pi)
+        if not self._way and abs(turn) <= reach:
+            self._result = WaypointResult.REACHED

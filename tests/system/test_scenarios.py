@@ -1,0 +1,82 @@
+"""A short test of each kind through the whole stack, compared with the simulator's truth."""
+# SPDX-License-Identifier: Apache-2.0
+import json
+import pathlib
+import subprocess
+import sys
+
+import pytest
+from mtr_bringup.demo import read_rows
+
+PARAMETERS = pathlib.Path(__file__).parent / "parameters"
+# Odometry and gyro alone drift; within the first minutes of a run more than this is a defect, not drift.
+LARGEST_ERROR_M = 0.30
+
+AUTOLOCK_COLUMNS = ("axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unlock_status,unlock_distance_m,"
+                    "unlock_uncertainty_m,unlock_robot_time_s,lock_status,lock_distance_m,lock_uncertainty_m,"
+                    "lock_robot_time_s").split(",")
+KEY_PRESS_COLUMNS = "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s".split(",")
+
+
+@pytest.fixture(scope="module")
+def autolock(application, out):
+    done = application.run("autolock", PARAMETERS / "autolock.yaml", out / "autolock")
+    assert done.returncode == 0, done.stderr
+    return out / "autolock"
+
+
+@pytest.fixture(scope="module")
+def key_press(application, out, autolock):
+    done = application.run("key_press", PARAMETERS / "key_press.yaml", out / "key_press")
+    assert done.returncode == 0, done.stderr
+    return out / "key_press"
+
+
+def errors_against_truth(out, folder, columns):
+    """Measured minus true distances of a run."""
+    compared = subprocess.run([sys.executable, "-m", "mtr_simulation.truth.compare", "--events",
+                               str(out / "truth_events.csv"), "--results", str(folder), "--scenario", folder.name],
+                              text=True, capture_output=True, check=False)
+    assert compared.returncode == 0, compared.stdout + compared.stderr
+    truth = {(row["line"], row["event"]): float(row["true_distance_m"]) for row in read_rows(folder / "truth.csv")}
+    rows = read_rows(folder / "results.csv")
+    line = columns[0]
+    return [float(row[distance]) - truth[row[line], event]
+            for row in rows for event, status, distance in columns[1:] if row[status] == "ok"]
+
+
+def test_autolock_measures_every_side_and_corner(autolock):
+    rows = read_rows(autolock / "results.csv")
+    assert list(rows[0]) == AUTOLOCK_COLUMNS
+    assert {row["side"] for row in rows} == {"left", "right", "front", "rear", "front_left", "front_right",
+                                             "rear_left", "rear_right"}
+    assert all(row["unlock_status"] == row["lock_status"] == "ok" for row in rows)
+    assert all(float(row["lock_distance_m"]) > float(row["unlock_distance_m"]) for row in rows)
+
+
+def test_autolock_distances_are_true(autolock, out):
+    errors = errors_against_truth(out, autolock, ("axis", ("unlocked", "unlock_status", "unlock_distance_m"),
+                                                  ("locked", "lock_status", "lock_distance_m")))
+    assert len(errors) == 16
+    assert max(map(abs, errors)) < LARGEST_ERROR_M
+
+
+def test_key_press_finds_the_farthest_place_on_each_radial(key_press):
+    rows = read_rows(key_press / "results.csv")
+    assert list(rows[0]) == KEY_PRESS_COLUMNS
+    assert [float(row["angle_deg"]) for row in rows] == [0.0, 120.0, 240.0]
+    assert all(row["status"] == "ok" for row in rows)
+    assert all(not row["failed_distance_m"] or float(row["failed_distance_m"]) > float(row["distance_m"])
+               for row in rows)
+
+
+def test_key_press_distances_are_true(key_press, out):
+    errors = errors_against_truth(out, key_press, ("radial", ("press", "status", "distance_m")))
+    assert len(errors) == 3
+    assert max(map(abs, errors)) < LARGEST_ERROR_M
+
+
+def test_pictures_and_progress_are_left(autolock, key_press):
+    for folder in (autolock, key_press):
+        assert (folder / "protocol.png").read_bytes().startswith(b"\x89PNG")
+        json.loads((folder / "progress.json").read_text(encoding="utf-8"))
