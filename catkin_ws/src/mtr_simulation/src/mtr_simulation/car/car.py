@@ -55,7 +55,8 @@ class SimulatedCar:
             closing = contact.update(time_ns, pulse_us, key_xyz)
             if closing is not None:
                 self._transmit(command, closing, time_ns)
-        if self._passive_enabled:
+        # A key that arrives while the ECU boots is noticed afterwards, not missed.
+        if self._passive_enabled and self.ecu.lock_state is not LockState.UNKNOWN:
             self._poll_key(time_ns, key_xyz)
 
     def _transmit(self, command: Command, closing: Closing, time_ns: int) -> None:

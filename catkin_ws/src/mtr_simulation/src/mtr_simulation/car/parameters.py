@@ -1,4 +1,4 @@
-"""Parameters of the simulated Car: size, antennas, thresholds and times.
+"""Parameters of the simulated Car's radio and ECU: antennas, thresholds and times.
 
 Positions are in the true Car frame (origin on the ground under the Car's centre, x to its front, y to its left, z up).
 """
@@ -37,7 +37,7 @@ class Lobe:
     direction_rad: float
 
 
-# Ranges of a mid-size car: about 1.5 m for unlocking; the outlines differ per side on purpose.
+# Places on a car of 4.5 m x 1.8 m; ranges of a mid-size car, about 1.5 m for unlocking, unlike per side on purpose.
 DEFAULT_ANTENNAS = (
     LfAntenna("left_door", 0.05, 0.88, 0.75, 0.0, 11.2, 1.0, math.radians(100.0)),
     LfAntenna("right_door", 0.05, -0.88, 0.75, 0.0, 10.6, 1.2, math.radians(-60.0)),
@@ -104,17 +104,13 @@ class RemoteParameters:
 
 @dataclass(frozen=True)
 class CarParameters:
-    """The whole simulated Car. The default antennas are placed for the default size."""
+    """Radio and ECU of the whole Car."""
 
-    length_m: float = 4.50
-    width_m: float = 1.80
     boot_ms: int = 200  # until then the ECU reports its locks as unknown
     shadow_correlation_m: float = 0.5
     passive_entry: PassiveEntryParameters = PassiveEntryParameters()
     remote: RemoteParameters = RemoteParameters()
 
     def __post_init__(self):
-        check_range("car.length_m", self.length_m, 2.0, 8.0, "m")
-        check_range("car.width_m", self.width_m, 1.0, 3.0, "m")
         check_range("car.boot_ms", self.boot_ms, 0, 10_000, "ms")
         check_range("car.shadow_correlation_m", self.shadow_correlation_m, 0.05, 10.0, "m")

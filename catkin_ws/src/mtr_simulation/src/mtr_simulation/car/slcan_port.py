@@ -17,7 +17,6 @@ from mtr_core.errors import ConfigurationError
 from .can_port import CanPort
 from .slcan_protocol import SlcanAdapter
 
-
 # Answers kept for a host that asks and does not read.
 _MOST_UNSENT = 4096
 

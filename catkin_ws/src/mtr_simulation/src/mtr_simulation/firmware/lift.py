@@ -6,6 +6,7 @@ from typing import Optional
 HEIGHT_LIMIT_M = 1.2  # stroke of the lift
 SPEED_LIMIT_MPS = 0.15
 ACCELERATION_MPS2 = 0.3
+_ROUNDING_M = 1e-6  # heights arrive as float32
 
 
 class Lift:
@@ -26,9 +27,9 @@ class Lift:
         if math.isnan(height_m):
             self._target_m = None
             return True
-        if not 0.0 <= height_m <= HEIGHT_LIMIT_M:
+        if not -_ROUNDING_M <= height_m <= HEIGHT_LIMIT_M + _ROUNDING_M:
             return False
-        self._target_m = height_m
+        self._target_m = max(0.0, min(HEIGHT_LIMIT_M, height_m))
         return True
 
     def step(self, dt_s: float) -> None:

@@ -67,7 +67,8 @@ class SimulatedFirmware:
 
     def command(self, lift_height_m: float, led_pattern: int) -> None:
         """Take a FirmwareCommand; a height that is out of range leaves the lift's order as it was."""
-        self._hear()
+        if not self._hear():
+            return
         if not self._lift.order(lift_height_m):
             self.refused_commands += 1
         if 0 <= led_pattern <= LED_LAST:
@@ -75,8 +76,7 @@ class SimulatedFirmware:
 
     def press(self, id: int, servos: int, strength: float, hold_ms: int) -> None:
         """Take a FirmwarePress. What has been taken once, done or refused, is not taken again."""
-        self._hear()
-        if id == 0 or id in self._seen_ids:
+        if not self._hear() or id == 0 or id in self._seen_ids:
             return
         self._seen_ids.append(id)
         order = PressOrder(id, servos, strength, hold_ms)
@@ -116,16 +116,18 @@ class SimulatedFirmware:
             fault=self._fault,
         )
 
-    def _hear(self) -> None:
+    def _hear(self) -> bool:
+        """Note that the host lives; False before the first step, when the board has no power yet."""
         self._heard_ns = self._now_ns
         self._fault = 0
+        return self._boot_ns is not None
 
     def _lose_link(self) -> None:
         self._fault, self._led = FAULT_LINK_LOST, LED_LINK_LOST
         self._lift.order(float("nan"))
         if self._presser.is_busy:
             self._presser.abort(self._now_ns)
-            # A travel that was cut short pressed nothing.
+            # A travel that was cut short may have pressed or not: nobody shall rely on it.
             reached_ns = self._presser.reached_ns
             done = self._now_ns >= reached_ns
             self._report(self._running_id, PressState.DONE if done else PressState.REFUSED, reached_ns, self._now_ns)

@@ -1,0 +1,131 @@
+"""Compares the results of a test with the simulator's truth: writes truth.csv and prints the errors.
+
+Usage: python -m mtr_simulation.truth.compare --events FILE --results DIR --car-length M --car-width M
+The exit status is 0 when each line that is `ok` has its true event, 1 when one has none, 2 when a file is unusable.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import argparse
+import csv
+import io
+import math
+import os
+import pathlib
+import statistics
+import sys
+from typing import List, Optional
+
+from mtr_core.errors import ConfigurationError, RobotError, check_range
+
+from .distance import CarSize, Comparison, compare
+from .results import ResultsError, column_names, read_autolock, read_events, read_key_press
+
+RESULTS_NAME = "results.csv"
+TRUTH_NAME = "truth.csv"
+TRUTH_HEADER = ("scenario", "line", "event", "true_distance_m")
+_READERS = {"autolock": read_autolock, "key_press": read_key_press}
+_FIRST_COLUMN = {"autolock": "axis", "key_press": "radial"}
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    """Command line; the exit status."""
+    options = _parse(arguments)
+    try:
+        size = CarSize(
+            check_range("car-length", options.car_length, 0.5, 20.0, "m"),
+            check_range("car-width", options.car_width, 0.5, 20.0, "m"),
+        )
+        results = options.results / RESULTS_NAME
+        scenario = options.scenario or guess_scenario(results)
+        comparisons = list(compare(_READERS[scenario](results), read_events(options.events), size))
+        write_truth(options.results / TRUTH_NAME, scenario, comparisons)
+    except RobotError as error:
+        print(error, file=sys.stderr)
+        return 2
+    print("\n".join([*table(comparisons), *summary(scenario, comparisons)]))
+    lost = [c for c in comparisons if c.measured.status == "ok" and c.true_distance_m is None]
+    for comparison in lost:
+        m = comparison.measured
+        print(f"Line {m.line}: no true event for its {m.event} at {m.time_s:.3f} s.", file=sys.stderr)
+    return 1 if lost else 0
+
+
+def guess_scenario(results: pathlib.Path) -> str:
+    """The scenario whose first column the header has."""
+    names = column_names(results)
+    for scenario, column in _FIRST_COLUMN.items():
+        if column in names:
+            return scenario
+    raise ResultsError(f"{results} is of no known scenario; name one with --scenario.")
+
+
+def write_truth(path: pathlib.Path, scenario: str, comparisons: List[Comparison]) -> None:
+    """Write truth.csv, whole or not at all; events that never happened have no line."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(TRUTH_HEADER)
+    for measured, true_distance_m in comparisons:
+        if true_distance_m is not None:
+            writer.writerow((scenario, measured.line, measured.event, f"{true_distance_m:.4f}"))
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        temporary.write_text(text.getvalue(), encoding="utf-8")
+        os.replace(temporary, path)
+    except OSError as error:
+        raise ConfigurationError(f"{path} cannot be written: {error.strerror}.") from error
+
+
+def table(comparisons: List[Comparison]) -> List[str]:
+    """Lines with measured and true distance of each event."""
+    lines = ["line event  side        status        measured m   true m  error m  sigma m"]
+    for comparison in comparisons:
+        m = comparison.measured
+        true_m = math.nan if comparison.true_distance_m is None else comparison.true_distance_m
+        lines.append(
+            f"{m.line:>4} {m.event:6} {m.side:11} {m.status:12} {_cell(m.distance_m, 11)} {_cell(true_m, 8)} "
+            f"{_cell(comparison.error_m, 8, '+')} {_cell(m.uncertainty_m, 8)}"
+        )
+    return lines
+
+
+def summary(scenario: str, comparisons: List[Comparison]) -> List[str]:
+    """Median, 95th percentile and largest of the absolute errors of lines that are ok, and their size in sigma."""
+    good = [c for c in comparisons if c.measured.status == "ok" and math.isfinite(c.error_m)]
+    count = f"{scenario}: {len(good)} of {len(comparisons)} distances are ok and have their true event"
+    if not good:
+        return [f"{count}."]
+    errors = sorted(abs(c.error_m) for c in good)
+    lines = [
+        f"{count}; |error| median {statistics.median(errors):.3f} m, "
+        f"95th percentile {percentile(errors, 0.95):.3f} m, largest {errors[-1]:.3f} m."
+    ]
+    in_sigma = [abs(c.error_m) / c.measured.uncertainty_m for c in good if c.measured.uncertainty_m > 0.0]
+    if in_sigma:
+        rms = math.sqrt(statistics.fmean(s * s for s in in_sigma))
+        lines.append(f"{scenario}: |error| in sigma: rms {rms:.2f}, largest {max(in_sigma):.2f}.")
+    return lines
+
+
+def percentile(ordered: List[float], share: float) -> float:
+    """Linear interpolation between the two nearest of the ordered values."""
+    position = share * (len(ordered) - 1)
+    low = math.floor(position)
+    high = min(low + 1, len(ordered) - 1)
+    return ordered[low] + (position - low) * (ordered[high] - ordered[low])
+
+
+def _cell(value: float, width: int, sign: str = "") -> str:
+    return f"{value:{sign}{width}.3f}" if math.isfinite(value) else " " * (width - 1) + "-"
+
+
+def _parse(arguments: Optional[List[str]]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description="Compare the results of a test with the simulator's truth.")
+    parser.add_argument("--events", type=pathlib.Path, required=True, help="truth_events.csv of the simulator")
+    parser.add_argument("--results", type=pathlib.Path, required=True, help="folder with results.csv")
+    parser.add_argument("--car-length", type=float, required=True, help="true length of the Car in m")
+    parser.add_argument("--car-width", type=float, required=True, help="true width of the Car in m")
+    parser.add_argument("--scenario", choices=sorted(_READERS), help="default: told by the header of results.csv")
+    return parser.parse_args(arguments)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,70 @@
+"""True distances of measured events: which true event belongs to it, and how far the Remote key truly was."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import Iterable, NamedTuple, Optional
+
+from .results import MeasuredEvent, ResultsError, TrueEvent
+
+# A measurement belongs to the nearest true event of its kind within this time.
+MATCH_WINDOW_S = 0.5
+
+_KINDS = {"unlock": "unlocked", "lock": "locked", "press": "press"}
+_NORMALS = {"front": (1.0, 0.0), "rear": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
+_CORNERS = {"front_left": (1, 1), "front_right": (1, -1), "rear_left": (-1, 1), "rear_right": (-1, -1)}
+
+
+class CarSize(NamedTuple):
+    """True length and width of the Car in m."""
+
+    length_m: float
+    width_m: float
+
+
+class Comparison(NamedTuple):
+    """A measured event beside the truth; true_distance_m is None when nothing of the kind happened."""
+
+    measured: MeasuredEvent
+    true_distance_m: Optional[float]
+
+    @property
+    def error_m(self) -> float:
+        """Measured minus true distance."""
+        return math.nan if self.true_distance_m is None else self.measured.distance_m - self.true_distance_m
+
+
+def compare(measured: Iterable[MeasuredEvent], truth: Iterable[TrueEvent], size: CarSize) -> Iterable[Comparison]:
+    """A comparison for each measured event, in order."""
+    truth = list(truth)
+    for event in measured:
+        true_event = find_true(event, truth)
+        yield Comparison(event, None if true_event is None else true_distance_m(event, true_event, size))
+
+
+def find_true(measured: MeasuredEvent, truth: Iterable[TrueEvent]) -> Optional[TrueEvent]:
+    """The nearest true event of the kind; of presses only those that the Car accepted."""
+    kind = _KINDS[measured.event]
+    candidates = [e for e in truth if e.kind == kind and (e.accepted or kind != "press")]
+    nearest = min(candidates, key=lambda e: abs(e.time_s - measured.time_s), default=None)
+    # Written so that a measurement without a time (NaN) finds nothing.
+    return nearest if nearest and abs(nearest.time_s - measured.time_s) <= MATCH_WINDOW_S else None
+
+
+def true_distance_m(measured: MeasuredEvent, event: TrueEvent, size: CarSize) -> float:
+    """From the Car's true side or corner along the axis, or from its centre for a press."""
+    if measured.event == "press":
+        return math.hypot(event.key_x_m, event.key_y_m)
+    half_length, half_width = size.length_m / 2.0, size.width_m / 2.0
+    if measured.side in _NORMALS:
+        normal_x, normal_y = _NORMALS[measured.side]
+        along = normal_x * event.key_x_m + normal_y * event.key_y_m
+        return along - abs(normal_x) * half_length - abs(normal_y) * half_width
+    if measured.side not in _CORNERS:
+        allowed = ", ".join([*_NORMALS, *_CORNERS])
+        raise ResultsError(f"Axis {measured.line} has side {measured.side!r}; allowed are {allowed}.")
+    sign_x, sign_y = _CORNERS[measured.side]
+    direction_x, direction_y = measured.direction
+    norm = math.hypot(direction_x, direction_y)
+    if not norm > 0.0:
+        raise ResultsError(f"Axis {measured.line} has no direction.")
+    from_corner_x, from_corner_y = event.key_x_m - sign_x * half_length, event.key_y_m - sign_y * half_width
+    return (from_corner_x * direction_x + from_corner_y * direction_y) / norm
