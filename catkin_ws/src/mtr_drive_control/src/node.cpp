@@ -29,13 +29,12 @@ NodeParameters read_node_parameters(const ros::NodeHandle& private_node) {
   NodeParameters parameters;
   mtr_lockstep::read_parameters(private_node, kRows, parameters.limits);
   check(parameters.limits);
-  if (private_node.hasParam("lock_owners") && !private_node.getParam("lock_owners", parameters.lock_owners)) {
-    throw mtr_lockstep::ConfigurationError("Parameter lock_owners is not a list of names.");
-  }
+  mtr_lockstep::read_parameter(private_node, "lock_owners", "a list of names", parameters.lock_owners);
   for (const std::string& owner : parameters.lock_owners) {
     ROS_INFO("lock_owners: %s", owner.c_str());
   }
-  private_node.param("manual_expected", parameters.manual_expected, parameters.manual_expected);
+  mtr_lockstep::read_parameter(private_node, "manual_expected", "true or false", parameters.manual_expected);
+  ROS_INFO("manual_expected: %s", parameters.manual_expected ? "true" : "false");
   return parameters;
 }
 
