@@ -40,9 +40,11 @@ def reach_and_hold_height(link: RobotLink, check: HeightCheck) -> str:
             if near:
                 reached_s = now_s
             elif now_s - first_s > check.reach_within_s:
-                return f"{check.height_m:g} m not reached in {check.reach_within_s:g} s; at {status.key_height_m:.3f} m."
+                return (f"{check.height_m:g} m not reached in {check.reach_within_s:g} s; the key is at "
+                        f"{status.key_height_m:.3f} m.")
         elif not near:
-            return f"{check.height_m:g} m left {now_s - reached_s:.1f} s after it was reached: {status.key_height_m:.3f} m."
+            return (f"{check.height_m:g} m was left {now_s - reached_s:.1f} s after it was reached; the key is at "
+                    f"{status.key_height_m:.3f} m.")
         elif now_s - reached_s >= check.hold_s:
             return ""
     return f"The robot fell silent, or {check.wall_limit_s:g} s were not enough."

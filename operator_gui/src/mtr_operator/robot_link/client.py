@@ -6,7 +6,6 @@ import math
 import secrets
 import threading
 import time
-from typing import Optional
 
 import zmq
 
@@ -38,15 +37,15 @@ class ZmqRobotLink(RobotLink):
         self.session_id = secrets.randbelow(2 ** _SESSION_BITS - 1) + 1
         self.statistics = LinkStatistics()
         self._timeout_s = connect_timeout_s
-        self._context: Optional[zmq.Context] = None
-        self._subscriber: Optional[zmq.Socket] = None
-        self._publisher: Optional[zmq.Socket] = None
+        self._context: zmq.Context | None = None
+        self._subscriber: zmq.Socket | None = None
+        self._publisher: zmq.Socket | None = None
         self._lock = threading.Lock()
         self._inbox = Inbox(self.statistics)
-        self._desired: Optional[DesiredState] = None
+        self._desired: DesiredState | None = None
         self._command_id = 0
-        self._seen: Optional[RobotStatus] = None
-        self._answered: Optional[RobotStatus] = None
+        self._seen: RobotStatus | None = None
+        self._answered: RobotStatus | None = None
 
     def connect(self) -> None:
         """See RobotLink."""
@@ -63,7 +62,7 @@ class ZmqRobotLink(RobotLink):
             raise
         self._context = context
 
-    def next_status(self, timeout_s: float) -> Optional[RobotStatus]:
+    def next_status(self, timeout_s: float) -> RobotStatus | None:
         """See RobotLink."""
         if self._subscriber is None:
             raise ConnectionFailed("The robot is not connected.")

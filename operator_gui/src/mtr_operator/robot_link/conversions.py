@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Any
 
 from google.protobuf.message import DecodeError
-from mtr_proto import robot_link_pb2 as pb
 
 from mtr_operator.domain import ports
+from mtr_proto import robot_link_pb2 as pb
 
 MAXIMUM_MESSAGE_BYTES = 64 * 1024
 
@@ -25,8 +25,8 @@ class CommandHeader:
     session_id: int
     id: int
     sent_time_s: float
-    seen_status_id: Optional[int] = None
-    seen_robot_time_s: Optional[float] = None
+    seen_status_id: int | None = None
+    seen_robot_time_s: float | None = None
     end_session: bool = False
 
 
@@ -149,7 +149,7 @@ def status_message_from(status: ports.RobotStatus) -> pb.Status:
     return message
 
 
-def _car_from(car: pb.CarDimensions) -> Optional[ports.CarDimensions]:
+def _car_from(car: pb.CarDimensions) -> ports.CarDimensions | None:
     return ports.CarDimensions(car.length, car.width, car.length_sigma, car.width_sigma) if car.mapped else None
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import time
-from typing import Callable, Optional
+from typing import Callable
 
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import DesiredState, LinkStatistics, RobotLink, RobotStatus
 
-from .virtual_robot import STATUS_PERIOD_S, VirtualRobot, VirtualWorld
+from .virtual_robot import DEFAULT_WORLD, STATUS_PERIOD_S, VirtualRobot, VirtualWorld
 
 _SESSION_ID = 1
 
@@ -19,21 +19,21 @@ class FakeRobotLink(RobotLink):
     time_factor: virtual seconds per second of wall time, 0 for as fast as the caller asks.
     """
 
-    def __init__(self, seed: int = 1, time_factor: float = 0.0, world: VirtualWorld = VirtualWorld(),
+    def __init__(self, seed: int = 1, time_factor: float = 0.0, world: VirtualWorld = DEFAULT_WORLD,
                  sleep: Callable[[float], None] = time.sleep):
         self.statistics = LinkStatistics()
         self._robot = VirtualRobot(seed, world)
         self._pause_s = STATUS_PERIOD_S / time_factor if time_factor > 0 else 0.0
         self._sleep = sleep
         self._connected = False
-        self._desired: Optional[DesiredState] = None
+        self._desired: DesiredState | None = None
         self._command_id = 0
 
     def connect(self) -> None:
         """See RobotLink."""
         self._connected = True
 
-    def next_status(self, timeout_s: float) -> Optional[RobotStatus]:
+    def next_status(self, timeout_s: float) -> RobotStatus | None:
         """See RobotLink; a Status is always there."""
         if not self._connected:
             raise ConnectionFailed("The robot is not connected.")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import collections
 import dataclasses
-from typing import Deque, List, Optional
 
 from mtr_operator.domain.ports import LinkStatistics, Notification, RobotStatus
 
@@ -21,11 +20,11 @@ class Inbox:
 
     def __init__(self, statistics: LinkStatistics):
         self._statistics = statistics
-        self._queue: Deque[RobotStatus] = collections.deque()
-        self._robot_session_id: Optional[int] = None
+        self._queue: collections.deque[RobotStatus] = collections.deque()
+        self._robot_session_id: int | None = None
         self._newest_id = 0
 
-    def put(self, parts: List[bytes]) -> bool:
+    def put(self, parts: list[bytes]) -> bool:
         """Queue one ZeroMQ message; True, and not queued, when it repeats the Status that was taken last."""
         status = self._decoded(parts)
         if status is None:
@@ -43,7 +42,7 @@ class Inbox:
             self._skip_to_newest()
         return False
 
-    def take(self) -> Optional[RobotStatus]:
+    def take(self) -> RobotStatus | None:
         """Oldest Status of the queue, None when it is empty."""
         return self._queue.popleft() if self._queue else None
 
@@ -64,7 +63,7 @@ class Inbox:
         self._queue.clear()
         self._queue.append(newest)
 
-    def _decoded(self, parts: List[bytes]) -> Optional[RobotStatus]:
+    def _decoded(self, parts: list[bytes]) -> RobotStatus | None:
         if sum(map(len, parts)) > MAXIMUM_MESSAGE_BYTES:
             self._statistics.oversized += 1
             self._statistics.last_error = (f"A message of {sum(map(len, parts))} bytes was ignored; allowed is at most "

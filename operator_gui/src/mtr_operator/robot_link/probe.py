@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import contextlib
 import socket
 import threading
-from typing import List
 
 from mtr_operator.domain.errors import ConnectionFailed
 
@@ -21,13 +21,11 @@ def probe(address: RobotAddress, timeout_s: float) -> str:
 
 def resolve(host: str, timeout_s: float) -> str:
     """IPv4 address of a host; the system's own name look-up knows no time limit, hence the thread."""
-    found: List[str] = []
+    found: list[str] = []
 
     def look_up() -> None:
-        try:
+        with contextlib.suppress(OSError, UnicodeError):
             found.append(socket.getaddrinfo(host, None, socket.AF_INET, socket.SOCK_STREAM)[0][4][0])
-        except (OSError, UnicodeError):
-            pass
 
     thread = threading.Thread(target=look_up, name="robot-name-look-up", daemon=True)
     thread.start()

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import Optional
-
 import zmq
 
 from mtr_operator.domain.errors import ConnectionFailed
@@ -22,9 +20,9 @@ class ConnectionServer:
         self.subscriber_port = subscriber_port
         self.publisher_port = publisher_port
         self._bind_address = bind_address
-        self._context: Optional[zmq.Context] = None
-        self.status_socket: Optional[zmq.Socket] = None
-        self.command_socket: Optional[zmq.Socket] = None
+        self._context: zmq.Context | None = None
+        self.status_socket: zmq.Socket | None = None
+        self.command_socket: zmq.Socket | None = None
 
     def open(self) -> None:
         """Bind both ports, or raise ConnectionFailed naming the busy one."""

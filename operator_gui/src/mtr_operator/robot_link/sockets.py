@@ -19,7 +19,9 @@ _RECONNECT_MS = 100
 _RECONNECT_MAXIMUM_MS = 1000
 
 _HANDSHAKE_EVENTS = (zmq.EVENT_HANDSHAKE_SUCCEEDED | zmq.EVENT_HANDSHAKE_FAILED_PROTOCOL
-                     | zmq.EVENT_HANDSHAKE_FAILED_NO_DETAIL | zmq.EVENT_HANDSHAKE_FAILED_AUTH)
+                     | zmq.EVENT_HANDSHAKE_FAILED_NO_DETAIL | zmq.EVENT_HANDSHAKE_FAILED_AUTH
+                     # libzmq 4.3.4 says no more than this of a peer of the wrong socket type.
+                     | zmq.EVENT_DISCONNECTED)
 
 
 def subscribe(context: zmq.Context, ip: str, port: int, timeout_s: float) -> zmq.Socket:
@@ -56,8 +58,8 @@ def _connect(socket: zmq.Socket, ip: str, port: int, timeout_s: float, name: str
         monitor.close(0)
     if not good:
         socket.close(0)
-        raise ConnectionFailed(f"The {name} port {port} is open, but not the robot's; subscriber and publisher port may "
-                               "be swapped, or another program listens there.")
+        raise ConnectionFailed(f"The {name} port {port} is open, but not the robot's; subscriber and publisher port "
+                               "may be swapped, or another program listens there.")
     return socket
 
 

@@ -10,7 +10,6 @@ import math
 import sys
 import threading
 import time
-from typing import List, Optional
 
 import zmq
 
@@ -25,7 +24,7 @@ from .conversions import (
     status_message_from,
 )
 from .server import LOOPBACK, ConnectionServer
-from .virtual_robot import STATUS_PERIOD_S, VirtualRobot, VirtualWorld
+from .virtual_robot import DEFAULT_WORLD, STATUS_PERIOD_S, VirtualRobot, VirtualWorld
 
 # Wall time without a Command after which the robot stops and another session may take over.
 _SILENCE_LIMIT_S = 1.0
@@ -38,13 +37,13 @@ class RobotSubstitute:
     """
 
     def __init__(self, server: ConnectionServer, seed: int = 1, time_factor: float = 1.0,
-                 world: VirtualWorld = VirtualWorld()):
+                 world: VirtualWorld = DEFAULT_WORLD):
         self.server = server
         self.rejected = 0
         self._robot = VirtualRobot(seed, world)
         self._period_s = STATUS_PERIOD_S / time_factor
         self._stopping = threading.Event()
-        self._thread: Optional[threading.Thread] = None
+        self._thread: threading.Thread | None = None
         self._session_id = 0
         self._newest_command_s = -math.inf
 
@@ -79,7 +78,7 @@ class RobotSubstitute:
         while socket.poll(max(0, math.ceil((deadline - time.monotonic()) * 1000))):
             self._take(socket.recv_multipart(zmq.NOBLOCK))
 
-    def _take(self, parts: List[bytes]) -> None:
+    def _take(self, parts: list[bytes]) -> None:
         now = time.monotonic()
         try:
             if len(parts) != 1 or len(parts[0]) > MAXIMUM_MESSAGE_BYTES:
@@ -99,13 +98,13 @@ class RobotSubstitute:
         self._robot.take(command.session_id, command.id, desired_from_command(command))
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: list[str] | None = None) -> int:
     """Command line."""
-    parser = argparse.ArgumentParser(description="Substitute of the robot for development of the Operator's application.")
+    parser = argparse.ArgumentParser(description="Substitute of the robot, to develop the Operator's application.")
     parser.add_argument("--subscriber-port", type=int, default=SUBSCRIBER_PORT, help="Status, default %(default)s")
     parser.add_argument("--publisher-port", type=int, default=PUBLISHER_PORT, help="Command, default %(default)s")
     parser.add_argument("--bind", default=LOOPBACK, metavar="ADDRESS", help="address to listen on, default %(default)s")
-    parser.add_argument("--time-factor", type=float, default=1.0, help="virtual seconds per second, default %(default)s")
+    parser.add_argument("--time-factor", type=float, default=1.0, help="virtual s per s, default %(default)g")
     parser.add_argument("--seed", type=int, default=1, help="start position, default %(default)s")
     options = parser.parse_args(arguments)
     if not 0.1 <= options.time_factor <= 100:

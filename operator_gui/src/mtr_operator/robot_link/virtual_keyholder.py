@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import Optional, Tuple
-
 from mtr_operator.domain.ports import ButtonPress, PressConfirmation
 
 LOWEST_KEY_M = 0.35
@@ -12,6 +10,8 @@ LIFT_SPEED_MPS = 0.15
 # Time a servo needs to reach the button.
 SERVO_TRAVEL_S = 0.1
 _KEPT_CONFIRMATIONS = 5
+# Heights travel as 32-bit floats: 0.35 arrives as 0.34999999.
+_HEIGHT_ROUNDING_M = 1e-6
 
 
 class VirtualKeyholder:
@@ -19,10 +19,10 @@ class VirtualKeyholder:
 
     def __init__(self) -> None:
         self.height_m = LOWEST_KEY_M
-        self.confirmations: Tuple[PressConfirmation, ...] = ()
+        self.confirmations: tuple[PressConfirmation, ...] = ()
         self._wanted_m = LOWEST_KEY_M
         self._newest_press_id = 0
-        self._press: Optional[ButtonPress] = None
+        self._press: ButtonPress | None = None
         self._start_s = 0.0
 
     def begin_session(self) -> None:
@@ -30,10 +30,10 @@ class VirtualKeyholder:
         self.confirmations = ()
         self._newest_press_id = 0
 
-    def order(self, height_m: Optional[float], press: Optional[ButtonPress], time_s: float) -> None:
+    def order(self, height_m: float | None, press: ButtonPress | None, time_s: float) -> None:
         """Take the desired height and press; None changes nothing."""
-        if height_m is not None and LOWEST_KEY_M <= height_m <= HIGHEST_KEY_M:
-            self._wanted_m = height_m
+        if height_m is not None and LOWEST_KEY_M - _HEIGHT_ROUNDING_M <= height_m <= HIGHEST_KEY_M + _HEIGHT_ROUNDING_M:
+            self._wanted_m = min(max(height_m, LOWEST_KEY_M), HIGHEST_KEY_M)
         if press is not None and press.id > self._newest_press_id and self._press is None:
             self._newest_press_id = press.id
             self._press = press
@@ -49,6 +49,6 @@ class VirtualKeyholder:
             self.confirmations = (*self.confirmations, done)[-_KEPT_CONFIRMATIONS:]
             self._press = None
 
-    def pressed_buttons(self, time_s: float) -> Tuple[int, ...]:
+    def pressed_buttons(self, time_s: float) -> tuple[int, ...]:
         """Buttons held down at time_s."""
         return self._press.buttons if self._press is not None and time_s >= self._start_s else ()

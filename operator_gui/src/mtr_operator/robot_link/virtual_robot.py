@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import random
 from dataclasses import dataclass
-from typing import List, Optional
 
 from mtr_operator import __version__
 from mtr_operator.domain.ports import CarDimensions, DesiredState, Mode, RobotStatus, Waypoint, WaypointResult
@@ -36,10 +35,13 @@ class VirtualWorld:
     mapping_s: float = 3.0
 
 
+DEFAULT_WORLD = VirtualWorld()
+
+
 class VirtualRobot:
     """Virtual state of the robot; step() lets time pass, take() hands it a desired state."""
 
-    def __init__(self, seed: int, world: VirtualWorld = VirtualWorld()):
+    def __init__(self, seed: int, world: VirtualWorld = DEFAULT_WORLD):
         chance = random.Random(seed)
         bearing = chance.uniform(-math.pi, math.pi)
         self._world = world
@@ -53,8 +55,8 @@ class VirtualRobot:
         self._speed_mps = self._yaw_rate_radps = 0.0
         self._key = VirtualKeyholder()
         self._desired = DesiredState(stop=True)
-        self._goal: Optional[Waypoint] = None
-        self._way: List[Point] = []
+        self._goal: Waypoint | None = None
+        self._way: list[Point] = []
         self._result, self._result_text = WaypointResult.NONE, ""
         self._map_car_id = 0
         self._mapping_left_s = world.mapping_s

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import List, Tuple
+from typing import Tuple
 
 Point = Tuple[float, float]
 
@@ -33,13 +33,13 @@ class Box:
             enter, leave = max(enter, first), min(leave, second)
         return leave - enter > 1e-9
 
-    def corners(self) -> List[Point]:
+    def corners(self) -> list[Point]:
         """The four corners, counterclockwise."""
         return [(self.half_length, self.half_width), (-self.half_length, self.half_width),
                 (-self.half_length, -self.half_width), (self.half_length, -self.half_width)]
 
 
-def route(start: Point, goal: Point, box: Box) -> List[Point]:
+def route(start: Point, goal: Point, box: Box) -> list[Point]:
     """Points to pass from start to goal, goal included: straight, or around the box on the shorter side."""
     if box.contains(start) or not box.crosses(start, goal):
         return [goal]
@@ -47,11 +47,11 @@ def route(start: Point, goal: Point, box: Box) -> List[Point]:
     return min(ways, key=lambda way: _length([start, *way]))
 
 
-def _around(start: Point, goal: Point, box: Box, turn: int) -> List[Point]:
+def _around(start: Point, goal: Point, box: Box, turn: int) -> list[Point]:
     corners = box.corners()[::turn]
     ahead = [turn * (math.atan2(y, x) - math.atan2(start[1], start[0])) % (2.0 * math.pi) for x, y in corners]
     ordered = [corner for _, corner in sorted(zip(ahead, corners))]
-    way: List[Point] = []
+    way: list[Point] = []
     here = start
     for corner in ordered:
         if not box.crosses(here, goal):
@@ -64,11 +64,11 @@ def _around(start: Point, goal: Point, box: Box, turn: int) -> List[Point]:
     return [*way, goal]
 
 
-def _length(points: List[Point]) -> float:
+def _length(points: list[Point]) -> float:
     return sum(math.dist(a, b) for a, b in zip(points, points[1:]))
 
 
-def advance(here: Point, way: List[Point], distance_m: float) -> Tuple[Point, List[Point]]:
+def advance(here: Point, way: list[Point], distance_m: float) -> tuple[Point, list[Point]]:
     """Position after distance_m along the way, and what is left of it."""
     while way:
         step_m = math.dist(here, way[0])

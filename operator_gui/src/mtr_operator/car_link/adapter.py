@@ -1,0 +1,89 @@
+"""Opening a CAN adapter through python-can, with a sentence for everything that may be wrong."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import os
+import time
+from dataclasses import dataclass, field
+from typing import Any
+
+import can
+
+from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter
+
+from .slcan import StampedSlcanBus
+
+SLCAN = "slcan"
+_LOWEST_BITRATE = 10_000
+_HIGHEST_BITRATE = 1_000_000
+# Time in which an slcan adapter answers the commands that open it.
+_ANSWER_LIMIT_S = 1.0
+_POLL_S = 0.05
+
+
+@dataclass(frozen=True)
+class AdapterSettings:
+    """Adapter of the Car's CAN bus; options go to python-can's driver as they are."""
+
+    interface: str
+    channel: str
+    bitrate_bps: int = 500_000
+    options: dict[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        known = sorted(can.VALID_INTERFACES)
+        if self.interface not in known:
+            raise InvalidParameter(f"CAN interface is {self.interface!r}; allowed are {', '.join(known)}.")
+        if not str(self.channel):
+            raise InvalidParameter("CAN channel is empty; give the adapter's port, e.g. /dev/ttyACM0, can0 or "
+                                   "PCAN_USBBUS1.")
+        if isinstance(self.bitrate_bps, bool) or not isinstance(self.bitrate_bps, int) \
+                or not _LOWEST_BITRATE <= self.bitrate_bps <= _HIGHEST_BITRATE:
+            raise InvalidParameter(f"CAN bit rate is {self.bitrate_bps}; allowed is {_LOWEST_BITRATE} to "
+                                   f"{_HIGHEST_BITRATE} bit/s.")
+
+    def __str__(self) -> str:
+        return f"CAN adapter {self.channel} ({self.interface})"
+
+
+def open_adapter(settings: AdapterSettings) -> can.BusABC:
+    """Open the adapter, or raise ConnectionFailed."""
+    if settings.interface == SLCAN and settings.channel.startswith("/") and not os.path.exists(settings.channel):
+        raise ConnectionFailed(f"There is no CAN adapter at {settings.channel}; check the channel and the USB plug.")
+    try:
+        if settings.interface != SLCAN:
+            return can.Bus(interface=settings.interface, channel=settings.channel, bitrate=settings.bitrate_bps,
+                           **settings.options)
+        bus = StampedSlcanBus(settings.channel, bitrate=settings.bitrate_bps, **settings.options)
+    # Drivers raise whatever their vendor's library does.
+    except Exception as error:
+        raise ConnectionFailed(f"Cannot open the {settings}: {' '.join(str(error).split())}.") from None
+    try:
+        _wait_for_answer(bus, settings)
+    except BaseException:
+        shut_down(bus)
+        raise
+    return bus
+
+
+def shut_down(bus: can.BusABC) -> None:
+    """Close the adapter, even if it has gone."""
+    try:
+        bus.shutdown()
+    # The adapter may have been pulled out.
+    except Exception:
+        serial_port = getattr(bus, "serialPortOrig", None)
+        if serial_port is not None:
+            serial_port.close()
+
+
+def _wait_for_answer(bus: StampedSlcanBus, settings: AdapterSettings) -> None:
+    deadline = time.monotonic() + _ANSWER_LIMIT_S
+    try:
+        while not bus.answers and time.monotonic() < deadline:
+            bus.recv(_POLL_S)
+    except (can.CanError, OSError) as error:
+        raise ConnectionFailed(f"The {settings} has gone: {error}.") from None
+    if not bus.answers:
+        reason = "sends something else than the slcan protocol" if bus.malformed else "does not answer"
+        raise ConnectionFailed(f"The {settings} {reason}; check the channel, and that the device is a CAN adapter.")

@@ -1,0 +1,120 @@
+"""The link to the Car: a CAN adapter behind python-can, and the lock events on the robot's clock."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+import threading
+import time
+from typing import Any
+
+from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.ports import CarEvent, CarLink, LockState, RobotStatus
+
+from .adapter import AdapterSettings, open_adapter
+from .lock_watch import CanFrame, LockWatch
+from .profile import CarProfile, load_profile
+from .reader import CanReader, FrameSink
+
+# Wall time for which observe() waits at most for the bus to catch up.
+CATCH_UP_LIMIT_S = 0.25
+# Robot time for which an error frame makes the bus a suspect one.
+_ERROR_FRAME_EFFECT_S = 1.0
+
+
+class CanCarLink(CarLink, FrameSink):
+    """Watches the locks on the CAN bus.
+
+    profile: name of a shipped car profile, or path of a YAML file. options: passed to python-can's driver.
+
+    Attributes:
+        profile: the loaded car profile, None before connect().
+        frames_received: data frames of any message since the start.
+    """
+
+    def __init__(self, interface: str, channel: str, bitrate: int = 500_000, profile: str = "mtr_demo_car",
+                 options: dict[str, Any] | None = None):
+        self._settings = AdapterSettings(interface, str(channel), bitrate, dict(options or {}))
+        self._profile_name = str(profile)
+        self._watch: LockWatch | None = None
+        self._reader: CanReader | None = None
+        self._news = threading.Condition()
+        self._fault = ""
+        self._error_frames = self._seen_error_frames = 0
+        self._suspect_until_s = -math.inf
+        self._stamp_s = -math.inf
+        self.profile: CarProfile | None = None
+        self.frames_received = 0
+
+    def connect(self) -> None:
+        """See CarLink."""
+        if self._reader is not None:
+            return
+        self.profile = load_profile(self._profile_name)
+        self._watch = LockWatch(self.profile)
+        reader = CanReader(lambda: open_adapter(self._settings), self)
+        reader.start()
+        self._reader = reader
+
+    def observe(self, status: RobotStatus) -> list[CarEvent]:
+        """See CarLink."""
+        arrival_s = time.monotonic()
+        if self._reader is None:
+            raise ConnectionFailed("The Car's CAN bus is not connected.")
+        with self._news:
+            self._watch.status(status, arrival_s)
+            self._news.wait_for(lambda: bool(self._fault) or self._watch.has_caught_up(), CATCH_UP_LIMIT_S)
+            self._stamp_s = status.stamp_s
+            if self._error_frames != self._seen_error_frames:
+                self._seen_error_frames = self._error_frames
+                self._suspect_until_s = status.stamp_s + _ERROR_FRAME_EFFECT_S
+            return self._watch.release(time.monotonic())
+
+    @property
+    def lock_state(self) -> LockState:
+        """See CarLink."""
+        with self._news:
+            return LockState.UNKNOWN if self._watch is None or self._bus_problem() else self._watch.lock_state
+
+    @property
+    def problem(self) -> str:
+        """See CarLink."""
+        with self._news:
+            if self._watch is None:
+                return "The Car's CAN bus is not connected."
+            return self._bus_problem() or self._watch.problem
+
+    def close(self) -> None:
+        """See CarLink."""
+        reader, self._reader = self._reader, None
+        if reader is not None:
+            reader.stop()
+
+    def frame(self, frame: CanFrame) -> None:
+        """See FrameSink."""
+        with self._news:
+            self._watch.frame(frame)
+            self.frames_received += 1
+            self._news.notify_all()
+
+    def error_frame(self) -> None:
+        """See FrameSink."""
+        with self._news:
+            self._error_frames += 1
+
+    def fault(self, text: str) -> None:
+        """See FrameSink."""
+        with self._news:
+            self._fault = text
+            self._news.notify_all()
+
+    def reopened(self) -> None:
+        """See FrameSink."""
+        with self._news:
+            self._watch.restart()
+
+    def _bus_problem(self) -> str:
+        if self._fault:
+            return self._fault
+        if self._stamp_s < self._suspect_until_s:
+            return f"The CAN bus has errors ({self._error_frames} error frames); check bit rate, plug and termination."
+        return ""

@@ -1,0 +1,36 @@
+"""What both maps from the time stamps of CAN frames to the robot's clock have in common."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+# A map is used once it rests on this many Statuses over this time of the robot's clock.
+LEAST_PAIRS = 20
+LEAST_SPAN_S = 2.0
+
+
+class ClockMap(ABC):
+    """Maps the clock that stamps the frames ("local") to the robot's; fed in the order of arrival.
+
+    Attributes:
+        sigma_s: 1 sigma of a mapped time, NaN while the map is not ready.
+    """
+
+    sigma_s: float
+
+    @abstractmethod
+    def frame(self, local_s: float) -> None:
+        """A frame with this local stamp arrived."""
+
+    @abstractmethod
+    def status(self, stamp_s: float, arrival_s: float) -> None:
+        """A Status with this stamp of the robot's clock arrived at arrival_s of the laptop's."""
+
+    @property
+    @abstractmethod
+    def is_ready(self) -> bool:
+        """False until enough pairs are known."""
+
+    @abstractmethod
+    def to_robot(self, local_s: float) -> float:
+        """Robot's time at a local time; only when is_ready."""

@@ -1,0 +1,64 @@
+"""Substitute of the Car: a timer on the robot's clock, and a random number against a threshold at each turn."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+import random
+
+from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.ports import CarEvent, CarLink, LockState, RobotStatus
+
+_TIME_SIGMA_S = 0.005
+_OTHER_STATE = {LockState.LOCKED: LockState.UNLOCKED, LockState.UNLOCKED: LockState.LOCKED}
+
+
+class FakeCarLink(CarLink):
+    """Between connect() and close() the locks change at each turn of the timer whose random number is below threshold.
+
+    The same seed and the same Statuses give the same events. threshold: probability of a change per turn, 0 to 1.
+    """
+
+    def __init__(self, seed: int = 1, threshold: float = 0.15, period_s: float = 1.0):
+        if not 0.0 <= threshold <= 1.0:
+            raise InvalidParameter(f"Parameter threshold is {threshold:g}; allowed is 0 to 1.")
+        if not period_s > 0.0:
+            raise InvalidParameter(f"Parameter period_s is {period_s:g} s; allowed is more than 0 s.")
+        self._chance = random.Random(seed)
+        self._threshold = threshold
+        self._period_s = period_s
+        self._is_active = False
+        self._turn_s = math.nan
+        self._state = LockState.LOCKED
+
+    def connect(self) -> None:
+        """See CarLink."""
+        self._is_active = True
+
+    def observe(self, status: RobotStatus) -> list[CarEvent]:
+        """See CarLink."""
+        if not self._is_active:
+            return []
+        if math.isnan(self._turn_s):
+            self._turn_s = status.stamp_s + self._period_s
+        events = []
+        while self._turn_s <= status.stamp_s:
+            if self._chance.random() < self._threshold:
+                self._state = _OTHER_STATE[self._state]
+                events.append(CarEvent(self._turn_s, _TIME_SIGMA_S, self._state))
+            self._turn_s += self._period_s
+        return events
+
+    @property
+    def lock_state(self) -> LockState:
+        """See CarLink."""
+        return self._state if self._is_active else LockState.UNKNOWN
+
+    @property
+    def problem(self) -> str:
+        """See CarLink."""
+        return "" if self._is_active else "The Car's substitute is not connected."
+
+    def close(self) -> None:
+        """See CarLink."""
+        self._is_active = False
+        self._turn_s = math.nan

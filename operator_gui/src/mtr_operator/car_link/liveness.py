@@ -1,0 +1,78 @@
+"""Is the CAN bus alive? Judged on the robot's clock, so that a simulation that waits is not taken for a silent bus.
+
+Some time of the laptop's clock must have passed too: in an accelerated simulation half a second is soon over, and the
+reading thread may just not have had its turn.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+
+from .profile import CarProfile
+
+SILENCE_LIMIT_S = 0.5
+_WALL_LIMIT_S = 0.1
+# Slow messages may miss this many cycles.
+_CYCLE_LIMIT = 3.0
+
+
+class _Heartbeat:
+    """Robot time since something was counted last; 0 while that was a moment of wall time ago."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.silence_s = 0.0
+        self._seen = 0
+        self._alive_s = self._alive_wall_s = math.nan
+
+    def observe(self, stamp_s: float, wall_s: float) -> None:
+        if self.count != self._seen or math.isnan(self._alive_s):
+            self._seen, self._alive_s, self._alive_wall_s = self.count, stamp_s, wall_s
+        self.silence_s = stamp_s - self._alive_s if wall_s - self._alive_wall_s >= _WALL_LIMIT_S else 0.0
+
+
+class Liveness:
+    """Watches all frames, and the lock message among them."""
+
+    def __init__(self, profile: CarProfile):
+        self._profile = profile
+        self._frames = _Heartbeat()
+        self._lock_messages = _Heartbeat()
+        self._lock_limit_s = max(SILENCE_LIMIT_S, _CYCLE_LIMIT * profile.cycle_time_s)
+
+    def frame(self, is_lock_message: bool) -> None:
+        """A frame arrived."""
+        self._frames.count += 1
+        self._lock_messages.count += is_lock_message
+
+    def observe(self, stamp_s: float, wall_s: float) -> None:
+        """At wall_s of the laptop's clock a Status with this stamp, and the frames that precede it, have arrived."""
+        self._frames.observe(stamp_s, wall_s)
+        self._lock_messages.observe(stamp_s, wall_s)
+
+    @property
+    def silence_s(self) -> float:
+        """Robot time since the last frame."""
+        return self._frames.silence_s
+
+    @property
+    def is_silent(self) -> bool:
+        """No frames for longer than the limit."""
+        return self.silence_s > self._silence_limit_s
+
+    @property
+    def _silence_limit_s(self) -> float:
+        # Without traffic beside it the lock message alone keeps the bus alive.
+        only_lock = self._frames.count == self._lock_messages.count
+        return self._lock_limit_s if only_lock and self._frames.count else SILENCE_LIMIT_S
+
+    @property
+    def problem(self) -> str:
+        """One sentence, or empty."""
+        if self.is_silent:
+            return (f"No CAN frame for {self.silence_s:.1f} s; check the plug, the bit rate and that the Car is awake.")
+        if self._lock_messages.silence_s > self._lock_limit_s:
+            message = self._profile.message
+            return (f"No message {message.name} (id 0x{message.frame_id:X}) for {self._lock_messages.silence_s:.1f} s "
+                    "although the CAN bus is alive; check the car profile.")
+        return ""

@@ -1,0 +1,121 @@
+"""Thread that reads the CAN adapter, stamps each frame at its arrival, and opens the adapter again when it has gone."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import threading
+import time
+from abc import ABC, abstractmethod
+from typing import Callable
+
+import can
+
+from mtr_operator.domain.errors import ConnectionFailed
+
+from .adapter import shut_down
+from .lock_watch import CanFrame
+from .slcan import FLAG_BUS_ERROR, FLAG_ERROR_PASSIVE, StampedSlcanBus
+
+_POLL_S = 0.1
+_FLAGS_PERIOD_S = 0.5
+_REOPEN_PERIOD_S = 1.0
+
+
+class FrameSink(ABC):
+    """Takes what the reader sees; called from its thread."""
+
+    @abstractmethod
+    def frame(self, frame: CanFrame) -> None:
+        """A data frame."""
+
+    @abstractmethod
+    def error_frame(self) -> None:
+        """The adapter reports an error on the bus."""
+
+    @abstractmethod
+    def fault(self, text: str) -> None:
+        """What is wrong with adapter or controller now; empty when nothing is."""
+
+    @abstractmethod
+    def reopened(self) -> None:
+        """The adapter was opened again."""
+
+
+class CanReader:
+    """Owns the bus between start() and stop()."""
+
+    def __init__(self, open_bus: Callable[[], can.BusABC], sink: FrameSink):
+        self._open_bus = open_bus
+        self._sink = sink
+        self._bus: can.BusABC | None = None
+        self._stopping = threading.Event()
+        self._thread: threading.Thread | None = None
+        self._flags_s = 0.0
+        self._flags = 0
+
+    def start(self) -> None:
+        """Open the adapter, or raise ConnectionFailed; then read in a thread."""
+        self._bus = self._open_bus()
+        self._thread = threading.Thread(target=self._run, name="can-reader", daemon=True)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End the thread and close the adapter."""
+        self._stopping.set()
+        if self._thread is not None:
+            self._thread.join()
+            self._thread = None
+        if self._bus is not None:
+            shut_down(self._bus)
+            self._bus = None
+
+    def _run(self) -> None:
+        while not self._stopping.is_set():
+            if self._bus is None:
+                self._reopen()
+                continue
+            try:
+                self._read()
+            # Drivers raise whatever their vendor's library does.
+            except Exception as error:
+                self._sink.fault(f"The CAN adapter has failed: {' '.join(str(error).split())}.")
+                shut_down(self._bus)
+                self._bus = None
+
+    def _read(self) -> None:
+        message = self._bus.recv(_POLL_S)
+        now = time.monotonic()
+        if message is not None and message.is_error_frame:
+            self._sink.error_frame()
+        elif message is not None and not message.is_remote_frame:
+            self._sink.frame(CanFrame(message.arbitration_id, message.is_extended_id, bytes(message.data), now,
+                                      getattr(self._bus, "stamp_ms", None)))
+        if isinstance(self._bus, StampedSlcanBus):
+            self._watch_flags(self._bus, now)
+
+    def _watch_flags(self, bus: StampedSlcanBus, now: float) -> None:
+        if now - self._flags_s >= _FLAGS_PERIOD_S:
+            self._flags_s = now
+            bus.request_flags()
+        flags = bus.flags & (FLAG_BUS_ERROR | FLAG_ERROR_PASSIVE)
+        if flags != self._flags:
+            self._flags = flags
+            self._sink.fault(_sentence(flags))
+
+    def _reopen(self) -> None:
+        if self._stopping.wait(_REOPEN_PERIOD_S):
+            return
+        try:
+            self._bus = self._open_bus()
+        except ConnectionFailed as error:
+            self._sink.fault(str(error))
+            return
+        self._flags = 0
+        self._sink.reopened()
+        self._sink.fault("")
+
+
+def _sentence(flags: int) -> str:
+    if flags & FLAG_BUS_ERROR:
+        return ("The CAN adapter reports errors on the bus or has left it (bus-off); check bit rate, plug and "
+                "termination.")
+    return "The CAN adapter is error-passive; check bit rate, plug and termination." if flags else ""

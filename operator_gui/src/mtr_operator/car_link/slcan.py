@@ -1,0 +1,111 @@
+"""Serial-line CAN adapters (slcan) with the time stamps that python-can's own driver leaves unread.
+
+With Z1 such an adapter adds four hexadecimal digits to each frame: milliseconds, starting again each minute (Lawicel
+CAN232 manual). The driver also reads byte by byte; at the frame rates of an accelerated simulation that costs a
+processor core, so whole blocks are read here.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import re
+import time
+from typing import Any
+
+import can
+from can.exceptions import error_check
+from can.interfaces.slcan import slcanBus
+
+_LINE_END = re.compile(rb"[\r\a]")
+_LONGEST_LINE = 512
+_SERIAL_TIMEOUT_S = 0.05
+_LONGEST_CLASSIC_DATA = 8
+_STAMP_DIGITS = 4
+_STAMP_LIMIT_MS = 60_000
+# Characters before the data of each kind of frame line.
+_HEAD = {"t": 5, "r": 5, "T": 10, "R": 10}
+
+# Bits of the answer to F.
+FLAG_ERROR_PASSIVE = 0x20
+FLAG_BUS_ERROR = 0x80
+
+
+class StampedSlcanBus(slcanBus):
+    """slcan adapter.
+
+    Attributes:
+        stamp_ms: adapter's stamp of the frame that recv returned last, None when it has none.
+        flags: newest answer to request_flags(), 0 before the first.
+        answers: lines that make sense as slcan; malformed: lines that do not.
+    """
+
+    def __init__(self, channel: str, **options: Any):
+        self.stamp_ms: int | None = None
+        self.flags = 0
+        self.answers = 0
+        self.malformed = 0
+        super().__init__(channel, timeout=_SERIAL_TIMEOUT_S, **{"sleep_after_open": 0.0, **options})
+
+    def open(self) -> None:
+        """Open the channel with time stamps; an adapter without them refuses Z1 and opens all the same."""
+        self.close()
+        self._write("Z1")
+        super().open()
+
+    def request_flags(self) -> None:
+        """Ask for the controller's state."""
+        self._write("F")
+
+    def _read(self, timeout: float | None) -> str | None:
+        deadline = None if timeout is None else time.monotonic() + timeout
+        while True:
+            end = _LINE_END.search(self._buffer)
+            if end:
+                line = bytes(self._buffer[:end.end()])
+                del self._buffer[:end.end()]
+                return line.decode("ascii", errors="replace")
+            if len(self._buffer) > _LONGEST_LINE:
+                self._buffer.clear()
+                self.malformed += 1
+            if deadline is not None and time.monotonic() > deadline:
+                return None
+            with error_check("Could not read from serial device"):
+                self._buffer.extend(self.serialPortOrig.read(max(1, self.serialPortOrig.in_waiting)))
+
+    def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
+        line = self._read(timeout)
+        if line is None:
+            return None, False
+        if line[0] not in _HEAD:
+            self._take_answer(line)
+            return None, False
+        try:
+            self.stamp_ms = _stamp_of(line)
+            self._queue.put(line)
+            received = super()._recv_internal(0)
+        except (ValueError, IndexError):
+            self.malformed += 1
+            return None, False
+        self.answers += 1
+        return received
+
+    def _take_answer(self, line: str) -> None:
+        if re.fullmatch(r"F[0-9A-Fa-f]{2}\r", line):
+            self.flags = int(line[1:3], 16)
+        elif not re.fullmatch(r"(z|Z|[VvN][0-9A-Za-z]*)?[\r\a]", line):
+            self.malformed += 1
+            return
+        self.answers += 1
+
+
+def _stamp_of(line: str) -> int | None:
+    """Stamp at the end of a frame's line, None without; ValueError when the line is no frame."""
+    head = _HEAD[line[0]]
+    length = int(line[head - 1])
+    end = head + (2 * length if line[0] in "tT" else 0)
+    stamp = line[end:-1]
+    if length > _LONGEST_CLASSIC_DATA or len(line) - 1 not in (end, end + _STAMP_DIGITS):
+        raise ValueError(line)
+    stamp_ms = int(stamp, 16) if stamp else None
+    if stamp_ms is not None and stamp_ms >= _STAMP_LIMIT_MS:
+        raise ValueError(line)
+    return stamp_ms

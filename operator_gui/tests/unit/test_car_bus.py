@@ -1,0 +1,290 @@
+"""The link to the Car through python-can's drivers: pseudo-terminal slcan adapters and the virtual bus."""
+# SPDX-License-Identifier: Apache-2.0
+import os
+import select
+import threading
+import time
+import tty
+
+import can
+import pytest
+
+from mtr_operator.car_link.bus import CanCarLink
+from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter, OperatorError
+from mtr_operator.domain.ports import LockState, RobotStatus
+
+LOCK_ID = 0x320
+LOCKED, UNLOCKED = b"\x00\x00\x00\x00", b"\x01\x00\x00\x00"
+WAIT_S = 5.0
+
+
+class Adapter:
+    """slcan adapter on a pseudo-terminal: answers commands in a thread, sends what the test says."""
+
+    def __init__(self, stamps=True, answer=b"\r"):
+        self.master, self._slave = os.openpty()
+        tty.setraw(self._slave)
+        self.path = os.ttyname(self._slave)
+        self.flags = b"F00\r"
+        self.commands = []
+        self._stamps, self._answer = stamps, answer
+        self._wake = os.pipe()
+        self._thread = threading.Thread(target=self._serve, daemon=True)
+        self._thread.start()
+
+    def _serve(self):
+        while self._wake[0] not in select.select([self.master, self._wake[0]], [], [])[0]:
+            for command in os.read(self.master, 1000).split(b"\r")[:-1]:
+                self.commands.append(command)
+                os.write(self.master, self.flags if command == b"F" else self._answer)
+
+    def send(self, data, time_s, can_id=LOCK_ID):
+        """Frame stamped with this time of the adapter's clock."""
+        stamp = b"%04X" % (round(time_s * 1000) % 60_000) if self._stamps else b""
+        self.send_bytes(b"t%03X%d%s%s\r" % (can_id, len(data), data.hex().upper().encode(), stamp))
+
+    def send_bytes(self, data):
+        """Anything."""
+        os.write(self.master, data)
+
+    def close(self):
+        """Pull the plug; safe to call twice."""
+        if self._thread is None:
+            return
+        os.write(self._wake[1], b"x")
+        self._thread.join()
+        self._thread = None
+        for file in (self._slave, self.master, *self._wake):
+            os.close(file)
+
+
+@pytest.fixture(name="adapter")
+def adapter_fixture():
+    """Adapter with time stamps."""
+    adapter = Adapter()
+    yield adapter
+    adapter.close()
+
+
+@pytest.fixture(name="link")
+def link_fixture(adapter):
+    """Link connected to the adapter."""
+    link = CanCarLink("slcan", adapter.path)
+    link.connect()
+    yield link
+    link.close()
+
+
+class Course:
+    """Robot time in steps of 20 ms against a link, in lock-step with its reader: a Status each 100 ms."""
+
+    def __init__(self, link, send, start_s=1.0):
+        self.link, self.send = link, send
+        self.start_s = start_s
+        self.step = 0
+
+    @property
+    def now_s(self):
+        """Robot time."""
+        return self.start_s + self.step * 0.02
+
+    def run(self, seconds, data=LOCKED):
+        """Events of this time."""
+        events = []
+        for _ in range(round(seconds * 50)):
+            self.step += 1
+            if data is not None:
+                before = self.link.frames_received
+                self.send(data, self.now_s - 0.013)
+                wait_for(lambda: self.link.frames_received > before)  # noqa: B023
+            if self.step % 5 == 0:
+                events += self.link.observe(RobotStatus(self.step, 1, round(self.now_s, 6)))
+        return events
+
+
+def wait_for(condition):
+    """Poll until true, for what another thread does."""
+    deadline = time.monotonic() + WAIT_S
+    while not condition():
+        assert time.monotonic() < deadline
+        threading.Event().wait(0.0005)
+
+
+def test_adapter_is_asked_for_time_stamps_before_it_is_opened(adapter, link):
+    assert adapter.commands.index(b"S6") < adapter.commands.index(b"Z1") < adapter.commands.index(b"O")
+    assert link.profile.name == "mtr_demo_car"
+
+
+def test_lock_event_through_a_serial_adapter_is_timed_by_its_stamps(adapter, link):
+    course = Course(link, adapter.send)
+    course.run(4.0)
+    assert (link.problem, link.lock_state) == ("", LockState.LOCKED)
+    changed_s = course.now_s
+    event, = course.run(0.5, UNLOCKED)
+    assert event.time_s == pytest.approx(changed_s, abs=0.01)
+    assert event.lock_state is link.lock_state is LockState.UNLOCKED
+    assert event.time_sigma_s < 0.015
+
+
+def test_observe_waits_for_frames_that_precede_the_status(adapter, link):
+    course = Course(link, adapter.send)
+    course.run(4.0)
+    course.run(0.08)
+    course.step += 1
+    late = threading.Timer(0.05, adapter.send, (UNLOCKED, course.now_s - 0.013))
+    late.start()
+    events = link.observe(RobotStatus(9999, 1, round(course.now_s, 6)))
+    late.join()
+    assert [event.lock_state for event in events] == [LockState.UNLOCKED]
+
+
+def test_observe_waits_no_longer_than_the_limit(adapter, link):
+    course = Course(link, adapter.send)
+    course.run(4.0)
+    started = time.monotonic()
+    course.run(0.6, data=None)
+    # Six Statuses without frames: each waits a quarter of a second until the bus counts as silent.
+    assert time.monotonic() - started < 6 * 0.25 + 1.0
+    assert "No CAN frame" in link.problem and link.lock_state is LockState.UNKNOWN
+    started = time.monotonic()
+    course.run(1.0, data=None)
+    assert time.monotonic() - started < 0.25
+
+
+def test_adapter_without_stamps_is_read_by_arrival():
+    adapter = Adapter(stamps=False, answer=b"\a")
+    link = CanCarLink("slcan", adapter.path)
+    try:
+        link.connect()
+        course = Course(link, adapter.send)
+        course.run(4.0)
+        assert link.problem == ""
+        assert [event.lock_state for event in course.run(1.0, UNLOCKED)] == [LockState.UNLOCKED]
+    finally:
+        link.close()
+        adapter.close()
+
+
+def test_garbage_between_frames_is_survived(adapter, link):
+    adapter.send_bytes(b"t32\r\xff\xfet3204zz\rt9\rQQQ\r\a" + bytes(range(1, 128)) * 6 + b"\r")
+    course = Course(link, adapter.send)
+    course.run(4.0)
+    assert (link.problem, link.lock_state) == ("", LockState.LOCKED)
+
+
+def test_bus_off_is_a_problem_while_it_lasts(adapter, link):
+    course = Course(link, adapter.send)
+    course.run(4.0)
+    adapter.flags = b"FA4\r"
+    wait_for(lambda: "bus-off" in link.problem)
+    assert link.lock_state is LockState.UNKNOWN
+    adapter.flags = b"F00\r"
+    wait_for(lambda: link.problem == "")
+
+
+def test_pulled_adapter_is_a_problem(adapter, link):
+    Course(link, adapter.send).run(4.0)
+    adapter.close()
+    wait_for(lambda: "adapter" in link.problem)
+    assert link.lock_state is LockState.UNKNOWN
+
+
+def test_adapter_that_comes_back_is_used_again(adapter, link, tmp_path):
+    name = tmp_path / "can"
+    name.symlink_to(adapter.path)
+    other = CanCarLink("slcan", str(name))
+    link.close()
+    other.connect()
+    second = Adapter()
+    try:
+        adapter.close()
+        wait_for(lambda: "adapter" in other.problem)
+        name.unlink()
+        name.symlink_to(second.path)
+        wait_for(lambda: b"O" in second.commands and "adapter" not in other.problem)
+        course = Course(other, second.send)
+        course.run(4.0, UNLOCKED)
+        assert (other.problem, other.lock_state) == ("", LockState.UNLOCKED)
+    finally:
+        other.close()
+        second.close()
+
+
+def test_missing_adapter_is_named():
+    with pytest.raises(ConnectionFailed, match="/dev/no_such_adapter"):
+        CanCarLink("slcan", "/dev/no_such_adapter").connect()
+
+
+def test_device_that_does_not_answer_is_no_adapter():
+    silent = Adapter(answer=b"")
+    silent.flags = b""
+    try:
+        with pytest.raises(ConnectionFailed, match="does not answer"):
+            CanCarLink("slcan", silent.path).connect()
+    finally:
+        silent.close()
+
+
+def test_device_that_speaks_another_language_is_no_adapter():
+    receiver = Adapter(answer=b"$GPGGA,1,2,3\r\n")
+    try:
+        with pytest.raises(ConnectionFailed, match="something else than the slcan protocol"):
+            CanCarLink("slcan", receiver.path).connect()
+    finally:
+        receiver.close()
+
+
+def test_file_that_is_no_terminal_is_refused(tmp_path):
+    path = tmp_path / "file"
+    path.write_text("")
+    with pytest.raises(ConnectionFailed, match="Cannot open"):
+        CanCarLink("slcan", str(path)).connect()
+
+
+@pytest.mark.parametrize(("arguments", "words"), [
+    (("telepathy", "0"), "'telepathy'; allowed are .*slcan"), (("slcan", ""), "channel is empty"),
+    (("slcan", "/dev/x", 5), "bit rate is 5; allowed is 10000 to 1000000")])
+def test_invalid_setting_is_named(arguments, words):
+    with pytest.raises(InvalidParameter, match=words):
+        CanCarLink(*arguments)
+
+
+def test_rate_that_the_adapter_does_not_know_is_refused(adapter):
+    with pytest.raises(ConnectionFailed, match="bitrate"):
+        CanCarLink("slcan", adapter.path, 123_456).connect()
+
+
+def test_database_is_checked_before_the_adapter_is_opened(adapter):
+    with pytest.raises(ConnectionFailed, match="no car profile"):
+        CanCarLink("slcan", adapter.path, profile="my_car").connect()
+    assert adapter.commands == []
+
+
+def test_link_that_is_not_connected_says_so(adapter):
+    link = CanCarLink("slcan", adapter.path)
+    assert "not connected" in link.problem and link.lock_state is LockState.UNKNOWN
+    with pytest.raises(OperatorError, match="not connected"):
+        link.observe(RobotStatus(1, 1, 1.0))
+    link.close()
+
+
+def test_any_other_driver_of_python_can_works_too():
+    link = CanCarLink("virtual", "mtr-test")
+    with can.Bus(interface="virtual", channel="mtr-test") as car:
+        def send(data, _time_s):
+            car.send(can.Message(arbitration_id=LOCK_ID, data=data, is_extended_id=False))
+
+        link.connect()
+        try:
+            course = Course(link, send)
+            course.run(4.0)
+            assert link.problem == ""
+            assert [event.lock_state for event in course.run(1.0, UNLOCKED)] == [LockState.UNLOCKED]
+            link.error_frame()
+            course.run(0.1)
+            assert "error frames" in link.problem and link.lock_state is LockState.UNKNOWN
+            course.run(1.1)
+            assert link.problem == ""
+        finally:
+            link.close()
+            link.close()

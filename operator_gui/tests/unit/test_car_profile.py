@@ -1,0 +1,96 @@
+"""Car profiles: the shipped one, a second car with the other polarity, and everything that may be wrong in a file."""
+# SPDX-License-Identifier: Apache-2.0
+import cantools
+import pytest
+
+from mtr_operator.car_link.profile import PROFILE_FOLDER, load_profile
+from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.ports import LockState
+
+OTHER_DBC = """VERSION ""
+BU_: GW
+BO_ 2566848513 Doors: 8 GW
+ SG_ Closed : 20|1@0+ (1,0) [0|1] "" GW
+ SG_ Speed : 32|16@1+ (0.01,0) [0|655.35] "km/h" GW
+"""
+OTHER_ID = 2566848513 & 0x1FFFFFFF
+OTHER_PROFILE = """description: another car
+database: other.dbc
+message: Doors
+signal: Closed
+states: {0: unlocked, 1: locked}
+cycle_time_s: 0.1
+sent_on_change: true
+"""
+
+
+def write(folder, profile=OTHER_PROFILE, dbc=OTHER_DBC):
+    """Path of a profile in the folder, with its database."""
+    (folder / "other.dbc").write_text(dbc)
+    path = folder / "other.yaml"
+    path.write_text(profile)
+    return str(path)
+
+
+@pytest.mark.parametrize("path", sorted(PROFILE_FOLDER.glob("*.yaml")), ids=lambda path: path.stem)
+def test_shipped_profile_loads(path):
+    assert load_profile(path.stem).name == path.stem
+
+
+@pytest.mark.parametrize(("raw", "state"), [
+    (0, LockState.LOCKED), (1, LockState.UNLOCKED), (2, LockState.UNKNOWN), (3, LockState.UNKNOWN)])
+def test_demo_car_is_decoded_as_its_database_says(raw, state):
+    profile = load_profile("mtr_demo_car")
+    database = cantools.database.load_file(str(PROFILE_FOLDER / "mtr_demo_car.dbc"))
+    message = database.get_message_by_name("DoorLockStatus")
+    values = {signal.name: 1 for signal in message.signals}
+    data = message.encode({**values, "LockState": raw})
+    assert profile.decode(message.frame_id, False, data) is state
+
+
+def test_demo_profile_has_the_cycle_time_of_its_database():
+    profile = load_profile("mtr_demo_car")
+    assert profile.cycle_time_s * 1000 == profile.message.cycle_time
+
+
+def test_second_car_with_other_polarity_needs_only_files(tmp_path):
+    profile = load_profile(write(tmp_path))
+    assert profile.decode(OTHER_ID, True, bytes(8)) is LockState.UNLOCKED
+    assert profile.decode(OTHER_ID, True, bytes([0, 0, 0x10, 0, 0, 0, 0, 0])) is LockState.LOCKED
+    assert (profile.cycle_time_s, profile.sent_on_change) == (0.1, True)
+
+
+def test_other_frames_are_not_the_lock_message(tmp_path):
+    profile = load_profile(write(tmp_path))
+    assert profile.decode(OTHER_ID + 1, True, bytes(8)) is None
+    assert profile.decode(OTHER_ID, False, bytes(8)) is None
+    assert profile.decode(OTHER_ID, True, bytes(1)) is None
+
+
+@pytest.mark.parametrize(("change", "words"), [
+    (("message: Doors", "message: Windows"), "no message Windows"),
+    (("signal: Closed", "signal: Open"), "no signal Open"),
+    (("database: other.dbc", "database: lost.dbc"), "lost.dbc cannot be read: No such file"),
+    (("cycle_time_s: 0.1", "cycle_time_s: 0"), "cycle_time_s is 0; allowed is 0.001 to 10 s"),
+    (("cycle_time_s: 0.1\n", ""), "lacks the entry cycle_time_s"),
+    (("1: locked", "1: shut"), "state 1: 'shut'"),
+    (("1: locked", "1: unknown"), "must name a value for locked and one for unlocked"),
+    (("{0: unlocked, 1: locked}", "locked"), "must be a table"),
+    (("description: another car", "colour: red"), "unknown entry colour"),
+    (("description: another car", "{"), "cannot be read"),
+    ((OTHER_PROFILE, "just words"), "no table")])
+def test_wrong_profile_is_refused_with_a_sentence(tmp_path, change, words):
+    with pytest.raises(ConnectionFailed) as raised:
+        load_profile(write(tmp_path, OTHER_PROFILE.replace(*change)))
+    assert words in str(raised.value)
+    assert "\n" not in str(raised.value)
+
+
+def test_broken_database_is_refused_with_a_sentence(tmp_path):
+    with pytest.raises(ConnectionFailed, match="other.dbc cannot be read"):
+        load_profile(write(tmp_path, dbc="BO_ what"))
+
+
+def test_unknown_profile_names_the_shipped_ones():
+    with pytest.raises(ConnectionFailed, match="no car profile my_car; shipped are: .*mtr_demo_car"):
+        load_profile("my_car")

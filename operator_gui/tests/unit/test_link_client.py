@@ -1,0 +1,169 @@
+"""The link's behaviour on the wire, against a server that sends what the test says."""
+# SPDX-License-Identifier: Apache-2.0
+import time
+
+import pytest
+
+from mtr_operator.domain.ports import DesiredState, RobotStatus, Waypoint
+from mtr_operator.robot_link.client import ZmqRobotLink
+from mtr_operator.robot_link.conversions import decode_command, status_message_from
+from mtr_operator.robot_link.inbox import MAXIMUM_BACKLOG
+from mtr_operator.robot_link.server import ConnectionServer
+
+WAIT_S = 5.0
+GO = DesiredState(waypoint=Waypoint(1, 2.0, 0.0, 0.0))
+
+
+class Robot:
+    """Server side of one connected link."""
+
+    def __init__(self, server, link):
+        self.server, self.link = server, link
+
+    def send(self, status_id, robot_session_id=1):
+        """Send a Status."""
+        status = RobotStatus(status_id, robot_session_id, status_id / 10)
+        self.send_bytes(status_message_from(status).SerializeToString())
+
+    def send_bytes(self, *parts):
+        """Send anything."""
+        self.server.status_socket.send_multipart(parts)
+
+    def take(self):
+        """Next Status at the link."""
+        status = self.link.next_status(WAIT_S)
+        assert status is not None
+        return status
+
+    def command(self):
+        """Next Command at the robot."""
+        assert self.server.command_socket.poll(WAIT_S * 1000)
+        return decode_command(self.server.command_socket.recv())
+
+    def has_command(self):
+        """A Command is waiting."""
+        return bool(self.server.command_socket.poll(50))
+
+
+@pytest.fixture(name="robot")
+def robot_fixture():
+    """Connected pair on which both subscriptions have come into force, after Status 1."""
+    with ConnectionServer() as server:
+        link = ZmqRobotLink("127.0.0.1", server.subscriber_port, server.publisher_port)
+        link.connect()
+        robot = Robot(server, link)
+        deadline = time.monotonic() + WAIT_S
+        while link.next_status(0.01) is None:
+            assert time.monotonic() < deadline
+            robot.send(1)
+        while not server.command_socket.poll(10):
+            assert time.monotonic() < deadline
+            link.send(DesiredState())
+        while server.command_socket.poll(50):
+            server.command_socket.recv()
+        yield robot
+        link.close()
+
+
+def test_statuses_come_in_order_and_losses_are_counted(robot):
+    for status_id in (2, 3, 6):
+        robot.send(status_id)
+    assert [robot.take().id for _ in range(3)] == [2, 3, 6]
+    assert robot.link.statistics.lost == 2
+
+
+def test_no_status_in_time_is_none(robot):
+    assert robot.link.next_status(0.01) is None
+
+
+def test_command_answers_the_status_that_was_taken(robot):
+    robot.send(2)
+    robot.send(3)
+    robot.take()
+    before = time.monotonic()
+    robot.link.send(GO)
+    command = robot.command()
+    assert (command.session_id, command.seen_status_id, command.seen_robot_time_s) == (robot.link.session_id, 2, 0.2)
+    assert before <= command.sent_time_s <= time.monotonic()
+
+
+def test_id_grows_with_each_change_of_the_content_only(robot):
+    for desired in (GO, GO, DesiredState(stop=True), GO):
+        robot.link.send(desired)
+    first, second, third, fourth = (robot.command().id for _ in range(4))
+    assert first == second < third < fourth
+
+
+def test_repeated_status_is_answered_again_but_not_returned(robot):
+    robot.send(2)
+    robot.take()
+    robot.link.send(GO)
+    answer = robot.command()
+    robot.send(2)
+    assert robot.link.next_status(0.2) is None
+    again = robot.command()
+    assert (again.id, again.seen_status_id, again.waypoint.id) == (answer.id, 2, 1)
+
+
+def test_repeated_status_without_an_answer_yet_stays_unanswered(robot):
+    robot.send(2)
+    robot.take()
+    robot.send(2)
+    assert robot.link.next_status(0.2) is None
+    assert not robot.has_command()
+
+
+def test_garbage_is_counted_and_ignored(robot):
+    robot.send_bytes(b"\xff" * 10)
+    robot.send_bytes(b"a", b"b")
+    robot.send_bytes(b"")
+    robot.send(2)
+    assert robot.take().id == 2
+    assert robot.link.statistics.undecodable == 3
+    assert "ignored" in robot.link.statistics.last_error
+
+
+def test_oversized_message_is_counted_and_ignored(robot):
+    robot.send_bytes(b"x" * (64 * 1024 + 1))
+    robot.send(2)
+    assert robot.take().id == 2
+    assert robot.link.statistics.oversized == 1
+
+
+def test_restarted_robot_is_noticed_and_gets_the_order_again(robot):
+    robot.send(2)
+    robot.take()
+    robot.link.send(GO)
+    robot.command()
+    robot.send(1, robot_session_id=99)
+    status = robot.take()
+    assert [notification.code for notification in status.notifications] == ["robot_restarted"]
+    assert "restarted" in robot.link.statistics.last_error
+    robot.link.send(GO)
+    assert robot.command().waypoint.id == 1
+
+
+def test_old_backlog_is_skipped_to_the_newest(robot):
+    newest = MAXIMUM_BACKLOG + 2
+    for status_id in range(2, newest + 1):
+        robot.send(status_id)
+    # The last one arrives after all others: same connection.
+    deadline = time.monotonic() + WAIT_S
+    while robot.link._subscriber.poll(100) and robot.link._inbox._newest_id < newest:
+        robot.link._receive_waiting()
+        assert time.monotonic() < deadline
+    assert robot.take().id == newest
+    assert robot.link.statistics.lost == MAXIMUM_BACKLOG
+
+
+def test_goodbye_gets_out_when_closing(robot):
+    robot.link.close()
+    command = robot.command()
+    assert command.end_session and command.stop and not command.HasField("waypoint")
+    robot.link.close()
+
+
+def test_each_link_has_a_session_of_its_own():
+    sessions = {ZmqRobotLink("127.0.0.1").session_id for _ in range(20)}
+    assert len(sessions) == 20
+    assert all(0 < session < 2 ** 63 for session in sessions)

@@ -1,0 +1,89 @@
+"""Round trips between the link's messages and the domain's types."""
+# SPDX-License-Identifier: Apache-2.0
+import dataclasses
+import math
+
+import pytest
+
+from mtr_operator.domain import ports
+from mtr_operator.robot_link import conversions
+from mtr_operator.robot_link.conversions import CommandHeader, UndecodableMessage
+from mtr_proto import robot_link_pb2 as pb
+
+HEADER = CommandHeader(2 ** 63 - 1, 5, 12.5, seen_status_id=7, seen_robot_time_s=3.25)
+
+DESIRED = [
+    ports.DesiredState(),
+    ports.DesiredState(stop=True, map_car_id=3),
+    ports.DesiredState(max_speed_mps=0.5, key_height_m=1.25,
+                       waypoint=ports.Waypoint(4, 1.5, -2.25, math.pi, ports.Direction.BACKWARD)),
+    ports.DesiredState(press=ports.ButtonPress(9, (1, 2), 0.75, 0.5)),
+]
+
+STATUS = ports.RobotStatus(
+    id=11, robot_session_id=2 ** 62, stamp_s=100.02, x=1.5, y=-0.5, heading=0.25, speed_mps=-0.5, yaw_rate_radps=0.125,
+    pose_valid=True, position_sigma_m=0.25, heading_sigma_rad=0.0625, key_x=0.25, key_y=0.5, key_height_m=1.0,
+    pressed_buttons=(1, 2), localization_accuracy_cm=2, battery_percent=80, is_mapping_car=True,
+    mode=ports.Mode.MAPPING_CAR, car=ports.CarDimensions(4.5, 1.75, 0.25, 0.125), session_id=2 ** 63 - 1, command_id=5,
+    waypoint_id=4, waypoint_result=ports.WaypointResult.REFUSED, waypoint_message="Too close.",
+    presses=(ports.PressConfirmation(1, 2.5, 3.5), ports.PressConfirmation(2, 4.5, 4.5, "Servo jammed.")), map_car_id=3,
+    log=(ports.LogMessage(1, 99.5, 2, "lift", "Slow."),), notifications=(ports.Notification("link_lost", 3, "Lost."),),
+    rejected_messages=6, software_version="1.2")
+
+
+@pytest.mark.parametrize("desired", DESIRED)
+def test_desired_state_survives_the_round_trip(desired):
+    payload = conversions.command_from_desired(desired, HEADER).SerializeToString()
+    assert conversions.desired_from_command(conversions.decode_command(payload)) == desired
+
+
+def test_header_is_carried_by_the_command():
+    command = conversions.decode_command(conversions.command_from_desired(DESIRED[0], HEADER).SerializeToString())
+    assert (command.session_id, command.id, command.sent_time_s) == (2 ** 63 - 1, 5, 12.5)
+    assert (command.seen_status_id, command.seen_robot_time_s, command.HasField("end_session")) == (7, 3.25, False)
+
+
+def test_absent_values_are_absent_fields():
+    command = conversions.command_from_desired(ports.DesiredState(), CommandHeader(1, 1, 0.0))
+    absent = ("waypoint", "press", "max_speed_mps", "device_height_m", "seen_status_id", "seen_robot_time_s")
+    assert not any(command.HasField(name) for name in absent)
+
+
+def test_status_survives_the_round_trip():
+    payload = conversions.status_message_from(STATUS).SerializeToString()
+    assert conversions.decode_status(payload) == STATUS
+
+
+def test_status_without_optional_parts_says_so():
+    status = conversions.decode_status(pb.Status(id=1, robot_session_id=2, sent_time_s=3.5).SerializeToString())
+    assert status.stamp_s == 3.5
+    assert status.car is None and status.battery_percent is None and not status.pose_valid
+    assert all(math.isnan(value) for value in (status.x, status.heading, status.key_height_m, status.position_sigma_m))
+    assert (status.mode, status.waypoint_result) == (ports.Mode.UNKNOWN, ports.WaypointResult.NONE)
+
+
+def test_time_goes_on_when_the_pose_is_not_valid():
+    message = conversions.status_message_from(dataclasses.replace(STATUS, pose_valid=False))
+    message.sent_time_s = 105.0
+    assert conversions.robot_status_from(message).stamp_s == 105.0
+
+
+def test_unmapped_car_has_no_dimensions():
+    message = conversions.status_message_from(STATUS)
+    message.car.mapped = False
+    assert conversions.robot_status_from(message).car is None
+
+
+@pytest.mark.parametrize("payload", [
+    b"", b"\xff\xff\xff", b"GET / HTTP/1.1\r\n\r\n", pb.Status(id=1).SerializeToString(),
+    pb.Status(id=1, robot_session_id=2, sent_time_s=math.nan).SerializeToString()])
+def test_other_bytes_are_undecodable(payload):
+    with pytest.raises(UndecodableMessage):
+        conversions.decode_status(payload)
+
+
+@pytest.mark.parametrize("message", ["Command", "RobotState"])
+def test_every_status_field_of_the_proto_is_read(message):
+    """A field added to the proto must be thought of here."""
+    known = {"Command": 12, "RobotState": 16}
+    assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]

@@ -1,0 +1,72 @@
+"""The virtual robot: ways around the Car, motion, orders."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+import pytest
+
+from mtr_operator.domain.ports import DesiredState, Waypoint, WaypointResult
+from mtr_operator.robot_link.virtual_robot import VirtualRobot, VirtualWorld
+from mtr_operator.robot_link.virtual_route import Box, advance, route
+
+BOX = Box(2.5, 1.2)
+QUICK = VirtualWorld(starting_s=0.0, mapping_s=0.0)
+
+
+@pytest.mark.parametrize("bearing_deg", range(0, 360, 15))
+def test_way_to_any_side_never_enters_the_box(bearing_deg):
+    bearing = math.radians(bearing_deg)
+    start, goal = (5.0, 0.3), (5.0 * math.cos(bearing), 5.0 * math.sin(bearing))
+    points = [start, *route(start, goal, BOX)]
+    assert points[-1] == goal
+    assert not any(BOX.crosses(a, b) for a, b in zip(points, points[1:]))
+
+
+def test_way_to_the_opposite_side_is_the_shorter_one():
+    assert all(y > 0 for _, y in route((4.0, 1.0), (-4.0, 1.0), BOX))
+    assert all(y < 0 for _, y in route((4.0, -1.0), (-4.0, -1.0), BOX)[:-1])
+
+
+def test_advance_stops_at_the_end_of_the_way():
+    assert advance((0.0, 0.0), [(1.0, 0.0), (1.0, 1.0)], 1.5) == ((1.0, 0.5), [(1.0, 1.0)])
+    assert advance((0.0, 0.0), [(1.0, 0.0)], 5.0) == ((1.0, 0.0), [])
+
+
+def driven(robot, desired, seconds):
+    """Status after some time under one desired state."""
+    robot.take(1, 1, desired)
+    for _ in range(round(seconds * 10)):
+        robot.step()
+    return robot.status()
+
+
+def test_robot_keeps_to_the_speed_and_reports_it():
+    robot = VirtualRobot(1, QUICK)
+    driven(robot, DesiredState(waypoint=Waypoint(1, 4.0, 0.0, math.pi), max_speed_mps=2.0), 20)
+    status = driven(robot, DesiredState(waypoint=Waypoint(2, 3.0, 0.0, math.pi), max_speed_mps=0.4), 1.0)
+    assert (status.x, status.speed_mps) == pytest.approx((3.6, 0.4), abs=1e-6)
+    status = driven(robot, DesiredState(waypoint=Waypoint(3, 4.0, 0.0, math.pi), max_speed_mps=0.4), 0.5)
+    assert status.speed_mps == pytest.approx(-0.4)
+
+
+def test_stop_stands_still_and_the_waypoint_is_kept():
+    robot = VirtualRobot(1, QUICK)
+    goal = Waypoint(1, 4.0, 3.0, 0.0)
+    here = driven(robot, DesiredState(waypoint=goal), 1.0)
+    stopped = driven(robot, DesiredState(waypoint=goal, stop=True), 2.0)
+    assert (stopped.x, stopped.y, stopped.speed_mps) == (here.x, here.y, 0.0)
+    assert driven(robot, DesiredState(waypoint=goal), 60.0).waypoint_result is WaypointResult.REACHED
+
+
+def test_waypoint_in_the_car_is_refused_with_a_sentence():
+    status = driven(VirtualRobot(1, QUICK), DesiredState(waypoint=Waypoint(1, 0.5, 0.0, 0.0)), 0.1)
+    assert status.waypoint_result is WaypointResult.REFUSED
+    assert "too close" in status.waypoint_message
+
+
+def test_new_mapping_order_maps_again():
+    robot = VirtualRobot(1)
+    goal = Waypoint(1, 4.0, 3.0, 0.0)
+    driven(robot, DesiredState(waypoint=goal), 60.0)
+    again = driven(robot, DesiredState(waypoint=goal, map_car_id=1), 1.0)
+    assert again.is_mapping_car and not again.pose_valid and again.map_car_id == 1
+    assert driven(robot, DesiredState(waypoint=goal, map_car_id=1), 5.0).pose_valid
