@@ -1,6 +1,7 @@
 """Parameters of the dispatcher."""
 # SPDX-License-Identifier: Apache-2.0
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from typing import Any, Dict
 
 from mtr_core.errors import ConfigurationError, check_range
 
@@ -54,3 +55,16 @@ class Parameters:
         if self.status_port == self.command_port:
             raise ConfigurationError(f"Parameters status_port and command_port are both {self.status_port}; "
                                      "they must differ.")
+
+
+def parameters_from(values: Dict[str, Any]) -> Parameters:
+    """From the values of a parameter server; unknown names and wrong types are refused."""
+    defaults = asdict(Parameters())
+    for name, value in values.items():
+        if name not in defaults:
+            raise ConfigurationError(f"Parameter {name} is unknown; allowed are {', '.join(sorted(defaults))}.")
+        default = defaults[name]
+        kind = (int, float) if isinstance(default, float) else type(default)
+        if not isinstance(value, kind) or isinstance(value, bool) is not isinstance(default, bool):
+            raise ConfigurationError(f"Parameter {name} is {value!r}; allowed is a value like {default!r}.")
+    return Parameters(**values)

@@ -83,6 +83,8 @@ class Session:
 
     def take(self, command: Command, now_s: float, newest_status_id: int) -> Verdict:
         """Judge a Command that arrived at now_s, after the Status with the given id."""
+        if command.end_session:
+            return self._end(command)
         lifetime_s = self._parameters.command_lifetime_s
         if not abs(now_s - command.seen_robot_time_s) <= lifetime_s or command.seen_status_id > newest_status_id:
             return Verdict.EXPIRED
@@ -91,9 +93,6 @@ class Session:
         self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
         if command.id < self._newest_id:
             return Verdict.OUTDATED
-        if command.end_session:
-            self._end(command)
-            return Verdict.ENDED
         self._heard_s = now_s
         return self._accept(command)
 
@@ -128,16 +127,21 @@ class Session:
 
     def _hand_over(self, command: Command, now_s: float) -> bool:
         silent = now_s - self._heard_s > self._parameters.takeover_after_s
-        if self._is_former(command) or command.end_session or (self.session_id and not silent):
+        if self._is_former(command) or (self.session_id and not silent):
             return False
         self._remember(self.session_id, self._newest_id)
         self.session_id, self.command, self.refusal = command.session_id, Command(), ""
         self._newest_id, self.answered_status_id = self._former.get(command.session_id, 0), 0
         return True
 
-    def _end(self, command: Command) -> None:
+    def _end(self, command: Command) -> Verdict:
+        # However old: a goodbye only stops, so it is never too late.
+        if command.session_id != self.session_id or command.id < self._newest_id:
+            return Verdict.OUTDATED
+        self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
         self._remember(self.session_id, command.id)
         self.session_id, self.command, self.refusal, self._newest_id = 0, Command(), "", 0
+        return Verdict.ENDED
 
     def _is_former(self, command: Command) -> bool:
         return command.id <= self._former.get(command.session_id, 0)

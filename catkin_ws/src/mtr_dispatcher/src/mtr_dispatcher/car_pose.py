@@ -1,0 +1,43 @@
+"""Pose of the robot in the Car coordinate system, with its uncertainty."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import NamedTuple, Sequence
+
+from mtr_core.se2 import Pose2
+
+Covariance = Sequence[float]  # row-major 3x3 of x, y, heading
+
+
+class UncertainPose(NamedTuple):
+    """A pose in map and its covariance in map."""
+
+    pose: Pose2
+    covariance: Covariance
+
+
+class CarPose(NamedTuple):
+    """Pose of base_link in the Car coordinate system; 1 sigma of the position in its worst direction."""
+
+    pose: Pose2
+    position_sigma_m: float
+    heading_sigma_rad: float
+
+
+def base_in_car(base: UncertainPose, car: UncertainPose) -> CarPose:
+    """Pose of base_link in car from both poses in map; their errors are taken as independent."""
+    car_from_base = car.pose.inverse() @ base.pose
+    # The error of the Car's heading moves the robot across the line from the Car's centre.
+    lever_x, lever_y = base.pose.y - car.pose.y, car.pose.x - base.pose.x
+    p, q = base.covariance, car.covariance
+    var_x = p[0] + q[0] + lever_x * lever_x * q[8] - 2.0 * lever_x * q[2]
+    var_y = p[4] + q[4] + lever_y * lever_y * q[8] - 2.0 * lever_y * q[5]
+    cov_xy = p[1] + q[1] + lever_x * lever_y * q[8] - lever_x * q[5] - lever_y * q[2]
+    return CarPose(car_from_base, _largest_sigma(var_x, var_y, cov_xy), _root(p[8] + q[8]))
+
+
+def _largest_sigma(var_x: float, var_y: float, cov_xy: float) -> float:
+    return _root(0.5 * (var_x + var_y) + math.hypot(0.5 * (var_x - var_y), cov_xy))
+
+
+def _root(variance: float) -> float:
+    return math.sqrt(variance) if variance > 0.0 else 0.0

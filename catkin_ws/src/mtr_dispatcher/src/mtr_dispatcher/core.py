@@ -1,0 +1,94 @@
+"""The dispatcher without ROS and sockets: bytes and messages in, desired state and Status out."""
+# SPDX-License-Identifier: Apache-2.0
+import itertools
+from typing import List, Optional, Tuple
+
+from .command import Command
+from .command_codec import UndecodableError, decode
+from .inputs import Inputs
+from .log_buffer import LogBuffer
+from .notices import ERROR, WARNING, Notice, RecentNotices, standing_notices
+from .parameters import Parameters
+from .session import REJECTIONS, Desired, Session, Verdict
+from .status_builder import Confirmations, Identity, Report, status_bytes
+
+
+class Dispatcher:
+    """Judges Commands, says what the robot shall do, and writes Status.
+
+    Attributes:
+        session: who controls the robot.
+        log: the robot's warnings.
+        status_id: newest Status that was written, 0 before the first.
+        rejected_messages: undecodable, oversized, expired, refused or foreign messages since the start.
+    """
+
+    def __init__(self, parameters: Parameters, identity: Identity):
+        self._parameters, self._identity = parameters, identity
+        self.session = Session(parameters)
+        self.log = LogBuffer()
+        self.status_id = 0
+        self.rejected_messages = 0
+        self._recent = RecentNotices()
+
+    def receive(self, data: bytes, now_s: float) -> Tuple[Optional[Verdict], str]:
+        """Take one message of the link. Returns its verdict (None: no Command) and a sentence for the log, if any."""
+        try:
+            command = decode(data)
+        except UndecodableError as error:
+            self._reject(Notice("bad_message", WARNING, str(error)), now_s)
+            return None, str(error)
+        before = self.session.session_id
+        verdict = self.session.take(command, now_s, self.status_id)
+        if verdict in REJECTIONS:
+            return verdict, self._reject(self._rejection(verdict, command), now_s)
+        return verdict, self._event(verdict, command, before)
+
+    def desired(self, now_s: float) -> Desired:
+        """What the robot shall do at now_s."""
+        return self.session.desired(now_s)
+
+    def status(self, inputs: Inputs) -> bytes:
+        """The next Status."""
+        self.status_id += 1
+        fresh = inputs.fresh()
+        desired = self.session.desired(inputs.now_s)
+        standing = standing_notices(desired, fresh, self._parameters.low_battery)
+        return status_bytes(self._identity, Report(
+            self.status_id, fresh, self._confirmations(desired, fresh), self.rejected_messages, self.log.due(),
+            itertools.chain(standing, self._recent.at(inputs.now_s))))
+
+    def confirmed(self, inputs: Inputs) -> List[object]:
+        """What a Status would confirm now; when it changes a Status is due at once."""
+        mode, peripherals = inputs.mode, inputs.peripherals
+        return [self.session.session_id, self.session.command.id,
+                mode and (mode.mode, mode.waypoint_id, mode.waypoint_result, mode.map_car_id),
+                peripherals and [(press.session_id, press.id) for press in peripherals.presses]]
+
+    def _confirmations(self, desired: Desired, fresh: Inputs) -> Confirmations:
+        order = fresh.mode.map_car_id if fresh.mode is not None else 0
+        return Confirmations(desired.session_id, desired.command.id,
+                             self.session.orders.map_car_id_of(desired.session_id, order))
+
+    def _reject(self, notice: Notice, now_s: float) -> str:
+        self.rejected_messages += 1
+        if notice.code != "command_refused":
+            self._recent.add(notice, now_s)
+        return notice.text
+
+    def _rejection(self, verdict: Verdict, command: Command) -> Notice:
+        if verdict is Verdict.EXPIRED:
+            return Notice("command_expired", WARNING,
+                          f"Command {command.id} had expired when it arrived and was ignored.")
+        if verdict is Verdict.FOREIGN:
+            return Notice("controlled_by_other", WARNING,
+                          f"Application {self.session.session_id:x} controls the robot; Commands of application "
+                          f"{command.session_id:x} are ignored.")
+        return Notice("command_refused", ERROR, f"Command {command.id} was refused: {self.session.refusal}")
+
+    def _event(self, verdict: Verdict, command: Command, session_before: int) -> str:
+        if verdict is Verdict.ENDED:
+            return f"Application {command.session_id:x} ended its session."
+        if self.session.session_id != session_before:
+            return f"Application {command.session_id:x} controls the robot now."
+        return ""

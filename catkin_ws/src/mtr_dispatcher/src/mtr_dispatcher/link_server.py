@@ -1,0 +1,75 @@
+"""The robot's end of the link: two bound ZeroMQ sockets."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import List
+
+import zmq
+
+from mtr_core.errors import RobotError
+
+from .command_codec import MAX_MESSAGE_BYTES
+
+# Messages up to this size are counted as oversized; beyond it ZeroMQ cuts the connection, so that memory stays bounded.
+CUT_OFF_BYTES = 16 * MAX_MESSAGE_BYTES
+RECEIVE_QUEUE = 100
+SEND_QUEUE = 100
+MESSAGES_PER_TURN = 100
+# A peer that vanished without closing is noticed by ZeroMQ's own heartbeats.
+HEARTBEAT_MS = 1000
+HEARTBEAT_TIMEOUT_MS = 5000
+LINGER_MS = 200
+
+
+class LinkError(RobotError):
+    """The ports of the link cannot be opened."""
+
+
+class LinkServer:
+    """Publishes Status on one port and receives Commands on the other."""
+
+    def __init__(self) -> None:
+        self._context = zmq.Context()
+        self._publisher = self._socket(zmq.PUB)
+        self._publisher.setsockopt(zmq.SNDHWM, SEND_QUEUE)
+        self._subscriber = self._socket(zmq.SUB)
+        self._subscriber.setsockopt(zmq.RCVHWM, RECEIVE_QUEUE)
+        self._subscriber.setsockopt(zmq.MAXMSGSIZE, CUT_OFF_BYTES)
+        self._subscriber.setsockopt(zmq.SUBSCRIBE, b"")
+
+    def bind(self, address: str, status_port: int, command_port: int) -> None:
+        """Listen on both ports of the address, or raise LinkError with a sentence."""
+        for socket, port, name in ((self._publisher, status_port, "status_port"),
+                                   (self._subscriber, command_port, "command_port")):
+            try:
+                socket.bind(f"tcp://{address}:{port}")
+            except zmq.ZMQError as error:
+                raise LinkError(f"The link cannot listen on {address} port {port} ({name}): "
+                                f"{error.strerror}.") from None
+
+    def publish(self, status: bytes) -> None:
+        """Send one Status to every application that listens."""
+        self._publisher.send(status)
+
+    def receive(self, timeout_s: float = 0.0) -> List[bytes]:
+        """Messages that have arrived, in order; waits up to timeout_s for the first one."""
+        if not self._subscriber.poll(math.ceil(1000.0 * max(timeout_s, 0.0))):
+            return []
+        messages = []
+        while len(messages) < MESSAGES_PER_TURN:
+            try:
+                frames = self._subscriber.recv_multipart(zmq.NOBLOCK)
+            except zmq.Again:
+                break
+            # A message of several frames is none of ours; joined, it is counted as undecodable or oversized.
+            messages.append(frames[0] if len(frames) == 1 else b"\xff".join([b"", *frames]))
+        return messages
+
+    def close(self) -> None:
+        """Release both ports."""
+        self._context.destroy(LINGER_MS)
+
+    def _socket(self, kind: int) -> zmq.Socket:
+        socket = self._context.socket(kind)
+        socket.setsockopt(zmq.HEARTBEAT_IVL, HEARTBEAT_MS)
+        socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, HEARTBEAT_TIMEOUT_MS)
+        return socket

@@ -1,0 +1,152 @@
+"""The dispatcher's node: wires the link and the topics to the core."""
+# SPDX-License-Identifier: Apache-2.0
+import secrets
+from dataclasses import asdict
+from typing import Optional
+
+import rospkg
+import rospy
+from rosgraph_msgs.msg import Log
+from std_msgs.msg import Header
+
+from mtr_core import names, schedule
+from mtr_core.errors import RobotError
+from mtr_lockstep import Ticker, TickInput, clock
+from mtr_msgs.msg import CarEstimate, DesiredState, LocalizedPose, MotionLock, PeripheralsState, RobotMode
+
+from .conversions import desired_message, lock_message
+from .core import Dispatcher
+from .inputs import Inputs
+from .link_server import LinkServer
+from .notices import ERROR, WARNING
+from .operator_wait import OperatorWait
+from .parameters import Parameters, parameters_from
+from .session import Desired, Verdict, is_same
+from .status_builder import Identity
+
+# While simulated time waits for the application the Status is sent again, for one that connects meanwhile.
+STATUS_AGAIN_WALL_S = 0.1
+# Longest turn on the robot's own clock: bounds how late a confirmation is sent.
+TURN_S = 0.02
+NS = 1e-9
+
+
+class DispatcherNode:
+    """Serves the link at the ticks of simulated time, or at once on the robot's own clock."""
+
+    def __init__(self, parameters: Parameters, core: Dispatcher, server: LinkServer):
+        self._parameters, self._core, self._server = parameters, core, server
+        self._wait = OperatorWait(parameters.operator_lost_after_wall_s)
+        self._published: Optional[Desired] = None
+        self._confirmed: Optional[list] = None
+        self._status = b""
+        self._pose = TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0)
+        self._car = TickInput(names.CAR_ESTIMATE, CarEstimate, schedule.CAR_LOCATOR)
+        self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
+        self._peripherals = TickInput(names.PERIPHERALS_STATE, PeripheralsState, schedule.PERIPHERALS)
+        self._desired = rospy.Publisher(names.DESIRED_STATE, DesiredState, queue_size=10, tcp_nodelay=True)
+        self._lock = rospy.Publisher(names.MOTION_LOCK, MotionLock, queue_size=10, tcp_nodelay=True)
+        self._rosout = rospy.Subscriber("/rosout_agg", Log, self._take_log, queue_size=50)
+        self._ticker = Ticker(schedule.DISPATCHER)
+        self._holds = rospy.Publisher(names.SIM_HOLD, Header, queue_size=20, tcp_nodelay=True, latch=True)
+
+    def spin(self) -> None:
+        """Run until shutdown."""
+        turn = self._simulated_turn if clock.is_simulated() else self._real_turn
+        while not rospy.is_shutdown():
+            turn()
+
+    def _simulated_turn(self) -> None:
+        tick = self._ticker.sleep()
+        if tick < schedule.SIMULATION_START_NS:
+            return
+        if self._parameters.lockstep_operator:
+            self._publish_status(tick)
+            self._await_answer(tick)
+        else:
+            self._receive(tick, 0.0)
+            self._publish_status(tick)
+        self._publish_desired(tick)
+
+    def _await_answer(self, tick: int) -> None:
+        patient = not self._wait.operator_gone
+        self._wait.begin()
+        self._receive(tick, 0.0)
+        while not self._wait.is_over(self._core.session, self._core.status_id) and not rospy.is_shutdown():
+            if not self._receive(tick, STATUS_AGAIN_WALL_S):
+                self._server.publish(self._status)
+                # Renewed, so that the simulator does not take a patient dispatcher for a dead one.
+                self._holds.publish(Header(0, clock.stamp_of(tick), rospy.get_name()))
+        if patient and self._wait.operator_gone:
+            rospy.logwarn("The application has not answered; time goes on until it is heard again.")
+
+    def _real_turn(self) -> None:
+        tick = schedule.DISPATCHER.next_after(clock.now_ns())
+        now = clock.now_ns()
+        while now < tick and not rospy.is_shutdown():
+            self._receive(now, min((tick - now) * NS, TURN_S))
+            now = clock.now_ns()
+            if not is_same(self._published, self._core.desired(now * NS)):
+                self._publish_desired(now)
+            inputs = self._inputs(now)
+            if self._core.confirmed(inputs) != self._confirmed:
+                self._publish_status(now, inputs)
+        self._publish_status(now)
+        self._publish_desired(now)
+
+    def _receive(self, now_ns: int, timeout_s: float) -> bool:
+        messages = self._server.receive(timeout_s)
+        for data in messages:
+            verdict, sentence = self._core.receive(data, now_ns * NS)
+            if verdict in (Verdict.TAKEN, Verdict.REPEATED, Verdict.REFUSED):
+                self._wait.heard()
+            if sentence and verdict in (Verdict.TAKEN, Verdict.ENDED):
+                rospy.loginfo(sentence)
+            elif sentence:
+                rospy.logwarn_throttle_identical(10.0, sentence)
+        return bool(messages)
+
+    def _inputs(self, now_ns: int) -> Inputs:
+        return Inputs(now_ns * NS, self._pose.at(now_ns), self._car.at(now_ns), self._mode.at(now_ns),
+                      self._peripherals.at(now_ns))
+
+    def _publish_status(self, now_ns: int, inputs: Optional[Inputs] = None) -> None:
+        inputs = inputs or self._inputs(now_ns)
+        self._confirmed = self._core.confirmed(inputs)
+        self._status = self._core.status(inputs)
+        self._server.publish(self._status)
+
+    def _publish_desired(self, now_ns: int) -> None:
+        desired = self._core.desired(now_ns * NS)
+        if self._published is None or desired.stop_reason != self._published.stop_reason:
+            rospy.loginfo("Motion %s", f"locked: {desired.stop_reason}" if desired.stop_reason else "allowed.")
+        stamp = clock.stamp_of(now_ns)
+        self._lock.publish(lock_message(desired, stamp))
+        self._desired.publish(desired_message(desired, stamp, self._parameters.default_speed_mps))
+        self._published = desired
+
+    def _take_log(self, message: Log) -> None:
+        if message.level >= Log.WARN:
+            severity = WARNING if message.level == Log.WARN else ERROR
+            self._core.log.add(message.header.stamp.to_sec(), severity, message.name.lstrip("/"), message.msg)
+
+
+def main() -> int:
+    """Start the node and run it; the exit status says whether it could start."""
+    rospy.init_node("dispatcher")
+    server = LinkServer()
+    try:
+        parameters = parameters_from(rospy.get_param("~", {}))
+        server.bind(parameters.bind_address, parameters.status_port, parameters.command_port)
+        rospy.loginfo("Dispatcher: %s", asdict(parameters))
+        identity = Identity(secrets.randbits(63) | 1, rospkg.RosPack().get_manifest("mtr_dispatcher").version,
+                            parameters.key_x_m, parameters.key_y_m)
+        DispatcherNode(parameters, Dispatcher(parameters, identity), server).spin()
+    except RobotError as error:
+        rospy.logfatal("The dispatcher did not start. %s", error)
+        return 2
+    except rospy.ROSInterruptException:
+        pass
+    finally:
+        server.close()
+    return 0

@@ -1,0 +1,66 @@
+"""Sentences that concern the Operator now."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import Iterator, List, NamedTuple
+
+from .inputs import MODE_FAULT, Inputs
+from .session import Desired
+
+INFO, WARNING, ERROR = 1, 2, 3
+# A single event, such as a rejected message, is shown this long.
+SHOWN_S = 3.0
+
+
+class Notice(NamedTuple):
+    """One sentence. code: stable word; severity: 1 info, 2 warning, 3 error."""
+
+    code: str
+    severity: int
+    text: str
+
+
+class RecentNotices:
+    """Events of which the Operator reads for a while."""
+
+    def __init__(self) -> None:
+        self._notices = {}
+
+    def add(self, notice: Notice, now_s: float) -> None:
+        """Show the notice from now on; a newer one of the same code replaces it."""
+        self._notices[notice.code] = (now_s, notice)
+
+    def at(self, now_s: float) -> List[Notice]:
+        """Notices shown at now_s."""
+        return [notice for shown_s, notice in self._notices.values() if now_s - shown_s <= SHOWN_S]
+
+
+def standing_notices(desired: Desired, fresh: Inputs, low_battery: float) -> Iterator[Notice]:
+    """Notices that hold as long as their cause."""
+    if desired.session_id and not desired.link_alive:
+        yield Notice("link_lost", ERROR, desired.stop_reason)
+    elif desired.session_id and desired.stop_reason and not desired.command.stop:
+        yield Notice("command_refused", ERROR, desired.stop_reason)
+    yield from _mode_notices(fresh)
+    if fresh.pose is not None and not fresh.pose.valid:
+        yield Notice("not_localized", ERROR, fresh.pose.message or "The robot does not know its position.")
+    yield from _peripherals_notices(fresh, low_battery)
+
+
+def _mode_notices(fresh: Inputs) -> Iterator[Notice]:
+    if fresh.mode is None:
+        yield Notice("state_machine_silent", ERROR, "The robot's state machine is silent; the robot stands still.")
+    elif fresh.mode.mode == MODE_FAULT:
+        yield Notice("fault", ERROR, fresh.mode.message)
+    elif fresh.mode.message:
+        yield Notice("mode", INFO, fresh.mode.message)
+
+
+def _peripherals_notices(fresh: Inputs, low_battery: float) -> Iterator[Notice]:
+    state = fresh.peripherals
+    if state is None:
+        yield Notice("peripherals_silent", ERROR, "The node of lift and buttons is silent.")
+        return
+    if state.message:
+        yield Notice("peripherals", WARNING if state.alive else ERROR, state.message)
+    if not math.isnan(state.battery) and state.battery < low_battery:
+        yield Notice("low_battery", WARNING, f"The battery is at {100.0 * state.battery:.0f} %.")

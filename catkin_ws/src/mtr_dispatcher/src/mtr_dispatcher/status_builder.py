@@ -1,0 +1,115 @@
+"""The robot's messages to the bytes of a Status."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import Iterable, NamedTuple, Optional
+
+from mtr_core.se2 import Pose2
+from mtr_proto import robot_link_pb2 as link
+
+from .car_pose import CarPose, UncertainPose, base_in_car
+from .inputs import CAR_LOCATED, RESULT_BLOCKED, RESULT_REFUSED, Inputs
+from .log_buffer import Entry
+from .notices import Notice
+
+MAX_ACCURACY_CM = 2 ** 31 - 1
+
+
+class Identity(NamedTuple):
+    """What does not change while the robot runs. The key's position is in base_link, m."""
+
+    robot_session_id: int
+    software_version: str
+    key_x_m: float
+    key_y_m: float
+
+
+class Confirmations(NamedTuple):
+    """What the session in control is told of its orders."""
+
+    session_id: int
+    command_id: int
+    map_car_id: int
+
+
+class Report(NamedTuple):
+    """Everything else that goes into one Status."""
+
+    status_id: int
+    fresh: Inputs
+    confirmations: Confirmations
+    rejected_messages: int
+    log: Iterable[Entry]
+    notices: Iterable[Notice]
+
+
+def status_bytes(identity: Identity, report: Report) -> bytes:
+    """Serialized Status."""
+    status = link.Status(
+        id=report.status_id, robot_session_id=identity.robot_session_id, sent_time_s=report.fresh.now_s,
+        session_id=report.confirmations.session_id, command_id=report.confirmations.command_id,
+        map_car_id=report.confirmations.map_car_id, rejected_messages=report.rejected_messages,
+        software_version=identity.software_version)
+    status.state.key_x, status.state.key_y = identity.key_x_m, identity.key_y_m
+    _add_mode(status, report.fresh.mode, report.confirmations.session_id)
+    _add_pose(status.state, report.fresh)
+    _add_car(status.car, report.fresh.car)
+    _add_peripherals(status, report.fresh.peripherals, report.confirmations.session_id)
+    for entry in report.log:
+        status.log.add(id=entry.id, stamp_s=entry.stamp_s, severity=entry.severity, source=entry.source,
+                       text=entry.text)
+    for notice in report.notices:
+        status.notifications.add(code=notice.code, severity=notice.severity, text=notice.text)
+    return status.SerializeToString()
+
+
+def _add_mode(status: link.Status, mode: Optional[object], session_id: int) -> None:
+    if mode is None:
+        return
+    status.mode = mode.mode
+    status.state.is_mapping_car = mode.mapping
+    if session_id and mode.session_id == session_id and mode.waypoint_id:
+        status.waypoint_id, status.waypoint_result = mode.waypoint_id, mode.waypoint_result
+        if mode.waypoint_result in (RESULT_REFUSED, RESULT_BLOCKED):
+            status.waypoint_message = mode.message
+
+
+def _add_pose(state: link.RobotState, fresh: Inputs) -> None:
+    pose = fresh.pose
+    state.pose_valid = False
+    if pose is None:
+        return
+    state.stamp_s = pose.header.stamp.to_sec()
+    state.speed, state.yaw_rate_radps = pose.speed_mps, pose.yaw_rate_radps
+    if fresh.car is None:
+        return
+    found = _in_car(pose, fresh.car)
+    if not (found.pose.is_finite() and math.isfinite(found.position_sigma_m)):
+        return
+    state.x, state.y, state.heading = found.pose.x, found.pose.y, found.pose.heading
+    state.position_sigma_m, state.heading_sigma_rad = found.position_sigma_m, found.heading_sigma_rad
+    state.localization_accuracy = min(round(100.0 * found.position_sigma_m), MAX_ACCURACY_CM)
+    state.pose_valid = pose.valid and fresh.car.state == CAR_LOCATED
+
+
+def _in_car(pose: object, car: object) -> CarPose:
+    return base_in_car(UncertainPose(Pose2(pose.x, pose.y, pose.heading), pose.covariance),
+                       UncertainPose(Pose2(car.x, car.y, car.heading), car.covariance))
+
+
+def _add_car(dimensions: link.CarDimensions, car: Optional[object]) -> None:
+    dimensions.mapped = car is not None and car.state == CAR_LOCATED
+    if car is not None:
+        dimensions.length, dimensions.width = car.length, car.width
+        dimensions.length_sigma, dimensions.width_sigma = car.length_sigma, car.width_sigma
+
+
+def _add_peripherals(status: link.Status, peripherals: Optional[object], session_id: int) -> None:
+    if peripherals is None:
+        return
+    status.state.device_height = peripherals.key_height_m
+    status.state.pressed_device_buttons.extend(peripherals.pressed_buttons)
+    if math.isfinite(peripherals.battery):
+        status.state.battery_level = round(100.0 * min(max(peripherals.battery, 0.0), 1.0))
+    for press in peripherals.presses:
+        if session_id and press.session_id == session_id:
+            status.presses.add(id=press.id, start_s=press.start.to_sec(), end_s=press.end.to_sec(), error=press.error)

@@ -1,0 +1,167 @@
+"""Bytes in, Status out: the dispatcher's core with real protobuf and ROS messages."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+import genpy
+import pytest
+
+from mtr_dispatcher.command_codec import MAX_MESSAGE_BYTES, UndecodableError, decode
+from mtr_dispatcher.core import Dispatcher
+from mtr_dispatcher.inputs import Inputs
+from mtr_dispatcher.parameters import Parameters
+from mtr_dispatcher.session import Verdict
+from mtr_dispatcher.status_builder import Identity
+from mtr_msgs.msg import CarEstimate, LocalizedPose, PeripheralsState, PressReport, RobotMode
+from mtr_proto import robot_link_pb2 as link
+
+NOW_S = 100.0
+
+
+@pytest.fixture
+def core():
+    dispatcher = Dispatcher(Parameters(), Identity(7, "1.2.3", 0.25, 0.0))
+    dispatcher.status(Inputs(NOW_S))
+    return dispatcher
+
+
+def command_bytes(number=1, session_id=5, **content):
+    return link.Command(session_id=session_id, id=number, seen_status_id=1, seen_robot_time_s=NOW_S,
+                        **content).SerializeToString()
+
+
+def status(core, **messages):
+    for message in messages.values():
+        message.header.stamp = genpy.Time.from_sec(NOW_S)
+    return link.Status.FromString(core.status(Inputs(NOW_S, **messages)))
+
+
+def codes(message):
+    return {notice.code for notice in message.notifications}
+
+
+def test_command_survives_the_round_trip():
+    sent = link.Command(
+        session_id=5, id=6, seen_status_id=7, seen_robot_time_s=8.0, stop=True, max_speed_mps=0.5, device_height_m=1.0,
+        map_car_id=2, waypoint=link.Waypoint(id=9, x=1.0, y=2.0, heading=3.0, direction=link.DIRECTION_BACKWARD),
+        press=link.ButtonPress(id=3, buttons=[1, 2], strength=0.5, duration_s=0.25))
+    command = decode(sent.SerializeToString())
+    assert (command.session_id, command.id, command.seen_status_id, command.seen_robot_time_s) == (5, 6, 7, 8.0)
+    assert (command.stop, command.max_speed_mps, command.key_height_m, command.map_car_id) == (True, 0.5, 1.0, 2)
+    waypoint, press = command.waypoint, command.press
+    assert (waypoint.id, waypoint.x, waypoint.y, waypoint.heading, waypoint.direction) == (9, 1.0, 2.0, 3.0, 2)
+    assert (press.id, press.buttons, press.strength, press.duration_s) == (3, (1, 2), 0.5, 0.25)
+
+
+def test_absent_fields_are_the_robots_choice():
+    command = decode(link.Command(session_id=5, id=6).SerializeToString())
+    assert command.waypoint is command.press is command.max_speed_mps is command.key_height_m is None
+    assert math.isnan(command.seen_robot_time_s)
+
+
+def test_waypoint_without_coordinates_is_not_a_place():
+    assert math.isnan(decode(command_bytes(waypoint=link.Waypoint(id=1, x=1.0))).waypoint.y)
+
+
+@pytest.mark.parametrize("data", [b"\xff\xff\xff", b"", b"hello", bytes(MAX_MESSAGE_BYTES + 1)],
+                         ids=["garbage", "empty", "text", "oversized"])
+@pytest.mark.filterwarnings("ignore:Unexpected end-group tag")
+def test_what_is_no_command_is_counted_and_reported(core, data):
+    with pytest.raises(UndecodableError):
+        decode(data)
+    verdict, sentence = core.receive(data, NOW_S)
+    assert verdict is None and sentence
+    message = status(core)
+    assert message.rejected_messages == 1 and "bad_message" in codes(message)
+
+
+def test_report_of_a_bad_message_disappears_after_a_while(core):
+    core.receive(b"\xff", NOW_S)
+    later = link.Status.FromString(core.status(Inputs(NOW_S + 3.5)))
+    assert "bad_message" not in codes(later) and later.rejected_messages == 1
+
+
+def test_foreign_and_expired_commands_are_counted_and_reported(core):
+    core.receive(command_bytes(), NOW_S)
+    core.receive(command_bytes(session_id=6), NOW_S)
+    core.receive(command_bytes(number=2), NOW_S + 1.5)
+    message = status(core)
+    assert message.rejected_messages == 2
+    assert {"controlled_by_other", "command_expired"} <= codes(message)
+
+
+def test_refused_command_is_a_notification_as_long_as_it_stands(core):
+    verdict, _ = core.receive(command_bytes(max_speed_mps=-1.0), NOW_S)
+    assert verdict is Verdict.REFUSED
+    notice = next(notice for notice in status(core).notifications if notice.code == "command_refused")
+    assert "-1 m/s" in notice.text
+    core.receive(command_bytes(number=2, max_speed_mps=1.0), NOW_S)
+    assert "command_refused" not in codes(status(core))
+
+
+def test_status_carries_the_pose_in_the_cars_frame(core):
+    pose = LocalizedPose(valid=True, x=1.0, y=5.0, heading=math.pi, covariance=[0.0004, 0, 0, 0, 0.0009, 0, 0, 0, 1e-4],
+                         speed_mps=0.5)
+    car = CarEstimate(state=CarEstimate.LOCATED, x=1.0, y=2.0, heading=math.pi / 2, length=4.5, width=1.8)
+    state = status(core, pose=pose, car=car).state
+    assert (state.x, state.y) == (pytest.approx(3.0), pytest.approx(0.0, abs=1e-6))
+    assert state.heading == pytest.approx(math.pi / 2)
+    assert state.position_sigma_m == pytest.approx(0.03) and state.localization_accuracy == 3
+    assert state.heading_sigma_rad == pytest.approx(0.01)
+    assert state.pose_valid and state.stamp_s == NOW_S and state.speed == 0.5 and state.key_x == 0.25
+
+
+@pytest.mark.parametrize("valid, car_state", [(False, CarEstimate.LOCATED), (True, CarEstimate.COLLECTING)])
+def test_pose_is_not_valid_before_localization_and_car_are(core, valid, car_state):
+    assert not status(core, pose=LocalizedPose(valid=valid), car=CarEstimate(state=car_state)).state.pose_valid
+
+
+def test_stale_messages_tell_nothing(core):
+    pose, mode = LocalizedPose(valid=True), RobotMode(mode=RobotMode.FOLLOWING_WAYPOINT)
+    pose.header.stamp = mode.header.stamp = genpy.Time.from_sec(NOW_S - 0.6)
+    message = link.Status.FromString(core.status(Inputs(NOW_S, pose=pose, mode=mode)))
+    assert not message.HasField("mode") and not message.state.pose_valid
+    assert {"state_machine_silent", "peripherals_silent"} <= codes(message)
+
+
+def test_confirmations_speak_of_the_session_in_control_only(core):
+    core.receive(command_bytes(number=3, map_car_id=8), NOW_S)
+    order = core.desired(NOW_S).map_order
+    presses = [PressReport(session_id=4, id=1), PressReport(session_id=5, id=2, start=genpy.Time(99), error="jammed")]
+    mode = RobotMode(mode=RobotMode.FOLLOWING_WAYPOINT, session_id=5, waypoint_id=6, waypoint_result=3,
+                     message="Too near.", map_car_id=order)
+    message = status(core, mode=mode, peripherals=PeripheralsState(alive=True, presses=presses, battery=math.nan))
+    assert (message.session_id, message.command_id, message.map_car_id) == (5, 3, 8)
+    assert (message.waypoint_id, message.waypoint_result) == (6, link.WAYPOINT_RESULT_REFUSED)
+    assert message.waypoint_message == "Too near."
+    assert [(press.id, press.start_s, press.error) for press in message.presses] == [(2, 99.0, "jammed")]
+    assert not message.state.HasField("battery_level")
+
+
+def test_another_sessions_waypoint_is_not_confirmed(core):
+    core.receive(command_bytes(), NOW_S)
+    message = status(core, mode=RobotMode(mode=4, session_id=4, waypoint_id=6, waypoint_result=2))
+    assert not message.HasField("waypoint_id")
+
+
+def test_fault_and_low_battery_are_notifications(core):
+    message = status(core, mode=RobotMode(mode=RobotMode.FAULT, message="The motion planner is silent."),
+                     peripherals=PeripheralsState(alive=True, battery=0.1))
+    texts = {notice.code: notice.text for notice in message.notifications}
+    assert texts["fault"] == "The motion planner is silent." and "10 %" in texts["low_battery"]
+    assert message.state.battery_level == 10
+
+
+def test_log_entry_goes_out_in_ten_status_messages(core):
+    core.log.add(1.0, 2, "localization", "slipping")
+    core.log.add(1.1, 2, "localization", "slipping")
+    sent = [[entry.id for entry in status(core).log] for _ in range(12)]
+    assert sent == [[1]] * 10 + [[]] * 2
+
+
+def test_confirmations_change_with_command_result_and_press(core):
+    before = core.confirmed(Inputs(NOW_S))
+    core.receive(command_bytes(), NOW_S)
+    taken = core.confirmed(Inputs(NOW_S))
+    reached = core.confirmed(Inputs(NOW_S, mode=RobotMode(waypoint_result=2)))
+    pressed = core.confirmed(Inputs(NOW_S, peripherals=PeripheralsState(presses=[PressReport(id=1)])))
+    assert taken not in (before, reached, pressed)

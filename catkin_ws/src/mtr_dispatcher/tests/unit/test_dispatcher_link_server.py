@@ -1,0 +1,87 @@
+"""The sockets of the link on the loopback interface."""
+# SPDX-License-Identifier: Apache-2.0
+import socket
+import time
+
+import pytest
+import zmq
+
+from mtr_core.errors import ConfigurationError
+from mtr_dispatcher.command_codec import MAX_MESSAGE_BYTES
+from mtr_dispatcher.link_server import LinkError, LinkServer
+from mtr_dispatcher.parameters import Parameters, parameters_from
+
+RECEIVE_LIMIT_S = 5.0
+BEFORE = b"before"
+
+
+def free_ports():
+    with socket.socket() as one, socket.socket() as two:
+        one.bind(("127.0.0.1", 0))
+        two.bind(("127.0.0.1", 0))
+        return one.getsockname()[1], two.getsockname()[1]
+
+
+@pytest.fixture
+def link():
+    server, context = LinkServer(), zmq.Context()
+    ports = free_ports()
+    server.bind("127.0.0.1", *ports)
+    sender = context.socket(zmq.PUB)
+    sender.connect(f"tcp://127.0.0.1:{ports[1]}")
+    deadline = time.monotonic() + RECEIVE_LIMIT_S
+    # A message that is sent before the robot's subscription has come is dropped.
+    while not server.receive(0.01) and time.monotonic() < deadline:
+        sender.send(BEFORE)
+    yield server, sender
+    server.close()
+    context.destroy(0)
+
+
+def sent(link, *frames):
+    server, sender = link
+    sender.send_multipart(frames)
+    messages = []
+    while not messages:
+        messages = [data for data in server.receive(RECEIVE_LIMIT_S) if data != BEFORE]
+    return messages
+
+
+def test_message_arrives(link):
+    assert sent(link, b"hello") == [b"hello"]
+
+
+def test_oversized_message_arrives_to_be_counted(link):
+    assert sent(link, bytes(MAX_MESSAGE_BYTES + 1)) == [bytes(MAX_MESSAGE_BYTES + 1)]
+
+
+def test_message_of_several_frames_is_no_command(link):
+    assert sent(link, b"one", b"two")[0].startswith(b"\xff")
+
+
+def test_nothing_is_received_when_nothing_is_sent(link):
+    assert set(link[0].receive(0.0)) <= {BEFORE}
+
+
+def test_busy_port_is_a_sentence():
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        busy = other.getsockname()[1]
+        server = LinkServer()
+        with pytest.raises(LinkError, match=f"port {busy} \\(command_port\\)"):
+            server.bind("127.0.0.1", free_ports()[0], busy)
+        server.close()
+
+
+@pytest.mark.parametrize("bad", [{"status_port": 0}, {"command_port": 65536}, {"status_port": 3333},
+                                 {"link_timeout_s": 0.0}, {"default_speed_mps": 3.0}, {"key_x_m": float("nan")}])
+def test_parameter_out_of_range_is_a_sentence(bad):
+    with pytest.raises(ConfigurationError, match=next(iter(bad))):
+        Parameters(**bad)
+
+
+@pytest.mark.parametrize("bad", [{"link_timeout_s": "fast"}, {"link_timeout_s": True}, {"unheard_of": 1}])
+def test_value_of_the_wrong_type_or_name_is_a_sentence(bad):
+    with pytest.raises(ConfigurationError, match=next(iter(bad))):
+        parameters_from(bad)

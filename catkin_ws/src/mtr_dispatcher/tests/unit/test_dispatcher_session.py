@@ -1,0 +1,163 @@
+"""Who controls the robot and which Commands count."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import replace
+
+import pytest
+
+from mtr_dispatcher.command import Command, Press, Waypoint
+from mtr_dispatcher.parameters import Parameters
+from mtr_dispatcher.session import Session, Verdict, is_same
+
+NEWEST_STATUS = 10
+
+
+def command(session_id=1, number=1, seen_s=100.0, **content):
+    return Command(session_id=session_id, id=number, seen_status_id=NEWEST_STATUS, seen_robot_time_s=seen_s, **content)
+
+
+@pytest.fixture
+def session():
+    return Session(Parameters())
+
+
+def take(session, order, now_s=100.0):
+    return session.take(order, now_s, NEWEST_STATUS)
+
+
+def test_without_application_the_robot_stops(session):
+    desired = session.desired(100.0)
+    assert (desired.session_id, desired.link_alive) == (0, False)
+    assert desired.stop_reason
+
+
+def test_first_command_takes_control(session):
+    assert take(session, command(waypoint=Waypoint(1, 2.0, 3.0, 0.5))) is Verdict.TAKEN
+    desired = session.desired(100.0)
+    assert (desired.session_id, desired.link_alive, desired.stop_reason) == (1, True, "")
+    assert desired.command.waypoint == Waypoint(1, 2.0, 3.0, 0.5)
+
+
+def test_repetition_keeps_the_link_alive(session):
+    take(session, command())
+    assert take(session, command(seen_s=100.9), 100.9) is Verdict.REPEATED
+    assert session.desired(101.8).link_alive
+
+
+def test_silence_beyond_the_limit_stops_and_the_same_command_resumes(session):
+    take(session, command())
+    assert session.desired(101.0).stop_reason == ""
+    lost = session.desired(101.01)
+    assert not lost.link_alive and "silent" in lost.stop_reason and lost.session_id == 1
+    assert take(session, command(seen_s=105.0), 105.0) is Verdict.REPEATED
+    assert session.desired(105.0).stop_reason == ""
+
+
+@pytest.mark.parametrize("seen_s", [98.9, 101.1, math.nan, -math.inf])
+def test_command_that_answers_no_recent_status_moves_nothing(session, seen_s):
+    assert take(session, command(seen_s=seen_s)) is Verdict.EXPIRED
+    assert session.session_id == 0
+
+
+def test_command_that_answers_a_status_never_sent_has_expired(session):
+    stranger = replace(command(), seen_status_id=NEWEST_STATUS + 1)
+    assert take(session, stranger) is Verdict.EXPIRED
+
+
+def test_expired_repetition_does_not_keep_the_link_alive(session):
+    take(session, command())
+    assert take(session, command(seen_s=100.0), 101.5) is Verdict.EXPIRED
+    assert not session.desired(101.5).link_alive
+
+
+def test_older_id_is_ignored(session):
+    take(session, command(number=5, max_speed_mps=0.3))
+    assert take(session, command(number=4, max_speed_mps=0.9)) is Verdict.OUTDATED
+    assert session.command.max_speed_mps == 0.3
+
+
+def test_second_application_is_rejected_while_the_first_is_heard(session):
+    take(session, command(1))
+    assert take(session, command(2, seen_s=102.9), 102.9) is Verdict.FOREIGN
+    assert session.session_id == 1
+
+
+def test_second_application_takes_over_after_silence(session):
+    take(session, command(1, map_car_id=4))
+    assert take(session, command(2, seen_s=103.1), 103.1) is Verdict.TAKEN
+    assert (session.session_id, session.command.map_car_id) == (2, 0)
+
+
+def test_goodbye_stops_the_robot_and_frees_control(session):
+    take(session, command(1, waypoint=Waypoint(1, 1.0, 1.0, 0.0)))
+    assert take(session, command(1, 2, end_session=True)) is Verdict.ENDED
+    assert session.desired(100.0).session_id == 0 and session.desired(100.0).command.waypoint is None
+    assert take(session, command(2)) is Verdict.TAKEN
+
+
+def test_goodbye_counts_however_old_it_is(session):
+    take(session, command(1))
+    assert take(session, command(1, 2, seen_s=0.0, end_session=True)) is Verdict.ENDED
+
+
+def test_goodbye_of_another_application_is_ignored(session):
+    take(session, command(1))
+    assert take(session, command(2, 2, end_session=True)) is Verdict.OUTDATED
+    assert session.session_id == 1
+
+
+def test_message_from_before_the_goodbye_does_not_take_control_again(session):
+    take(session, command(1, 3))
+    take(session, command(1, 4, end_session=True))
+    assert take(session, command(1, 3)) is Verdict.OUTDATED
+    assert session.session_id == 0
+
+
+REFUSED = {
+    "nan": {"waypoint": Waypoint(1, math.nan, 0.0, 0.0)},
+    "infinite": {"waypoint": Waypoint(1, 0.0, math.inf, 0.0)},
+    "heading": {"waypoint": Waypoint(1, 0.0, 0.0, math.nan)},
+    "far": {"waypoint": Waypoint(1, 0.0, 101.0, 0.0)},
+    "no-id": {"waypoint": Waypoint(0, 0.0, 1.0, 0.0)},
+    "direction": {"waypoint": Waypoint(1, 0.0, 1.0, 0.0, 3)},
+    "speed-zero": {"max_speed_mps": 0.0},
+    "speed-high": {"max_speed_mps": 2.1},
+    "speed-nan": {"max_speed_mps": math.nan},
+    "height": {"key_height_m": -0.1},
+    "press-without-buttons": {"press": Press(1, ())},
+    "press-strength": {"press": Press(1, (1,), 1.1)},
+    "press-duration": {"press": Press(1, (1,), 1.0, math.inf)},
+    "press-no-id": {"press": Press(0, (1,))},
+}
+
+
+@pytest.mark.parametrize("content", REFUSED.values(), ids=REFUSED)
+def test_unacceptable_content_stops_the_robot_until_a_good_command(session, content):
+    take(session, command(1, 1))
+    assert take(session, command(1, 2, **content)) is Verdict.REFUSED
+    assert "refused" in session.desired(100.0).stop_reason and session.desired(100.0).link_alive
+    assert take(session, command(1, 2, **content)) is Verdict.REFUSED
+    assert take(session, command(1, 1)) is Verdict.OUTDATED
+    assert take(session, command(1, 3)) is Verdict.TAKEN
+    assert session.desired(100.0).stop_reason == ""
+
+
+def test_mapping_orders_of_two_sessions_differ(session):
+    take(session, command(1, map_car_id=1))
+    first = session.desired(100.0).map_order
+    take(session, command(1, 2, end_session=True))
+    take(session, command(2, map_car_id=1))
+    second = session.desired(100.0).map_order
+    assert 0 < first < second
+    assert session.orders.map_car_id_of(2, second) == 1
+    assert session.orders.map_car_id_of(2, first) == 0
+    assert session.orders.map_car_id_of(1, first) == 0
+
+
+def test_repetition_asks_for_the_same(session):
+    take(session, command())
+    before = session.desired(100.0)
+    take(session, command(seen_s=100.5), 100.5)
+    assert is_same(before, session.desired(100.5))
+    assert not is_same(before, session.desired(102.0))
+    assert not is_same(None, before)

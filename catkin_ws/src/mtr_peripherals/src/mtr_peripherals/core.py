@@ -1,0 +1,99 @@
+"""The peripherals without ROS: orders and firmware reports in, firmware commands and state out."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import List, Optional, Tuple
+
+from .calibration import Calibration, OrderRefused
+from .firmware import FAULTS, FirmwareOrder, FirmwareReport, Led
+from .parameters import Parameters
+from .presses import Presses, PressOrder, PressResult
+
+NS = 1e-9
+# Values of RobotMode, so that this core needs no ROS.
+MODE_STARTING, MODE_MAPPING, MODE_FOLLOWING, MODE_FAULT = 1, 3, 4, 5
+
+
+@dataclass(frozen=True)
+class Orders:
+    """What the other nodes want at a tick; the defaults are what holds when they are silent."""
+
+    session_id: int = 0
+    link_alive: bool = False
+    stop: bool = True
+    key_height_m: float = math.nan
+    press: PressOrder = PressOrder()
+    mode: int = MODE_STARTING
+    has_goal: bool = False
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What goes to the firmware (lift_height_m, led, press) and to the other nodes (the rest)."""
+
+    lift_height_m: float
+    led: Led
+    press: Optional[FirmwareOrder]
+    alive: bool
+    lift_now_m: float
+    key_height_m: float
+    pressed_buttons: Tuple[int, ...]
+    results: List[PressResult]
+    led_shown: str
+    message: str
+
+
+class Peripherals:
+    """Decides at each tick what lift, servos and LEDs do."""
+
+    def __init__(self, parameters: Parameters, calibration: Calibration):
+        self._parameters, self._calibration = parameters, calibration
+        self._presses = Presses(calibration)
+
+    def step(self, orders: Orders, report: Optional[FirmwareReport], now_ns: int) -> Outcome:
+        """Decide at one tick; report is the firmware's newest one."""
+        silence = self._silence(report, now_ns)
+        lift_height_m, refusal = self._lift(orders)
+        # A press that has begun ends by itself; a new one needs a live link.
+        press = self._presses.step(orders.press if orders.link_alive else PressOrder(), report, now_ns)
+        fault = FAULTS.get(report.fault, f"The firmware reports fault {report.fault}.") if (
+            report and report.fault and not silence) else ""
+        return Outcome(
+            lift_height_m, self._led(orders, bool(silence or fault)), press, not silence,
+            lift_now_m=report.lift_height_m if report else 0.0,
+            key_height_m=self._calibration.key_height_m(report.lift_height_m) if report else math.nan,
+            pressed_buttons=self._presses.pressed_buttons, results=list(self._presses.results),
+            led_shown=_led_name(report), message=silence or fault or refusal)
+
+    def _silence(self, report: Optional[FirmwareReport], now_ns: int) -> str:
+        if report is None:
+            return "The firmware of lift and buttons has not reported yet."
+        age_s = (now_ns - report.stamp_ns) * NS
+        if age_s > self._parameters.firmware_silent_after_s:
+            return f"The firmware of lift and buttons has been silent for {age_s:.1f} s; check cable and power."
+        return ""
+
+    def _lift(self, orders: Orders) -> Tuple[float, str]:
+        if not orders.link_alive:
+            return math.nan, ""
+        try:
+            return self._calibration.lift_height_m(orders.key_height_m), ""
+        except OrderRefused as refused:
+            return math.nan, str(refused)
+
+    def _led(self, orders: Orders, failed: bool) -> Led:
+        choices = (
+            (Led.ERROR, failed or orders.mode == MODE_FAULT),
+            (Led.STARTING, orders.mode == MODE_STARTING),
+            (Led.LINK_LOST, bool(orders.session_id) and not orders.link_alive),
+            (Led.PRESSING, bool(self._presses.pressed_buttons)),
+            (Led.PAUSED, bool(orders.session_id) and orders.stop),
+            (Led.MAPPING, orders.mode == MODE_MAPPING),
+            (Led.MOVING, orders.mode == MODE_FOLLOWING and orders.has_goal),
+        )
+        return next((led for led, holds in choices if holds), Led.READY)
+
+
+def _led_name(report: Optional[FirmwareReport]) -> str:
+    known = {led.value: led.name.lower() for led in Led}
+    return known.get(report.led_pattern, "unknown") if report else "unknown"

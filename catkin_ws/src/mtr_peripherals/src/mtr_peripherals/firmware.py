@@ -1,0 +1,58 @@
+"""What passes between this package and the firmware, as plain data."""
+# SPDX-License-Identifier: Apache-2.0
+import enum
+from dataclasses import dataclass
+
+
+class PressState(enum.Enum):
+    """What the firmware says of a press; the values are those of FirmwareState."""
+
+    NONE = 0
+    PRESSING = 1
+    DONE = 2
+    REFUSED = 3
+
+
+class Led(enum.Enum):
+    """Patterns of the LEDs; the values are those of FirmwareCommand."""
+
+    OFF = 0
+    STARTING = 1
+    READY = 2
+    MAPPING = 3
+    MOVING = 4
+    PRESSING = 5
+    PAUSED = 6
+    ERROR = 7
+    LINK_LOST = 8
+
+
+FAULTS = {
+    1: "The lift is jammed.",
+    2: "The position sensor of the lift is broken.",
+    3: "The firmware hears no commands.",
+}
+
+
+@dataclass(frozen=True)
+class FirmwareReport:
+    """One FirmwareState with its times on the robot's clock, in ns."""
+
+    stamp_ns: int
+    lift_height_m: float = 0.0
+    press_id: int = 0
+    press_state: PressState = PressState.NONE
+    press_start_ns: int = 0
+    press_end_ns: int = 0
+    led_pattern: int = 0
+    fault: int = 0
+
+
+@dataclass(frozen=True)
+class FirmwareOrder:
+    """One press for the firmware; servos are bits."""
+
+    id: int
+    servos: int
+    strength: float
+    hold_ms: int

@@ -1,0 +1,118 @@
+"""The peripherals' node: wires the topics to the core."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import asdict
+from typing import Optional, Tuple
+
+import rospy
+from sensor_msgs.msg import BatteryState, JointState
+
+from mtr_core import names, schedule
+from mtr_core.errors import RobotError
+from mtr_lockstep import Ticker, TickInput, clock
+from mtr_lockstep.samples import Samples
+from mtr_msgs.msg import DesiredState, FirmwareCommand, FirmwarePress, FirmwareState, PeripheralsState, RobotMode
+
+from .calibration import Calibration
+from .conversions import (
+    battery_charge,
+    command_message,
+    firmware_report,
+    joint_message,
+    orders,
+    press_message,
+    state_message,
+)
+from .core import Outcome, Peripherals
+from .firmware import FirmwareReport
+from .firmware_clock import FirmwareClock, SharedClock
+from .parameters import Parameters, parameters_from
+
+NS = 1e-9
+
+
+class PeripheralsNode:
+    """Decides at each tick of its slot."""
+
+    def __init__(self, parameters: Parameters, calibration: Calibration):
+        self._parameters = parameters
+        self._core = Peripherals(parameters, calibration)
+        self._times = SharedClock() if clock.is_simulated() else FirmwareClock()
+        self._reports = Samples(schedule.FIRMWARE, lag_ns=0, waits=clock.is_simulated())
+        self._battery: Tuple[int, Optional[float]] = (0, None)
+        self._seq = 0
+        self._logged = None
+        self._desired = TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER)
+        self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
+        self._command = rospy.Publisher(names.FIRMWARE_COMMAND, FirmwareCommand, queue_size=10, tcp_nodelay=True)
+        self._press = rospy.Publisher(names.FIRMWARE_PRESS, FirmwarePress, queue_size=10, tcp_nodelay=True)
+        self._state = rospy.Publisher(names.PERIPHERALS_STATE, PeripheralsState, queue_size=10, tcp_nodelay=True)
+        self._joints = rospy.Publisher("/joint_states", JointState, queue_size=10, tcp_nodelay=True)
+        self._subscribers = (
+            rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, self._take_state, queue_size=50, tcp_nodelay=True),
+            rospy.Subscriber(names.BATTERY, BatteryState, self._take_battery, queue_size=1))
+        self._ticker = Ticker(schedule.PERIPHERALS)
+
+    def spin(self) -> None:
+        """Run until shutdown."""
+        while not rospy.is_shutdown():
+            tick = self._ticker.sleep()
+            if tick >= schedule.SIMULATION_START_NS:
+                self._step(tick)
+
+    def _step(self, tick: int) -> None:
+        wanted = orders(self._fresh(self._desired.at(tick), tick), self._fresh(self._mode.at(tick), tick))
+        outcome = self._core.step(wanted, self._reports.at(tick), tick)
+        self._seq += 1
+        self._send(self._command, command_message(outcome, self._seq))
+        if outcome.press:
+            self._send(self._press, press_message(outcome.press))
+        stamp = clock.stamp_of(tick)
+        self._state.publish(state_message(outcome, self._charge(tick), stamp))
+        self._joints.publish(joint_message(outcome, stamp))
+        self._log(outcome)
+
+    def _send(self, publisher: rospy.Publisher, message: object) -> None:
+        publisher.publish(message)
+        self._ticker.messages_sent += 1
+
+    def _take_state(self, message: FirmwareState) -> None:
+        stamp_ns = self._times.observe(message.time_us, clock.now_ns())
+        report: FirmwareReport = firmware_report(message, stamp_ns, self._times)
+        self._reports.add(stamp_ns, report)
+
+    def _take_battery(self, message: BatteryState) -> None:
+        self._battery = (clock.now_ns(), message.percentage)
+
+    def _charge(self, tick: int) -> float:
+        taken_ns, percentage = self._battery
+        stale = (tick - taken_ns) * NS > self._parameters.battery_silent_after_s
+        return battery_charge(None if stale else percentage)
+
+    def _fresh(self, message: Optional[object], tick: int) -> Optional[object]:
+        if message is None or (tick - message.header.stamp.to_nsec()) * NS > self._parameters.order_silent_after_s:
+            return None
+        return message
+
+    def _log(self, outcome: Outcome) -> None:
+        newest = outcome.results[-1] if outcome.results else None
+        now = (outcome.message.split(" for ")[0], newest)
+        if self._logged and now[1] != self._logged[1]:
+            rospy.loginfo("Press %d: %s", newest.id, newest.error or "done.")
+        if outcome.message and (not self._logged or now[0] != self._logged[0]):
+            rospy.logwarn("%s", outcome.message)
+        self._logged = now
+
+
+def main() -> int:
+    """Start the node and run it; the exit status says whether it could start."""
+    rospy.init_node("peripherals")
+    try:
+        parameters, calibration = parameters_from(rospy.get_param("~", {}))
+        rospy.loginfo("Peripherals: %s %s", asdict(parameters), asdict(calibration))
+        PeripheralsNode(parameters, calibration).spin()
+    except RobotError as error:
+        rospy.logfatal("The peripherals' node did not start. %s", error)
+        return 2
+    except rospy.ROSInterruptException:
+        pass
+    return 0

@@ -1,0 +1,108 @@
+"""Carries out each ordered press once and keeps the reports."""
+# SPDX-License-Identifier: Apache-2.0
+from collections import deque
+from dataclasses import dataclass
+from typing import Deque, Optional, Tuple
+
+from .calibration import Calibration, OrderRefused
+from .firmware import FirmwareOrder, FirmwareReport, PressState
+
+KEPT_REPORTS = 8
+# Travel of the servo, transport and repetition; a press that is not done after its hold and this has failed.
+PRESS_MARGIN_NS = 3_000_000_000
+MILLISECOND_NS = 1_000_000
+MAX_FIRMWARE_ID = 2 ** 32 - 1
+
+
+@dataclass(frozen=True)
+class PressOrder:
+    """One press as the Operator wants it; id 0: none."""
+
+    session_id: int = 0
+    id: int = 0
+    buttons: Tuple[int, ...] = ()
+    strength: float = 1.0
+    duration_s: float = 0.0
+
+
+@dataclass(frozen=True)
+class PressResult:
+    """One press as it went; error is empty when it was carried out. Times on the robot's clock."""
+
+    session_id: int
+    id: int
+    start_ns: int
+    end_ns: int
+    error: str = ""
+
+
+@dataclass
+class _Running:
+    order: PressOrder
+    firmware: FirmwareOrder
+    deadline_ns: int
+    seen: bool = False
+
+
+class Presses:
+    """One press at a time.
+
+    Attributes:
+        results: the latest ones, newest last.
+    """
+
+    def __init__(self, calibration: Calibration):
+        self._calibration = calibration
+        self.results: Deque[PressResult] = deque(maxlen=KEPT_REPORTS)
+        self._running: Optional[_Running] = None
+        self._newest = (0, 0)
+        self._firmware_id: Optional[int] = None
+
+    @property
+    def pressed_buttons(self) -> Tuple[int, ...]:
+        """Buttons held down now."""
+        return self._running.order.buttons if self._running and self._running.seen else ()
+
+    def step(self, order: PressOrder, report: Optional[FirmwareReport], now_ns: int) -> Optional[FirmwareOrder]:
+        """Take the wanted press and the firmware's newest report; returns what to send the firmware now."""
+        if report is None:
+            return None
+        if self._firmware_id is None:
+            # Ids go on where the firmware stands: it outlives this node, and must not take a new press for an old one.
+            self._firmware_id = report.press_id
+        if self._running:
+            self._follow(self._running, report, now_ns)
+        if self._running is None and order.id and (order.session_id, order.id) != self._newest:
+            self._begin(order, now_ns)
+        return self._running.firmware if self._running and not self._running.seen else None
+
+    def _begin(self, order: PressOrder, now_ns: int) -> None:
+        self._newest = (order.session_id, order.id)
+        try:
+            firmware = FirmwareOrder(self._next_id(), self._calibration.servos(order.buttons),
+                                     self._calibration.strength(order.strength),
+                                     self._calibration.hold_ms(order.duration_s))
+        except OrderRefused as refused:
+            self._finish(order, now_ns, now_ns, str(refused))
+            return
+        self._running = _Running(order, firmware, now_ns + firmware.hold_ms * MILLISECOND_NS + PRESS_MARGIN_NS)
+
+    def _follow(self, running: _Running, report: FirmwareReport, now_ns: int) -> None:
+        if report.press_id == running.firmware.id:
+            running.seen = True
+            if report.press_state is PressState.DONE:
+                self._finish(running.order, report.press_start_ns, report.press_end_ns)
+            elif report.press_state is PressState.REFUSED:
+                self._finish(running.order, now_ns, now_ns, "The firmware refused the press.")
+        elif running.seen:
+            self._finish(running.order, now_ns, now_ns, "The firmware started again during the press.")
+        if self._running and now_ns > running.deadline_ns:
+            self._finish(running.order, now_ns, now_ns, "The firmware did not report the press as done in time.")
+
+    def _finish(self, order: PressOrder, start_ns: int, end_ns: int, error: str = "") -> None:
+        self.results.append(PressResult(order.session_id, order.id, start_ns, end_ns, error))
+        self._running = None
+
+    def _next_id(self) -> int:
+        self._firmware_id = self._firmware_id % MAX_FIRMWARE_ID + 1
+        return self._firmware_id

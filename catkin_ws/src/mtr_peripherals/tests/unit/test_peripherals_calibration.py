@@ -1,0 +1,84 @@
+"""Heights, buttons and times of the calibration."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+import pathlib
+
+import pytest
+import yaml
+
+from mtr_core.errors import ConfigurationError
+from mtr_peripherals.calibration import Calibration, OrderRefused
+from mtr_peripherals.parameters import Parameters, parameters_from
+
+SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "config" / "calibration.yaml"
+CALIBRATION = Calibration()
+
+
+def test_shipped_file_holds_every_value_and_is_valid():
+    values = yaml.safe_load(SHIPPED.read_text(encoding="utf-8"))
+    shipped = Calibration(**values)
+    assert set(values) == set(vars(CALIBRATION))
+    assert tuple(shipped.button_of_servo) == (1, 2)
+
+
+@pytest.mark.parametrize("key_m, lift_m", [(0.35, 0.0), (1.55, 1.2), (1.0, 0.65), (1.5504, 1.2), (0.3496, 0.0)])
+def test_key_height_becomes_lift_height(key_m, lift_m):
+    assert CALIBRATION.lift_height_m(key_m) == pytest.approx(lift_m)
+
+
+def test_no_height_holds_the_lift():
+    assert math.isnan(CALIBRATION.lift_height_m(math.nan))
+
+
+@pytest.mark.parametrize("key_m", [0.34, 1.56, -1.0, math.inf, -math.inf])
+def test_height_out_of_range_is_refused_with_the_range(key_m):
+    with pytest.raises(OrderRefused, match="0.35 to 1.55 m"):
+        CALIBRATION.lift_height_m(key_m)
+
+
+@pytest.mark.parametrize("buttons, bits", [([1], 1), ([2], 2), ([1, 2], 3), ([2, 2], 2)])
+def test_buttons_become_servos(buttons, bits):
+    assert CALIBRATION.servos(buttons) == bits
+
+
+@pytest.mark.parametrize("buttons", [[], [3], [1, 0]])
+def test_unknown_button_is_refused(buttons):
+    with pytest.raises(OrderRefused):
+        CALIBRATION.servos(buttons)
+
+
+@pytest.mark.parametrize("strength", [-0.1, 1.1, math.nan])
+def test_strength_out_of_range_is_refused(strength):
+    with pytest.raises(OrderRefused, match="0 to 1"):
+        CALIBRATION.strength(strength)
+
+
+@pytest.mark.parametrize("duration_s, hold_ms", [(0.0, 300), (0.25, 250), (0.0001, 1), (10.0, 10000)])
+def test_duration_becomes_milliseconds(duration_s, hold_ms):
+    assert CALIBRATION.hold_ms(duration_s) == hold_ms
+
+
+@pytest.mark.parametrize("duration_s", [-1.0, 10.1, math.nan, math.inf])
+def test_duration_out_of_range_is_refused(duration_s):
+    with pytest.raises(OrderRefused):
+        CALIBRATION.hold_ms(duration_s)
+
+
+@pytest.mark.parametrize("bad", [{"lift_stroke_m": 3.0}, {"button_of_servo": [1, 2, 3]}, {"button_of_servo": [0]},
+                                 {"default_hold_s": 20.0}, {"minimum_strength": 1.1},
+                                 {"key_height_at_lower_stop_m": math.nan}])
+def test_value_out_of_range_is_a_sentence(bad):
+    with pytest.raises(ConfigurationError, match=next(iter(bad))):
+        Calibration(**bad)
+
+
+def test_node_reads_parameters_and_calibration_from_one_namespace():
+    parameters, calibration = parameters_from({"firmware_silent_after_s": 2, "lift_stroke_m": 0.8})
+    assert parameters == Parameters(firmware_silent_after_s=2) and calibration == Calibration(lift_stroke_m=0.8)
+
+
+@pytest.mark.parametrize("bad", [{"lift_stroke_m": "long"}, {"button_of_servo": 1}, {"button_of_servo": ["a"]},
+                                 {"unheard_of": 1}])
+def test_value_of_the_wrong_type_or_name_is_a_sentence(bad):
+    with pytest.raises(ConfigurationError, match=next(iter(bad))):
+        parameters_from(bad)

@@ -1,0 +1,66 @@
+"""ROS messages to the peripherals' plain data and back."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+import rospy
+
+from mtr_msgs.msg import ButtonPress, DesiredState, FirmwareCommand, FirmwareState, RobotMode, Waypoint
+from mtr_peripherals.conversions import (
+    battery_charge,
+    command_message,
+    firmware_report,
+    joint_message,
+    orders,
+    press_message,
+    state_message,
+)
+from mtr_peripherals.core import Outcome
+from mtr_peripherals.firmware import FirmwareOrder, Led, PressState
+from mtr_peripherals.firmware_clock import SharedClock
+from mtr_peripherals.presses import PressResult
+
+SECOND_NS = 1_000_000_000
+STAMP = rospy.Time(5)
+OUTCOME = Outcome(0.5, Led.MOVING, FirmwareOrder(3, 2, 0.5, 250), True, 0.4, 0.75, (2,),
+                  [PressResult(7, 8, 4 * SECOND_NS, 4 * SECOND_NS + 1, "")], "moving", "A sentence.")
+
+
+def test_leds_are_those_of_the_message():
+    assert {led.value for led in Led} == set(range(9))
+    assert command_message(OUTCOME, 6) == FirmwareCommand(6, 0.5, 4)
+
+
+def test_orders_take_session_height_and_press():
+    desired = DesiredState(session_id=7, link_alive=True, key_height_m=1.0, press=ButtonPress(8, [1], 0.5, 0.25))
+    found = orders(desired, RobotMode(mode=4, goal=Waypoint(id=1)))
+    assert (found.session_id, found.link_alive, found.stop, found.key_height_m) == (7, True, False, 1.0)
+    assert (found.press.session_id, found.press.id, found.press.buttons) == (7, 8, (1,))
+    assert (found.mode, found.has_goal) == (4, True)
+
+
+def test_silent_nodes_want_nothing():
+    found = orders(None, None)
+    assert found.stop and not found.link_alive and math.isnan(found.key_height_m) and not found.press.id
+
+
+def test_firmware_state_gets_the_robots_clock():
+    stamp_ns = 100 * SECOND_NS
+    state = FirmwareState(time_us=100_000_000, lift_height_m=0.4, press_id=3, press_state=2,
+                          press_start_us=99_000_000, press_end_us=99_500_000, led_pattern=4)
+    report = firmware_report(state, stamp_ns, SharedClock())
+    assert report.press_state is PressState.DONE
+    assert (report.press_start_ns, report.press_end_ns) == (99 * SECOND_NS, 99 * SECOND_NS + SECOND_NS // 2)
+
+
+def test_outcome_becomes_messages():
+    state, joints = state_message(OUTCOME, 0.9, STAMP), joint_message(OUTCOME, STAMP)
+    press = press_message(OUTCOME.press)
+    assert (state.alive, state.key_height_m, state.pressed_buttons, state.battery) == (True, 0.75, [2], 0.9)
+    assert [(report.session_id, report.id, report.start) for report in state.presses] == [(7, 8, rospy.Time(4))]
+    assert (state.led, state.message, state.header.stamp) == ("moving", "A sentence.", STAMP)
+    assert (press.id, press.servos, press.strength, press.hold_ms) == (3, 2, 0.5, 250)
+    assert joints.name[0] == "lift" and joints.position[0] == 0.4 and len(joints.name) == len(joints.position) == 5
+
+
+def test_unknown_battery_is_nan():
+    assert math.isnan(battery_charge(None)) and math.isnan(battery_charge(math.nan)) and battery_charge(0.5) == 0.5

@@ -1,0 +1,192 @@
+"""Presses, lift and LEDs against a fake firmware."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import replace
+
+import pytest
+
+from mtr_peripherals.calibration import Calibration
+from mtr_peripherals.core import Orders, Peripherals
+from mtr_peripherals.firmware import FirmwareReport, Led, PressState
+from mtr_peripherals.parameters import Parameters
+from mtr_peripherals.presses import PressOrder
+
+MS = 1_000_000
+TICK = 100 * MS
+START = 1_000 * MS
+READY, FOLLOWING, FAULT = 2, 4, 5
+LIVE = Orders(session_id=3, link_alive=True, stop=False, mode=FOLLOWING)
+PRESS = PressOrder(3, 1, (2,), 0.8, 0.25)
+PRESSING_LIVE = replace(LIVE, press=PRESS)
+
+
+class FakeFirmware:
+    """Carries out one press at a time, as the firmware does, in whole ticks.
+
+    Attributes:
+        pressed: ids that were pressed, in order.
+        deaf: how many press messages get lost.
+        refuses: every press is refused.
+    """
+
+    def __init__(self, last_id=0):
+        self.pressed, self.deaf, self.refuses = [], 0, False
+        self.report = FirmwareReport(START, press_id=last_id,
+                                     press_state=PressState.DONE if last_id else PressState.NONE)
+
+    def step(self, order, now_ns):
+        report = replace(self.report, stamp_ns=now_ns)
+        if report.press_state is PressState.PRESSING and now_ns >= report.press_end_ns:
+            report = replace(report, press_state=PressState.DONE)
+        if order and self.deaf:
+            self.deaf -= 1
+        elif order and order.id != report.press_id:
+            self.pressed.append(order)
+            state = PressState.REFUSED if self.refuses else PressState.PRESSING
+            report = replace(report, press_id=order.id, press_state=state, press_start_ns=now_ns,
+                             press_end_ns=now_ns + order.hold_ms * MS)
+        self.report = report
+
+
+@pytest.fixture
+def core():
+    return Peripherals(Parameters(), Calibration())
+
+
+def run(core, orders, firmware, ticks, first=0):
+    for i in range(first, first + ticks):
+        outcome = core.step(orders, firmware.report, START + i * TICK)
+        firmware.step(outcome.press, START + i * TICK)
+    return outcome
+
+
+def test_press_is_carried_out_once_and_reported_with_its_times(core):
+    firmware = FakeFirmware()
+    outcome = run(core, PRESSING_LIVE, firmware, 20)
+    assert [(order.servos, order.strength, order.hold_ms) for order in firmware.pressed] == [(2, 0.8, 250)]
+    assert [(result.session_id, result.id, result.error) for result in outcome.results] == [(3, 1, "")]
+    assert outcome.results[0].end_ns - outcome.results[0].start_ns == 250 * MS
+
+
+def test_lost_press_message_is_repeated(core):
+    firmware = FakeFirmware()
+    firmware.deaf = 3
+    outcome = run(core, PRESSING_LIVE, firmware, 20)
+    assert len(firmware.pressed) == 1 and not outcome.results[0].error
+
+
+def test_next_id_and_next_session_press_again(core):
+    firmware = FakeFirmware()
+    run(core, PRESSING_LIVE, firmware, 10)
+    run(core, replace(LIVE, press=replace(PRESS, id=2)), firmware, 10, 10)
+    outcome = run(core, replace(LIVE, session_id=4, press=replace(PRESS, session_id=4)), firmware, 10, 20)
+    assert len({order.id for order in firmware.pressed}) == 3
+    assert [(result.session_id, result.id) for result in outcome.results] == [(3, 1), (3, 2), (4, 1)]
+
+
+def test_new_press_during_another_waits_for_it(core):
+    firmware = FakeFirmware()
+    run(core, PRESSING_LIVE, firmware, 2)
+    outcome = run(core, replace(LIVE, press=replace(PRESS, id=2)), firmware, 20, 2)
+    assert [result.id for result in outcome.results] == [1, 2]
+    assert outcome.results[0].end_ns <= outcome.results[1].start_ns
+
+
+def test_ids_go_on_where_the_firmware_stands(core):
+    firmware = FakeFirmware(last_id=1)
+    run(core, PRESSING_LIVE, firmware, 10)
+    assert [order.id for order in firmware.pressed] == [2]
+
+
+def test_held_buttons_are_shown(core):
+    firmware = FakeFirmware()
+    during = run(core, PRESSING_LIVE, firmware, 3)
+    assert during.pressed_buttons == (2,) and during.led is Led.PRESSING
+    assert run(core, PRESSING_LIVE, firmware, 10, 3).pressed_buttons == ()
+
+
+@pytest.mark.parametrize("press, word", [(replace(PRESS, buttons=(5,)), "Button 5"),
+                                         (replace(PRESS, strength=math.nan), "Strength nan"),
+                                         (replace(PRESS, duration_s=60.0), "Duration 60 s")])
+def test_impossible_press_is_reported_with_the_reason_and_not_sent(core, press, word):
+    firmware = FakeFirmware()
+    outcome = run(core, replace(LIVE, press=press), firmware, 5)
+    assert not firmware.pressed and [result.id for result in outcome.results] == [1]
+    assert word in outcome.results[0].error
+
+
+def test_press_that_the_firmware_refuses_is_an_error(core):
+    firmware = FakeFirmware()
+    firmware.refuses = True
+    outcome = run(core, PRESSING_LIVE, firmware, 5)
+    assert [result.error for result in outcome.results] == ["The firmware refused the press."]
+
+
+def test_press_that_is_never_reported_is_an_error(core):
+    firmware = FakeFirmware()
+    firmware.deaf = 1000
+    outcome = run(core, PRESSING_LIVE, firmware, 40)
+    assert len(outcome.results) == 1 and "in time" in outcome.results[0].error
+
+
+def test_firmware_that_starts_again_during_a_press_is_an_error_and_presses_no_second_time(core):
+    firmware = FakeFirmware()
+    run(core, PRESSING_LIVE, firmware, 3)
+    firmware.report = FirmwareReport(START)
+    outcome = run(core, PRESSING_LIVE, firmware, 20, 3)
+    assert len(firmware.pressed) == 1 and "started again" in outcome.results[0].error
+
+
+@pytest.mark.parametrize("orders", [replace(PRESSING_LIVE, link_alive=False), replace(LIVE, press=PressOrder())])
+def test_nothing_is_pressed_without_a_live_order(core, orders):
+    firmware = FakeFirmware()
+    run(core, orders, firmware, 5)
+    assert not firmware.pressed
+
+
+def test_lift_follows_the_live_order_even_while_the_robot_is_stopped(core):
+    firmware = FakeFirmware()
+    outcome = run(core, replace(LIVE, stop=True, key_height_m=1.0), firmware, 1)
+    assert outcome.lift_height_m == pytest.approx(0.65)
+    dead = run(core, replace(LIVE, link_alive=False, key_height_m=1.0), firmware, 1)
+    assert math.isnan(dead.lift_height_m)
+
+
+def test_height_out_of_range_holds_the_lift_and_says_why(core):
+    outcome = run(core, replace(LIVE, key_height_m=2.0), FakeFirmware(), 1)
+    assert math.isnan(outcome.lift_height_m) and "2 m" in outcome.message and outcome.alive
+
+
+def test_reported_height_is_above_ground(core):
+    outcome = core.step(LIVE, FirmwareReport(START, lift_height_m=0.5), START)
+    assert outcome.key_height_m == pytest.approx(0.85) and outcome.lift_now_m == 0.5
+
+
+def test_silent_firmware_is_not_alive_and_says_so(core):
+    report = FirmwareReport(START)
+    assert core.step(LIVE, report, START + 1_000 * MS).alive
+    outcome = core.step(LIVE, report, START + 1_001 * MS)
+    assert not outcome.alive and "silent for 1.0 s" in outcome.message and outcome.led is Led.ERROR
+
+
+def test_firmware_that_never_reported_is_not_alive(core):
+    outcome = core.step(LIVE, None, START)
+    assert not outcome.alive and math.isnan(outcome.key_height_m) and outcome.message
+
+
+def test_fault_of_the_firmware_is_a_sentence(core):
+    assert core.step(LIVE, FirmwareReport(START, fault=1), START).message == "The lift is jammed."
+
+
+@pytest.mark.parametrize("orders, led", [
+    (Orders(), Led.STARTING),
+    (Orders(mode=READY), Led.READY),
+    (replace(LIVE, mode=3), Led.MAPPING),
+    (replace(LIVE, has_goal=True), Led.MOVING),
+    (LIVE, Led.READY),
+    (replace(LIVE, stop=True), Led.PAUSED),
+    (replace(LIVE, link_alive=False, stop=True), Led.LINK_LOST),
+    (replace(LIVE, mode=FAULT), Led.ERROR),
+])
+def test_leds_show_what_the_robot_does(core, orders, led):
+    assert core.step(orders, FirmwareReport(START), START).led is led

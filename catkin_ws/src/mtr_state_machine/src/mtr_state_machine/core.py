@@ -1,0 +1,157 @@
+"""The state machine without ROS: an observation in, mode and goal out."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+from typing import Optional, Tuple
+
+from .goals import NO_GOAL, Goals, WaypointResult
+from .observation import CarState, Observation, Part, Place, Result
+from .parameters import Parameters
+from .table import AGAIN, Event, State, StateTable
+
+# More changes of state in one tick than the table is long would mean that two rows undo each other.
+MAX_EVENTS_PER_TICK = 4
+UNWELCOME = (Result.REFUSED, Result.BLOCKED)
+LOCKED_STATES = (State.STARTING, State.FAULT)
+
+
+@dataclass(frozen=True)
+class Decision:
+    """What follows from an observation; lock_reason is empty when the robot may move."""
+
+    state: State
+    goal: Place
+    max_speed_mps: float
+    mapping: bool
+    map_car_id: int
+    session_id: int
+    waypoint_id: int
+    waypoint_result: Result
+    message: str
+    lock_reason: str
+
+
+class StateMachine:
+    """Decides at each tick; keeps the state, the mapping order in force and the goal."""
+
+    def __init__(self, parameters: Parameters):
+        self._parameters = parameters
+        self._table = StateTable()
+        self._goals = Goals()
+        self._waypoint = WaypointResult()
+        self._map_car_id = 0
+        self._before_fault = State.READY_TO_MAP_CAR
+        self._failed_waypoint = (0, 0)
+        self._failure_is_old = False
+
+    @property
+    def state(self) -> State:
+        """Where the robot is now."""
+        return self._table.state
+
+    def step(self, seen: Observation) -> Decision:
+        """Decide at one tick."""
+        self._failure_is_old = self._failure_is_old and seen.car.state is CarState.FAILED
+        problem = self._problem(seen)
+        for _ in range(MAX_EVENTS_PER_TICK):
+            event = self._event(seen, problem)
+            if event is None:
+                break
+            self._fire(event, seen)
+            problem = self._problem(seen)
+        self._pursue(seen)
+        return self._decision(seen, problem)
+
+    def _problem(self, seen: Observation) -> str:
+        for part in Part:
+            found = seen.part_problem(part, self._parameters.silent_after_s)
+            if found:
+                return found
+        return self._car_problem(seen)
+
+    def _car_problem(self, seen: Observation) -> str:
+        state = self._before_fault if self.state is State.FAULT else self.state
+        failed = seen.car.state is CarState.FAILED and seen.car.map_car_id == self._map_car_id
+        if state is State.MAPPING_CAR and failed and not self._failure_is_old:
+            return seen.car.message or "The Car was not found."
+        if state is State.FOLLOWING_WAYPOINT and seen.car.state is not CarState.LOCATED:
+            return "The position of the Car is no longer known; order the robot to map the Car again."
+        return ""
+
+    def _event(self, seen: Observation, problem: str) -> Optional[Event]:
+        if self.state is State.STARTING:
+            return None if problem else Event.ALL_RUNNING
+        if self._is_map_ordered(seen) and (not problem or self._car_problem(seen) == problem):
+            return Event.MAP_ORDERED
+        if self.state is State.FAULT:
+            over = not problem or self._is_new_attempt(seen, problem)
+            return AGAIN[self._before_fault] if over else None
+        return Event.PART_FAILED if problem else self._progress(seen)
+
+    def _progress(self, seen: Observation) -> Optional[Event]:
+        if self.state is State.READY_TO_MAP_CAR and self._may_move(seen) and seen.desired.waypoint.id:
+            return Event.WAYPOINT_GIVEN
+        if self.state is State.MAPPING_CAR and self._is_located(seen):
+            return Event.CAR_LOCATED
+        return None
+
+    def _fire(self, event: Event, seen: Observation) -> None:
+        if event is Event.PART_FAILED:
+            self._before_fault = self.state
+            self._failed_waypoint = _waypoint_key(seen)
+        if event is Event.MAPPING_AGAIN:
+            self._failure_is_old = seen.car.state is CarState.FAILED
+        if event is Event.MAP_ORDERED:
+            self._map_car_id = seen.desired.map_car_id
+        self._table.fire(event)
+
+    def _is_map_ordered(self, seen: Observation) -> bool:
+        return seen.desired.link_alive and seen.desired.map_car_id not in (0, self._map_car_id)
+
+    def _is_new_attempt(self, seen: Observation, problem: str) -> bool:
+        """A waypoint that is not the one under which mapping failed tries again."""
+        failed = self._before_fault is State.MAPPING_CAR and problem == self._car_problem(seen)
+        new = seen.desired.waypoint.id and _waypoint_key(seen) != self._failed_waypoint
+        return bool(failed and new and self._may_move(seen))
+
+    def _is_located(self, seen: Observation) -> bool:
+        return seen.car.state is CarState.LOCATED and seen.car.map_car_id == self._map_car_id
+
+    @staticmethod
+    def _may_move(seen: Observation) -> bool:
+        return seen.desired.link_alive and not seen.desired.stop
+
+    def _pursue(self, seen: Observation) -> None:
+        desired, mapping_place = seen.desired, seen.car.next_waypoint
+        if desired.link_alive:
+            self._waypoint.expect(desired.session_id, desired.waypoint.id)
+        if not self._may_move(seen) or not (desired.waypoint.id or desired.map_car_id):
+            self._goals.pause()
+        elif self.state is State.FOLLOWING_WAYPOINT and desired.waypoint.id:
+            self._goals.pursue(_waypoint_key(seen), desired.waypoint)
+        elif self.state is State.MAPPING_CAR and seen.car.state is CarState.COLLECTING and mapping_place.id:
+            self._goals.pursue(("mapping", self._map_car_id, mapping_place.id), mapping_place)
+        else:
+            self._goals.pause()
+        following = self.state is State.FOLLOWING_WAYPOINT
+        self._waypoint.update(self._goals.goal if following else NO_GOAL, seen.motion)
+
+    def _decision(self, seen: Observation, problem: str) -> Decision:
+        locked = self.state in LOCKED_STATES
+        message = problem if locked else self._message(seen)
+        return Decision(self.state, self._goals.goal, seen.desired.max_speed_mps, self.state is State.MAPPING_CAR,
+                        self._map_car_id, self._waypoint.session_id, self._waypoint.waypoint_id,
+                        self._waypoint.result, message, message if locked else "")
+
+    def _message(self, seen: Observation) -> str:
+        if self.state is State.READY_TO_MAP_CAR:
+            return "Waits for the first waypoint to map the Car."
+        if self.state is State.FOLLOWING_WAYPOINT:
+            return self._waypoint.message if self._waypoint.result in UNWELCOME else ""
+        goal_id = self._goals.goal.id
+        if goal_id and seen.motion.goal_id == goal_id and seen.motion.result in UNWELCOME:
+            return seen.motion.message
+        return seen.car.message
+
+
+def _waypoint_key(seen: Observation) -> Tuple[int, int]:
+    return seen.desired.session_id, seen.desired.waypoint.id

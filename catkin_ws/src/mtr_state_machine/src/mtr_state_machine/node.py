@@ -1,0 +1,84 @@
+"""The state machine's node: wires the topics to the core."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import asdict
+
+import rospy
+
+from mtr_core import names, schedule
+from mtr_core.errors import RobotError
+from mtr_lockstep import Ticker, TickInput, clock
+from mtr_msgs.msg import (
+    CarEstimate,
+    DesiredState,
+    DriveStatus,
+    LocalizedPose,
+    MotionLock,
+    MotionStatus,
+    PeripheralsState,
+    RobotMode,
+)
+
+from .conversions import lock_message, mode_message, observation
+from .core import Decision, StateMachine
+from .observation import Part
+from .parameters import Parameters, parameters_from
+from .table import State
+
+
+class StateMachineNode:
+    """Decides at each tick of its slot."""
+
+    def __init__(self, parameters: Parameters):
+        self._core = StateMachine(parameters)
+        self._logged = (None, "", 0)
+        self._inputs = {
+            Part.DISPATCHER: TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER),
+            Part.LOCALIZATION: TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0),
+            Part.CAR_LOCATOR: TickInput(names.CAR_ESTIMATE, CarEstimate, schedule.CAR_LOCATOR),
+            Part.MOTION_PLANNER: TickInput(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER),
+            Part.DRIVE_CONTROL: TickInput(names.DRIVE_STATUS, DriveStatus, schedule.DRIVE_CONTROL),
+            Part.PERIPHERALS: TickInput(names.PERIPHERALS_STATE, PeripheralsState, schedule.PERIPHERALS),
+        }
+        self._mode = rospy.Publisher(names.ROBOT_MODE, RobotMode, queue_size=10, tcp_nodelay=True)
+        self._lock = rospy.Publisher(names.MOTION_LOCK, MotionLock, queue_size=10, tcp_nodelay=True)
+        self._ticker = Ticker(schedule.STATE_MACHINE)
+
+    def spin(self) -> None:
+        """Run until shutdown."""
+        while not rospy.is_shutdown():
+            tick = self._ticker.sleep()
+            if tick >= schedule.SIMULATION_START_NS:
+                self._step(tick)
+
+    def _step(self, tick: int) -> None:
+        decision = self._core.step(observation({part: topic.at(tick) for part, topic in self._inputs.items()}, tick))
+        stamp = clock.stamp_of(tick)
+        self._lock.publish(lock_message(decision, stamp))
+        self._mode.publish(mode_message(decision, stamp))
+        self._log(decision)
+
+    def _log(self, decision: Decision) -> None:
+        reason = decision.lock_reason
+        now = (decision.state, reason.split(" for ")[0], decision.goal.id)
+        if now[:2] != self._logged[:2]:
+            log = rospy.logwarn if decision.state is State.FAULT else rospy.loginfo
+            log("%s. %s", decision.state.name, decision.message)
+        elif now != self._logged:
+            goal = decision.goal
+            rospy.loginfo("Goal %d: %.2f %.2f %.2f in %s", goal.id, goal.x, goal.y, goal.heading, goal.frame_id)
+        self._logged = now
+
+
+def main() -> int:
+    """Start the node and run it; the exit status says whether it could start."""
+    rospy.init_node("state_machine")
+    try:
+        parameters = parameters_from(rospy.get_param("~", {}))
+        rospy.loginfo("State machine: %s", asdict(parameters))
+        StateMachineNode(parameters).spin()
+    except RobotError as error:
+        rospy.logfatal("The state machine did not start. %s", error)
+        return 2
+    except rospy.ROSInterruptException:
+        pass
+    return 0

@@ -1,0 +1,102 @@
+"""What the state machine knows of the robot at its tick, as plain data."""
+# SPDX-License-Identifier: Apache-2.0
+import enum
+from dataclasses import dataclass, field
+from typing import Dict, Optional
+
+
+class CarState(enum.Enum):
+    """State of the Car locator; the values are those of CarEstimate."""
+
+    UNKNOWN = 0
+    COLLECTING = 1
+    LOCATED = 2
+    FAILED = 3
+
+
+class Result(enum.Enum):
+    """What the motion planner says of its goal; the values are those of MotionStatus."""
+
+    IDLE = 0
+    PENDING = 1
+    REACHED = 2
+    REFUSED = 3
+    BLOCKED = 4
+
+
+class Part(enum.Enum):
+    """Parts of the robot that must report all the time; the value is the name a person reads."""
+
+    DISPATCHER = "dispatcher"
+    LOCALIZATION = "localization"
+    CAR_LOCATOR = "Car locator"
+    MOTION_PLANNER = "motion planner"
+    DRIVE_CONTROL = "drive control"
+    PERIPHERALS = "peripherals"
+
+
+@dataclass(frozen=True)
+class Place:
+    """A pose of base_link to reach; id 0: none. m and rad; direction as in the message Waypoint."""
+
+    id: int = 0
+    frame_id: str = "car"
+    x: float = 0.0
+    y: float = 0.0
+    heading: float = 0.0
+    direction: int = 0
+
+
+@dataclass(frozen=True)
+class Desired:
+    """What the Operator wants."""
+
+    session_id: int = 0
+    link_alive: bool = False
+    stop: bool = True
+    waypoint: Place = Place()
+    max_speed_mps: float = 0.0
+    map_car_id: int = 0
+
+
+@dataclass(frozen=True)
+class Car:
+    """The Car locator's estimate, as far as it matters here."""
+
+    state: CarState = CarState.UNKNOWN
+    next_waypoint: Place = Place(frame_id="map")
+    map_car_id: int = 0
+    message: str = ""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The motion planner's report."""
+
+    goal_id: int = 0
+    result: Result = Result.IDLE
+    message: str = ""
+
+
+@dataclass(frozen=True)
+class Observation:
+    """Everything known at one tick.
+
+    Attributes:
+        age_s: age of each part's newest message; a part that is missing has not reported yet.
+        complaint: sentence of a part that reports but is not well, e.g. a localization that is lost.
+    """
+
+    desired: Desired = Desired()
+    car: Car = Car()
+    motion: Motion = Motion()
+    age_s: Dict[Part, float] = field(default_factory=dict)
+    complaint: Dict[Part, str] = field(default_factory=dict)
+
+    def part_problem(self, part: Part, silent_after_s: float) -> Optional[str]:
+        """Sentence when the part is silent or not well, None when it is well."""
+        if part not in self.age_s:
+            return f"The {part.value} has not reported yet."
+        if self.age_s[part] > silent_after_s:
+            return f"The {part.value} has been silent for {self.age_s[part]:.1f} s."
+        return self.complaint.get(part) or None

@@ -1,0 +1,81 @@
+"""The robot's high-level behaviour as a table: state, event, next state (thesis, figure 4.15, with the faults)."""
+# SPDX-License-Identifier: Apache-2.0
+import enum
+from typing import Tuple
+
+from transitions import Machine, MachineError
+
+from mtr_core.errors import RobotError
+
+
+class UnknownEvent(RobotError):
+    """The event has no place in the state."""
+
+
+class State(enum.Enum):
+    """High-level states; the values are those of RobotMode."""
+
+    STARTING = 1
+    READY_TO_MAP_CAR = 2
+    MAPPING_CAR = 3
+    FOLLOWING_WAYPOINT = 4
+    FAULT = 5
+
+
+class Event(enum.Enum):
+    """What leads to another state."""
+
+    ALL_RUNNING = "all_running"          # every part of the robot has reported that it is well
+    WAYPOINT_GIVEN = "waypoint_given"    # the Operator wants the robot to move
+    MAP_ORDERED = "map_ordered"          # the Operator orders to map the Car (again)
+    CAR_LOCATED = "car_located"          # the Car locator has found the Car
+    PART_FAILED = "part_failed"          # a part is silent or says that it cannot go on; or the Car was not found
+    READY_AGAIN = "ready_again"          # a fault is over that began in the state of this name
+    MAPPING_AGAIN = "mapping_again"
+    FOLLOWING_AGAIN = "following_again"
+
+
+# Row: state, event, next state.
+TABLE: Tuple[Tuple[State, Event, State], ...] = (
+    (State.STARTING, Event.ALL_RUNNING, State.READY_TO_MAP_CAR),
+    (State.READY_TO_MAP_CAR, Event.WAYPOINT_GIVEN, State.MAPPING_CAR),
+    (State.READY_TO_MAP_CAR, Event.MAP_ORDERED, State.MAPPING_CAR),
+    (State.READY_TO_MAP_CAR, Event.PART_FAILED, State.FAULT),
+    (State.MAPPING_CAR, Event.CAR_LOCATED, State.FOLLOWING_WAYPOINT),
+    (State.MAPPING_CAR, Event.MAP_ORDERED, State.MAPPING_CAR),
+    (State.MAPPING_CAR, Event.PART_FAILED, State.FAULT),
+    (State.FOLLOWING_WAYPOINT, Event.MAP_ORDERED, State.MAPPING_CAR),
+    (State.FOLLOWING_WAYPOINT, Event.PART_FAILED, State.FAULT),
+    (State.FAULT, Event.MAP_ORDERED, State.MAPPING_CAR),
+    (State.FAULT, Event.READY_AGAIN, State.READY_TO_MAP_CAR),
+    (State.FAULT, Event.MAPPING_AGAIN, State.MAPPING_CAR),
+    (State.FAULT, Event.FOLLOWING_AGAIN, State.FOLLOWING_WAYPOINT),
+)
+
+AGAIN = {
+    State.READY_TO_MAP_CAR: Event.READY_AGAIN,
+    State.MAPPING_CAR: Event.MAPPING_AGAIN,
+    State.FOLLOWING_WAYPOINT: Event.FOLLOWING_AGAIN,
+}
+
+
+class StateTable:
+    """The table at work.
+
+    Attributes:
+        state: where the robot is now (set by the library).
+    """
+
+    state: State
+
+    def __init__(self) -> None:
+        rows = [[event.value, state, target] for state, event, target in TABLE]
+        Machine(model=self, states=State, transitions=rows, initial=State.STARTING, auto_transitions=False)
+
+    def fire(self, event: Event) -> State:
+        """Go on to the next state and return it; UnknownEvent when the table has no such row."""
+        try:
+            self.trigger(event.value)
+        except MachineError:
+            raise UnknownEvent(f"Event {event.value} has no place in state {self.state.name}.") from None
+        return self.state

@@ -1,0 +1,55 @@
+"""ROS messages to the observation and the decision to ROS messages."""
+# SPDX-License-Identifier: Apache-2.0
+import genpy
+import pytest
+
+from mtr_msgs.msg import CarEstimate, DesiredState, LocalizedPose, MotionStatus, PeripheralsState, Waypoint
+from mtr_state_machine.conversions import lock_message, mode_message, observation
+from mtr_state_machine.core import Decision
+from mtr_state_machine.observation import CarState, Part, Place, Result
+from mtr_state_machine.table import State
+
+TICK_NS = 10_020_000_000
+
+
+def stamped(message, time_ns=TICK_NS - 20_000_000):
+    message.header.stamp = genpy.Time(0, time_ns)
+    return message
+
+
+def test_messages_become_an_observation():
+    seen = observation({
+        Part.DISPATCHER: stamped(DesiredState(session_id=3, link_alive=True, waypoint=Waypoint(4, "car", 1, 2, 3, 1),
+                                              max_speed_mps=0.6, map_car_id=7)),
+        Part.CAR_LOCATOR: stamped(CarEstimate(state=1, next_waypoint=Waypoint(2, "map", 5, 6, 0, 0), map_car_id=7)),
+        Part.MOTION_PLANNER: stamped(MotionStatus(goal_id=8, result=4, message="Blocked.")),
+        Part.LOCALIZATION: stamped(LocalizedPose(valid=True)),
+        Part.PERIPHERALS: None}, TICK_NS)
+    assert (seen.desired.session_id, seen.desired.link_alive, seen.desired.stop) == (3, True, False)
+    assert seen.desired.waypoint == Place(4, "car", 1, 2, 3, 1) and seen.desired.map_car_id == 7
+    assert seen.car.state is CarState.COLLECTING and seen.car.next_waypoint.frame_id == "map"
+    assert (seen.motion.goal_id, seen.motion.result) == (8, Result.BLOCKED)
+    assert seen.age_s[Part.DISPATCHER] == pytest.approx(0.02) and Part.PERIPHERALS not in seen.age_s
+    assert seen.part_problem(Part.LOCALIZATION, 0.5) is None
+
+
+def test_without_a_message_nothing_is_wanted():
+    desired = observation({}, TICK_NS).desired
+    assert desired.stop and not desired.link_alive and not desired.waypoint.id
+
+
+def test_lost_localization_and_silent_firmware_are_complaints():
+    seen = observation({Part.LOCALIZATION: stamped(LocalizedPose(message="No IMU.")),
+                        Part.PERIPHERALS: stamped(PeripheralsState())}, TICK_NS)
+    assert seen.part_problem(Part.LOCALIZATION, 0.5) == "Localization is lost. No IMU."
+    assert "firmware" in seen.part_problem(Part.PERIPHERALS, 0.5)
+
+
+def test_decision_becomes_mode_and_lock():
+    decision = Decision(State.FAULT, Place(3, "map", 1.0, 2.0, 0.5, 1), 0.7, False, 4, 5, 6, Result.REFUSED,
+                        "Lost.", "Lost.")
+    mode, lock = mode_message(decision, genpy.Time(9)), lock_message(decision, genpy.Time(9))
+    assert (mode.mode, mode.goal.id, mode.goal.frame_id, mode.goal.direction) == (mode.FAULT, 3, "map", 1)
+    assert (mode.max_speed_mps, mode.mapping, mode.map_car_id, mode.session_id) == (0.7, False, 4, 5)
+    assert (mode.waypoint_id, mode.waypoint_result, mode.message) == (6, 3, "Lost.")
+    assert (lock.owner, lock.engaged, lock.reason) == ("state_machine", True, "Lost.")

@@ -1,0 +1,205 @@
+"""The state machine's decisions: mapping, goals, results and faults."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
+
+import pytest
+
+from mtr_state_machine.core import StateMachine
+from mtr_state_machine.observation import Car, CarState, Desired, Motion, Observation, Part, Place, Result
+from mtr_state_machine.parameters import Parameters
+from mtr_state_machine.table import State
+
+ALL_WELL = {part: 0.1 for part in Part}
+WAYPOINT = Place(7, "car", 3.0, 1.0, 0.5, 2)
+MAP_PLACE = Place(1, "map", 5.0, 5.0, 0.0)
+WANTS = Desired(session_id=9, link_alive=True, stop=False, waypoint=WAYPOINT, max_speed_mps=0.8)
+COLLECTING = Car(CarState.COLLECTING, MAP_PLACE)
+LOCATED = Car(CarState.LOCATED)
+
+
+def seen(**changes):
+    return replace(Observation(desired=WANTS, car=Car(), age_s=ALL_WELL), **changes)
+
+
+@pytest.fixture
+def machine():
+    return StateMachine(Parameters())
+
+
+@pytest.fixture
+def mapping(machine):
+    machine.step(seen(car=COLLECTING))
+    assert machine.state is State.MAPPING_CAR
+    return machine
+
+
+@pytest.fixture
+def following(mapping):
+    mapping.step(seen(car=LOCATED))
+    assert mapping.state is State.FOLLOWING_WAYPOINT
+    return mapping
+
+
+def reported(decision, result, message=""):
+    return Motion(decision.goal.id, result, message)
+
+
+@pytest.mark.parametrize("part", Part)
+def test_starting_waits_for_each_part(machine, part):
+    decision = machine.step(seen(age_s={other: 0.1 for other in Part if other is not part}))
+    assert decision.state is State.STARTING and decision.goal.id == 0
+    assert part.value in decision.message and decision.lock_reason == decision.message
+
+
+def test_ready_waits_for_a_waypoint(machine):
+    decision = machine.step(seen(desired=replace(WANTS, waypoint=Place())))
+    assert decision.state is State.READY_TO_MAP_CAR and not decision.mapping and not decision.lock_reason
+
+
+@pytest.mark.parametrize("change", [{"stop": True}, {"link_alive": False, "stop": True}])
+def test_stopped_robot_does_not_begin_to_map(machine, change):
+    assert machine.step(seen(desired=replace(WANTS, **change))).state is State.READY_TO_MAP_CAR
+
+
+def test_first_waypoint_starts_mapping_and_stays_pending(machine):
+    decision = machine.step(seen(car=COLLECTING))
+    assert decision.state is State.MAPPING_CAR and decision.mapping
+    assert (decision.goal.frame_id, decision.goal.x, decision.max_speed_mps) == ("map", 5.0, 0.8)
+    assert (decision.session_id, decision.waypoint_id, decision.waypoint_result) == (9, 7, Result.PENDING)
+
+
+def test_result_of_a_mapping_goal_is_not_the_waypoints(mapping):
+    decision = mapping.step(seen(car=COLLECTING))
+    decision = mapping.step(seen(car=COLLECTING, motion=reported(decision, Result.REACHED)))
+    assert decision.waypoint_result is Result.PENDING
+
+
+def test_each_place_of_the_locator_is_a_new_goal(mapping):
+    first = mapping.step(seen(car=COLLECTING)).goal
+    assert mapping.step(seen(car=COLLECTING)).goal == first
+    second = mapping.step(seen(car=replace(COLLECTING, next_waypoint=replace(MAP_PLACE, id=2, x=6.0)))).goal
+    assert second.id not in (0, first.id) and second.x == 6.0
+
+
+def test_stop_pauses_mapping_and_resuming_is_a_new_goal(mapping):
+    first = mapping.step(seen(car=COLLECTING)).goal
+    paused = mapping.step(seen(car=COLLECTING, desired=replace(WANTS, stop=True)))
+    assert paused.state is State.MAPPING_CAR and paused.goal.id == 0 and not paused.lock_reason
+    resumed = mapping.step(seen(car=COLLECTING)).goal
+    assert resumed.id not in (0, first.id) and resumed.x == first.x
+
+
+def test_located_car_leads_to_the_waypoint(mapping):
+    goal = mapping.step(seen(car=LOCATED)).goal
+    assert (goal.frame_id, goal.x, goal.y, goal.heading, goal.direction) == ("car", 3.0, 1.0, 0.5, 2)
+
+
+@pytest.mark.parametrize("result", [Result.PENDING, Result.REFUSED, Result.BLOCKED])
+def test_result_follows_the_planner(following, result):
+    decision = following.step(seen(car=LOCATED))
+    decision = following.step(seen(car=LOCATED, motion=reported(decision, result, "Why.")))
+    assert decision.waypoint_result is result
+    assert decision.message == ("" if result is Result.PENDING else "Why.")
+    decision = following.step(seen(car=LOCATED, motion=reported(decision, Result.PENDING)))
+    assert decision.waypoint_result is Result.PENDING
+
+
+def test_report_on_another_goal_counts_for_nothing(following):
+    decision = following.step(seen(car=LOCATED))
+    old = Motion(decision.goal.id - 1, Result.REACHED)
+    assert following.step(seen(car=LOCATED, motion=old)).waypoint_result is Result.PENDING
+
+
+def test_reached_stays_until_the_next_waypoint(following):
+    decision = following.step(seen(car=LOCATED))
+    decision = following.step(seen(car=LOCATED, motion=reported(decision, Result.REACHED)))
+    assert decision.waypoint_result is Result.REACHED
+    stopped = following.step(seen(car=LOCATED, desired=replace(WANTS, stop=True)))
+    assert stopped.waypoint_result is Result.REACHED
+    assert following.step(seen(car=LOCATED)).waypoint_result is Result.REACHED
+    following_one = replace(WANTS, waypoint=replace(WAYPOINT, id=8))
+    assert following.step(seen(car=LOCATED, desired=following_one)).waypoint_result is Result.PENDING
+
+
+def test_same_waypoint_id_of_another_session_is_another_goal(following):
+    first = following.step(seen(car=LOCATED))
+    second = following.step(seen(car=LOCATED, desired=replace(WANTS, session_id=10)))
+    assert second.goal.id not in (0, first.goal.id) and second.session_id == 10
+
+
+@pytest.mark.parametrize("change", [{"stop": True}, {"link_alive": False, "stop": True}, {"waypoint": Place()}])
+def test_without_a_live_order_there_is_no_goal(following, change):
+    assert following.step(seen(car=LOCATED, desired=replace(WANTS, **change))).goal.id == 0
+
+
+def test_waypoint_withdrawn_by_a_live_session_has_no_result(following):
+    decision = following.step(seen(car=LOCATED, desired=replace(WANTS, waypoint=Place())))
+    assert (decision.waypoint_id, decision.waypoint_result) == (0, Result.IDLE)
+
+
+@pytest.mark.parametrize("order_stopped", [True, False])
+def test_mapping_order_maps_again_until_its_own_answer(following, order_stopped):
+    order = replace(WANTS, map_car_id=3, stop=order_stopped)
+    decision = following.step(seen(car=LOCATED, desired=order))
+    assert decision.state is State.MAPPING_CAR and decision.map_car_id == 3
+    assert following.step(seen(car=LOCATED, desired=order)).state is State.MAPPING_CAR
+    answer = replace(LOCATED, map_car_id=3)
+    assert following.step(seen(car=answer, desired=order)).state is State.FOLLOWING_WAYPOINT
+    assert following.step(seen(car=answer, desired=order)).state is State.FOLLOWING_WAYPOINT
+
+
+def test_mapping_order_maps_without_a_waypoint(machine):
+    order = replace(WANTS, waypoint=Place(), map_car_id=1)
+    decision = machine.step(seen(desired=order, car=replace(COLLECTING)))
+    assert decision.state is State.MAPPING_CAR and decision.goal.frame_id == "map"
+
+
+def test_failed_mapping_is_a_fault_until_the_next_order(mapping):
+    failed = Car(CarState.FAILED, message="No Car was found.")
+    decision = mapping.step(seen(car=failed))
+    assert (decision.state, decision.message, decision.goal.id) == (State.FAULT, "No Car was found.", 0)
+    assert mapping.step(seen(car=failed)).state is State.FAULT
+    decision = mapping.step(seen(car=failed, desired=replace(WANTS, map_car_id=2)))
+    assert decision.state is State.MAPPING_CAR and not decision.lock_reason
+
+
+@pytest.mark.parametrize("change", [{"session_id": 10}, {"waypoint": replace(WAYPOINT, id=8)}])
+def test_new_waypoint_tries_a_failed_mapping_again(mapping, change):
+    failed, again = Car(CarState.FAILED, message="No Car was found."), replace(WANTS, **change)
+    assert mapping.step(seen(car=failed)).state is State.FAULT
+    assert mapping.step(seen(car=failed, desired=replace(again, stop=True))).state is State.FAULT
+    assert mapping.step(seen(car=failed, desired=again)).state is State.MAPPING_CAR
+    assert mapping.step(seen(car=failed, desired=again)).state is State.MAPPING_CAR
+    assert mapping.step(seen(car=COLLECTING, desired=again)).state is State.MAPPING_CAR
+    assert mapping.step(seen(car=failed, desired=again)).state is State.FAULT
+
+
+@pytest.mark.parametrize("part", Part)
+@pytest.mark.parametrize("trouble", ["silent", "unwell"])
+@pytest.mark.parametrize("before, car", [(State.READY_TO_MAP_CAR, Car()), (State.MAPPING_CAR, COLLECTING),
+                                         (State.FOLLOWING_WAYPOINT, LOCATED)])
+def test_failed_part_is_a_fault_with_its_sentence_and_ends_where_it_began(machine, part, trouble, before, car):
+    desired = replace(WANTS, waypoint=Place()) if before is State.READY_TO_MAP_CAR else WANTS
+    machine.step(seen(desired=desired, car=Car() if before is State.READY_TO_MAP_CAR else COLLECTING))
+    well = seen(desired=desired, car=car)
+    assert machine.step(well).state is before
+    silent, unwell = {**ALL_WELL, part: 0.51}, {part: f"The {part.value} is unwell."}
+    ill = replace(well, age_s=silent) if trouble == "silent" else replace(well, complaint=unwell)
+    decision = machine.step(ill)
+    assert decision.state is State.FAULT and decision.goal.id == 0 and not decision.mapping
+    assert part.value in decision.message and decision.lock_reason == decision.message
+    assert machine.step(ill).state is State.FAULT
+    assert machine.step(well).state is before
+
+
+def test_lost_car_is_a_fault(following):
+    decision = following.step(seen(car=Car()))
+    assert decision.state is State.FAULT and "map the Car again" in decision.message
+
+
+def test_mapping_order_does_not_end_a_fault_of_a_part(following):
+    order = replace(WANTS, map_car_id=4)
+    ill = seen(car=LOCATED, desired=order, complaint={Part.LOCALIZATION: "Localization is lost."})
+    assert following.step(ill).state is State.FAULT
+    assert following.step(ill).state is State.FAULT
+    assert following.step(seen(car=LOCATED, desired=order)).state is State.MAPPING_CAR
