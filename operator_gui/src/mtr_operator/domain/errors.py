@@ -4,6 +4,7 @@ OperatorError
 ├── InvalidParameter     a scenario or connection parameter is out of range
 ├── ConnectionFailed     robot or Car cannot be reached, or the port or adapter is wrong
 ├── LinkLost             robot or Car fell silent during a test
+├── RobotFailed          the robot is there, and cannot do what the test needs
 ├── ProgressFileError    a progress file cannot be read or belongs to something else
 └── OutputError          a result cannot be written
 """
@@ -24,6 +25,10 @@ class ConnectionFailed(OperatorError):
 
 class LinkLost(OperatorError):
     """Robot or Car fell silent during a test."""
+
+
+class RobotFailed(OperatorError):
+    """The robot is there, and cannot do what the test needs."""
 
 
 class ProgressFileError(OperatorError):

@@ -1,0 +1,49 @@
+"""Command line of the application."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import argparse
+import pathlib
+
+from mtr_operator import __version__
+from mtr_operator.domain.scenarios import SCENARIOS
+
+
+def argument_parser() -> argparse.ArgumentParser:
+    """Parser of all commands."""
+    parser = argparse.ArgumentParser(prog="mtr-operator", description="Measures where a car's remote key works.")
+    parser.add_argument("--version", action="version", version=__version__)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    _add_params(commands.add_parser("params", help="list the parameters of a scenario"))
+    _add_run(commands.add_parser("run", help="run a test"))
+    return parser
+
+
+def _add_params(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("scenario", choices=list(SCENARIOS), help="one of %(choices)s", metavar="SCENARIO")
+
+
+def _add_run(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("scenario", choices=list(SCENARIOS), help="one of %(choices)s", metavar="SCENARIO")
+    parser.add_argument("--params", type=pathlib.Path, required=True, metavar="FILE", help="parameters, YAML or JSON")
+    parser.add_argument("--out", type=pathlib.Path, required=True, metavar="DIR", help="folder for the results")
+    parser.add_argument("--continue", dest="continued", type=pathlib.Path, metavar="FILE",
+                        help="progress.json of an interrupted test to go on with")
+    robot = parser.add_argument_group("robot")
+    robot.add_argument("--robot", default="127.0.0.1", metavar="HOST", help="address, default %(default)s")
+    robot.add_argument("--subscriber-port", type=int, default=3334, metavar="N",
+                       help="TCP port of Status, default %(default)s")
+    robot.add_argument("--publisher-port", type=int, default=3333, metavar="N",
+                       help="TCP port of Command, default %(default)s")
+    robot.add_argument("--simulated-robot", action="store_true", help="use a substitute inside the application")
+    car = parser.add_argument_group("Car")
+    car.add_argument("--can-interface", default="pcan", metavar="NAME",
+                     help="python-can interface: pcan, socketcan, slcan, ...; default %(default)s")
+    car.add_argument("--can-channel", default="PCAN_USBBUS1", metavar="NAME",
+                     help="channel or device of the adapter, default %(default)s")
+    car.add_argument("--can-bitrate", type=int, default=500000, metavar="N", help="bit/s, default %(default)s")
+    car.add_argument("--car-profile", default="mtr_demo_car", metavar="NAME_OR_PATH",
+                     help="how the Car's bus tells its lock state, default %(default)s")
+    car.add_argument("--simulated-car", action="store_true", help="use a substitute inside the application")
+    parser.add_argument("--seed", type=int, default=1, metavar="N",
+                        help="of the substitutes' random numbers, default %(default)s")

@@ -1,0 +1,25 @@
+"""The links that the command line asks for; a driver is imported only when it is used."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import argparse
+
+from mtr_operator.domain.ports import CarLink, RobotLink
+
+
+def robot_link(options: argparse.Namespace) -> RobotLink:
+    """Link to the robot or its substitute, not connected yet."""
+    if options.simulated_robot:
+        from mtr_operator.robot_link.fake import FakeRobotLink
+        return FakeRobotLink(options.seed)
+    from mtr_operator.robot_link.client import ZmqRobotLink
+    return ZmqRobotLink(options.robot, options.subscriber_port, options.publisher_port)
+
+
+def car_link(options: argparse.Namespace) -> CarLink:
+    """Link to the Car or its substitute, not connected yet."""
+    if options.simulated_car:
+        from mtr_operator.car_link.fake import FakeCarLink
+        return FakeCarLink(options.seed)
+    from mtr_operator.car_link.bus import CanCarLink
+    return CanCarLink(options.can_interface, options.can_channel, options.can_bitrate, options.car_profile)

@@ -1,0 +1,48 @@
+"""The distance of the Remote key on a ray at an instant, with its uncertainty.
+
+The uncertainty is 1 sigma, the root of the sum of squares of four independent parts along the ray:
+    position    localization's sigma of base_link,
+    heading     localization's sigma of the heading times the lever from base_link to the key across the ray,
+    time        sigma of the instant (the CAN message's cycle is part of it) times the robot's speed,
+    Car         half the sigma of the Car's length and width, as far as they move the ray's origin.
+It is NaN when the robot does not say how well it knows its pose.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from .ports import CarDimensions
+from .pose_history import PoseSample
+from .ray import Ray
+
+
+@dataclass(frozen=True)
+class Distance:
+    """Measured distance of the Remote key, in m, with 1 sigma, at an instant of robot time."""
+
+    distance_m: float
+    uncertainty_m: float
+    robot_time_s: float
+
+
+def measure(ray: Ray, sample: PoseSample, time_sigma_s: float, origin_sigma_m: float = 0.0) -> Distance:
+    """Distance on a ray when base_link is at the sample."""
+    key_in_base = (sample.key_x, sample.key_y)
+    lever_x, lever_y = sample.pose.rotate(key_in_base)
+    across_m = ray.direction_y * lever_x - ray.direction_x * lever_y
+    sigma_m = math.hypot(sample.position_sigma_m, sample.heading_sigma_rad * across_m,
+                         time_sigma_s * sample.speed_mps, origin_sigma_m)
+    return Distance(ray.distance_of(sample.pose.apply(key_in_base)), sigma_m, sample.stamp_s)
+
+
+def outline_sigma(ray: Ray, car: CarDimensions) -> float:
+    """1 sigma along the ray of an origin on the Car's outline, in m."""
+    return math.hypot(ray.direction_x * car.length_sigma / 2.0, ray.direction_y * car.width_sigma / 2.0)
+
+
+def distance_to_outline(ray: Ray, distance_m: float, car: CarDimensions) -> float:
+    """Distance of a point on the ray from the Car's rectangle, 0 inside."""
+    x, y = ray.point(distance_m)
+    return math.hypot(max(abs(x) - car.length / 2.0, 0.0), max(abs(y) - car.width / 2.0, 0.0))

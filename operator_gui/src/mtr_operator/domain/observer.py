@@ -1,0 +1,26 @@
+"""What a view is told while a test runs."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Any, Mapping
+
+from .ports import RobotStatus
+
+
+class RunObserver:
+    """Told everything in the runner's thread, shows nothing; a view overrides what it shows."""
+
+    def on_status(self, status: RobotStatus) -> None:
+        """A Status arrived."""
+
+    def on_plan(self, done: int, total: int) -> None:
+        """The lines are known: so many of them are measured already."""
+
+    def on_action(self, text: str) -> None:
+        """The robot begins to do this."""
+
+    def on_result(self, result: Mapping[str, Any], done: int, total: int) -> None:
+        """A line was measured, or measured again."""
+
+    def on_link_silent(self, silent_s: float) -> None:
+        """Nothing has come from the robot for so long in wall time."""

@@ -1,0 +1,140 @@
+"""Declaration of a scenario's parameters with unit, range and default, and their validation.
+
+A scenario declares a frozen dataclass:
+
+    @dataclass(frozen=True)
+    class MyParameters(ParameterSet):
+        minimum_distance_m: float = parameter(0.5, 0.0, 20.0, "m", "Where the approach ends.")
+
+Every violation is an InvalidParameter with a sentence that names the parameter, its value and what is allowed.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import math
+import re
+from dataclasses import dataclass
+from typing import Any, Mapping, TypeVar
+
+from .errors import InvalidParameter
+
+Set = TypeVar("Set", bound="ParameterSet")
+# Rounding of a conversion such as 360 degrees to radians and back.
+_ROUNDING_DIGITS = 9
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """One parameter as a person sees it: file_key, range and default are in the unit."""
+
+    file_key: str
+    default: float | None
+    low: float
+    high: float
+    unit: str
+    doc: str
+    is_integer: bool
+    si_per_unit: float
+
+    @property
+    def allowed(self) -> str:
+        """Range with unit."""
+        number = "whole numbers from " if self.is_integer else ""
+        return f"{number}{self.low:g} to {with_unit(self.high, self.unit)}"
+
+    def to_si(self, value: Any) -> Any:
+        """SI value of what stood in a file; InvalidParameter when it is not a finite number."""
+        if value is None and self.default is None:
+            return None
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise InvalidParameter(f"Parameter {self.file_key} is {value!r}; {self._hint(value)}")
+        if self.is_integer:
+            if value != int(value):
+                raise InvalidParameter(f"Parameter {self.file_key} is {value:g}; allowed are {self.allowed}.")
+            return int(value)
+        return float(value) * self.si_per_unit
+
+    def to_unit(self, value: float | None) -> float | None:
+        """Inverse of to_si."""
+        if value is None or self.is_integer:
+            return value
+        return round(value / self.si_per_unit, _ROUNDING_DIGITS)
+
+    def check(self, value: float | None) -> None:
+        """Raise InvalidParameter unless the SI value lies within the range."""
+        shown = self.to_unit(value)
+        if shown is not None and not self.low <= shown <= self.high:
+            raise InvalidParameter(f"Parameter {self.file_key} is {with_unit(shown, self.unit)}; "
+                                   f"allowed is {self.allowed}.")
+
+    def _hint(self, value: Any) -> str:
+        if isinstance(value, str) and _DECIMAL_COMMA.fullmatch(value.strip()):
+            return f"write a decimal point: {value.strip().replace(',', '.')}."
+        return f"allowed is a number, {self.allowed}."
+
+
+def with_unit(value: float, unit: str) -> str:
+    """Number with its unit, if it has one."""
+    return f"{value:g} {unit}".rstrip()
+
+
+def parameter(default: Any, low: float, high: float, unit: str, doc: str, *, file_key: str = "",
+              si_per_unit: float = 1.0) -> Any:
+    """Field of a ParameterSet; default, low and high in the unit of the file, the field's value in SI units.
+
+    file_key: name in files when it differs from the field's (because the unit does). A default of None is left to the
+    scenario.
+    """
+    is_integer = isinstance(default, int) and not isinstance(default, bool)
+    value = default if default is None or is_integer else float(default) * si_per_unit
+    declared = Declaration(file_key, default, low, high, unit, doc, is_integer, si_per_unit)
+    return dataclasses.field(default=value, metadata={"declared": declared})
+
+
+@dataclass(frozen=True)
+class ParameterSet:
+    """Base of the scenarios' parameters; checked when it is made."""
+
+    def __post_init__(self) -> None:
+        for name, declared in self.declarations().items():
+            value = getattr(self, name)
+            if value is not None and not math.isfinite(value):
+                raise InvalidParameter(f"Parameter {declared.file_key} is {value}; allowed is {declared.allowed}.")
+            declared.check(value)
+        self.check()
+
+    def check(self) -> None:
+        """Check constraints between parameters; a scenario overrides it."""
+
+    @classmethod
+    def declarations(cls) -> dict[str, Declaration]:
+        """Declarations by field name."""
+        return {item.name: dataclasses.replace(item.metadata["declared"],
+                                               file_key=item.metadata["declared"].file_key or item.name)
+                for item in dataclasses.fields(cls)}
+
+    @classmethod
+    def from_mapping(cls: type[Set], mapping: Mapping[str, Any]) -> Set:
+        """Parameters from what stood in a file; what is missing takes its default."""
+        fields = {declared.file_key: (name, declared) for name, declared in cls.declarations().items()}
+        for key in mapping:
+            if key not in fields:
+                raise InvalidParameter(f"Parameter {key} is unknown; {_alternatives(str(key), list(fields))}")
+        values = {}
+        for key, value in mapping.items():
+            name, declared = fields[key]
+            values[name] = declared.to_si(value)
+        return cls(**values)
+
+    def to_mapping(self) -> dict[str, float | None]:
+        """What from_mapping takes: every parameter in the unit of its file key."""
+        return {declared.file_key: declared.to_unit(getattr(self, name))
+                for name, declared in self.declarations().items()}
+
+
+def _alternatives(key: str, known: list[str]) -> str:
+    close = difflib.get_close_matches(key, known, n=1)
+    return f"did you mean {close[0]}?" if close else f"known are {', '.join(known)}."

@@ -1,0 +1,62 @@
+"""What a protocol shows, as plain shapes in the Car coordinate system: drawn by report, and by any other view."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+from typing import Iterator
+
+from .pose import Point
+
+
+class Look(enum.Enum):
+    """Role of a set of points; a view gives each role its colour and marker."""
+
+    FIRST = "first"                    # the nearer area: unlocked, pressed with success
+    SECOND = "second"                  # the farther area: locked
+    FIRST_FAILED = "first failed"
+    SECOND_FAILED = "second failed"
+    FAILED = "failed"                  # where there is only one area
+    INVALID = "invalid"
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A straight piece on which the key was carried, with a label at its far end."""
+
+    start: Point
+    end: Point
+    label: str
+
+
+@dataclass(frozen=True)
+class PointSet:
+    """Points with the same meaning.
+
+    is_outline: they enclose an area, in this order; None stands for a line without a point, where the outline is not
+    known.
+    """
+
+    label: str
+    look: Look
+    points: tuple[Point | None, ...]
+    is_outline: bool = False
+
+    @property
+    def known(self) -> tuple[Point, ...]:
+        """The points that there are."""
+        return tuple(point for point in self.points if point is not None)
+
+    def pieces(self) -> Iterator[tuple[Point, Point, bool]]:
+        """Pieces of the closed outline, and whether no unknown point lies between their ends."""
+        places = [index for index, point in enumerate(self.points) if point is not None]
+        for index, after in zip(places, places[1:] + places[:1]):
+            yield self.points[index], self.points[after], (after - index) % len(self.points) == 1
+
+
+@dataclass(frozen=True)
+class Picture:
+    """Everything on the protocol beside the Car."""
+
+    stretches: tuple[Stretch, ...]
+    point_sets: tuple[PointSet, ...]

@@ -1,0 +1,50 @@
+"""From a robot that has just been switched on to one that can measure: key at its height, Car mapped."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Callable
+
+from .car import Car
+from .errors import RobotFailed
+from .ports import Mode, RobotStatus
+from .ray import Ray
+from .robot import Robot
+from .session import Session
+
+# Robot times after which waiting is in vain.
+START_LIMIT_S = 60.0
+MAPPING_LIMIT_S = 600.0
+# The first waypoint makes the robot map the Car; before that nobody knows how long the Car is, so it lies well ahead.
+_AHEAD_OF_CAR = Ray(0.0, 0.0, 1.0, 0.0)
+_AHEAD_M = 5.0
+
+
+def prepare(session: Session, robot: Robot, car: Car, key_height_m: float, maximum_speed_mps: float) -> None:
+    """Wait until robot and Car are ready; an OperatorError says what is missing."""
+    robot.say("wait for robot and Car")
+    _wait_until(session, START_LIMIT_S, "did not start", _has_started)
+    car.prepare()
+    robot.say(f"move the key to {key_height_m:g} m")
+    robot.set_maximum_speed(maximum_speed_mps)
+    robot.move_key_to(key_height_m)
+    if not _is_ready(session.status):
+        robot.say("map the Car")
+        robot.go_to(_AHEAD_OF_CAR, _AHEAD_M)
+        _wait_until(session, MAPPING_LIMIT_S, "did not find the Car", _is_ready)
+
+
+def _has_started(status: RobotStatus) -> bool:
+    return status.mode not in (Mode.UNKNOWN, Mode.STARTING)
+
+
+def _is_ready(status: RobotStatus) -> bool:
+    return status.mode is Mode.FOLLOWING_WAYPOINT and status.car is not None and status.pose_valid
+
+
+def _wait_until(session: Session, limit_s: float, failure: str, condition: Callable[[RobotStatus], bool]) -> None:
+    until_s = session.now_s + limit_s
+    while not condition(session.status):
+        if session.now_s >= until_s:
+            texts = [notification.text for notification in session.status.notifications]
+            raise RobotFailed(" ".join([f"The robot {failure} within {limit_s:g} s.", *texts]))
+        session.step()

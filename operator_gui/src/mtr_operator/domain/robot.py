@@ -1,0 +1,141 @@
+"""The robot as a scenario sees it: basic actions that block until they are done."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from typing import Callable, TypeVar
+
+from .distance import Distance, measure
+from .errors import RobotFailed
+from .ports import ButtonPress, Direction, PressConfirmation, RobotStatus, Waypoint, WaypointResult
+from .pose import Pose
+from .pose_history import PoseUnknown
+from .ray import Ray
+from .session import Session
+from .trouble import LineInvalid
+
+Answer = TypeVar("Answer")
+
+# Robot times after which waiting is in vain.
+REACH_LIMIT_S = 180.0
+HEIGHT_LIMIT_S = 60.0
+PRESS_LIMIT_S = 10.0
+# The key's height is reached within this part of it or this distance, whichever is more.
+_HEIGHT_PART = 0.02
+_HEIGHT_M = 0.02
+
+
+class Robot:
+    """Waypoints and presses count from 1 in a session."""
+
+    def __init__(self, session: Session):
+        self._session = session
+        self._waypoint_id = 0
+        self._press_id = 0
+
+    @property
+    def now_s(self) -> float:
+        """Robot time."""
+        return self._session.now_s
+
+    def set_maximum_speed(self, speed_mps: float) -> None:
+        """Limit the speed from now on."""
+        self._session.change(max_speed_mps=speed_mps)
+
+    def go_to(self, ray: Ray, distance_m: float, direction: Direction = Direction.ANY) -> None:
+        """Order the robot to bring the Remote key to a distance on a ray, facing the Car. Does not wait."""
+        status = self._session.status
+        self.order(ray.base_pose(distance_m, (status.key_x, status.key_y)), direction)
+
+    def order(self, pose: Pose, direction: Direction = Direction.ANY) -> None:
+        """Order base_link to a pose. Does not wait."""
+        self._waypoint_id += 1
+        self._session.change(stop=False, waypoint=Waypoint(self._waypoint_id, pose.x, pose.y, pose.heading, direction))
+
+    def stop(self) -> None:
+        """Order the robot to stand still. Does not wait."""
+        self._session.change(stop=True)
+
+    def is_at_waypoint(self) -> bool:
+        """True when the robot has reached the newest waypoint; LineInvalid when it refuses to go there."""
+        status = self._session.status
+        if status.waypoint_id != self._waypoint_id:
+            return False
+        if status.waypoint_result is WaypointResult.REFUSED:
+            raise LineInvalid(f"The robot refused the waypoint: {status.waypoint_message or 'no reason given.'}")
+        return status.waypoint_result is WaypointResult.REACHED
+
+    def wait_until_reached(self, or_when: Callable[[], Answer | None] = lambda: None) -> Answer | None:
+        """Wait for the newest waypoint, or until or_when answers; its answer, None when the waypoint was first."""
+        until_s = self.now_s + REACH_LIMIT_S
+        while self.now_s < until_s:
+            self._session.step()
+            answer = or_when()
+            if answer or self.is_at_waypoint():
+                return answer
+        reason = self._session.status.waypoint_message
+        raise LineInvalid(f"The robot did not reach the waypoint within {REACH_LIMIT_S:g} s. {reason}".rstrip())
+
+    def wait(self, duration_s: float, or_when: Callable[[], Answer | None] = lambda: None) -> Answer | None:
+        """Wait for a duration of robot time, or until or_when answers; its answer."""
+        until_s = self.now_s + duration_s
+        answer = or_when()
+        while not answer and self.now_s < until_s:
+            self._session.step()
+            answer = or_when()
+        return answer
+
+    def move_key_to(self, height_m: float) -> None:
+        """Move the Remote key to a height and wait until it is there; RobotFailed when it does not get there."""
+        tolerance_m = max(_HEIGHT_M, _HEIGHT_PART * height_m)
+        self._session.change(key_height_m=height_m)
+        until_s = self.now_s + HEIGHT_LIMIT_S
+        while not abs(self._session.step().key_height_m - height_m) <= tolerance_m:
+            if self.now_s >= until_s:
+                raise RobotFailed(f"The Remote key did not reach the height of {height_m:g} m within "
+                                  f"{HEIGHT_LIMIT_S:g} s; it is at {self._session.status.key_height_m:.2f} m.")
+
+    def press(self, button: int, strength: float, duration_s: float) -> PressConfirmation:
+        """Press a button once; returns when the press is over, LineInvalid when it could not be pressed."""
+        self._press_id += 1
+        order = ButtonPress(self._press_id, (button,), strength, duration_s)
+        self._session.change(press=order)
+        try:
+            confirmation = self._confirmation_of(order)
+        finally:
+            self._session.change(press=None)
+        if confirmation.error:
+            raise LineInvalid(f"The button could not be pressed: {confirmation.error}")
+        return confirmation
+
+    def _confirmation_of(self, order: ButtonPress) -> PressConfirmation:
+        until_s = self.now_s + order.duration_s + PRESS_LIMIT_S
+        while self.now_s < until_s:
+            for confirmation in self._session.step().presses:
+                if confirmation.id == order.id:
+                    return confirmation
+        raise LineInvalid(f"The robot did not confirm a button press within {PRESS_LIMIT_S:g} s.")
+
+    def key_distance(self, ray: Ray, time_s: float, time_sigma_s: float, origin_sigma_m: float = 0.0) -> Distance:
+        """Distance of the Remote key on the ray at an instant; LineInvalid when the pose then is unknown."""
+        try:
+            return measure(ray, self._session.poses.at(time_s), time_sigma_s, origin_sigma_m)
+        except PoseUnknown as error:
+            raise LineInvalid(str(error)) from None
+
+    def watched(self) -> AbstractContextManager:
+        """Within the context anything that makes a measurement doubtful raises LineInvalid."""
+        return self._session.watched()
+
+    def trouble(self) -> str:
+        """Why nothing can be measured now; empty when it can."""
+        return self._session.trouble()
+
+    def say(self, action: str) -> None:
+        """Tell the Operator what the robot does now."""
+        self._session.observer.on_action(action)
+
+    @property
+    def status(self) -> RobotStatus:
+        """The newest Status."""
+        return self._session.status

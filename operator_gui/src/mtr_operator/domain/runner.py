@@ -1,0 +1,65 @@
+"""Runs a test: prepares, measures line after line, keeps each result before the robot goes on."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Any, Callable
+
+from .car import Car
+from .parameters import ParameterSet
+from .preparation import prepare
+from .progress import Progress
+from .robot import Robot
+from .scenario import Scenario
+from .session import Session
+
+
+class Runner:
+    """One test from its beginning, or from where its progress ends, to its end.
+
+    save is called with the progress after each line and has to return only when it is safe.
+    """
+
+    def __init__(self, scenario: Scenario, parameters: ParameterSet, session: Session, progress: Progress,
+                 save: Callable[[Progress], None]):
+        self._scenario = scenario
+        self._parameters = parameters
+        self._session = session
+        self._progress = progress
+        self._save = save
+        self._robot = Robot(session)
+        self._car = Car(session)
+        self._total = 0
+
+    def run(self) -> None:
+        """Measure all lines, the invalid ones once more at the end; the robot stands still afterwards in any case."""
+        try:
+            parameters = self._parameters
+            prepare(self._session, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
+            self._measure(self._lines())
+        finally:
+            self._session.halt()
+        self._robot.say("done")
+
+    def _lines(self) -> list[Any]:
+        mapped = self._car.dimensions()
+        self._progress.check_car(mapped)
+        self._progress.car = self._progress.car or mapped
+        return self._scenario.lines(self._parameters, self._progress.car)
+
+    def _measure(self, lines: list[Any]) -> None:
+        by_number = {line.number: line for line in lines}
+        self._total = len(lines)
+        done = self._progress.measured(self._scenario)
+        self._session.observer.on_plan(len(done), self._total)
+        for number, line in by_number.items():
+            if number not in done:
+                self._measure_line(line)
+        for number in self._progress.to_retry(self._scenario):
+            self._measure_line(by_number[number])
+
+    def _measure_line(self, line: Any) -> None:
+        self._car.wait_until_heard()
+        result = self._scenario.measure(line, self._parameters, self._robot, self._car)
+        self._progress.record(self._scenario, result)
+        self._save(self._progress)
+        self._session.observer.on_result(result, len(self._progress.results), self._total)

@@ -1,0 +1,87 @@
+"""What a test scenario is: parameters, lines to measure, how one is measured, and what the protocol shows."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import enum
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any, Dict, Generic, Sequence, TypeVar
+
+from .car import Car
+from .distance import Distance
+from .parameters import ParameterSet
+from .picture import Picture
+from .ports import CarDimensions
+from .robot import Robot
+
+Parameters = TypeVar("Parameters", bound=ParameterSet)
+Line = TypeVar("Line")
+
+# Values of one measured line by column, None where nothing was measured, and the reason of an invalid one.
+Result = Dict[str, Any]
+REASON = "reason"
+
+
+class LineStatus(enum.Enum):
+    """What became of a measurement."""
+
+    OK = "ok"
+    NOT_REACHED = "not_reached"
+    INVALID = "invalid"
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column of results.csv. digits: decimals of a float."""
+
+    name: str
+    unit: str
+    doc: str
+    digits: int = 4
+
+
+class Scenario(ABC, Generic[Parameters, Line]):
+    """One kind of test. Stateless: everything it needs is handed in.
+
+    Attributes:
+        name: in files and on the command line.
+        title: as a person reads it.
+        line_word: what a line is called, "axis"; also the name of the first column, which numbers the lines from 1.
+        parameters_type: its ParameterSet. It has to have key_height_m and maximum_speed_mps.
+        columns: of results.csv.
+        status_columns: columns that hold a LineStatus.
+    """
+
+    name: str
+    title: str
+    line_word: str
+    parameters_type: type[Parameters]
+    columns: tuple[Column, ...]
+    status_columns: tuple[str, ...]
+
+    @abstractmethod
+    def lines(self, parameters: Parameters, car: CarDimensions) -> list[Line]:
+        """Lines to measure, in order; InvalidParameter when they do not suit a Car of this size."""
+
+    @abstractmethod
+    def measure(self, line: Line, parameters: Parameters, robot: Robot, car: Car) -> Result:
+        """Measure one line. A line that cannot be measured has the status invalid and a reason."""
+
+    @abstractmethod
+    def picture(self, parameters: Parameters, car: CarDimensions, results: Sequence[Result]) -> Picture:
+        """What the protocol shows."""
+
+    def number_of(self, result: Result) -> int:
+        """Number of the line that a result belongs to."""
+        return result[self.line_word]
+
+    def invalid_count(self, result: Result) -> int:
+        """How many of the measurements of a line are invalid."""
+        return sum(result[column] == LineStatus.INVALID.value for column in self.status_columns)
+
+
+def distance_values(distance: Distance) -> tuple[float, Any, float]:
+    """Distance, uncertainty and robot time as they are recorded; an uncertainty that is not known is None."""
+    known = distance.uncertainty_m == distance.uncertainty_m
+    return (round(distance.distance_m, 6), round(distance.uncertainty_m, 6) if known else None,
+            round(distance.robot_time_s, 6))

@@ -1,0 +1,8 @@
+"""The scenarios that the application knows; a new one is a module with a SCENARIO, listed here."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from ..scenario import Scenario
+from . import autolock, key_press
+
+SCENARIOS: dict[str, Scenario] = {module.SCENARIO.name: module.SCENARIO for module in (autolock, key_press)}

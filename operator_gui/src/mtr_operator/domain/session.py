@@ -1,0 +1,146 @@
+"""The pump between the links and a scenario: one Status, one decision, one answer.
+
+step() answers the Status taken before with the desired state as it is now, and takes the next one. So whatever a
+scenario decides after a step is the answer to that very Status, and each Status gets exactly one.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import contextlib
+from dataclasses import replace
+from typing import Callable, Iterator
+
+from .errors import LinkLost, RobotFailed
+from .observer import RunObserver
+from .ports import CarDimensions, CarEvent, CarLink, DesiredState, RobotLink, RobotStatus
+from .pose_history import PoseHistory
+from .trouble import Cancelled, LineInvalid, trouble_between
+
+# Wall time after which the desired state is sent again when no Status comes.
+RESEND_PERIOD_S = 0.2
+# Wall time of silence at which a test ends; an interruption of the Wi-Fi is shorter.
+SILENCE_LIMIT_S = 30.0
+# Silence that a view is told of.
+_SILENCE_SHOWN_S = 1.0
+# Robot time that stopping may take, and the speed at which the robot stands.
+_STOP_LIMIT_S = 3.0
+_STANDING_MPS = 0.02
+_KEPT_EVENTS = 1000
+
+
+class Session:
+    """State of one run.
+
+    Attributes:
+        desired: what the next answer asks for.
+        poses: poses of the last while.
+        events: changes of the Car's locks, in order of time.
+        car_dimensions: the Car as the robot measured it last, None before.
+    """
+
+    def __init__(self, robot_link: RobotLink, car_link: CarLink, observer: RunObserver | None = None,
+                 is_cancelled: Callable[[], bool] = lambda: False):
+        self.desired = DesiredState()
+        self.poses = PoseHistory()
+        self.events: list[CarEvent] = []
+        self.car_dimensions: CarDimensions | None = None
+        self.observer = observer or RunObserver()
+        self._robot_link = robot_link
+        self._car_link = car_link
+        self._is_cancelled = is_cancelled
+        self._status: RobotStatus | None = None
+        self._watched = False
+
+    @property
+    def status(self) -> RobotStatus:
+        """The newest Status; the first access waits for it."""
+        if self._status is None:
+            self.step()
+        return self._status
+
+    @property
+    def now_s(self) -> float:
+        """Robot time."""
+        return self.status.stamp_s
+
+    @property
+    def car_link(self) -> CarLink:
+        """Locks of the Car as of the newest Status."""
+        return self._car_link
+
+    def change(self, **changes) -> None:
+        """Change the desired state; it leaves with the next answer."""
+        self.desired = replace(self.desired, **changes)
+
+    def step(self) -> RobotStatus:
+        """Answer the newest Status and take the next one; Cancelled when the Operator wants to end."""
+        status = self._exchange()
+        if self._is_cancelled():
+            raise Cancelled("The Operator ended the test.")
+        return status
+
+    @contextlib.contextmanager
+    def watched(self) -> Iterator[None]:
+        """Within the context anything that makes a measurement doubtful raises LineInvalid."""
+        self._watched = True
+        try:
+            yield
+        finally:
+            self._watched = False
+
+    def trouble(self) -> str:
+        """Why nothing can be measured now; empty when it can."""
+        return trouble_between(None, self.status, self._car_link)
+
+    def halt(self) -> None:
+        """Stop the robot and wait a while until it stands; never raises for want of an answer."""
+        self.change(stop=True, press=None)
+        if self._status is None:
+            return
+        until_s = self.now_s + _STOP_LIMIT_S
+        with contextlib.suppress(LinkLost, RobotFailed, Cancelled):
+            while self._exchange(patience_s=_STOP_LIMIT_S).stamp_s < until_s:
+                if abs(self.status.speed_mps) < _STANDING_MPS:
+                    break
+            self._robot_link.send(self.desired)
+
+    def _exchange(self, patience_s: float = SILENCE_LIMIT_S) -> RobotStatus:
+        before = self._status
+        if before is not None:
+            self._robot_link.send(self.desired)
+        status = self._next_status(patience_s)
+        restarted = before is not None and (status.robot_session_id != before.robot_session_id
+                                            or status.stamp_s < before.stamp_s)
+        if restarted:
+            self.poses.clear()
+        self.poses.add(status)
+        self._status = status
+        self.car_dimensions = status.car or self.car_dimensions
+        self.events = (self.events + self._car_link.observe(status))[-_KEPT_EVENTS:]
+        self.observer.on_status(status)
+        if restarted:
+            raise RobotFailed("The robot started anew during the test; the measured lines are kept, go on with a "
+                              "continued test.")
+        self._check(before, status)
+        return status
+
+    def _next_status(self, patience_s: float) -> RobotStatus:
+        silent_s = 0.0
+        while silent_s < patience_s:
+            status = self._robot_link.next_status(RESEND_PERIOD_S)
+            if status is not None:
+                return status
+            silent_s += RESEND_PERIOD_S
+            if silent_s >= _SILENCE_SHOWN_S:
+                self.observer.on_link_silent(silent_s)
+            if self._is_cancelled() and silent_s >= _STOP_LIMIT_S:
+                raise Cancelled("The Operator ended the test.")
+            if self._status is not None:
+                self._robot_link.send(self.desired)
+        raise LinkLost(f"The robot has been silent for {silent_s:.0f} s; check the Wi-Fi and that its software runs.")
+
+    def _check(self, before: RobotStatus | None, status: RobotStatus) -> None:
+        if self._watched:
+            trouble = trouble_between(before, status, self._car_link)
+            if trouble:
+                raise LineInvalid(trouble)

@@ -1,0 +1,33 @@
+"""What makes a measurement doubtful, and the two ways in which a scenario is left early."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from .ports import CarLink, LockState, RobotStatus
+
+# Robot time between two Status messages beyond which the link counts as interrupted. The robot stops by itself then.
+LINK_GAP_S = 1.0
+_LINK_LOST_CODE = "link_lost"
+
+
+class LineInvalid(Exception):
+    """The line at hand cannot be measured now; the text says why. The test goes on with the next one."""
+
+
+class Cancelled(Exception):
+    """The Operator ends the test."""
+
+
+def trouble_between(before: RobotStatus | None, status: RobotStatus, car_link: CarLink) -> str:
+    """Sentence that says why a measurement between two Status messages would be doubtful; empty when it would not."""
+    if before is not None and status.stamp_s - before.stamp_s > LINK_GAP_S:
+        return f"The link to the robot was interrupted for {status.stamp_s - before.stamp_s:.1f} s."
+    for notification in status.notifications:
+        if notification.code == _LINK_LOST_CODE:
+            return f"The link to the robot was interrupted: {notification.text}"
+    if not status.pose_valid:
+        return "The robot does not know its position relative to the Car."
+    if car_link.problem:
+        return car_link.problem
+    if car_link.lock_state is LockState.UNKNOWN:
+        return "The Car does not say whether it is locked."
+    return ""

@@ -1,0 +1,58 @@
+"""results.csv: one line per measured line, metadata in lines that begin with '#' above the header."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import csv
+import io
+from typing import Any, Iterator
+
+from mtr_operator.domain.parameters import with_unit
+from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.scenario import REASON, Column, Scenario
+
+FILE_NAME = "results.csv"
+
+
+def results_csv(scenario: Scenario, progress: Progress) -> str:
+    """Content of the file."""
+    file = io.StringIO()
+    for line in _metadata(scenario, progress):
+        file.write(f"# {line}\n")
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(column.name for column in scenario.columns)
+    for result in progress.results:
+        writer.writerow(_cell(column, result[column.name]) for column in scenario.columns)
+    return file.getvalue()
+
+
+def _metadata(scenario: Scenario, progress: Progress) -> Iterator[str]:
+    yield f"scenario: {scenario.title}"
+    for name, value in progress.session.items():
+        yield f"{name}: {_one_line(value)}"
+    car = progress.car
+    if car is not None:
+        yield f"Car length: {car.length:.3f} m (sigma {car.length_sigma:.3f} m)"
+        yield f"Car width: {car.width:.3f} m (sigma {car.width_sigma:.3f} m)"
+    for declared in scenario.parameters_type.declarations().values():
+        value = progress.parameters[declared.file_key]
+        shown = "not set" if value is None else with_unit(value, declared.unit)
+        yield f"parameter {declared.file_key}: {shown}"
+    for column in scenario.columns:
+        unit = f" [{column.unit}]" if column.unit else ""
+        yield f"column {column.name}{unit}: {column.doc}"
+    for result in progress.results:
+        if result[REASON]:
+            yield f"{scenario.line_word} {scenario.number_of(result)} is invalid: {_one_line(result[REASON])}"
+
+
+def _cell(column: Column, value: Any) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, float):
+        # Adding zero turns -0.0 into 0.0.
+        return f"{round(value, column.digits) + 0.0:.{column.digits}f}"
+    return str(value)
+
+
+def _one_line(value: Any) -> str:
+    return " ".join(str(value).split())

@@ -1,0 +1,56 @@
+"""Progress files: JSON, written whole after each line."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import json
+import pathlib
+from typing import Any
+
+from mtr_operator.domain.errors import OutputError, ProgressFileError
+from mtr_operator.domain.progress import Progress, progress_from_document
+from mtr_operator.domain.scenario import Scenario
+
+from .atomic import write_bytes
+
+FILE_NAME = "progress.json"
+# A test of some hundred lines takes 100 kB; a larger file is something else.
+MAXIMUM_BYTES = 16 * 1024 * 1024
+
+
+def save_progress(path: pathlib.Path, progress: Progress) -> None:
+    """Write the file; OutputError when it fails."""
+    text = json.dumps(progress.to_document(), indent=1, allow_nan=False)
+    write_bytes(path, text.encode("utf-8") + b"\n")
+
+
+def load_progress(path: pathlib.Path, scenario: Scenario, parameters: dict[str, Any]) -> Progress:
+    """Progress in a file, to go on with; ProgressFileError says what is wrong with the file."""
+    try:
+        return progress_from_document(_document(path), scenario, parameters)
+    except ProgressFileError as error:
+        raise ProgressFileError(f"The test cannot be continued from {path}. {error}") from None
+
+
+def refuse_to_overwrite(path: pathlib.Path) -> None:
+    """Raise OutputError when the file holds measured lines that a new test would replace."""
+    if not path.exists():
+        return
+    try:
+        document = _document(path)
+        is_empty = isinstance(document, dict) and not document.get("results")
+    except ProgressFileError:
+        is_empty = False
+    if not is_empty:
+        raise OutputError(f"The folder {path.parent} holds results of another test; choose another folder, or continue "
+                          f"that test with --continue {path}.")
+
+
+def _document(path: pathlib.Path) -> Any:
+    try:
+        if path.stat().st_size > MAXIMUM_BYTES:
+            raise ProgressFileError(f"It is larger than {MAXIMUM_BYTES // 1024 ** 2} MiB.")
+        return json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ProgressFileError(f"It cannot be read: {error.strerror or error}.") from None
+    except (ValueError, RecursionError):
+        raise ProgressFileError("It is truncated or not a JSON file.") from None

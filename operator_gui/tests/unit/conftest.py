@@ -1,0 +1,208 @@
+"""A kinematic robot and a Car with an unlock and a lock radius, on one virtual clock, with faults on request."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from mtr_operator.domain.ports import (
+    CarDimensions,
+    CarEvent,
+    CarLink,
+    Direction,
+    LinkStatistics,
+    LockState,
+    Mode,
+    PressConfirmation,
+    RobotLink,
+    RobotStatus,
+    WaypointResult,
+)
+
+STATUS_PERIOD_S = 0.1
+STEPS = 10
+CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
+KEY_X_M = 0.25
+# A button works this long after it went down.
+REACTION_S = 0.137
+
+
+class World:
+    """Virtual time, robot and Car.
+
+    Attributes:
+        unlock_m, lock_m: distances of the key from the Car's outline at which the locks move.
+        press_range_m: distance of the key from the Car's centre up to which a button works.
+        spoil: changes a Status before it leaves; returning None loses it.
+        car_problem: sentence of the Car's bus at a time.
+        refuses: reason why a waypoint is refused, empty when it is not.
+    """
+
+    def __init__(self):
+        self.unlock_m, self.lock_m, self.press_range_m = 1.5, 2.5, 5.2
+        self.time_s, self.x, self.y, self.heading, self.speed_mps = 1.0, 4.0, 2.6, math.pi, 0.0
+        self.height_m, self.locked, self.car, self.mode = 0.35, True, CAR, Mode.FOLLOWING_WAYPOINT
+        self.spoil = lambda status: status
+        self.car_problem = lambda time_s: ""
+        self.refuses = lambda waypoint: ""
+        self.desired, self.waypoint, self.result, self.message = None, None, WaypointResult.NONE, ""
+        self.pressed, self.presses, self.toggles, self.events = set(), [], [], []
+
+    def take(self, desired):
+        self.desired = desired
+        if desired.key_height_m is not None:
+            self.height_m = desired.key_height_m
+        goal = desired.waypoint
+        if goal is not None and (self.waypoint is None or goal.id != self.waypoint.id):
+            self.waypoint, self.message = goal, self.refuses(goal)
+            self.result = WaypointResult.REFUSED if self.message else WaypointResult.PENDING
+        press = desired.press
+        if press is not None and press.id not in self.pressed:
+            self.pressed.add(press.id)
+            start_s = self.time_s + 0.03
+            self.presses.append(PressConfirmation(press.id, start_s, start_s + press.duration_s))
+            if math.hypot(*self.key()) <= self.press_range_m:
+                self.toggles.append((start_s + REACTION_S, press.buttons[0] == 1))
+
+    def key(self):
+        return self.x + KEY_X_M * math.cos(self.heading), self.y + KEY_X_M * math.sin(self.heading)
+
+    def step(self):
+        for _ in range(STEPS):
+            self.time_s = round(self.time_s + STATUS_PERIOD_S / STEPS, 9)
+            self._drive(STATUS_PERIOD_S / STEPS)
+            self._watch_key()
+
+    def _drive(self, dt_s):
+        self.speed_mps = 0.0
+        goal = self.waypoint
+        if goal is None or self.result is not WaypointResult.PENDING or self.desired.stop:
+            return
+        if goal.direction is Direction.ANY:  # on the way around the Car; only where it ends matters here
+            self.x, self.y, self.heading = goal.x, goal.y, goal.heading
+        dx, dy = goal.x - self.x, goal.y - self.y
+        left_m, step_m = math.hypot(dx, dy), self.desired.max_speed_mps * dt_s
+        if left_m <= step_m:
+            self.x, self.y, self.heading, self.result = goal.x, goal.y, goal.heading, WaypointResult.REACHED
+            return
+        self.x, self.y = self.x + dx / left_m * step_m, self.y + dy / left_m * step_m
+        self.speed_mps = self.desired.max_speed_mps
+
+    def _watch_key(self):
+        x, y = self.key()
+        gap_m = math.hypot(max(abs(x) - CAR.length / 2, 0.0), max(abs(y) - CAR.width / 2, 0.0))
+        if self.locked and gap_m < self.unlock_m:
+            self.turn_locks(False, self.time_s)
+        elif not self.locked and self.unlock_m < gap_m and self.lock_m < gap_m and self.lock_m > 0:
+            self.turn_locks(True, self.time_s)
+        for toggle in [toggle for toggle in self.toggles if toggle[0] <= self.time_s]:
+            self.toggles.remove(toggle)
+            self.turn_locks(toggle[1], toggle[0])
+
+    def turn_locks(self, locked, time_s):
+        if locked is not self.locked:
+            self.locked = locked
+            self.events.append(CarEvent(time_s, 0.005, LockState.LOCKED if locked else LockState.UNLOCKED))
+
+
+class FakeRobot(RobotLink):
+    """Each next_status lets 0.1 s pass; `answers` are the pairs of Status id and desired state sent after it."""
+
+    def __init__(self, world):
+        self.world, self.statistics, self.answers, self.status_id = world, LinkStatistics(), [], 0
+        self.closed = False
+
+    def connect(self):
+        pass
+
+    def next_status(self, timeout_s):
+        world = self.world
+        world.step()
+        self.status_id += 1
+        return world.spoil(RobotStatus(
+            id=self.status_id, robot_session_id=7, stamp_s=world.time_s, x=world.x, y=world.y, heading=world.heading,
+            speed_mps=world.speed_mps, pose_valid=True, position_sigma_m=0.03, heading_sigma_rad=0.01, key_x=KEY_X_M,
+            key_height_m=world.height_m, mode=world.mode, car=world.car, waypoint_result=world.result,
+            waypoint_id=world.waypoint.id if world.waypoint else 0, waypoint_message=world.message,
+            presses=tuple(press for press in world.presses if press.end_s <= world.time_s)))
+
+    def send(self, desired):
+        self.answers.append((self.status_id, desired))
+        self.world.take(desired)
+
+    def close(self):
+        self.closed = True
+
+
+class FakeCar(CarLink):
+    """Bus of the world's Car."""
+
+    def __init__(self, world):
+        self.world, self._stamp_s = world, 0.0
+
+    def connect(self):
+        pass
+
+    def observe(self, status):
+        self._stamp_s = status.stamp_s
+        due = [event for event in self.world.events if event.time_s <= status.stamp_s]
+        self.world.events = [event for event in self.world.events if event not in due]
+        return due
+
+    @property
+    def lock_state(self):
+        if self.problem:
+            return LockState.UNKNOWN
+        return LockState.LOCKED if self.world.locked else LockState.UNLOCKED
+
+    @property
+    def problem(self):
+        return self.world.car_problem(self._stamp_s)
+
+    def close(self):
+        pass
+
+
+@pytest.fixture
+def world():
+    """World without faults."""
+    return World()
+
+
+@pytest.fixture
+def robot_link(world):
+    """Link to the world's robot."""
+    return FakeRobot(world)
+
+
+@pytest.fixture
+def car_link(world):
+    """Link to the world's Car."""
+    return FakeCar(world)
+
+
+@pytest.fixture
+def spoil(world):
+    """spoil(condition, **changes) changes each Status that fulfils the condition."""
+    def arrange(condition, **changes):
+        world.spoil = lambda status: replace(status, **changes) if condition(status) else status
+    return arrange
+
+
+@pytest.fixture
+def run_scenario(robot_link, car_link):
+    """run_scenario(scenario, parameters, ...) runs a whole test; the saved copies of its results are in `saved`."""
+    from mtr_operator.domain.progress import Progress
+    from mtr_operator.domain.runner import Runner
+    from mtr_operator.domain.session import Session
+
+    def run(scenario, parameters, progress=None, is_cancelled=lambda: False, observer=None):
+        run.progress = progress or Progress(scenario.name, parameters.to_mapping())
+        run.saved = []
+        session = Session(robot_link, car_link, observer, is_cancelled)
+        Runner(scenario, parameters, session, run.progress,
+               lambda state: run.saved.append([dict(result) for result in state.results])).run()
+        return run.progress.results
+    return run

@@ -1,0 +1,183 @@
+"""The command line from arguments to files and exit codes, on the shipped substitutes or the fakes of these tests."""
+# SPDX-License-Identifier: Apache-2.0
+import io
+import json
+import os
+import pathlib
+import signal
+
+import pytest
+
+from mtr_operator.cli import main
+from mtr_operator.cli.display import Display
+from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.ports import LogMessage, Notification, RobotStatus
+from mtr_operator.domain.scenarios import SCENARIOS
+
+DEMO = pathlib.Path(__file__).resolve().parents[2] / "examples" / "demo"
+
+
+@pytest.fixture
+def fakes(monkeypatch, robot_link, car_link):
+    monkeypatch.setattr("mtr_operator.cli.measuring.robot_link", lambda options: robot_link)
+    monkeypatch.setattr("mtr_operator.cli.measuring.car_link", lambda options: car_link)
+
+
+@pytest.fixture
+def parameters(tmp_path, fakes):
+    path = tmp_path / "parameters.yaml"
+    path.write_text("measurements_distance_m: 10.0\n", encoding="utf-8")
+    return path
+
+
+def run(scenario, parameters, out, *extra):
+    return main(["run", scenario, "--params", str(parameters), "--out", str(out), *map(str, extra)])
+
+
+@pytest.mark.parametrize("scenario", list(SCENARIOS))
+def test_demo_runs_on_the_substitutes(scenario, tmp_path, capsys):
+    arguments = (scenario, DEMO / f"{scenario}.yaml", tmp_path / "out", "--simulated-robot", "--simulated-car")
+    assert run(*arguments) == 0
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
+        "progress.json", "protocol.png", "results.csv"]
+    assert "lines measured" in capsys.readouterr().out
+
+
+def test_same_seed_gives_the_same_results(tmp_path):
+    texts = []
+    for name in ("one", "two"):
+        run("key_press", DEMO / "key_press.yaml", tmp_path / name, "--simulated-robot", "--simulated-car", "--seed", 5)
+        text = (tmp_path / name / "results.csv").read_text(encoding="utf-8")
+        texts.append([line for line in text.splitlines() if not line.startswith("# started")])
+    assert texts[0] == texts[1]
+
+
+def test_lines_are_told_once_each_without_a_terminal(parameters, tmp_path, capsys):
+    assert run("autolock", parameters, tmp_path / "out") == 0
+    told = capsys.readouterr().err
+    assert told.count("[8/8] axis 8: ok, ok") == 1
+    assert "8 of 8 lines to measure" in told
+
+
+def test_ctrl_c_stops_the_robot_saves_and_can_be_continued(parameters, tmp_path, world, robot_link, capsys):
+    out = tmp_path / "out"
+
+    def interrupt(status):
+        if status.id == 200:
+            os.kill(os.getpid(), signal.SIGINT)
+        return status
+    world.spoil = interrupt
+    assert run("autolock", parameters, out) == 130
+    assert robot_link.answers[-1][1].stop
+    assert robot_link.closed
+    measured = json.loads((out / "progress.json").read_text(encoding="utf-8"))["results"]
+    assert 0 < len(measured) < 8
+    assert not (out / "results.csv").exists()
+    assert "--continue" in capsys.readouterr().err
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+    assert run("autolock", parameters, out, "--continue", out / "progress.json") == 0
+    results = json.loads((out / "progress.json").read_text(encoding="utf-8"))["results"]
+    assert results[:len(measured)] == measured
+    assert len(results) == 8
+
+
+def test_lost_link_keeps_the_lines_and_says_how_to_go_on(parameters, tmp_path, world, capsys):
+    world.spoil = lambda status: status if status.id < 200 else None
+    assert run("autolock", parameters, tmp_path / "out") == 2
+    told = capsys.readouterr().err
+    assert "The robot has been silent for 30 s" in told
+    assert "no answer from the robot for 1 s" in told
+    assert "--continue" in told
+    assert json.loads((tmp_path / "out" / "progress.json").read_text(encoding="utf-8"))["results"]
+
+
+def test_finished_test_is_not_overwritten(parameters, tmp_path, capsys):
+    assert run("autolock", parameters, tmp_path / "out") == 0
+    assert run("autolock", parameters, tmp_path / "out") == 2
+    assert "holds results of another test" in capsys.readouterr().err
+
+
+def test_unreachable_robot_is_one_sentence_and_leaves_no_file(parameters, tmp_path, robot_link, monkeypatch,
+                                                              capsys):
+    def fail():
+        raise ConnectionFailed("Nothing listens on port 3334.")
+    monkeypatch.setattr(robot_link, "connect", fail)
+    assert run("autolock", parameters, tmp_path / "out") == 2
+    assert capsys.readouterr().err == "Nothing listens on port 3334.\n"
+    assert list((tmp_path / "out").iterdir()) == []
+
+
+def test_folder_that_cannot_be_written_is_found_before_the_robot_moves(parameters, tmp_path, robot_link, capsys):
+    (tmp_path / "file").write_text("x", encoding="utf-8")
+    assert run("autolock", parameters, tmp_path / "file" / "out") == 2
+    assert "cannot be written" in capsys.readouterr().err
+    assert robot_link.status_id == 0
+
+
+@pytest.mark.parametrize(("text", "part"), [
+    ("maximum_distance_m: 4,0\n", "write a decimal point: 4.0"),
+    ("maximum_distance_m: 99\n", "allowed is 0.1 to 50 m"),
+])
+def test_bad_parameter_is_one_sentence_and_leaves_nothing(tmp_path, capsys, text, part):
+    path = tmp_path / "parameters.yaml"
+    path.write_text(text, encoding="utf-8")
+    assert run("autolock", path, tmp_path / "out") == 2
+    told = capsys.readouterr().err
+    assert part in told
+    assert told.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_foreign_progress_file_is_one_sentence(parameters, tmp_path, capsys):
+    (tmp_path / "progress.json").write_text('{"a": 1}', encoding="utf-8")
+    assert run("autolock", parameters, tmp_path / "out", "--continue", tmp_path / "progress.json") == 2
+    assert "not a progress file" in capsys.readouterr().err
+
+
+def test_unknown_scenario_is_refused(tmp_path, capsys):
+    with pytest.raises(SystemExit) as caught:
+        run("parking", tmp_path / "none.yaml", tmp_path)
+    assert caught.value.code == 2
+    assert "autolock" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("scenario", list(SCENARIOS))
+def test_parameters_are_listed_with_unit_range_and_default(scenario, capsys):
+    assert main(["params", scenario]) == 0
+    told = capsys.readouterr().out
+    for declared in SCENARIOS[scenario].parameters_type.declarations().values():
+        assert any(line.startswith(declared.file_key) and declared.allowed in line for line in told.splitlines())
+
+
+def test_sentences_of_the_robot_are_told_once():
+    stream = io.StringIO()
+    display = Display(SCENARIOS["autolock"], stream)
+    status = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, log=(LogMessage(1, 1.0, 2, "planner", "A box."),),
+                         notifications=(Notification("low_battery", 2, "The battery is at 9 %."),))
+    for _ in range(3):
+        display.on_status(status)
+    assert stream.getvalue() == "robot warning (planner): A box.\nrobot warning: The battery is at 9 %.\n"
+
+
+def test_sentence_that_returns_is_told_again():
+    stream = io.StringIO()
+    display = Display(SCENARIOS["autolock"], stream)
+    told = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, notifications=(Notification("blocked", 2, "A box."),))
+    for status in (told, RobotStatus(id=2, robot_session_id=1, stamp_s=1.1), told):
+        display.on_status(status)
+    assert stream.getvalue().count("A box.") == 2
+
+
+def test_terminal_gets_a_bar():
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+    stream = Terminal()
+    display = Display(SCENARIOS["autolock"], stream)
+    display.on_plan(2, 8)
+    display.on_action("approach until the Car unlocks")
+    display.on_result({"axis": 3, "unlock_status": "ok", "lock_status": "ok", "reason": ""}, 3, 8)
+    display.close()
+    assert "3/8" in stream.getvalue()
+    assert "axis 3: ok, ok" in stream.getvalue()

@@ -1,0 +1,204 @@
+"""The Autolock scenario against a kinematic robot and a Car with two radii."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
+
+import pytest
+
+from mtr_operator.domain.errors import LinkLost, RobotFailed
+from mtr_operator.domain.observer import RunObserver
+from mtr_operator.domain.ports import CarDimensions, Direction, Mode
+from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.scenarios.autolock import SCENARIO
+from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
+from mtr_operator.domain.trouble import Cancelled
+
+CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
+PARAMETERS = AutolockParameters(measurements_distance_m=10.0, measuring_speed_mps=0.4)
+# The key moves 4 mm while the Car looks once.
+TOLERANCE_M = 0.005
+
+
+def statuses(results, name):
+    return [result[f"{name}_status"] for result in results]
+
+
+def test_all_axes_are_measured_at_the_instant_of_the_event(run_scenario, world):
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert [result["axis"] for result in results] == list(range(1, 9))
+    for result in results:
+        assert result["unlock_status"] == result["lock_status"] == "ok"
+        assert result["unlock_distance_m"] == pytest.approx(world.unlock_m, abs=TOLERANCE_M)
+        assert result["lock_distance_m"] == pytest.approx(world.lock_m, abs=TOLERANCE_M)
+        assert result["unlock_robot_time_s"] < result["lock_robot_time_s"]
+        assert 0.03 < result["unlock_uncertainty_m"] < 0.035
+        assert result["reason"] == ""
+
+
+def test_way_on_an_axis_is_that_of_the_algorithm(run_scenario, robot_link):
+    run_scenario(SCENARIO, PARAMETERS)
+    ways = {}
+    for _, desired in robot_link.answers:
+        ways.setdefault(desired.waypoint and desired.waypoint.id, desired)
+    first = [ways[number] for number in (1, 2, 3, 4, 5)]
+    assert [desired.waypoint.x for desired in first[:4]] == pytest.approx([6.5, 6.0, 3.0, 6.0])
+    assert [desired.waypoint.direction for desired in first] == [
+        Direction.ANY, Direction.FORWARD, Direction.FORWARD, Direction.BACKWARD, Direction.ANY]
+    assert [desired.max_speed_mps for desired in first] == [1.0, 1.0, 0.4, 0.4, 1.0]
+
+
+def test_car_that_stays_locked_is_not_reached(run_scenario, world):
+    world.unlock_m = 0.3
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert set(statuses(results, "unlock") + statuses(results, "lock")) == {"not_reached"}
+    assert results[0]["unlock_distance_m"] is None
+    assert results[0]["reason"] == ""
+
+
+def test_car_that_reacts_late_at_the_end_of_the_approach_is_measured_there(run_scenario, world):
+    parameters = replace(PARAMETERS, minimum_distance_m=1.499)
+    results = run_scenario(SCENARIO, parameters)
+    assert results[0]["unlock_status"] == "ok"
+    assert results[0]["unlock_distance_m"] == pytest.approx(1.5, abs=TOLERANCE_M)
+
+
+def test_car_that_never_locks_again_is_not_reached_and_then_invalid(run_scenario, world):
+    world.lock_m = 99.0
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert (results[0]["unlock_status"], results[0]["lock_status"]) == ("ok", "not_reached")
+    assert set(statuses(results[1:], "unlock")) == {"invalid"}
+    assert "still unlocked 10 s after" in results[1]["reason"]
+
+
+def test_unlocking_on_the_way_of_straightening_counts(run_scenario, world):
+    world.unlock_m, world.lock_m = 3.8, 3.9
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert results[0]["unlock_distance_m"] == pytest.approx(3.8, abs=0.011)
+    assert results[0]["lock_status"] == "not_reached"
+
+
+def test_line_spoilt_once_is_measured_again_at_the_end(run_scenario, world):
+    world.car_problem = lambda time_s: "The bus is off." if 12.0 < time_s < 12.5 else ""
+    results = run_scenario(SCENARIO, PARAMETERS)
+    saved = run_scenario.saved
+    assert len(saved) == 9
+    spoilt = [result for result in saved[-2] if result["unlock_status"] == "invalid" or
+              result["lock_status"] == "invalid"]
+    assert len(spoilt) == 1
+    assert spoilt[0]["reason"] == "The bus is off."
+    assert statuses(results, "unlock") == statuses(results, "lock") == 8 * ["ok"]
+
+
+def test_measured_half_of_a_spoilt_line_is_kept(run_scenario, world):
+    world.car_problem = lambda time_s: "The bus is off." if not world.locked and world.result.name == "PENDING" and \
+        world.waypoint.direction is Direction.BACKWARD else ""
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert (results[0]["unlock_status"], results[0]["lock_status"]) == ("ok", "invalid")
+    assert results[0]["unlock_distance_m"] == pytest.approx(1.5, abs=TOLERANCE_M)
+    assert results[0]["lock_distance_m"] is None
+
+
+def test_refused_waypoint_makes_its_line_invalid_with_the_robots_reason(run_scenario, world):
+    world.refuses = lambda waypoint: "A wall is in the way." if waypoint.y < -4.5 and abs(waypoint.x) < 0.01 else ""
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert [result["side"] for result in results if result["unlock_status"] == "invalid"] == ["right"]
+    assert "A wall is in the way." in results[2]["reason"]
+    assert len(run_scenario.saved) == 9
+
+
+def test_lost_position_makes_the_line_invalid(run_scenario, spoil):
+    spoil(lambda status: 5.0 < status.stamp_s < 5.3, pose_valid=False)
+    run_scenario(SCENARIO, PARAMETERS)
+    assert "position" in run_scenario.saved[0][0]["reason"]
+    assert statuses(run_scenario.progress.results, "unlock") == 8 * ["ok"]
+
+
+def test_interrupted_link_makes_the_line_invalid(run_scenario, world):
+    world.spoil = lambda status: None if 5.0 < status.stamp_s < 6.5 else status
+    run_scenario(SCENARIO, PARAMETERS)
+    assert "interrupted for 1.5 s" in run_scenario.saved[0][0]["reason"]
+    assert statuses(run_scenario.progress.results, "unlock") == 8 * ["ok"]
+
+
+def test_car_that_falls_silent_ends_the_test_and_keeps_what_was_measured(run_scenario, world):
+    world.car_problem = lambda time_s: "No frame for 1 s." if time_s > 30.0 else ""
+    with pytest.raises(LinkLost, match="No frame for 1 s"):
+        run_scenario(SCENARIO, PARAMETERS)
+    assert run_scenario.saved[-1]
+    assert world.desired.stop
+
+
+def test_wish_to_end_stops_the_robot_and_keeps_what_was_measured(run_scenario, world, robot_link):
+    with pytest.raises(Cancelled):
+        run_scenario(SCENARIO, PARAMETERS, is_cancelled=lambda: world.time_s > 30.0)
+    assert len(run_scenario.saved[-1]) >= 1
+    assert robot_link.answers[-1][1].stop
+    assert world.speed_mps == 0.0
+
+
+def test_continued_test_measures_the_rest_and_keeps_the_former(run_scenario, world):
+    with pytest.raises(Cancelled):
+        run_scenario(SCENARIO, PARAMETERS, is_cancelled=lambda: world.time_s > 30.0)
+    former = [dict(result) for result in run_scenario.progress.results]
+    world.unlock_m = 1.2
+    results = run_scenario(SCENARIO, PARAMETERS, progress=run_scenario.progress)
+    assert results[:len(former)] == former
+    assert len(results) == 8
+    assert results[-1]["unlock_distance_m"] == pytest.approx(1.2, abs=TOLERANCE_M)
+
+
+def test_every_line_is_saved_before_the_robot_goes_on(run_scenario):
+    run_scenario(SCENARIO, PARAMETERS)
+    assert [len(results) for results in run_scenario.saved] == list(range(1, 9))
+
+
+def test_new_robot_is_led_through_mapping(run_scenario, world):
+    world.car, world.mode = None, Mode.STARTING
+
+    def grow_up(status):
+        if status.stamp_s > 3.0:
+            world.mode = Mode.READY_TO_MAP_CAR
+        if world.mode is Mode.READY_TO_MAP_CAR and world.waypoint is not None:
+            world.mode = Mode.FOLLOWING_WAYPOINT
+            world.car = CAR
+        return status
+    world.spoil = grow_up
+    actions = []
+
+    class Listener(RunObserver):
+        def on_action(self, text):
+            actions.append(text)
+
+    assert len(run_scenario(SCENARIO, PARAMETERS, observer=Listener())) == 8
+    assert actions[:4] == ["wait for robot and Car", "move the key to 1 m", "map the Car",
+                           "axis 1 (front): go to the start"]
+    assert actions[-1] == "done"
+
+
+def test_robot_that_cannot_find_the_car_is_an_error(run_scenario, world):
+    world.car, world.mode = None, Mode.READY_TO_MAP_CAR
+    with pytest.raises(RobotFailed, match="did not find the Car within 600 s"):
+        run_scenario(SCENARIO, PARAMETERS)
+
+
+def test_better_measurement_of_a_line_wins():
+    progress = Progress("autolock", {})
+    good = {"axis": 1, "unlock_status": "ok", "lock_status": "invalid"}
+    bad = {"axis": 1, "unlock_status": "invalid", "lock_status": "invalid"}
+    progress.record(SCENARIO, good)
+    progress.record(SCENARIO, bad)
+    assert progress.results == [good]
+    assert progress.to_retry(SCENARIO) == []
+
+
+def test_picture_shows_points_and_gaps_in_order(run_scenario, world):
+    world.refuses = lambda waypoint: "No." if waypoint.y < -4.5 and abs(waypoint.x) < 0.01 else ""
+    results = run_scenario(SCENARIO, PARAMETERS)
+    picture = SCENARIO.picture(PARAMETERS, CAR, results)
+    unlocked, locked = picture.point_sets[:2]
+    assert unlocked.label == "Unlocked"
+    assert unlocked.points[2] is None
+    assert unlocked.points[0] == pytest.approx((2.25 + 1.5, 0.0), abs=TOLERANCE_M)
+    assert [is_known for _, _, is_known in locked.pieces()] == [True, False, True, True, True, True, True]
+    invalid = next(points for points in picture.point_sets if points.label == "Invalid")
+    assert len(invalid.known) == 1
+    assert len(picture.stretches) == 8

@@ -1,0 +1,87 @@
+"""Distance at an instant: interpolation and uncertainty."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+import pytest
+
+from mtr_operator.domain.distance import distance_to_outline, measure, outline_sigma
+from mtr_operator.domain.ports import CarDimensions, RobotStatus
+from mtr_operator.domain.pose import Pose
+from mtr_operator.domain.pose_history import PoseHistory, PoseSample, PoseUnknown
+from mtr_operator.domain.ray import Ray
+
+CAR = CarDimensions(4.5, 1.8, 0.04, 0.02)
+LEFT = Ray(0.0, 0.9, 0.0, 1.0)
+
+
+def status(stamp_s, y=3.0, heading=-math.pi / 2, valid=True):
+    return RobotStatus(id=1, robot_session_id=1, stamp_s=stamp_s, x=0.0, y=y, heading=heading, pose_valid=valid,
+                       position_sigma_m=0.03, heading_sigma_rad=0.02, key_x=0.25)
+
+
+def history(*statuses):
+    poses = PoseHistory()
+    for item in statuses:
+        poses.add(item)
+    return poses
+
+
+def test_pose_between_two_statuses_is_interpolated():
+    poses = history(status(1.0, 3.0), status(1.1, 2.9), status(1.2, 2.7))
+    assert poses.at(1.175).pose.y == pytest.approx(2.75)
+    assert poses.at(1.1).pose.y == 2.9
+
+
+def test_heading_is_interpolated_across_pi():
+    poses = history(status(1.0, heading=3.1), status(1.1, heading=-3.1))
+    assert abs(poses.at(1.05).pose.heading) == pytest.approx(math.pi)
+
+
+@pytest.mark.parametrize("time_s", [0.9, 1.21])
+def test_pose_outside_the_history_is_unknown(time_s):
+    with pytest.raises(PoseUnknown):
+        history(status(1.0), status(1.2)).at(time_s)
+
+
+def test_pose_within_a_gap_is_unknown():
+    with pytest.raises(PoseUnknown, match=r"0\.7 s"):
+        history(status(1.0), status(1.3, valid=False), status(1.7)).at(1.2)
+
+
+def test_invalid_and_repeated_poses_are_not_remembered():
+    poses = history(status(1.0, 3.0), status(1.0, 9.0), status(1.1, 9.0, valid=False), status(1.2, 2.8))
+    assert poses.at(1.1).pose.y == pytest.approx(2.9)
+
+
+def test_distance_is_that_of_the_key_from_the_side():
+    distance = measure(LEFT, history(status(1.0, 3.0), status(1.1, 2.9)).at(1.05), 0.0)
+    assert distance.distance_m == pytest.approx(2.95 - 0.25 - 0.9)
+    assert distance.robot_time_s == 1.05
+
+
+def test_uncertainty_is_the_root_of_the_sum_of_squares():
+    sample = PoseSample(1.0, Pose(0.0, 3.0, 0.0), 0.4, 0.03, 0.02, 0.25, 0.0)
+    expected = math.sqrt(0.03 ** 2 + (0.02 * 0.25) ** 2 + (0.4 * 0.1) ** 2 + 0.01 ** 2)
+    assert measure(LEFT, sample, 0.1, 0.01).uncertainty_m == pytest.approx(expected)
+
+
+def test_heading_does_not_count_when_the_key_lies_on_the_ray():
+    sample = PoseSample(1.0, Pose(0.0, 3.0, -math.pi / 2), 0.0, 0.03, 0.02, 0.25, 0.0)
+    assert measure(LEFT, sample, 0.1).uncertainty_m == pytest.approx(0.03)
+
+
+def test_uncertainty_is_not_a_number_when_the_robot_does_not_say():
+    sample = PoseSample(1.0, Pose(0.0, 3.0, 0.0), 0.0, math.nan, 0.0, 0.25, 0.0)
+    assert math.isnan(measure(LEFT, sample, 0.0).uncertainty_m)
+
+
+def test_outline_sigma_is_half_the_dimension_along_the_axis():
+    assert outline_sigma(LEFT, CAR) == pytest.approx(0.01)
+    assert outline_sigma(Ray(2.25, 0.0, 1.0, 0.0), CAR) == pytest.approx(0.02)
+    half = math.sqrt(0.5)
+    assert outline_sigma(Ray(2.25, 0.9, half, half), CAR) == pytest.approx(half * math.hypot(0.01, 0.02))
+
+
+def test_gap_to_the_outline():
+    assert distance_to_outline(Ray(0.0, 0.0, 1.0, 0.0), 3.0, CAR) == pytest.approx(0.75)
+    assert distance_to_outline(Ray(0.0, 0.0, 0.0, 1.0), 0.5, CAR) == 0.0

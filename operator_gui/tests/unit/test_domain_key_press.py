@@ -1,0 +1,109 @@
+"""The Key press scenario against a kinematic robot and a Car with a range."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
+
+import pytest
+
+from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.ports import CarDimensions
+from mtr_operator.domain.scenarios.key_press import SCENARIO
+from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
+
+CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
+PARAMETERS = KeyPressParameters.from_mapping({"angle_between_radials_deg": 90.0})
+
+
+@pytest.fixture(autouse=True)
+def passive_entry_off(world):
+    world.unlock_m, world.lock_m = -1.0, -1.0
+
+
+def buttons(robot_link):
+    pressed = {desired.press.id: desired.press.buttons[0] for _, desired in robot_link.answers if desired.press}
+    return [pressed[number] for number in sorted(pressed)]
+
+
+def test_farthest_place_that_works_is_found_with_the_next_one_that_fails(run_scenario):
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert [result["angle_deg"] for result in results] == [0.0, 90.0, 180.0, 270.0]
+    for result in results:
+        assert result["status"] == "ok"
+        assert result["distance_m"] == pytest.approx(5.0)
+        assert result["failed_distance_m"] == pytest.approx(5.5)
+        assert result["attempts"] == 3
+        assert result["uncertainty_m"] == pytest.approx(0.03)
+
+
+def test_button_is_the_one_that_changes_the_lock_state(run_scenario, robot_link):
+    run_scenario(SCENARIO, PARAMETERS)
+    assert buttons(robot_link) == [2, 2, 2, 1, 1, 1, 2, 2, 2, 1, 1, 1]
+
+
+def test_time_is_the_beginning_of_the_press_that_worked(run_scenario, world):
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert [result["robot_time_s"] for result in results] == pytest.approx(
+        [world.presses[index].start_s for index in (2, 5, 8, 11)])
+
+
+def test_first_place_that_works_has_no_failed_one(run_scenario, world):
+    world.press_range_m = 20.0
+    result = run_scenario(SCENARIO, PARAMETERS)[0]
+    assert (result["status"], result["distance_m"]) == ("ok", pytest.approx(6.0))
+    assert result["failed_distance_m"] is None
+    assert result["attempts"] == 1
+
+
+def test_no_place_that_works_is_not_reached(run_scenario, world):
+    world.press_range_m = 0.0
+    result = run_scenario(SCENARIO, PARAMETERS)[0]
+    assert (result["status"], result["distance_m"], result["robot_time_s"]) == ("not_reached", None, None)
+    assert result["failed_distance_m"] == pytest.approx(3.0)
+    assert result["attempts"] == 7
+
+
+def test_each_place_gets_all_its_attempts(run_scenario):
+    results = run_scenario(SCENARIO, replace(PARAMETERS, attempts=3))
+    assert results[0]["attempts"] == 7
+    assert results[0]["failed_distance_m"] == pytest.approx(5.5)
+
+
+def test_reaction_after_the_time_limit_does_not_count(run_scenario):
+    results = run_scenario(SCENARIO, replace(PARAMETERS, response_timeout_s=0.1, press_duration_s=0.05))
+    assert results[0]["status"] == "not_reached"
+
+
+def test_press_that_the_robot_cannot_make_is_invalid(run_scenario, world):
+    world.spoil = lambda status: replace(status, presses=tuple(
+        replace(press, error="The servo is stuck.") for press in status.presses))
+    result = run_scenario(SCENARIO, PARAMETERS)[0]
+    assert result["status"] == "invalid"
+    assert "The servo is stuck." in result["reason"]
+
+
+def test_lost_position_makes_the_line_invalid_and_it_is_measured_again(run_scenario, spoil):
+    spoil(lambda status: 4.0 < status.stamp_s < 4.5, pose_valid=False)
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert run_scenario.saved[0][0]["status"] == "invalid"
+    assert [result["status"] for result in results] == 4 * ["ok"]
+
+
+def test_places_inside_the_car_are_refused_before_the_robot_moves(run_scenario, world):
+    with pytest.raises(InvalidParameter, match=r"minimum_distance_m is 2 m; on the radial of 0 degrees .* 0\.00 m"):
+        run_scenario(SCENARIO, replace(PARAMETERS, minimum_distance_m=2.0))
+    assert world.waypoint is None
+
+
+def test_last_place_is_exactly_the_minimum_distance(run_scenario, world, robot_link):
+    world.press_range_m = 0.0
+    run_scenario(SCENARIO, PARAMETERS)
+    nearest = min(desired.waypoint.x for _, desired in robot_link.answers
+                  if desired.waypoint and desired.waypoint.id <= 8)
+    assert nearest == pytest.approx(3.25)
+
+
+def test_picture_shows_both_places(run_scenario):
+    results = run_scenario(SCENARIO, PARAMETERS)
+    worked, failed, invalid = SCENARIO.picture(PARAMETERS, CAR, results).point_sets
+    assert worked.points[1] == pytest.approx((0.0, -5.0), abs=1e-6)
+    assert failed.points[1] == pytest.approx((0.0, -5.5), abs=1e-6)
+    assert invalid.known == ()

@@ -1,0 +1,143 @@
+"""Progress files: round trip, and a sentence for every file that does not fit."""
+# SPDX-License-Identifier: Apache-2.0
+import json
+
+import pytest
+
+from mtr_operator.domain.errors import OutputError, ProgressFileError
+from mtr_operator.domain.ports import CarDimensions
+from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
+from mtr_operator.storage.atomic import prepare_folder, write_bytes
+from mtr_operator.storage.progress_file import load_progress, refuse_to_overwrite, save_progress
+
+SCENARIO = SCENARIOS["key_press"]
+PARAMETERS = KeyPressParameters().to_mapping()
+
+
+def result(number, status="ok"):
+    return {"radial": number, "angle_deg": 45.0, "status": status, "distance_m": 5.0, "failed_distance_m": None,
+            "uncertainty_m": 0.03, "attempts": 3, "robot_time_s": 12.345678, "reason": ""}
+
+
+@pytest.fixture
+def progress():
+    return Progress("key_press", dict(PARAMETERS), {"started": "today"}, CarDimensions(4.5, 1.8, 0.02, 0.01),
+                    [result(1), result(2)], [2])
+
+
+@pytest.fixture
+def path(tmp_path, progress):
+    path = tmp_path / "progress.json"
+    save_progress(path, progress)
+    return path
+
+
+def test_round_trip(path, progress):
+    assert load_progress(path, SCENARIO, PARAMETERS) == progress
+
+
+def test_only_the_file_itself_is_left(path):
+    assert [file.name for file in path.parent.iterdir()] == ["progress.json"]
+
+
+def test_file_names_its_format_and_version(path):
+    document = json.loads(path.read_text(encoding="utf-8"))
+    assert (document["format"], document["version"]) == ("mtr-operator progress", 1)
+
+
+def edited(path, **changes):
+    document = json.loads(path.read_text(encoding="utf-8"))
+    document.update(changes)
+    path.write_text(json.dumps(document), encoding="utf-8")
+
+
+@pytest.mark.parametrize(("changes", "part"), [
+    ({"format": "something else"}, "not a progress file"),
+    ({"version": 2}, "version 2; this application reads version 1"),
+    ({"scenario": "autolock"}, "belongs to the scenario autolock, not to key_press"),
+    ({"parameters": {**PARAMETERS, "attempts": 4}}, "other parameters: attempts was 4, now it is 1"),
+    ({"parameters": None}, "damaged"),
+    ({"results": None}, "damaged"),
+    ({"results": [{"radial": 1}]}, "damaged"),
+    ({"results": [7]}, "damaged"),
+    ({"results": [result(1), result(1)]}, "damaged"),
+    ({"results": [result("1")]}, "damaged"),
+    ({"results": {"a": 1}}, "damaged"),
+    ({"car": None}, "damaged"),
+    ({"car": {"length": 4.5}}, "damaged"),
+    ({"car": {"length": "x", "width": 1, "length_sigma": 0, "width_sigma": 0}}, "damaged"),
+    ({"retried": [None]}, "damaged"),
+    ({"session": 3}, "damaged"),
+])
+def test_file_that_does_not_fit_is_a_sentence(path, changes, part):
+    edited(path, **changes)
+    with pytest.raises(ProgressFileError) as caught:
+        load_progress(path, SCENARIO, PARAMETERS)
+    assert part in str(caught.value)
+    assert str(path) in str(caught.value)
+
+
+@pytest.mark.parametrize("content", [b"", b"[]", b"null", b"{", b"\xff\xfe", b"[" * 100000, b"radial,angle_deg\n1,0\n"])
+def test_foreign_content_is_a_sentence(path, content):
+    path.write_bytes(content)
+    with pytest.raises(ProgressFileError, match="truncated or not a JSON file|not a progress file"):
+        load_progress(path, SCENARIO, PARAMETERS)
+
+
+@pytest.mark.parametrize("part", [0.1, 0.5, 0.9, 0.99])
+def test_truncated_file_is_a_sentence(path, part):
+    content = path.read_bytes()
+    path.write_bytes(content[:int(part * len(content))])
+    with pytest.raises(ProgressFileError, match="truncated"):
+        load_progress(path, SCENARIO, PARAMETERS)
+
+
+def test_missing_file_is_a_sentence(tmp_path):
+    with pytest.raises(ProgressFileError, match="cannot be read"):
+        load_progress(tmp_path / "none.json", SCENARIO, PARAMETERS)
+
+
+def test_another_car_is_a_sentence(progress):
+    progress.check_car(CarDimensions(4.4, 1.9, 0.02, 0.02))
+    with pytest.raises(ProgressFileError, match=r"length was 4\.50 m, now it measures 4\.20 m"):
+        progress.check_car(CarDimensions(4.2, 1.8, 0.02, 0.02))
+
+
+def test_measured_lines_are_not_overwritten(path):
+    with pytest.raises(OutputError, match="holds results of another test"):
+        refuse_to_overwrite(path)
+
+
+def test_file_without_lines_may_be_overwritten(path, tmp_path):
+    edited(path, results=[])
+    refuse_to_overwrite(path)
+    refuse_to_overwrite(tmp_path / "none.json")
+
+
+def test_interrupted_write_leaves_the_former_file(path, monkeypatch, progress):
+    before = path.read_bytes()
+
+    def fail(*_):
+        raise OSError(28, "No space left on device")
+    monkeypatch.setattr("os.replace", fail)
+    with pytest.raises(OutputError, match="No space left"):
+        save_progress(path, progress)
+    assert path.read_bytes() == before
+    assert len(list(path.parent.iterdir())) == 1
+
+
+def test_folder_that_cannot_be_written_is_a_sentence(tmp_path):
+    file = tmp_path / "file"
+    file.write_text("x", encoding="utf-8")
+    with pytest.raises(OutputError, match="cannot be written to the folder"):
+        prepare_folder(file / "folder")
+    with pytest.raises(OutputError, match="cannot be written"):
+        write_bytes(file / "results.csv", b"")
+
+
+def test_numbers_that_are_none_are_refused_by_the_file_format(tmp_path, progress):
+    progress.results[0]["distance_m"] = float("nan")
+    with pytest.raises(ValueError, match="JSON"):
+        save_progress(tmp_path / "progress.json", progress)

@@ -1,0 +1,166 @@
+"""The pump: one answer per Status, silence, Ctrl-C, trouble."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
+
+import pytest
+
+from mtr_operator.domain.car import Car
+from mtr_operator.domain.errors import ConnectionFailed, LinkLost, RobotFailed
+from mtr_operator.domain.ports import Direction, Notification
+from mtr_operator.domain.ray import Ray
+from mtr_operator.domain.robot import Robot
+from mtr_operator.domain.session import Session
+from mtr_operator.domain.trouble import Cancelled, LineInvalid
+
+AHEAD = Ray(0.0, 0.0, 1.0, 0.0)
+
+
+@pytest.fixture
+def session(robot_link, car_link):
+    return Session(robot_link, car_link)
+
+
+def test_every_status_gets_exactly_one_answer_in_order(session, robot_link):
+    for _ in range(5):
+        session.step()
+    session.step()
+    assert [status_id for status_id, _ in robot_link.answers] == [1, 2, 3, 4, 5]
+
+
+def test_decision_after_a_status_is_the_answer_to_that_status(session, robot_link):
+    session.step()
+    session.change(max_speed_mps=0.3)
+    session.step()
+    session.change(max_speed_mps=0.4)
+    session.step()
+    assert [(status_id, desired.max_speed_mps) for status_id, desired in robot_link.answers] == [(1, 0.3), (2, 0.4)]
+
+
+def test_desired_state_is_sent_again_while_the_robot_is_silent(session, robot_link, world):
+    session.step()
+    world.spoil = lambda status: None if status.id < 6 else status
+    session.step()
+    assert len(robot_link.answers) == 5
+    assert len({desired for _, desired in robot_link.answers}) == 1
+
+
+def test_lasting_silence_is_a_lost_link(session, world):
+    session.step()
+    world.spoil = lambda status: None
+    with pytest.raises(LinkLost, match="silent for 30 s"):
+        session.step()
+
+
+def test_robot_that_never_speaks_is_a_lost_link(session, world):
+    world.spoil = lambda status: None
+    with pytest.raises(LinkLost):
+        session.status.stamp_s  # noqa: B018
+
+
+def test_wish_to_end_is_heard_after_the_next_status(robot_link, car_link):
+    with pytest.raises(Cancelled):
+        Session(robot_link, car_link, is_cancelled=lambda: True).step()
+
+
+def test_wish_to_end_is_heard_while_the_robot_is_silent(robot_link, car_link, world):
+    world.spoil = lambda status: None
+    with pytest.raises(Cancelled):
+        Session(robot_link, car_link, is_cancelled=lambda: True).step()
+
+
+def test_halt_stops_a_moving_robot_and_answers_its_last_status(session, robot_link, world):
+    robot = Robot(session)
+    robot.set_maximum_speed(0.5)
+    world.x = 8.0
+    robot.go_to(AHEAD, 4.0, Direction.FORWARD)
+    for _ in range(3):
+        session.step()
+    assert session.status.speed_mps > 0
+    session.halt()
+    assert session.status.speed_mps == 0
+    assert robot_link.answers[-1][0] == session.status.id
+    assert robot_link.answers[-1][1].stop
+
+
+def test_halt_gives_up_on_a_silent_robot(session, world):
+    session.step()
+    world.spoil = lambda status: None
+    session.halt()
+
+
+def test_restart_of_the_robot_ends_the_test(session, world):
+    session.step()
+    world.spoil = lambda status: replace(status, robot_session_id=8)
+    with pytest.raises(RobotFailed, match="started anew"):
+        session.step()
+
+
+@pytest.mark.parametrize(("changes", "part"), [
+    ({"pose_valid": False}, "position"),
+    ({"stamp_s": 5.0}, r"interrupted for 3\.\d s"),
+    ({"notifications": (Notification("link_lost", 3, "Silent for 1 s."),)}, "Silent for 1 s"),
+])
+def test_trouble_makes_a_watched_line_invalid(session, spoil, changes, part):
+    session.step()
+    spoil(lambda status: status.id == 4, **changes)
+    with pytest.raises(LineInvalid, match=part), session.watched():
+        while session.status.id < 4:
+            session.step()
+
+
+def test_trouble_of_the_bus_makes_a_watched_line_invalid(session, world):
+    session.step()
+    world.car_problem = lambda time_s: "The bus is off." if time_s > 1.35 else ""
+    with pytest.raises(LineInvalid, match="The bus is off"), session.watched():
+        while session.now_s < 2.0:
+            session.step()
+
+
+def test_trouble_outside_of_a_measurement_is_only_told(session, spoil):
+    spoil(lambda status: True, pose_valid=False)
+    session.step()
+    session.step()
+    assert "position" in session.trouble()
+
+
+def test_press_is_removed_once_it_is_confirmed_and_never_repeated(session, robot_link, world):
+    robot = Robot(session)
+    confirmation = robot.press(2, 1.0, 0.3)
+    session.step()
+    assert confirmation.id == 1
+    assert robot.press(1, 1.0, 0.3).id == 2
+    session.step()
+    presses = [desired.press.id for _, desired in robot_link.answers if desired.press]
+    assert presses == sorted(presses)
+    assert robot_link.answers[-1][1].press is None
+    assert len(world.presses) == 2
+
+
+def test_press_that_is_never_confirmed_makes_the_line_invalid(session, spoil):
+    spoil(lambda status: True, presses=())
+    with pytest.raises(LineInvalid, match="did not confirm"):
+        Robot(session).press(2, 1.0, 0.3)
+    assert session.desired.press is None
+
+
+def test_key_that_does_not_reach_its_height_is_an_error(session, spoil):
+    spoil(lambda status: True, key_height_m=0.4)
+    with pytest.raises(RobotFailed, match=r"height of 1 m .* 0\.40 m"):
+        Robot(session).move_key_to(1.0)
+
+
+def test_waypoint_that_is_never_reached_makes_the_line_invalid(session, world):
+    robot = Robot(session)
+    robot.go_to(AHEAD, 4.0)
+    world.mode = None
+    session.change(stop=True)
+    with pytest.raises(LineInvalid, match="did not reach"):
+        robot.wait_until_reached()
+
+
+def test_silent_bus_at_the_start_is_an_error(session, world):
+    world.car_problem = lambda time_s: "No frame for 2 s."
+    with pytest.raises(ConnectionFailed, match="No frame for 2 s"):
+        Car(session).prepare()
+    with pytest.raises(LinkLost, match="No frame for 2 s"):
+        Car(session).wait_until_heard()

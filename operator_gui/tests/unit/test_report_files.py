@@ -1,0 +1,83 @@
+"""results.csv and protocol.png."""
+# SPDX-License-Identifier: Apache-2.0
+import csv
+import struct
+
+import pytest
+
+from mtr_operator.domain.ports import CarDimensions
+from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.report.files import write_report
+from mtr_operator.report.results_csv import results_csv
+
+HEADERS = {
+    "autolock": "axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unlock_status,unlock_distance_m,"
+                "unlock_uncertainty_m,unlock_robot_time_s,lock_status,lock_distance_m,lock_uncertainty_m,"
+                "lock_robot_time_s",
+    "key_press": "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s",
+}
+
+
+def axis(number, unlock="ok", lock="ok", reason=""):
+    return {"axis": number, "side": "left", "origin_x_m": -0.0, "origin_y_m": 0.9, "direction_x": 0.0,
+            "direction_y": 1.0, "unlock_status": unlock, "unlock_distance_m": 1.23456 if unlock == "ok" else None,
+            "unlock_uncertainty_m": 0.03 if unlock == "ok" else None,
+            "unlock_robot_time_s": 12.3456 if unlock == "ok" else None, "lock_status": lock,
+            "lock_distance_m": 2.0 if lock == "ok" else None, "lock_uncertainty_m": None,
+            "lock_robot_time_s": 14.0 if lock == "ok" else None, "reason": reason}
+
+
+def progress_of(scenario, results):
+    session = {"started": "2020-02-03T04:05:06+00:00", "software": "mtr-operator 9", "car profile": "some\ncar"}
+    return Progress(scenario.name, scenario.parameters_type().to_mapping(), session,
+                    CarDimensions(4.5, 1.8, 0.02, 0.01), results)
+
+
+def lines_of(text):
+    lines = text.splitlines()
+    return [line for line in lines if line.startswith("#")], [line for line in lines if not line.startswith("#")]
+
+
+@pytest.mark.parametrize("name", list(SCENARIOS))
+def test_header_is_the_promised_one(name):
+    assert lines_of(results_csv(SCENARIOS[name], progress_of(SCENARIOS[name], [])))[1] == [HEADERS[name]]
+
+
+def test_values_are_written_with_points_and_missing_ones_are_empty():
+    scenario = SCENARIOS["autolock"]
+    _, rows = lines_of(results_csv(scenario, progress_of(scenario, [axis(1), axis(2, "not_reached", "invalid")])))
+    assert rows[1] == "1,left,0.0000,0.9000,0.000000,1.000000,ok,1.2346,0.0300,12.346,ok,2.0000,,14.000"
+    assert rows[2] == "2,left,0.0000,0.9000,0.000000,1.000000,not_reached,,,,invalid,,,"
+
+
+def test_metadata_names_parameters_units_version_profile_and_reasons():
+    scenario = SCENARIOS["autolock"]
+    metadata, _ = lines_of(results_csv(scenario, progress_of(scenario, [axis(3, "invalid", "invalid", "Bus\noff.")])))
+    text = "\n".join(metadata)
+    for part in ("# scenario: Autolock", "# software: mtr-operator 9", "# car profile: some car",
+                 "# parameter maximum_distance_m: 4 m", "# parameter measuring_speed_mps: not set",
+                 "# column unlock_distance_m [m]: ", "# axis 3 is invalid: Bus off.", "# Car length: 4.500 m"):
+        assert part in text
+
+
+def test_file_is_read_back_by_a_csv_reader(tmp_path):
+    scenario = SCENARIOS["autolock"]
+    write_report(tmp_path, scenario, scenario.parameters_type(), progress_of(scenario, [axis(1), axis(2)]))
+    with (tmp_path / "results.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    assert [float(row["unlock_distance_m"]) for row in rows] == [1.2346, 1.2346]
+
+
+@pytest.mark.parametrize("results", [
+    [], [axis(1)], [axis(number) for number in range(1, 6)],
+    [axis(1), axis(2, "not_reached", "not_reached"), axis(3, "invalid", "invalid", "x"), axis(4), axis(5)],
+])
+def test_picture_is_drawn_whatever_was_measured(tmp_path, results):
+    scenario = SCENARIOS["autolock"]
+    write_report(tmp_path, scenario, scenario.parameters_type(), progress_of(scenario, results))
+    content = (tmp_path / "protocol.png").read_bytes()
+    width, height = struct.unpack(">II", content[16:24])
+    assert content.startswith(b"\x89PNG\r\n\x1a\n")
+    assert (width, height) == (1755, 1245)
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["protocol.png", "results.csv"]
