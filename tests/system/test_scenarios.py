@@ -2,11 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 import json
 import pathlib
-import subprocess
-import sys
 
 import pytest
-from mtr_bringup.demo import read_rows
+from mtr_bringup.demo import compare, read_rows
 
 PARAMETERS = pathlib.Path(__file__).parent / "parameters"
 # Odometry and gyro alone drift; within the first minutes of a run more than this is a defect, not drift.
@@ -34,10 +32,7 @@ def key_press(application, out, autolock):
 
 def errors_against_truth(out, folder, columns):
     """Measured minus true distances of a run."""
-    compared = subprocess.run([sys.executable, "-m", "mtr_simulation.truth.compare", "--events",
-                               str(out / "truth_events.csv"), "--results", str(folder), "--scenario", folder.name],
-                              text=True, capture_output=True, check=False)
-    assert compared.returncode == 0, compared.stdout + compared.stderr
+    assert compare(out / "truth_events.csv", folder) == 0
     truth = {(row["line"], row["event"]): float(row["true_distance_m"]) for row in read_rows(folder / "truth.csv")}
     rows = read_rows(folder / "results.csv")
     line = columns[0]

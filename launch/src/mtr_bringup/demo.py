@@ -10,6 +10,8 @@ import sys
 import time
 from typing import Dict, List, Optional
 
+from mtr_simulation.scenario import named_scenario
+
 from .stack import Stack, StackError, StackOptions
 
 SCENARIOS = {"autolock": 16, "key_press": 8}
@@ -58,10 +60,7 @@ def report(out: pathlib.Path, wall_s: float) -> int:
     robot_s = 0.0
     for name, least_lines in SCENARIOS.items():
         folder = out / name
-        compared = subprocess.run([
-            sys.executable, "-m", "mtr_simulation.truth.compare", "--scenario", name,
-            "--events", str(out / "truth_events.csv"), "--results", str(folder)], check=False).returncode
-        if compared:
+        if compare(out / "truth_events.csv", folder):
             problems.append(f"{name}: measured and true events do not match")
         problems += [f"{name}: {file} is missing" for file in OUTPUTS if not (folder / file).exists()]
         rows = read_rows(folder / "results.csv")
@@ -73,6 +72,15 @@ def report(out: pathlib.Path, wall_s: float) -> int:
     for problem in problems:
         print(problem, file=sys.stderr)
     return 1 if problems else 0
+
+
+def compare(events: pathlib.Path, folder: pathlib.Path) -> int:
+    """Write truth.csv beside the results and print measured against true; 0 when every measured line has its event."""
+    car = named_scenario("lot").car
+    return subprocess.run([
+        sys.executable, "-m", "mtr_simulation.truth.compare", "--scenario", folder.name, "--events", str(events),
+        "--results", str(folder), "--car-length", str(car.length_m), "--car-width", str(car.width_m),
+    ], check=False).returncode
 
 
 def event_times(rows: List[Dict[str, str]]) -> List[float]:
