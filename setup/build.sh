@@ -12,6 +12,7 @@ export PATH="/usr/bin:$PATH"
 cd catkin_ws
 catkin config --init --cmake-args "-DPYTHON_EXECUTABLE=$top/.venv/bin/python" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
   -Wno-dev --no-warn-unused-cli >/dev/null
+mkdir -p "$top/.setup"
 log=$top/.setup/build.log
 echo "Building the workspace"
 if ! catkin build --no-status --no-notify -j2 >"$log" 2>&1; then

@@ -8,6 +8,7 @@ import time
 
 import pytest
 import zmq
+
 from mtr_bringup.stack import Stack, StackOptions
 from mtr_proto import robot_link_pb2
 

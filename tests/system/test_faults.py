@@ -6,6 +6,7 @@ import signal
 import subprocess
 
 import pytest
+
 from mtr_bringup.demo import read_rows
 from mtr_bringup.stack import Stack, StackOptions
 

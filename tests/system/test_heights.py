@@ -1,6 +1,7 @@
 """The thesis' integration test: the Remote key reaches a height within 10 % and stays there for 5 s."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
+
 from mtr_operator.robot_link.checks import HeightCheck, reach_and_hold_height
 from mtr_operator.robot_link.client import ZmqRobotLink
 

@@ -13,7 +13,6 @@ import enum
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from typing import List, Optional, Tuple
 
 
 class Direction(enum.Enum):
@@ -69,7 +68,7 @@ class ButtonPress:
     """A press of one or more key buttons (1 lock, 2 unlock); strength 0 to 1, duration in s."""
 
     id: int
-    buttons: Tuple[int, ...]
+    buttons: tuple[int, ...]
     strength: float
     duration_s: float
 
@@ -79,10 +78,10 @@ class DesiredState:
     """The whole desired final state of the robot. Immutable: a change is a new object with a new id."""
 
     stop: bool = False
-    waypoint: Optional[Waypoint] = None
-    max_speed_mps: Optional[float] = None
-    key_height_m: Optional[float] = None
-    press: Optional[ButtonPress] = None
+    waypoint: Waypoint | None = None
+    max_speed_mps: float | None = None
+    key_height_m: float | None = None
+    press: ButtonPress | None = None
     map_car_id: int = 0
 
 
@@ -144,21 +143,21 @@ class RobotStatus:
     key_x: float = 0.0
     key_y: float = 0.0
     key_height_m: float = math.nan
-    pressed_buttons: Tuple[int, ...] = ()
-    localization_accuracy_cm: Optional[int] = None
-    battery_percent: Optional[int] = None
+    pressed_buttons: tuple[int, ...] = ()
+    localization_accuracy_cm: int | None = None
+    battery_percent: int | None = None
     is_mapping_car: bool = False
     mode: Mode = Mode.UNKNOWN
-    car: Optional[CarDimensions] = None
+    car: CarDimensions | None = None
     session_id: int = 0
     command_id: int = 0
     waypoint_id: int = 0
     waypoint_result: WaypointResult = WaypointResult.NONE
     waypoint_message: str = ""
-    presses: Tuple[PressConfirmation, ...] = ()
+    presses: tuple[PressConfirmation, ...] = ()
     map_car_id: int = 0
-    log: Tuple[LogMessage, ...] = ()
-    notifications: Tuple[Notification, ...] = ()
+    log: tuple[LogMessage, ...] = ()
+    notifications: tuple[Notification, ...] = ()
     rejected_messages: int = 0
     software_version: str = ""
 
@@ -193,7 +192,7 @@ class RobotLink(ABC):
         """Connect, or raise errors.ConnectionFailed with a sentence that says which address or port is wrong."""
 
     @abstractmethod
-    def next_status(self, timeout_s: float) -> Optional[RobotStatus]:
+    def next_status(self, timeout_s: float) -> RobotStatus | None:
         """The next Status in order, None when none came within timeout_s of wall time."""
 
     @abstractmethod
@@ -213,10 +212,10 @@ class CarLink(ABC):
 
     @abstractmethod
     def connect(self) -> None:
-        """Connect, or raise errors.ConnectionFailed with a sentence that says what is wrong with adapter or database."""
+        """Connect, or raise errors.ConnectionFailed with a sentence on what is wrong with adapter or database."""
 
     @abstractmethod
-    def observe(self, status: RobotStatus) -> List[CarEvent]:
+    def observe(self, status: RobotStatus) -> list[CarEvent]:
         """Map clocks with this Status; return the events not later than its stamp that were not returned before.
 
         It waits a bounded wall time for the bus to catch up with the stamp, so that an event that precedes the Status

@@ -7,7 +7,6 @@ from typing import Optional
 import rospkg
 import rospy
 from rosgraph_msgs.msg import Log
-from std_msgs.msg import Header
 
 from mtr_core import names, schedule
 from mtr_core.errors import RobotError
@@ -48,7 +47,6 @@ class DispatcherNode:
         self._lock = rospy.Publisher(names.MOTION_LOCK, MotionLock, queue_size=10, tcp_nodelay=True)
         self._rosout = rospy.Subscriber("/rosout_agg", Log, self._take_log, queue_size=50)
         self._ticker = Ticker(schedule.DISPATCHER)
-        self._holds = rospy.Publisher(names.SIM_HOLD, Header, queue_size=20, tcp_nodelay=True, latch=True)
 
     def spin(self) -> None:
         """Run until shutdown."""
@@ -58,8 +56,6 @@ class DispatcherNode:
 
     def _simulated_turn(self) -> None:
         tick = self._ticker.sleep()
-        if tick < schedule.SIMULATION_START_NS:
-            return
         if self._parameters.lockstep_operator:
             self._publish_status(tick)
             self._await_answer(tick)
@@ -76,7 +72,7 @@ class DispatcherNode:
             if not self._receive(tick, STATUS_AGAIN_WALL_S):
                 self._server.publish(self._status)
                 # Renewed, so that the simulator does not take a patient dispatcher for a dead one.
-                self._holds.publish(Header(0, clock.stamp_of(tick), rospy.get_name()))
+                self._ticker.renew()
         if patient and self._wait.operator_gone:
             rospy.logwarn("The application has not answered; time goes on until it is heard again.")
 

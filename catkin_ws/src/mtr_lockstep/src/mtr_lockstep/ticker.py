@@ -4,7 +4,7 @@ import rospy
 from std_msgs.msg import Header
 
 from mtr_core import names
-from mtr_core.schedule import Slot
+from mtr_core.schedule import SIMULATION_START_NS, Slot
 
 from . import clock
 
@@ -23,6 +23,7 @@ class Ticker:
     def __init__(self, slot: Slot):
         self._slot = slot
         self.messages_sent = 0
+        self._tick_ns = SIMULATION_START_NS
         self._holds = None
         if clock.is_simulated():
             self._holds = rospy.Publisher(names.SIM_HOLD, Header, queue_size=20, tcp_nodelay=True, latch=True)
@@ -32,11 +33,14 @@ class Ticker:
 
         A node that took longer than a period goes on at the next tick that is still to come.
         """
-        tick = self._slot.next_after(clock.now_ns())
-        self._hold(tick)
-        clock.wait_until(tick)
-        return tick
+        # Before the first /clock the time is zero, but no tick lies before the start of the simulated clock.
+        now = max(clock.now_ns(), SIMULATION_START_NS) if self._holds else clock.now_ns()
+        self._tick_ns = self._slot.next_after(now)
+        self.renew()
+        clock.wait_until(self._tick_ns)
+        return self._tick_ns
 
-    def _hold(self, tick_ns: int) -> None:
+    def renew(self) -> None:
+        """Say the present hold again: a sign of life of a node that has reason to let simulated time stand still."""
         if self._holds:
-            self._holds.publish(Header(self.messages_sent, clock.stamp_of(tick_ns), rospy.get_name()))
+            self._holds.publish(Header(self.messages_sent, clock.stamp_of(self._tick_ns), rospy.get_name()))

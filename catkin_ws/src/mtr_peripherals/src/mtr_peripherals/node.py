@@ -55,9 +55,7 @@ class PeripheralsNode:
     def spin(self) -> None:
         """Run until shutdown."""
         while not rospy.is_shutdown():
-            tick = self._ticker.sleep()
-            if tick >= schedule.SIMULATION_START_NS:
-                self._step(tick)
+            self._step(self._ticker.sleep())
 
     def _step(self, tick: int) -> None:
         wanted = orders(self._fresh(self._desired.at(tick), tick), self._fresh(self._mode.at(tick), tick))

@@ -46,9 +46,7 @@ class StateMachineNode:
     def spin(self) -> None:
         """Run until shutdown."""
         while not rospy.is_shutdown():
-            tick = self._ticker.sleep()
-            if tick >= schedule.SIMULATION_START_NS:
-                self._step(tick)
+            self._step(self._ticker.sleep())
 
     def _step(self, tick: int) -> None:
         decision = self._core.step(observation({part: topic.at(tick) for part, topic in self._inputs.items()}, tick))
