@@ -51,8 +51,8 @@ def test_autolock_measures_every_side_and_corner(autolock):
 
 
 def test_autolock_distances_are_true(autolock, out):
-    errors = errors_against_truth(out, autolock, ("axis", ("unlocked", "unlock_status", "unlock_distance_m"),
-                                                  ("locked", "lock_status", "lock_distance_m")))
+    errors = errors_against_truth(out, autolock, ("axis", ("unlock", "unlock_status", "unlock_distance_m"),
+                                                  ("lock", "lock_status", "lock_distance_m")))
     assert len(errors) == 16
     assert max(map(abs, errors)) < LARGEST_ERROR_M
 

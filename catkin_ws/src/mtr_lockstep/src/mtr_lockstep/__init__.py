@@ -1,6 +1,7 @@
 """Ticks that a simulated clock waits for, and inputs that are due at a tick."""
 # SPDX-License-Identifier: Apache-2.0
 from .inputs import TickInput
+from .stamped_queue import StampedQueue
 from .ticker import Ticker
 
-__all__ = ["TickInput", "Ticker"]
+__all__ = ["StampedQueue", "TickInput", "Ticker"]

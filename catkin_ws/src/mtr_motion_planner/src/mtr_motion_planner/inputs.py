@@ -74,12 +74,21 @@ class Inputs:
 
 def fault_of(inputs: Inputs, age_limit_s: float) -> str:
     """Sentence that says why the inputs must not move the robot; empty when they may."""
-    order, robot, car = inputs.order, inputs.robot, inputs.car
-    for name, message in (("order", order), ("pose", robot), ("position of the Car", car)):
+    return _age_fault(inputs, age_limit_s) or _value_fault(inputs.order, inputs.robot, inputs.car)
+
+
+def _age_fault(inputs: Inputs, age_limit_s: float) -> str:
+    named = (("order", inputs.order), ("pose", inputs.robot), ("position of the Car", inputs.car))
+    for name, message in named:
         if message is None:
             return f"No {name} has arrived yet."
-        if not inputs.tick_s - message.stamp_s <= age_limit_s:
-            return f"The newest {name} is {inputs.tick_s - message.stamp_s:.2f} s old; allowed is {age_limit_s:g} s."
+        age_s = inputs.tick_s - message.stamp_s
+        if not age_s <= age_limit_s:
+            return f"The newest {name} is {age_s:.2f} s old; allowed is {age_limit_s:g} s."
+    return ""
+
+
+def _value_fault(order: Order, robot: RobotState, car: Car) -> str:
     if not robot.valid:
         return "The robot does not know where it is: " + (robot.message or "localization gave no reason.")
     if not (robot.pose.is_finite() and math.isfinite(robot.speed_mps) and math.isfinite(robot.yaw_rate_radps)):

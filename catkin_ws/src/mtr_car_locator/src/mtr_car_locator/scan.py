@@ -1,0 +1,43 @@
+"""From a laser scan to points in map, each beam from where the robot was at its own time."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+
+import numpy as np
+
+from mtr_core.se2 import Pose2
+
+from .poses import PoseHistory
+
+
+@dataclass(frozen=True)
+class Scan:
+    """One sweep; start_s is the first beam's time, base_from_lidar the mounting of the LiDAR."""
+
+    start_s: float
+    beam_period_s: float
+    first_angle_rad: float
+    beam_angle_rad: float
+    range_min_m: float
+    range_max_m: float
+    ranges_m: np.ndarray
+    base_from_lidar: Pose2
+
+
+NO_POINTS = np.empty((0, 2))
+
+
+def points_in_map(scan: Scan, poses: PoseHistory) -> np.ndarray:
+    """Array (n, 2) of the returns in map; empty when the robot's poses do not cover the sweep."""
+    count = len(scan.ranges_m)
+    index = np.arange(count)
+    robot = poses.at(scan.start_s + index * scan.beam_period_s)
+    if robot is None:
+        return NO_POINTS
+    ranges = np.asarray(scan.ranges_m, dtype=float)
+    good = np.isfinite(ranges) & (ranges >= scan.range_min_m) & (ranges < scan.range_max_m)
+    x, y, heading = (values[good] for values in robot)
+    mount = scan.base_from_lidar
+    beam = scan.first_angle_rad + index[good] * scan.beam_angle_rad + mount.heading
+    ahead, aside = mount.x + ranges[good] * np.cos(beam), mount.y + ranges[good] * np.sin(beam)
+    cos, sin = np.cos(heading), np.sin(heading)
+    return np.column_stack((x + cos * ahead - sin * aside, y + sin * ahead + cos * aside))

@@ -1,0 +1,165 @@
+"""A parked car of line segments, a robot that goes where the locator wants, and two noisy LiDARs, for tests."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass, field
+from typing import List, Sequence, Tuple
+
+import numpy as np
+
+from mtr_car_locator.locator import CarLocator, Drive, Estimate, Order, State
+from mtr_car_locator.parameters import LocatorParameters
+from mtr_car_locator.scan import Scan
+from mtr_core.se2 import Pose2, wrap_angle
+
+PARAMETERS = LocatorParameters()
+BEAMS, FIELD_RAD, SWEEP_S = 720, math.radians(270.0), 0.030
+SPEED_MPS, YAW_RADPS, PERIOD_S = 0.5, 1.0, 0.02
+Points = Sequence[Tuple[float, float]]
+BOX: Points = ((2.25, .9), (-2.25, .9), (-2.25, -.9), (2.25, -.9))
+FRONT: Points = ((.93, .88), (1.0, .6), (1.0, .55), (1.6, .55), (1.72, .9), (2.02, .84), (2.18, .62), (2.25, .25))
+REAR: Points = ((-2.25, .30), (-2.20, .66), (-2.05, .86), (-1.70, .9), (-1.62, .55), (-1.0, .55), (-.93, .88))
+WHEEL: Points = ((.32, .105), (-.32, .105), (-.32, -.105), (.32, -.105))
+
+
+def closed(points: Points, at: Tuple[float, float] = (0.0, 0.0)) -> np.ndarray:
+    """Segments (n, 4) of a closed polygon."""
+    shifted = [(x + at[0], y + at[1]) for x, y in points]
+    return np.array([(*a, *b) for a, b in zip(shifted, [*shifted[1:], shifted[0]])])
+
+
+def leg_at(x: float, y: float) -> np.ndarray:
+    """A person's leg."""
+    return closed([(.07 * math.cos(a), .07 * math.sin(a)) for a in np.arange(8) * math.pi / 4.0], (x, y))
+
+
+def mirrored(points: Points) -> List[Tuple[float, float]]:
+    """The right side of what is given for the left, in reverse order."""
+    return [(x, -y) for x, y in points[::-1]]
+
+
+def car_with_bumpers() -> np.ndarray:
+    """Rounded bumpers, sills set in by 2 cm, wheels in their arches; 4.5 m by 1.8 m."""
+    body = closed([*FRONT, *mirrored(FRONT), *mirrored(REAR), *REAR])
+    wheels = [closed(WHEEL, (x, y)) for x in (1.325, -1.325) for y in (.77, -.77)]
+    return np.vstack([body, *wheels])
+
+
+@dataclass
+class Scene:
+    """Truth of one test: segments in the Car's frame, where the robot starts there, and the errors."""
+
+    segments: np.ndarray
+    start: Pose2 = PARAMETERS.car_from_start
+    range_sigma_m: float = 0.01
+    drift_m: float = 0.0
+    drift_rad: float = 0.0
+    drift_time_s: float = 5.0
+    creep_mps: float = 0.0
+    seed: int = 1
+    refused: Tuple[int, ...] = ()
+    rng: np.random.Generator = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.rng = np.random.default_rng(self.seed)
+
+
+class World:
+    """Runs a scene; map begins at the robot's start. `car` is the true pose of the Car in map."""
+
+    def __init__(self, scene: Scene):
+        self.scene = scene
+        self.locator = CarLocator(PARAMETERS)
+        self.pose = Pose2(0.0, 0.0, 0.0)
+        self.car = scene.start.inverse()
+        self.segments = np.hstack([self._to_map(scene.segments[:, :2]), self._to_map(scene.segments[:, 2:])])
+        self.steps = 50
+        self.drift = np.zeros(3)
+        self.estimates: List[Estimate] = []
+        self._scans: List[Tuple[float, Scan]] = []
+        self._trail: List[Tuple[float, Pose2]] = []
+
+    @property
+    def now(self) -> float:
+        """Time in s."""
+        return self.steps * PERIOD_S
+
+    def run(self, limit_s: float = 150.0, map_car_id: int = 7) -> Estimate:
+        """Map the Car until the locator has made up its mind."""
+        for _ in range(int(limit_s / PERIOD_S)):
+            self.step(mapping=True, map_car_id=map_car_id)
+            if self.estimates and self.estimates[-1].state in (State.LOCATED, State.FAILED):
+                break
+        return self.estimates[-1]
+
+    def step(self, mapping: bool, map_car_id: int) -> None:
+        """20 ms: the robot moves; each 160 ms a scan, each 100 ms a tick of the locator."""
+        self.steps += 1
+        place = self.estimates[-1].place if self.estimates else None
+        if place and mapping and place.place_id not in self.scene.refused:
+            self._drive_to(place.pose)
+        self._drift()
+        self._trail = [*self._trail[-3:], (self.now, self.pose)]
+        self.locator.add_pose(self.now, self._localized())
+        if self.steps % 8 == 0 and len(self._trail) == 4:
+            for mount in (PARAMETERS.base_from_front_lidar, PARAMETERS.base_from_rear_lidar):
+                self._scans.append((self.now, self._scan(mount)))
+        if self.steps % 5 == 0:
+            self._tick(mapping, map_car_id)
+
+    def error(self) -> Tuple[float, float, float, float]:
+        """Distance, heading, length and width error of the newest estimate."""
+        found = self.estimates[-1].rectangle
+        at = self.car.inverse() @ found.pose
+        return math.hypot(at.x, at.y), at.heading, found.length - 4.5, found.width - 1.8
+
+    def _tick(self, mapping: bool, map_car_id: int) -> None:
+        place = self.estimates[-1].place if self.estimates else None
+        goal = (100 + place.place_id, place.pose.x, place.pose.y) if place else (0, 0.0, 0.0)
+        due = [scan for time_s, scan in self._scans if time_s <= self.now - 0.06]
+        self._scans = [entry for entry in self._scans if entry[0] > self.now - 0.06]
+        drive = Drive(goal[0], place is not None and place.place_id in self.scene.refused)
+        self.estimates.append(self.locator.step(self.now, Order(mapping, map_car_id, *goal), drive, due))
+
+    def _drive_to(self, goal: Pose2) -> None:
+        here = self._localized()
+        error = wrap_angle(math.atan2(goal.y - here.y, goal.x - here.x) - here.heading)
+        turn = max(-YAW_RADPS, min(YAW_RADPS, 2.0 * error)) * PERIOD_S
+        ahead = SPEED_MPS * PERIOD_S if abs(error) < 0.8 else 0.0
+        self.pose = self.pose @ Pose2(ahead, 0.0, turn)
+
+    def _drift(self) -> None:
+        keep = math.exp(-PERIOD_S / self.scene.drift_time_s)
+        sigma = np.array([self.scene.drift_m, self.scene.drift_m, self.scene.drift_rad])
+        self.drift = keep * self.drift + math.sqrt(1.0 - keep ** 2) * sigma * self.scene.rng.standard_normal(3)
+
+    def _localized(self) -> Pose2:
+        x, y, heading = self.drift
+        creep = self.scene.creep_mps * self.now
+        return Pose2(self.pose.x + x + creep, self.pose.y + y, self.pose.heading + heading)
+
+    def _scan(self, mount: Pose2) -> Scan:
+        """A sweep that ends now; each beam from the true pose at its own time."""
+        times = self.now - SWEEP_S + np.arange(BEAMS) * SWEEP_S / BEAMS
+        known = np.array([(t, p.x, p.y, p.heading) for t, p in self._trail])
+        heading = np.interp(times, known[:, 0], np.unwrap(known[:, 3]))
+        x = np.interp(times, known[:, 0], known[:, 1]) + mount.x * np.cos(heading)
+        y = np.interp(times, known[:, 0], known[:, 2]) + mount.x * np.sin(heading)
+        beam = heading + mount.heading - 0.5 * FIELD_RAD + np.arange(BEAMS) * FIELD_RAD / BEAMS
+        ranges = cast(x, y, beam, self.segments) + self.scene.rng.normal(0.0, self.scene.range_sigma_m, BEAMS)
+        return Scan(times[0], SWEEP_S / BEAMS, -0.5 * FIELD_RAD, FIELD_RAD / BEAMS, 0.1, 30.0, ranges, mount)
+
+    def _to_map(self, points: np.ndarray) -> np.ndarray:
+        return np.array([self.car.apply(x, y) for x, y in points])
+
+
+def cast(x: np.ndarray, y: np.ndarray, angle: np.ndarray, segments: np.ndarray) -> np.ndarray:
+    """Distance to the nearest segment along each beam, infinite when there is none."""
+    cos, sin = np.cos(angle)[:, None], np.sin(angle)[:, None]
+    ax, ay = segments[:, 0] - x[:, None], segments[:, 1] - y[:, None]
+    ex, ey = segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        cross = cos * ey - sin * ex
+        along = (ax * ey - ay * ex) / cross
+        share = (ax * sin - ay * cos) / cross
+        hit = (along > 0.0) & (share >= 0.0) & (share <= 1.0)
+    return np.where(hit, along, np.inf).min(axis=1)

@@ -1,0 +1,62 @@
+"""A topic of which every message counts, read in order at the ticks of a node."""
+# SPDX-License-Identifier: Apache-2.0
+import time
+from collections import deque
+from typing import Any, Deque, List
+
+import rospy
+
+from mtr_core.schedule import MILLISECOND_NS, Slot
+
+from .clock import is_simulated
+from .samples import Samples
+
+# A publisher that has not answered by then (wall time) is not waited for any longer.
+CONNECT_WITHIN_WALL_S = 2.0
+CONNECT_CHECK_WALL_S = 0.005
+# The first messages after the connection may be missing.
+SETTLING_NS = 200 * MILLISECOND_NS
+KEPT = 100
+
+
+class StampedQueue:
+    """Subscription that keeps messages with a header until they are taken.
+
+    In simulation the constructor waits for the connection, and `take` for the message that is due, so that the
+    outcome does not depend on the speed of the machine. A message is due lag_ns after its stamp.
+    """
+
+    def __init__(self, topic: str, message_type: Any, slot: Slot, lag_ns: int):
+        self._lag_ns = lag_ns
+        self._samples = Samples(slot, lag_ns, waits=is_simulated())
+        self._queue: Deque[Any] = deque(maxlen=KEPT)
+        self._opened_ns = None
+        self._subscriber = rospy.Subscriber(topic, message_type, self._take_in, queue_size=50, tcp_nodelay=True)
+        if is_simulated():
+            self._connect(topic)
+
+    def take(self, tick_ns: int) -> List[Any]:
+        """Messages stamped not later than tick - lag that have not been taken, oldest first."""
+        if self._opened_ns is None:
+            self._opened_ns = tick_ns
+        if tick_ns - self._opened_ns >= SETTLING_NS and self._subscriber.get_num_connections():
+            self._samples.at(tick_ns)
+        taken = []
+        while self._queue and self._queue[0].header.stamp.to_nsec() <= tick_ns - self._lag_ns:
+            taken.append(self._queue.popleft())
+        return taken
+
+    def close(self) -> None:
+        """End the subscription."""
+        self._subscriber.unregister()
+
+    def _connect(self, topic: str) -> None:
+        deadline = time.monotonic() + CONNECT_WITHIN_WALL_S
+        is_published = any(name == topic for name, _ in rospy.get_published_topics())
+        while is_published and not self._subscriber.get_num_connections() and time.monotonic() < deadline:
+            time.sleep(CONNECT_CHECK_WALL_S)
+
+    def _take_in(self, message: Any) -> None:
+        # The queue first: whoever waits for the sample finds the message there.
+        self._queue.append(message)
+        self._samples.add(message.header.stamp.to_nsec(), message)

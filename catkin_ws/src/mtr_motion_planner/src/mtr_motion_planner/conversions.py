@@ -1,0 +1,77 @@
+"""Between ROS messages and the planner's plain types."""
+# SPDX-License-Identifier: Apache-2.0
+import dataclasses
+import math
+from typing import Any, Dict, Optional, Sequence
+
+from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import Path
+from std_msgs.msg import Header
+
+from mtr_core import names
+from mtr_core.errors import ConfigurationError
+from mtr_core.se2 import Pose2
+from mtr_msgs.msg import CarEstimate, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
+
+from .inputs import Car, Direction, Goal, Order, Point, RobotState
+from .parameters import MotionParameters
+from .planner import Output
+
+
+def parameters_from(values: Dict[str, Any]) -> MotionParameters:
+    """Parameters from the node's private namespace; a name that does not exist is an error."""
+    known = [item.name for item in dataclasses.fields(MotionParameters)]
+    for name in values:
+        if name not in known:
+            raise ConfigurationError(f"Parameter {name} is unknown; there are: {', '.join(known)}.")
+    return MotionParameters(**values)
+
+
+def order_from(message: Optional[RobotMode]) -> Optional[Order]:
+    """Order of the state machine."""
+    if message is None:
+        return None
+    goal = message.goal
+    direction = Direction(goal.direction) if goal.direction in tuple(Direction) else Direction.ANY
+    # A frame that nobody knows is no place to go.
+    known = goal.id == 0 or goal.frame_id in (names.CAR, names.MAP)
+    pose = Pose2(goal.x, goal.y, goal.heading) if known else Pose2(math.nan, math.nan, math.nan)
+    return Order(message.header.stamp.to_sec(), Goal(goal.id, goal.frame_id == names.CAR, pose, direction),
+                 message.max_speed_mps)
+
+
+def robot_from(message: Optional[LocalizedPose]) -> Optional[RobotState]:
+    """State of the robot."""
+    if message is None:
+        return None
+    return RobotState(message.header.stamp.to_sec(), message.valid, Pose2(message.x, message.y, message.heading),
+                      message.speed_mps, message.yaw_rate_radps, message.message)
+
+
+def car_from(message: Optional[CarEstimate]) -> Optional[Car]:
+    """The Car as estimated; its outline is the prior's before it is located."""
+    if message is None:
+        return None
+    return Car(message.header.stamp.to_sec(), message.state == CarEstimate.LOCATED,
+               Pose2(message.x, message.y, message.heading), tuple(zip(message.outline_x, message.outline_y)))
+
+
+def velocity_message(output: Output, header: Header) -> VelocityCommand:
+    """Velocity for drive control."""
+    header.frame_id = names.BASE
+    return VelocityCommand(header, output.linear_mps, output.angular_radps, output.active)
+
+
+def status_message(output: Output, header: Header) -> MotionStatus:
+    """Status for the state machine."""
+    return MotionStatus(header, output.goal_id, int(output.result), output.remaining_m, output.message)
+
+
+def path_message(points: Sequence[Point], stamp: Any) -> Path:
+    """Path for people who look."""
+    path = Path(header=Header(stamp=stamp, frame_id=names.MAP))
+    for x, y in points:
+        pose = PoseStamped(header=path.header)
+        pose.pose.position.x, pose.pose.position.y, pose.pose.orientation.w = x, y, 1.0
+        path.poses.append(pose)
+    return path

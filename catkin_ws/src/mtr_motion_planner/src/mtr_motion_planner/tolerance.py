@@ -1,0 +1,52 @@
+"""How far the robot stands from its goal, and what that means."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import Optional
+
+from mtr_core.se2 import Pose2
+
+from .parameters import MotionParameters
+
+# Near enough for a measurement, though not within tolerance, when no correction helped.
+NEAR_M = 0.10
+NEAR_RAD = math.radians(5.0)
+# A robot that was moved this far after it had settled is led back.
+DISPLACED_M = 0.15
+DISPLACED_RAD = math.radians(5.0)
+
+
+@dataclass(frozen=True)
+class Miss:
+    """Distance and heading error at the goal, and the verdict."""
+
+    distance_m: float
+    heading_rad: float
+    is_within: bool
+
+    @property
+    def is_near(self) -> bool:
+        """True when the robot may stay although it is out of tolerance."""
+        return self.distance_m <= NEAR_M and abs(self.heading_rad) <= NEAR_RAD
+
+
+def miss_of(goal: Pose2, pose: Pose2, parameters: MotionParameters) -> Miss:
+    """How far pose is from goal."""
+    at = goal.inverse() @ pose
+    within = (abs(at.x) <= parameters.goal_along_m and abs(at.y) <= parameters.goal_across_m
+              and abs(at.heading) <= parameters.goal_heading_rad)
+    return Miss(math.hypot(at.x, at.y), at.heading, within)
+
+
+def sentence_about(miss: Miss, corrections: int) -> str:
+    """What a person should know about it."""
+    return (f"After {corrections} corrections the robot stands {miss.distance_m:.2f} m and "
+            f"{math.degrees(abs(miss.heading_rad)):.1f} deg off its goal.")
+
+
+def was_displaced(settled_at: Optional[Pose2], pose: Pose2) -> bool:
+    """True when the robot no longer stands where it had settled."""
+    if settled_at is None:
+        return True
+    moved = settled_at.inverse() @ pose
+    return math.hypot(moved.x, moved.y) > DISPLACED_M or abs(moved.heading) > DISPLACED_RAD

@@ -1,0 +1,111 @@
+"""A tiny robot for tests: unicycle with limited acceleration, first-order lag and a delayed command."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from collections import deque
+from typing import List, Optional
+
+from shapely.geometry import Polygon
+
+from mtr_core.se2 import Pose2
+from mtr_motion_planner.inputs import Car, Direction, Goal, Inputs, Order, RobotState
+from mtr_motion_planner.obstacle import CarObstacle
+from mtr_motion_planner.parameters import MotionParameters
+from mtr_motion_planner.planner import MotionPlanner, Output, Result
+
+PARAMETERS = MotionParameters()
+PERIOD_S, SUBSTEPS = 0.04, 4
+LAG_S = 0.10
+BASE_ACCELERATION_MPS2, BASE_ANGULAR_RADPS2 = 1.0, 2.0
+OUTLINE = ((2.25, 0.6), (1.9, 0.9), (-1.9, 0.9), (-2.25, 0.6), (-2.25, -0.6), (-1.9, -0.9), (1.9, -0.9), (2.25, -0.6))
+ORIGIN = Pose2(0.0, 0.0, 0.0)
+
+
+def car_at(pose: Pose2 = ORIGIN, located: bool = True, outline=OUTLINE) -> Car:
+    """A located Car of ordinary size."""
+    return Car(0.0, located, pose, outline)
+
+
+class SimulatedRobot:
+    """Robot, planner and Car; `run` steps them until the goal is settled."""
+
+    def __init__(self, pose: Pose2, car: Optional[Car] = None, held: bool = False):
+        self.pose, self.car, self.held = pose, car or car_at(), held
+        self.speed = self.yaw_rate = 0.0
+        self.planner = MotionPlanner(PARAMETERS)
+        self.obstacle = CarObstacle(self.car, PARAMETERS)
+        self.ticks = 0
+        self.goal = Goal(0, True, Pose2(0, 0, 0), Direction.ANY)
+        self.max_speed = 0.5
+        self.least_clearance = math.inf
+        self.outputs: List[Output] = []
+        self.poses: List[Pose2] = []
+        self._queue = deque([(0.0, 0.0)], maxlen=2)
+
+    @property
+    def now(self) -> float:
+        """Time in s."""
+        return 1.0 + self.ticks * PERIOD_S
+
+    def go(self, goal_id: int, x: float, y: float, heading_deg: float, direction=Direction.ANY, *,
+           in_car=True) -> None:
+        """Order a goal."""
+        self.goal = Goal(goal_id, in_car, Pose2(x, y, math.radians(heading_deg)), direction)
+
+    def tick(self) -> Output:
+        """One period."""
+        robot = RobotState(self.now, True, self.pose, self.speed, self.yaw_rate)
+        car = Car(self.now, self.car.located, self.car.pose, self.car.outline)
+        output = self.planner.step(Inputs(self.now, Order(self.now, self.goal, self.max_speed), robot, car))
+        self.outputs.append(output)
+        self._move(output)
+        self.ticks += 1
+        return output
+
+    def run(self, limit_s: float = 120.0) -> Output:
+        """Step until the goal is reached or refused."""
+        for _ in range(int(limit_s / PERIOD_S)):
+            output = self.tick()
+            if output.result in (Result.REACHED, Result.REFUSED):
+                return output
+        return output
+
+    def run_for(self, seconds: float) -> Output:
+        """Step for a while."""
+        for _ in range(round(seconds / PERIOD_S)):
+            output = self.tick()
+        return output
+
+    def goal_in_map(self) -> Pose2:
+        """Where the robot should stand."""
+        return self.car.pose @ self.goal.pose if self.goal.in_car_frame else self.goal.pose
+
+    def miss(self) -> Pose2:
+        """The robot's pose seen from the goal."""
+        return self.goal_in_map().inverse() @ self.pose
+
+    def largest_step(self) -> float:
+        """Largest change of the commanded speed between two ticks."""
+        speeds = [output.linear_mps for output in self.outputs]
+        return max(abs(b - a) for a, b in zip(speeds, speeds[1:]))
+
+    def _move(self, output: Output) -> None:
+        self._queue.append((output.linear_mps, output.angular_radps))
+        linear, angular = (0.0, 0.0) if self.held else self._queue[0]
+        dt = PERIOD_S / SUBSTEPS
+        for _ in range(SUBSTEPS):
+            self.speed += limited((linear - self.speed) / LAG_S, BASE_ACCELERATION_MPS2) * dt
+            self.yaw_rate += limited((angular - self.yaw_rate) / LAG_S, BASE_ANGULAR_RADPS2) * dt
+            self.pose = self.pose @ Pose2(self.speed * dt, 0.0, self.yaw_rate * dt)
+        self.poses.append(self.pose)
+        self.least_clearance = min(self.least_clearance, self.clearance())
+
+    def clearance(self) -> float:
+        """Distance of the footprint from the Car, computed apart from the planner's."""
+        corners = [self.pose.apply(x, y) for x, y in ((.255, .215), (-.255, .215), (-.255, -.215), (.255, -.215))]
+        car = Polygon([self.car.pose.apply(x, y) for x, y in self.car.outline])
+        return Polygon(corners).distance(car)
+
+
+def limited(value: float, limit: float) -> float:
+    """Value within [-limit, limit]."""
+    return max(-limit, min(limit, value))

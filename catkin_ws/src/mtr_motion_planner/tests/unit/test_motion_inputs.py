@@ -1,0 +1,71 @@
+"""Bad input never moves the robot, bad parameters never start the node."""
+# SPDX-License-Identifier: Apache-2.0
+import dataclasses
+import math
+
+import pytest
+
+from mtr_core.errors import ConfigurationError
+from mtr_core.se2 import Pose2
+from mtr_motion_planner.inputs import Car, Direction, Goal, Inputs, Order, RobotState
+from mtr_motion_planner.parameters import MotionParameters
+from mtr_motion_planner.planner import MotionPlanner, Result
+
+NAN = math.nan
+CAR = Car(1.0, True, Pose2(0, 0, 0), ((2.2, .9), (-2.2, .9), (-2.2, -.9), (2.2, -.9)))
+ROBOT = RobotState(1.0, True, Pose2(4.0, 0.0, 0.0), 0.0, 0.0)
+ORDER = Order(1.0, Goal(1, True, Pose2(6.0, 0.0, 0.0), Direction.ANY), 0.5)
+GOOD = Inputs(1.0, ORDER, ROBOT, CAR)
+
+
+def with_goal(pose):
+    return dataclasses.replace(ORDER, goal=dataclasses.replace(ORDER.goal, pose=pose))
+
+
+BAD = {
+    "no order": dataclasses.replace(GOOD, order=None),
+    "no pose": dataclasses.replace(GOOD, robot=None),
+    "no car": dataclasses.replace(GOOD, car=None),
+    "old pose": dataclasses.replace(GOOD, robot=dataclasses.replace(ROBOT, stamp_s=0.65)),
+    "old order": dataclasses.replace(GOOD, order=dataclasses.replace(ORDER, stamp_s=0.65)),
+    "old car": dataclasses.replace(GOOD, car=dataclasses.replace(CAR, stamp_s=0.65)),
+    "stamp not a number": dataclasses.replace(GOOD, robot=dataclasses.replace(ROBOT, stamp_s=NAN)),
+    "lost": dataclasses.replace(GOOD, robot=dataclasses.replace(ROBOT, valid=False, message="No scan.")),
+    "pose not a number": dataclasses.replace(GOOD, robot=dataclasses.replace(ROBOT, pose=Pose2(NAN, 0, 0))),
+    "speed infinite": dataclasses.replace(GOOD, robot=dataclasses.replace(ROBOT, speed_mps=math.inf)),
+    "car not a number": dataclasses.replace(GOOD, car=dataclasses.replace(CAR, pose=Pose2(0, 0, NAN))),
+    "outline not a number": dataclasses.replace(GOOD, car=dataclasses.replace(CAR, outline=((NAN, 0), (1, 1), (2, 0)))),
+    "no outline": dataclasses.replace(GOOD, car=dataclasses.replace(CAR, outline=())),
+    "goal not a number": dataclasses.replace(GOOD, order=with_goal(Pose2(6.0, NAN, 0.0))),
+    "goal infinite": dataclasses.replace(GOOD, order=with_goal(Pose2(math.inf, 0.0, 0.0))),
+    "speed limit not a number": dataclasses.replace(GOOD, order=dataclasses.replace(ORDER, max_speed_mps=NAN)),
+    "speed limit zero": dataclasses.replace(GOOD, order=dataclasses.replace(ORDER, max_speed_mps=0.0)),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_input_gives_zero_velocity(case):
+    output = MotionPlanner(MotionParameters()).step(BAD[case])
+    assert (output.linear_mps, output.angular_radps) == (0.0, 0.0)
+    assert output.result in (Result.IDLE, Result.PENDING, Result.REFUSED)
+    assert output.message.endswith(".") or output.goal_id == 0
+
+
+def test_input_that_turns_bad_in_mid_motion_gives_zero_at_once_and_goes_on_from_the_measured_speed():
+    planner = MotionPlanner(MotionParameters())
+    moving = dataclasses.replace(ROBOT, speed_mps=0.3)
+    for tick in range(40):
+        now = 1.0 + 0.04 * tick
+        good = Inputs(now, dataclasses.replace(ORDER, stamp_s=now), dataclasses.replace(moving, stamp_s=now),
+                      dataclasses.replace(CAR, stamp_s=now))
+        output = planner.step(good)
+    assert output.linear_mps > 0.2
+    assert planner.step(dataclasses.replace(good, robot=None)).linear_mps == 0.0
+    assert 0.0 < planner.step(good).linear_mps < 0.3
+
+
+@pytest.mark.parametrize("name, value", [("acceleration_mps2", 0.0), ("goal_heading_rad", NAN), ("corrections", -1),
+                                         ("route_margin_m", 0.01)])
+def test_parameter_out_of_range_is_named(name, value):
+    with pytest.raises(ConfigurationError, match=name):
+        MotionParameters(**{name: value})

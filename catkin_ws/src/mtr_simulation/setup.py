@@ -1,0 +1,9 @@
+"""Catkin reads the Python packages of mtr_simulation from here."""
+# SPDX-License-Identifier: Apache-2.0
+from distutils.core import setup
+
+from catkin_pkg.python_setup import generate_distutils_setup
+
+setup(**generate_distutils_setup(
+    packages=["mtr_simulation", "mtr_simulation.car", "mtr_simulation.firmware", "mtr_simulation.truth"],
+    package_dir={"": "src"}, package_data={"mtr_simulation.car": ["*.dbc"]}))

@@ -1,0 +1,123 @@
+"""Readings of the simulated sensors as ROS messages; each is filled anew and sent at once, so one object serves."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+import numpy as np
+from geometry_msgs.msg import Quaternion
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Clock
+from rospy import Time
+from rospy.numpy_msg import numpy_msg
+from sensor_msgs.msg import BatteryState, Imu, LaserScan
+
+from mtr_core import names
+from mtr_msgs.msg import FirmwareState
+
+from .battery import CAPACITY_WH, FULL_V
+from .firmware.simulated import State
+from .imu import ImuParameters
+from .readings import BatteryReading, ImuReading, Scan, WheelOdometry
+from .sim import TICK_S
+from .true_state import TrueState
+
+# Ranges stay a numpy array: 720 floats are copied as bytes.
+NumpyScan = numpy_msg(LaserScan)
+# As a Jackal's controller states them: x, y, z, roll, pitch, yaw.
+ODOMETRY_VARIANCES = (0.001, 0.001, 1e6, 1e6, 1e6, 0.03)
+NO_INTENSITIES = np.zeros(0, dtype=np.float32)
+
+
+def stamp(time_ns: int) -> Time:
+    """Nanoseconds as a ROS time."""
+    return Time(time_ns // 1_000_000_000, time_ns % 1_000_000_000)
+
+
+def clock_message(time_ns: int) -> Clock:
+    """Simulated time."""
+    return Clock(stamp(time_ns))
+
+
+def scan_message(scan: Scan, frame: str) -> LaserScan:
+    """One sweep."""
+    message = NumpyScan()
+    message.header.stamp, message.header.frame_id = stamp(scan.stamp_ns), frame
+    message.angle_min, message.angle_increment = scan.angle_min_rad, scan.angle_increment_rad
+    message.angle_max = scan.angle_min_rad + scan.angle_increment_rad * (len(scan.ranges_m) - 1)
+    message.time_increment, message.scan_time = scan.time_increment_s, scan.scan_time_s
+    message.range_min, message.range_max = scan.range_min_m, scan.range_max_m
+    message.ranges, message.intensities = scan.ranges_m, NO_INTENSITIES
+    return message
+
+
+class ImuMessage:
+    """Fills one Imu message; the sensor gives no orientation."""
+
+    def __init__(self, parameters: ImuParameters):
+        self._message = Imu()
+        self._message.header.frame_id = names.IMU
+        self._message.orientation_covariance[0] = -1.0
+        self._message.angular_velocity_covariance = _diagonal([parameters.gyro_density**2 / TICK_S] * 3)
+        self._message.linear_acceleration_covariance = _diagonal([parameters.accelerometer_density**2 / TICK_S] * 3)
+
+    def fill(self, time_ns: int, reading: ImuReading) -> Imu:
+        """Message for the reading."""
+        message = self._message
+        message.header.stamp = stamp(time_ns)
+        rate, force = message.angular_velocity, message.linear_acceleration
+        rate.x, rate.y, rate.z = reading.angular_velocity
+        force.x, force.y, force.z = reading.acceleration
+        return message
+
+
+class OdometryMessage:
+    """Fills one Odometry message."""
+
+    def __init__(self, frame: str, variances: tuple = ODOMETRY_VARIANCES):
+        self._message = Odometry()
+        self._message.header.frame_id, self._message.child_frame_id = frame, names.BASE
+        self._message.pose.covariance = self._message.twist.covariance = _diagonal(variances)
+
+    def fill(self, time_ns: int, reading: WheelOdometry, lateral_mps: float = 0.0) -> Odometry:
+        """Message for the reading."""
+        message = self._message
+        message.header.stamp = stamp(time_ns)
+        position, twist = message.pose.pose.position, message.twist.twist
+        position.x, position.y = reading.x_m, reading.y_m
+        message.pose.pose.orientation = _yaw(reading.heading_rad)
+        twist.linear.x, twist.linear.y, twist.angular.z = reading.linear_mps, lateral_mps, reading.angular_radps
+        return message
+
+
+class TruthMessage:
+    """Fills the message of the true pose of base_link in the true Car's frame."""
+
+    def __init__(self) -> None:
+        self._odometry = OdometryMessage(names.CAR, (0.0,) * 6)
+
+    def fill(self, truth: TrueState) -> Odometry:
+        """Message for the true state."""
+        pose = truth.car_from_base
+        reading = WheelOdometry(pose.x, pose.y, pose.heading, truth.linear_mps, truth.angular_radps)
+        return self._odometry.fill(truth.time_ns, reading, truth.lateral_mps)
+
+
+def battery_message(time_ns: int, reading: BatteryReading) -> BatteryState:
+    """State of charge."""
+    message = BatteryState(voltage=reading.voltage_v, current=reading.current_a, percentage=reading.charge,
+                           design_capacity=CAPACITY_WH / FULL_V, charge=math.nan, capacity=math.nan, present=True,
+                           power_supply_status=BatteryState.POWER_SUPPLY_STATUS_DISCHARGING)
+    message.header.stamp, message.header.frame_id = stamp(time_ns), names.BASE
+    return message
+
+
+def firmware_message(state: State) -> FirmwareState:
+    """What the firmware reports."""
+    return FirmwareState(*state)
+
+
+def _diagonal(values: tuple) -> list:
+    return np.diag(values).reshape(-1).tolist()
+
+
+def _yaw(heading_rad: float) -> Quaternion:
+    return Quaternion(0.0, 0.0, math.sin(heading_rad / 2.0), math.cos(heading_rad / 2.0))

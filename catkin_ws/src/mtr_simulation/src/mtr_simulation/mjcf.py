@@ -1,0 +1,55 @@
+"""The MuJoCo model of one scenario."""
+# SPDX-License-Identifier: Apache-2.0
+from mtr_core.se2 import Pose2
+
+from .mjcf_car import SOLID, car_body, car_meshes, parked_car_body
+from .mjcf_robot import robot_actuators, robot_body
+from .scenario import Pole, Scenario, Wall
+
+POLE_HEIGHT_M, WALL_HEIGHT_M = 1.2, 2.0
+LEG_LENGTH_M, HIP_HEIGHT_M = 0.82, 0.92
+
+
+def model_xml(scenario: Scenario, world_from_base: Pose2, timestep_s: float, max_wheel_torque_nm: float) -> str:
+    """MJCF text with bodies car, base_link and what surrounds them."""
+    parked = "".join(parked_car_body(f"parked_{index}", each.shape, each.pose)
+                     for index, each in enumerate(scenario.parked_cars))
+    return f"""
+<mujoco model="mobile_testing_robot">
+  <compiler angle="radian" autolimits="true"/>
+  <option timestep="{timestep_s}" integrator="Euler" cone="elliptic" impratio="1" solver="Newton" iterations="20"
+    tolerance="1e-8"/>
+  <size memory="4M"/>
+  <asset>{car_meshes("car", scenario.car)}</asset>
+  <worldbody>
+    <light pos="0 0 10" dir="0 0 -1"/>
+    <geom name="ground" type="plane" size="60 60 0.1" contype="8" conaffinity="0" rgba=".5 .5 .5 1"/>
+    {car_body("car", scenario.car, scenario.world_from_car)}
+    {parked}
+    {"".join(map(_pole, scenario.poles))}
+    {"".join(map(_wall, scenario.walls))}
+    {_person() if scenario.person else ""}
+    {robot_body(world_from_base)}
+  </worldbody>
+  <actuator>{robot_actuators(max_wheel_torque_nm)}</actuator>
+</mujoco>"""
+
+
+def _pole(pole: Pole) -> str:
+    half = POLE_HEIGHT_M / 2.0
+    return f'<geom type="cylinder" pos="{pole.x_m:.4f} {pole.y_m:.4f} {half}" size="{pole.radius_m} {half}" {SOLID}/>'
+
+
+def _wall(wall: Wall) -> str:
+    half, pose = WALL_HEIGHT_M / 2.0, wall.pose
+    return (f'<geom type="box" pos="{pose.x:.4f} {pose.y:.4f} {half}" euler="0 0 {pose.heading:.6f}" '
+            f'size="{wall.length_m / 2.0} {wall.thickness_m / 2.0} {half}" {SOLID}/>')
+
+
+def _person() -> str:
+    """Torso and two legs, moved from outside; a planar LiDAR sees the legs."""
+    leg = f'<geom type="capsule" fromto="0 0 0 0 0 -{LEG_LENGTH_M}" size="0.07" {SOLID}/>'
+    return (f'<body name="person" mocap="true"><geom type="capsule" fromto="0 0 0.95 0 0 1.45" size="0.18" {SOLID}/>'
+            f'<geom type="sphere" pos="0 0 1.68" size="0.12" {SOLID}/></body>'
+            f'<body name="left_leg" mocap="true" pos="0 0.1 {HIP_HEIGHT_M}">{leg}</body>'
+            f'<body name="right_leg" mocap="true" pos="0 -0.1 {HIP_HEIGHT_M}">{leg}</body>')

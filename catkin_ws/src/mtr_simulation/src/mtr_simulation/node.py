@@ -1,0 +1,191 @@
+"""The simulator as a ROS node: publishes sensors and /clock, obeys the base's and the firmware's topics."""
+# SPDX-License-Identifier: Apache-2.0
+import collections
+import threading
+import warnings
+from typing import Any, Callable, Deque, List, Set, Tuple
+
+import rosgraph
+import rospy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import BatteryState, Imu
+from std_msgs.msg import Header
+
+from mtr_core import names
+from mtr_core.errors import ConfigurationError
+from mtr_core.schedule import CLOCK_STEP, FIRMWARE, LIDAR, SIMULATION_START_NS, slot
+from mtr_msgs.msg import FirmwareCommand, FirmwarePress, FirmwareState
+
+from . import connections, conversions
+from .imu import ImuParameters
+from .lockstep_barrier import Barrier, Watcher
+from .pacing import Pace
+from .parameters import SimulatorParameters
+from .readings import Sensors
+from .world import World
+
+BATTERY = slot(1000)
+
+
+class SimulatorNode:
+    """One loop: wait for the holds, do what the nodes ordered, step, publish."""
+
+    def __init__(self, parameters: SimulatorParameters, world: World):
+        self._world = world
+        self._output = Output(parameters.rear_lidar)
+        self._barrier = Barrier(parameters.hold_for, NodeWatcher(self._output))
+        self._pace = Pace(parameters.real_time_factor)
+        self._stopped = threading.Event()
+        self._orders: Deque[Callable[[], None]] = collections.deque()
+        self._contacts: Set[str] = set()
+        rospy.on_shutdown(self.stop)
+
+    def run(self) -> None:
+        """Simulate until shutdown."""
+        self._subscribe()
+        self._barrier.wait_for_expected()
+        connections.wait_until_complete(rosgraph.get_master_uri(), rospy.get_name(), self._stopped, rospy.logwarn)
+        time_ns = SIMULATION_START_NS
+        self._pace.start(time_ns * 1e-9)
+        self._output.clock(time_ns)
+        while self._barrier.wait(time_ns + CLOCK_STEP.period_ns):
+            while self._orders:
+                self._orders.popleft()()
+            # Here all nodes hold still, so it does not depend on the machine's speed who listens by now.
+            self._world.sim.scans_wanted = self._output.has_scan_listener()
+            sensors = self._world.step()
+            time_ns = sensors.time_ns
+            delay_s = self._pace.delay(time_ns * 1e-9)
+            if delay_s:
+                self._stopped.wait(delay_s)
+            self._output.publish(sensors, self._world)
+            self._world.sim.look_ahead()
+            self._log(time_ns)
+        rospy.loginfo("%s; %s.", self._pace.total(time_ns * 1e-9), self._barrier.longest_waits())
+
+    def stop(self) -> None:
+        """End the loop; rospy calls it on Ctrl-C."""
+        self._stopped.set()
+        self._barrier.stop()
+
+    def _subscribe(self) -> None:
+        sim, firmware = self._world.sim, self._world.firmware
+        self._listen(names.WHEEL_COMMAND, Twist, lambda twist: sim.command(twist.linear.x, twist.angular.z))
+        self._listen(names.FIRMWARE_COMMAND, FirmwareCommand,
+                     lambda order: firmware.command(order.lift_height_m, order.led_pattern))
+        self._listen(names.FIRMWARE_PRESS, FirmwarePress,
+                     lambda order: firmware.press(order.id, order.servos, order.strength, order.hold_ms))
+        rospy.Subscriber(names.SIM_HOLD, Header, self._hold, tcp_nodelay=True)
+
+    def _listen(self, topic: str, message_type: Any, obey: Callable[[Any], None]) -> None:
+        """Each message is obeyed in the loop, before the step that follows its arrival."""
+        def take(message: Any) -> None:
+            self._orders.append(lambda: obey(message))
+            self._barrier.message(message._connection_header["callerid"])
+        rospy.Subscriber(topic, message_type, take, tcp_nodelay=True)
+
+    def _hold(self, message: Header) -> None:
+        self._barrier.hold(message.frame_id, message.stamp.to_nsec(), message.seq)
+
+    def _log(self, time_ns: int) -> None:
+        report = self._pace.report(time_ns * 1e-9)
+        if report:
+            rospy.loginfo("%s; %s.", report, self._barrier.longest_waits())
+        if self._world.contacts != self._contacts:
+            for name in sorted(self._world.contacts - self._contacts):
+                rospy.logwarn("The robot touches %s at %.2f s.", name, time_ns * 1e-9)
+            self._contacts = self._world.contacts
+
+
+class Output:
+    """Publishers, and which of them speak at which tick."""
+
+    def __init__(self, rear_lidar: bool):
+        self._clock = _publisher("/clock", Clock)
+        self._front = _publisher(names.FRONT_SCAN, conversions.NumpyScan)
+        self._rear = _publisher(names.REAR_SCAN, conversions.NumpyScan) if rear_lidar else None
+        self._imu = _publisher(names.IMU_DATA, Imu)
+        self._odometry = _publisher(names.WHEEL_ODOMETRY, Odometry)
+        self._battery = _publisher(names.BATTERY, BatteryState)
+        self._truth = _publisher(names.SIM_TRUTH, Odometry)
+        self._firmware = _publisher(names.FIRMWARE_STATE, FirmwareState)
+        self._publishers = [each for each in vars(self).values() if each]
+        self._muted: List[Tuple[Any, Any]] = []
+        self._imu_message = conversions.ImuMessage(ImuParameters())
+        self._odometry_message = conversions.OdometryMessage(names.ODOM)
+        self._truth_message = conversions.TruthMessage()
+
+    def mute(self, node: str) -> None:
+        """Say no more to a node that does not read: its full buffers would stop the loop."""
+        for topic in (publisher.impl for publisher in self._publishers):
+            with topic.c_lock:
+                silent = [each for each in topic.connections if each.endpoint_id == node]
+                topic.connections = [each for each in topic.connections if each.endpoint_id != node]
+            self._muted += [(topic, connection) for connection in silent]
+
+    def unmute(self, node: str) -> None:
+        """Speak to it again, unless it has connected anew."""
+        for topic, connection in self._muted:
+            with topic.c_lock:
+                if connection.endpoint_id == node and all(each.endpoint_id != node for each in topic.connections):
+                    topic.connections = [*topic.connections, connection]
+        self._muted = [each for each in self._muted if each[1].endpoint_id != node]
+
+    def has_scan_listener(self) -> bool:
+        """True when anybody listens to a LiDAR."""
+        return any(each.get_num_connections() for each in (self._front, self._rear) if each)
+
+    def clock(self, time_ns: int) -> None:
+        """The time alone."""
+        self._clock.publish(conversions.clock_message(time_ns))
+
+    def publish(self, sensors: Sensors, world: World) -> None:
+        """Everything of a tick, the clock last."""
+        time_ns = sensors.time_ns
+        for publisher, scan, frame in ((self._front, sensors.front_scan, names.FRONT_LIDAR),
+                                       (self._rear, sensors.rear_scan, names.REAR_LIDAR)):
+            if scan and publisher.get_num_connections():
+                publisher.publish(conversions.scan_message(scan, frame))
+        if FIRMWARE.last_at(time_ns) == time_ns:
+            self._firmware.publish(conversions.firmware_message(world.firmware.state()))
+        if LIDAR.last_at(time_ns) == time_ns and self._truth.get_num_connections():
+            self._truth.publish(self._truth_message.fill(world.truth))
+        if BATTERY.last_at(time_ns) == time_ns:
+            self._battery.publish(conversions.battery_message(time_ns, sensors.battery))
+        self._imu.publish(self._imu_message.fill(time_ns, sensors.imu))
+        self._odometry.publish(self._odometry_message.fill(time_ns, sensors.odometry))
+        self.clock(time_ns)
+
+
+class NodeWatcher(Watcher):
+    """Logs, and keeps the output from filling the buffers of a node that does not read."""
+
+    def __init__(self, output: Output):
+        self.warn, self.dropped, self.returned = rospy.logwarn, output.mute, output.unmute
+
+
+def _publisher(topic: str, message_type: Any) -> rospy.Publisher:
+    """Publisher without a queue: the loop itself sends, so everything of a tick is on its way before the clock."""
+    with warnings.catch_warnings():
+        # rospy warns of a missing queue_size, as a slow subscriber then blocks; lock-step waits for it anyway.
+        warnings.simplefilter("ignore", SyntaxWarning)
+        return rospy.Publisher(topic, message_type, tcp_nodelay=True)
+
+
+def main() -> int:
+    """Run the node; 0 on Ctrl-C, 2 when a parameter is wrong."""
+    rospy.init_node("simulator", disable_rostime=True)
+    try:
+        parameters = SimulatorParameters.from_values(rospy.get_param("~", {}))
+        world = World(parameters)
+    except ConfigurationError as error:
+        rospy.logfatal(str(error))
+        return 2
+    rospy.loginfo("Simulator: %s", parameters)
+    try:
+        SimulatorNode(parameters, world).run()
+    finally:
+        world.close()
+    return 0

@@ -1,0 +1,189 @@
+"""Simulated robot in its world: physics and sensors, one tick of the schedule at a time."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass, field
+from typing import List, Optional, Set
+
+import mujoco
+
+from mtr_core.errors import ConfigurationError
+from mtr_core.schedule import CLOCK_STEP, LIDAR, SIMULATION_START_NS
+
+from . import robot
+from .base_state import BaseState, base_state, mean_spin, rotate_back
+from .battery import battery
+from .imu import Imu, ImuParameters
+from .lidar import Lidar, LidarParameters
+from .mjcf import model_xml
+from .mjcf_robot import LIFT_STIFFNESS_NPM
+from .noise import stream
+from .person import Person
+from .readings import Scan, Sensors
+from .scenario import Scenario
+from .true_state import TrueState
+from .tyres import TyreParameters, Tyres
+from .wheels import BaseParameters, Wheels
+
+GRAVITY_MPS2 = 9.81
+TICK_S = CLOCK_STEP.period_ns * 1e-9
+# The robot settles on its tyres before the clock starts.
+SETTLING_S = 0.5
+
+
+@dataclass(frozen=True)
+class SimParameters:
+    """Parameters of the robot's parts.
+
+    Attributes:
+        timestep_s: of the physics; a whole fraction of 20 ms. Turning and slip are the same from 1 to 5 ms.
+        rear_lidar: the rear LiDAR exists.
+    """
+
+    timestep_s: float = 0.005
+    rear_lidar: bool = True
+    base: BaseParameters = field(default_factory=BaseParameters)
+    tyres: TyreParameters = field(default_factory=TyreParameters)
+    lidar: LidarParameters = field(default_factory=LidarParameters)
+    imu: ImuParameters = field(default_factory=ImuParameters)
+
+    def __post_init__(self) -> None:
+        if self.timestep_s not in (0.001, 0.002, 0.004, 0.005):
+            raise ConfigurationError(f"Parameter timestep_s is {self.timestep_s:g} s; allowed is 0.001, 0.002, 0.004 "
+                                     "or 0.005 s.")
+        if round(self.lidar.rotation_s * 1e9) != LIDAR.period_ns:
+            raise ConfigurationError(f"Parameter rotation_s is {self.lidar.rotation_s:g} s; allowed is "
+                                     f"{LIDAR.period_ns * 1e-9:g} s, the period of the scans.")
+
+
+class Sim:
+    """The robot's physics and sensors for one seed and scenario.
+
+    Attributes:
+        scenario: what it was made for.
+        time_ns: simulated time, an exact multiple of the clock step.
+        scans_wanted: False saves the work of the LiDARs, half of everything; a sweep that was not seen whole is not
+            given. Nothing else changes, so a listener more or less does not change a run.
+    """
+
+    def __init__(self, seed: int, scenario: Scenario, parameters: Optional[SimParameters] = None):
+        parameters = parameters or SimParameters()
+        self.scenario, self.time_ns, self.scans_wanted = scenario, SIMULATION_START_NS, True
+        self._model = mujoco.MjModel.from_xml_string(model_xml(
+            scenario, scenario.start_in_world(seed), parameters.timestep_s, parameters.base.max_wheel_torque_nm))
+        self._data = mujoco.MjData(self._model)
+        self._steps = round(TICK_S / parameters.timestep_s)
+        self._wheels = Wheels(self._model, self._data, parameters.base)
+        self._tyres = Tyres(self._model, self._data, scenario.friction, parameters.tyres)
+        self._person = Person(self._model, self._data, scenario.person) if scenario.person else None
+        self._imu = Imu(parameters.imu, TICK_S, stream(seed, "imu"))
+        self._front = self._lidar((robot.FRONT_LIDAR_X_M, robot.FRONT_LIDAR_YAW_RAD), parameters, seed, "front")
+        self._rear = self._lidar((robot.REAR_LIDAR_X_M, robot.REAR_LIDAR_YAW_RAD), parameters, seed, "rear")
+        self._lidars = [self._front, self._rear] if parameters.rear_lidar else [self._front]
+        self._lift_joint = int(self._model.joint("lift").qposadr[0])
+        self._lift_servo = self._model.actuator("lift").id
+        self._car_from_world = scenario.world_from_car.inverse()
+        self._has_looked, self._sweep_is_whole = False, True
+        self._settle()
+
+    def command(self, linear_mps: float, angular_radps: float) -> None:
+        """Velocity command, as on the base's topic."""
+        self._wheels.command(linear_mps, angular_radps)
+
+    def set_lift(self, height_m: float) -> None:
+        """Height that the lift's firmware has reached; the carriage follows."""
+        # The servo is a spring: what the carriage weighs is added, so that it does not sag.
+        weight = (robot.CARRIAGE_MASS_KG + robot.KEY_MASS_KG) * GRAVITY_MPS2
+        self._data.ctrl[self._lift_servo] = height_m + weight / LIFT_STIFFNESS_NPM
+
+    def step(self) -> Sensors:
+        """Advance one tick of 20 ms; what the sensors say at its end."""
+        quaternion, velocity = self._data.qpos[3:7].tolist(), self._data.qvel[0:3].tolist()
+        self.look_ahead()
+        self._sweep_is_whole = self._has_looked and (self._sweep_is_whole or not self._sweep_step())
+        self._has_looked = False
+        for step in range(self._steps):
+            base = self._base()
+            if step and self._sweep_is_whole:
+                self._cast(base, step)
+            self._physics(base)
+        self.time_ns += CLOCK_STEP.period_ns
+        if self._person:
+            self._person.move(self._elapsed_s())
+        return self._sense(quaternion, velocity)
+
+    def look_ahead(self) -> None:
+        """Cast the beams of this very instant, which no command can change any more; for the time of waiting."""
+        if self.scans_wanted and not self._has_looked:
+            self._has_looked = True
+            self._cast(self._base(), 0)
+
+    def truth(self) -> TrueState:
+        """Where everything really is now."""
+        base = self._base()
+        lift = float(self._data.qpos[self._lift_joint])
+        key = base.point(robot.KEY_X_M, 0.0, robot.KEY_HEIGHT_AT_LOWER_STOP_M - robot.BASE_HEIGHT_M + lift)
+        forward, left, _ = rotate_back(base.rotation, *base.velocity)
+        pose = base.pose()
+        return TrueState(self.time_ns, pose, self._car_from_world @ pose, key,
+                         (*self._car_from_world.apply(key[0], key[1]), key[2]), forward, left,
+                         base.angular_velocity[2], base.tilt_rad(), lift)
+
+    def contacts(self) -> Set[str]:
+        """Names of the bodies that the robot touches now: car, parked_0, person, world (poles, walls, ground)."""
+        touched: Set[str] = set()
+        if not self._data.ncon:
+            return touched
+        for contact in self._data.contact[:self._data.ncon]:
+            bodies = [self._model.geom_bodyid[geom] for geom in (contact.geom1, contact.geom2)]
+            touched |= {self._model.body(self._model.body_rootid[body]).name for body in bodies}
+        return touched - {"base_link"}
+
+    def _elapsed_s(self) -> float:
+        return (self.time_ns - SIMULATION_START_NS) * 1e-9
+
+    def _base(self) -> BaseState:
+        position, speed = self._data.qpos[0:7].tolist(), self._data.qvel[0:6].tolist()
+        return base_state(position[:3], position[3:], speed[:3], speed[3:])
+
+    def _cast(self, base: BaseState, step: int) -> None:
+        """Cast the beams that belong to a physics step of this tick."""
+        for lidar in self._lidars:
+            lidar.cast(base, self._sweep_step() + step)
+
+    def _sweep_step(self) -> int:
+        """Physics steps since the sweep began."""
+        return (self.time_ns - SIMULATION_START_NS) % LIDAR.period_ns // CLOCK_STEP.period_ns * self._steps
+
+    def _physics(self, base: BaseState) -> None:
+        self._tyres.apply(base)
+        self._wheels.drive()
+        mujoco.mj_step(self._model, self._data)
+
+    def _settle(self) -> None:
+        self.set_lift(0.0)
+        for _ in range(round(SETTLING_S / self._model.opt.timestep)):
+            self._physics(self._base())
+        self._wheels.odometry(TICK_S)
+        self._data.time = 0.0
+        if self._person:
+            self._person.move(0.0)
+
+    def _lidar(self, mount: tuple, parameters: SimParameters, seed: int, name: str) -> Lidar:
+        return Lidar(self._model, self._data, mount, parameters.lidar, stream(seed, f"{name}_lidar"))
+
+    def _sense(self, quaternion: List[float], velocity: List[float]) -> Sensors:
+        """Readings for the tick that began with this orientation and velocity."""
+        base = self._base()
+        spin = mean_spin(quaternion, self._data.qpos[3:7].tolist(), TICK_S)
+        change = [(new - old) / TICK_S for new, old in zip(base.velocity, velocity)]
+        force = rotate_back(base.rotation, change[0], change[1], change[2] + GRAVITY_MPS2)
+        return Sensors(self.time_ns, self._imu.read(spin, force), self._wheels.odometry(TICK_S),
+                       battery(self._elapsed_s()), *self._scans())
+
+    def _scans(self) -> List[Optional[Scan]]:
+        """Sweeps of front and rear LiDAR when they end at this tick and were seen whole."""
+        if self._sweep_step():
+            return [None, None]
+        scans = [lidar.scan(self.time_ns - LIDAR.period_ns) for lidar in (self._front, self._rear)]
+        return [scan if self._sweep_is_whole and lidar in self._lidars else None
+                for scan, lidar in zip(scans, (self._front, self._rear))]
+

@@ -1,0 +1,127 @@
+"""Tyres on flat ground: spring and damper upwards, bristles inside the friction circle along the ground.
+
+A physics engine's contact of a convex wheel with the ground is wrong for a skid-steered robot: the wheels hop, and the
+turning rate depends on the time step. With these forces the ratio of the wheels' to the true turning rate on the spot
+is that of four sliding points, 1 + (half wheelbase / half track)^2 = 1.487, whatever the friction and the time step.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+from math import sqrt
+from typing import List, NamedTuple, Tuple
+
+import mujoco
+
+from mtr_core.errors import check_range
+
+from . import robot
+from .base_state import BaseState, Vector
+
+# Below this spin the rolling resistance fades out, so that a wheel can stand still.
+ROLLING_FADE_RADPS = 0.05
+
+
+@dataclass(frozen=True)
+class TyreParameters:
+    """Values at which neither mast nor friction made the tyres chatter.
+
+    Attributes:
+        stiffness_npm: upwards, 1e3 to 1e5 N/m; 2e4 lets the robot sink 3 mm.
+        damping_nspm: upwards, 0 to 2000 Ns/m.
+        bristle_stiffness_npm: along the ground, 1e3 to 1e5 N/m.
+        bristle_damping_nspm: along the ground while it sticks, 0 to 500 Ns/m.
+        rolling_resistance: 0 to 0.1, force by load.
+    """
+
+    stiffness_npm: float = 2.0e4
+    damping_nspm: float = 1000.0
+    bristle_stiffness_npm: float = 2.0e4
+    bristle_damping_nspm: float = 60.0
+    rolling_resistance: float = 0.015
+
+    def __post_init__(self) -> None:
+        check_range("stiffness_npm", self.stiffness_npm, 1e3, 1e5, "N/m")
+        check_range("damping_nspm", self.damping_nspm, 0.0, 2000.0, "Ns/m")
+        check_range("bristle_stiffness_npm", self.bristle_stiffness_npm, 1e3, 1e5, "N/m")
+        check_range("bristle_damping_nspm", self.bristle_damping_nspm, 0.0, 500.0, "Ns/m")
+        check_range("rolling_resistance", self.rolling_resistance, 0.0, 0.1, "(force by load)")
+
+
+class _WheelPlane(NamedTuple):
+    """How all wheels stand, in world: axle, way from a wheel's centre to its lowest point, rolling direction."""
+
+    axle: Vector
+    down: Vector
+    forward: Tuple[float, float]
+
+
+def _wheel_plane(base: BaseState) -> _WheelPlane:
+    (_, ax, _), (_, ay, _), (_, az, _) = base.rotation
+    upright = sqrt(max(1e-9, 1.0 - az * az))
+    level = sqrt(ax * ax + ay * ay) or 1.0
+    scale = robot.WHEEL_RADIUS_M / upright
+    return _WheelPlane((ax, ay, az), (scale * az * ax, scale * az * ay, -robot.WHEEL_RADIUS_M * upright),
+                       (ay / level, -ax / level))
+
+
+class Tyres:
+    """Writes the ground's forces on the wheels into the physics before each of its steps."""
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, friction: float, parameters: TyreParameters):
+        self._forces = data.xfrc_applied
+        self._speeds = data.qvel
+        self._step_s = model.opt.timestep
+        self._friction, self._parameters = friction, parameters
+        self._bodies = [model.body(f"{name}_wheel").id for name in robot.WHEELS]
+        self._dofs = [int(model.joint(name).dofadr[0]) for name in robot.WHEELS]
+        self._bristles = [[0.0, 0.0] for _ in robot.WHEELS]
+
+    def apply(self, base: BaseState) -> None:
+        """Forces and torques on each wheel's centre for the base's motion and the wheels' spin."""
+        (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = base.rotation
+        plane = _wheel_plane(base)
+        dx, dy, dz = plane.down
+        height = base.position[2] + dz
+        for index, (x, y, z) in enumerate(robot.WHEEL_POSITIONS):
+            lift = r20 * x + r21 * y + r22 * z
+            if height + lift < 0.0:
+                arm = (r00 * x + r01 * y + r02 * z + dx, r10 * x + r11 * y + r12 * z + dy, lift + dz)
+                self._forces[self._bodies[index]] = self._wrench(index, base, plane, arm)
+            else:
+                self._bristles[index][:] = (0.0, 0.0)
+                self._forces[self._bodies[index]] = 0.0
+
+    def _wrench(self, index: int, base: BaseState, plane: _WheelPlane, arm: Vector) -> tuple:
+        """Force and torque at a wheel's centre, in world; arm is the way from base_link to its lowest point."""
+        parameters = self._parameters
+        (vx, vy, vz), (ox, oy, oz) = base.velocity, base.angular_velocity
+        (ex, ey, ez), (ax, ay, az), (hx, hy, hz), (cos, sin) = (arm, *plane)
+        spin = float(self._speeds[self._dofs[index]])
+        vertical = vz + ox * ey - oy * ex + spin * (ax * hy - ay * hx)
+        depth = -(base.position[2] + ez)
+        load = max(0.0, parameters.stiffness_npm * depth - parameters.damping_nspm * vertical)
+        along_x = vx + oy * ez - oz * ey + spin * (ay * hz - az * hy)
+        along_y = vy + oz * ex - ox * ez + spin * (az * hx - ax * hz)
+        rolling, side = self._friction_force(index, along_x * cos + along_y * sin, along_y * cos - along_x * sin, load)
+        fx, fy = rolling * cos - side * sin, rolling * sin + side * cos
+        resistance = -parameters.rolling_resistance * load * robot.WHEEL_RADIUS_M * max(
+            -1.0, min(1.0, spin / ROLLING_FADE_RADPS))
+        return (fx, fy, load, hy * load - hz * fy + resistance * ax, hz * fx - hx * load + resistance * ay,
+                hx * fy - hy * fx + resistance * az)
+
+    def _friction_force(self, index: int, slip: float, side_slip: float, load: float) -> List[float]:
+        """Force along and across the rolling direction for the slip speeds in m/s."""
+        parameters, bristle = self._parameters, self._bristles[index]
+        limit = self._friction * load
+        along, across = bristle[0] + slip * self._step_s, bristle[1] + side_slip * self._step_s
+        longest = limit / parameters.bristle_stiffness_npm
+        length = sqrt(along * along + across * across)
+        damping = parameters.bristle_damping_nspm
+        if length > longest:
+            along, across, damping = along * longest / length, across * longest / length, 0.0
+        bristle[0], bristle[1] = along, across
+        force = [-parameters.bristle_stiffness_npm * along - damping * slip,
+                 -parameters.bristle_stiffness_npm * across - damping * side_slip]
+        size = sqrt(force[0] * force[0] + force[1] * force[1])
+        if size > limit:
+            force = [force[0] * limit / size, force[1] * limit / size]
+        return force

@@ -1,0 +1,120 @@
+"""The base's own controller: velocity command to wheel speeds, and odometry from the wheels.
+
+Like the diff_drive_controller of a Jackal: it limits speed and acceleration, stops when no command comes, and widens
+the track by a multiplier because a skid-steered robot turns slower than its wheels say.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import List
+
+import mujoco
+
+from mtr_core.errors import check_range
+
+from . import robot
+from .readings import WheelOdometry
+
+INTEGRAL_GAIN_PER_S = 6.0
+INTEGRAL_LIMIT_RADPS = 3.0
+
+
+@dataclass(frozen=True)
+class BaseParameters:
+    """Limits of the platform; those of its data sheet are 2 m/s and 4 rad/s.
+
+    Attributes:
+        max_linear_mps: 0.1 to 3.
+        max_angular_radps: 0.1 to 6.
+        max_linear_mps2: 0.1 to 20; a bare Jackal's 20 would tip one with a mast.
+        max_angular_radps2: 0.1 to 25; a bare Jackal has 25.
+        command_timeout_s: stops this long after the last command, 0.05 to 1.
+        separation_multiplier: true by assumed turning rate, 1 to 3; a Jackal's is 1.5.
+        radius_error: relative error of the wheel radius that the base believes in, -0.05 to 0.05.
+        encoder_ticks_per_m: 1e3 to 1e6; a Jackal's is 78000.
+        max_wheel_torque_nm: 1 to 30.
+    """
+
+    max_linear_mps: float = 2.0
+    max_angular_radps: float = 4.0
+    max_linear_mps2: float = 3.0
+    max_angular_radps2: float = 6.0
+    command_timeout_s: float = 0.25
+    separation_multiplier: float = 1.5
+    radius_error: float = 0.003
+    encoder_ticks_per_m: float = 78_000.0
+    max_wheel_torque_nm: float = 6.0
+
+    def __post_init__(self) -> None:
+        check_range("max_linear_mps", self.max_linear_mps, 0.1, 3.0, "m/s")
+        check_range("max_angular_radps", self.max_angular_radps, 0.1, 6.0, "rad/s")
+        check_range("max_linear_mps2", self.max_linear_mps2, 0.1, 20.0, "m/s2")
+        check_range("max_angular_radps2", self.max_angular_radps2, 0.1, 25.0, "rad/s2")
+        check_range("command_timeout_s", self.command_timeout_s, 0.05, 1.0, "s")
+        check_range("separation_multiplier", self.separation_multiplier, 1.0, 3.0, "(ratio)")
+        check_range("radius_error", self.radius_error, -0.05, 0.05, "(relative)")
+        check_range("encoder_ticks_per_m", self.encoder_ticks_per_m, 1e3, 1e6, "1/m")
+        check_range("max_wheel_torque_nm", self.max_wheel_torque_nm, 1.0, 30.0, "Nm")
+
+
+class Wheels:
+    """Drives the four wheel servos and reads their encoders."""
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, parameters: BaseParameters):
+        self._data, self._parameters = data, parameters
+        self._step_s = model.opt.timestep
+        self._dofs = [int(model.joint(name).dofadr[0]) for name in robot.WHEELS]
+        self._angles = [int(model.joint(name).qposadr[0]) for name in robot.WHEELS]
+        self._servos = [model.actuator(name).id for name in robot.WHEELS]
+        self._integrals = [0.0] * len(robot.WHEELS)
+        self._radius_m = robot.WHEEL_RADIUS_M * (1.0 + parameters.radius_error)
+        self._half_track_m = robot.HALF_TRACK_M * parameters.separation_multiplier
+        self._wanted = (0.0, 0.0)
+        self._silent_s = math.inf
+        self._linear = self._angular = 0.0
+        self._ticks = [0.0, 0.0]
+        self._pose = [0.0, 0.0, 0.0]
+
+    def command(self, linear_mps: float, angular_radps: float) -> None:
+        """Take a new velocity command; one that is not finite is ignored."""
+        if math.isfinite(linear_mps) and math.isfinite(angular_radps):
+            limits = self._parameters
+            self._wanted = (_clip(linear_mps, limits.max_linear_mps), _clip(angular_radps, limits.max_angular_radps))
+            self._silent_s = 0.0
+
+    def drive(self) -> None:
+        """Set the servos for one physics step."""
+        step, limits, data = self._step_s, self._parameters, self._data
+        linear, angular = self._wanted if self._silent_s < limits.command_timeout_s else (0.0, 0.0)
+        self._silent_s += step
+        self._linear += _clip(linear - self._linear, limits.max_linear_mps2 * step)
+        self._angular += _clip(angular - self._angular, limits.max_angular_radps2 * step)
+        turn = self._angular * self._half_track_m
+        left, right = (self._linear - turn) / self._radius_m, (self._linear + turn) / self._radius_m
+        speeds, integrals, control = data.qvel, self._integrals, data.ctrl
+        for index, target in enumerate((left, right, left, right)):
+            error = target - float(speeds[self._dofs[index]])
+            integrals[index] = _clip(integrals[index] + INTEGRAL_GAIN_PER_S * error * step, INTEGRAL_LIMIT_RADPS)
+            control[self._servos[index]] = target + integrals[index]
+
+    def odometry(self, period_s: float) -> WheelOdometry:
+        """Odometry for the period since the last call."""
+        ticks = self._count()
+        per_m = self._parameters.encoder_ticks_per_m
+        left, right = ((new - old) / per_m for new, old in zip(ticks, self._ticks))
+        self._ticks = ticks
+        distance, turn = 0.5 * (left + right), (right - left) / (2.0 * self._half_track_m)
+        x, y, heading = self._pose
+        self._pose = [x + distance * math.cos(heading + turn / 2.0), y + distance * math.sin(heading + turn / 2.0),
+                      heading + turn]
+        return WheelOdometry(*self._pose, distance / period_s, turn / period_s)
+
+    def _count(self) -> List[float]:
+        """Encoder ticks of the left and the right side, in metres as the base believes them."""
+        angles = [float(self._data.qpos[index]) for index in self._angles]
+        scale = self._radius_m * self._parameters.encoder_ticks_per_m
+        return [math.floor(0.5 * (angles[side] + angles[side + 2]) * scale) for side in (0, 1)]
+
+
+def _clip(value: float, limit: float) -> float:
+    return limit if value > limit else -limit if value < -limit else value

@@ -1,0 +1,74 @@
+"""Robot, firmware and Car together, one tick at a time."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import Optional, Set, Tuple
+
+from mtr_core.schedule import SIMULATION_START_NS
+
+from .car.car import SimulatedCar
+from .car.parameters import CarParameters
+from .car.slcan_port import SlcanPort
+from .firmware.simulated import SimulatedFirmware
+from .parameters import SimulatorParameters
+from .readings import Sensors
+from .scenario import named_scenario
+from .sim import Sim, SimParameters
+from .true_state import TrueState
+from .truth.log import TruthLog
+
+Point = Tuple[float, float, float]
+
+
+class NoTruthLog:
+    """Takes true events and writes them nowhere."""
+
+    def lock_event(self, event: str, time_ns: int, key_xyz: Point) -> None:
+        """Nothing."""
+
+    def press(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
+        """Nothing."""
+
+    def close(self) -> None:
+        """Nothing."""
+
+
+class World:
+    """The firmware moves lift and servos, the key goes where robot and lift carry it, and the Car sees the key.
+
+    Attributes:
+        sim: robot and sensors.
+        firmware: of the peripherals.
+        truth: true state after the last step.
+        contacts: what the robot touches after the last step.
+    """
+
+    def __init__(self, parameters: SimulatorParameters):
+        scenario = named_scenario(parameters.scenario)
+        self.sim = Sim(parameters.seed, scenario, SimParameters(rear_lidar=parameters.rear_lidar))
+        # The firmware's clock is the simulated one; that of a real board starts anywhere.
+        self.firmware = SimulatedFirmware(clock_start_us=SIMULATION_START_NS // 1000)
+        self.firmware.step(SIMULATION_START_NS)
+        self.truth: TrueState = self.sim.truth()
+        self.contacts: Set[str] = set()
+        self._truth_log = TruthLog(parameters.truth_dir) if parameters.truth_dir else NoTruthLog()
+        self._port: Optional[SlcanPort] = None
+        self._car: Optional[SimulatedCar] = None
+        if parameters.car_port_link:
+            self._port = SlcanPort(parameters.car_port_link)
+            self._car = SimulatedCar(parameters.seed, CarParameters(), self._port, self._truth_log)
+
+    def step(self) -> Sensors:
+        """Advance one tick of 20 ms."""
+        sensors = self.sim.step()
+        self.firmware.step(sensors.time_ns)
+        self.sim.set_lift(self.firmware.lift_height_m)
+        self.truth = self.sim.truth()
+        self.contacts = self.sim.contacts()
+        if self._car:
+            self._car.step(sensors.time_ns, self.truth.key_in_car, self.firmware.servo_us)
+        return sensors
+
+    def close(self) -> None:
+        """Take the CAN adapter away and close the truth's file."""
+        if self._port:
+            self._port.close()
+        self._truth_log.close()

@@ -1,0 +1,228 @@
+"""The simulated clock waits for those who work, and not for the dead."""
+# SPDX-License-Identifier: Apache-2.0
+import threading
+
+import pytest
+
+from mtr_simulation import connections
+from mtr_simulation.lockstep_barrier import SILENT_AFTER_WALL_S, Barrier, Watcher
+from mtr_simulation.pacing import Pace
+
+STEP = 20_000_000
+
+
+class Clock:
+    """Wall clock that jumps far ahead at each look when it is in a hurry."""
+
+    def __init__(self):
+        self.now_s = 0.0
+        self.hurry_s = 0.0
+
+    def __call__(self):
+        self.now_s += self.hurry_s
+        return self.now_s
+
+
+@pytest.fixture
+def log():
+    return []
+
+
+@pytest.fixture
+def clock():
+    return Clock()
+
+
+class Diary(Watcher):
+    """Watcher that writes everything down."""
+
+    def __init__(self, log):
+        self.warn = log.append
+        self.dropped = lambda name: log.append(f"dropped {name}")
+        self.returned = lambda name: log.append(f"returned {name}")
+
+
+@pytest.fixture
+def barrier(log, clock):
+    return Barrier(["/a", "/b"], Diary(log), clock)
+
+
+def wait_in_thread(barrier, time_ns):
+    """Start a wait; it ends when the test has said what it waits for."""
+    results = []
+    thread = threading.Thread(target=lambda: results.append(barrier.wait(time_ns)))
+    thread.start()
+    return thread, results
+
+
+def test_clock_goes_on_when_all_holds_allow_it(barrier):
+    barrier.hold("/a", STEP, 0)
+    barrier.hold("/b", 5 * STEP, 0)
+    assert barrier.wait(STEP)
+
+
+def test_clock_waits_for_the_earliest_hold(barrier):
+    barrier.hold("/a", STEP, 0)
+    barrier.hold("/b", 5 * STEP, 0)
+    thread, results = wait_in_thread(barrier, 2 * STEP)
+    assert results == []
+    barrier.hold("/a", 2 * STEP, 0)
+    thread.join(10.0)
+    assert results == [True]
+
+
+def test_clock_waits_for_messages_that_are_under_way(barrier):
+    barrier.hold("/a", STEP, 2)
+    barrier.message("/a")
+    thread, results = wait_in_thread(barrier, STEP)
+    assert results == []
+    barrier.message("/a")
+    thread.join(10.0)
+    assert results == [True]
+
+
+def test_message_that_overtakes_its_hold_counts(barrier):
+    barrier.message("/a")
+    barrier.hold("/a", STEP, 1)
+    assert barrier.wait(STEP)
+
+
+def test_messages_of_other_nodes_do_not_count(barrier, clock, log):
+    barrier.message("/b")
+    barrier.hold("/a", STEP, 1)
+    clock.hurry_s = SILENT_AFTER_WALL_S + 1.0
+    assert barrier.wait(STEP)
+    assert "1 messages of node /a were lost" in log[0]
+
+
+def test_lost_messages_are_given_up_once(barrier, clock, log):
+    barrier.hold("/a", STEP, 3)
+    clock.hurry_s = SILENT_AFTER_WALL_S + 1.0
+    barrier.wait(STEP)
+    clock.hurry_s = 0.0
+    barrier.message("/a")
+    barrier.hold("/a", 2 * STEP, 4)
+    assert barrier.wait(2 * STEP)
+    assert len(log) == 1
+
+
+def test_silent_node_is_dropped_with_a_sentence(barrier, clock, log):
+    barrier.hold("/a", STEP, 0)
+    clock.hurry_s = SILENT_AFTER_WALL_S + 1.0
+    assert barrier.wait(2 * STEP)
+    assert log == ["Node /a has been silent for 5 s; time goes on without it.", "dropped /a"]
+
+
+def test_dropped_node_that_speaks_again_is_waited_for_again(barrier, clock, log):
+    barrier.hold("/a", STEP, 0)
+    clock.hurry_s = SILENT_AFTER_WALL_S + 1.0
+    barrier.wait(2 * STEP)
+    clock.hurry_s = 0.0
+    barrier.hold("/a", 3 * STEP, 0)
+    assert log[-1] == "returned /a"
+    thread, results = wait_in_thread(barrier, 4 * STEP)
+    assert results == []
+    barrier.hold("/a", 4 * STEP, 0)
+    thread.join(10.0)
+    assert results == [True]
+
+
+def test_repeated_hold_is_a_sign_of_life(barrier, clock, log):
+    barrier.hold("/a", STEP, 0)
+    thread, results = wait_in_thread(barrier, 2 * STEP)
+    for _ in range(5):
+        clock.now_s += SILENT_AFTER_WALL_S - 1.0
+        barrier.hold("/a", STEP, 0)
+    barrier.hold("/a", 2 * STEP, 0)
+    thread.join(10.0)
+    assert (results, log) == ([True], [])
+
+
+def test_restarted_node_counts_from_zero(barrier):
+    for _ in range(10):
+        barrier.message("/a")
+    barrier.hold("/a", STEP, 10)
+    barrier.hold("/a", STEP, 0)
+    thread, results = wait_in_thread(barrier, 2 * STEP)
+    barrier.hold("/a", 2 * STEP, 1)
+    assert results == []
+    barrier.message("/a")
+    thread.join(10.0)
+    assert results == [True]
+
+
+def test_expected_nodes_are_missing_until_they_hold(barrier):
+    barrier.message("/a")
+    assert barrier.missing() == ["/a", "/b"]
+    barrier.hold("/b", STEP, 0)
+    assert barrier.missing() == ["/a"]
+    barrier.hold("/a", STEP, 0)
+    barrier.wait_for_expected()
+
+
+def test_waiting_for_the_expected_nodes_ends_when_stopped(barrier, log):
+    barrier.stop()
+    barrier.wait_for_expected()
+    assert log == []
+
+
+def test_stop_ends_a_wait_at_once(barrier):
+    barrier.hold("/a", STEP, 0)
+    thread, results = wait_in_thread(barrier, 2 * STEP)
+    barrier.stop()
+    thread.join(10.0)
+    assert results == [False]
+
+
+def test_longest_waits_are_named_longest_first(barrier):
+    assert barrier.longest_waits() == "waited so far for nobody"
+    barrier.waited_s = {"/a": 1.0, "/b": 2.0}
+    assert barrier.longest_waits() == "waited so far for /b 2.0 s, /a 1.0 s"
+
+
+def test_unlimited_pace_never_delays(clock):
+    pace = Pace(0.0, clock)
+    pace.start(1.0)
+    assert pace.delay(100.0) == 0.0
+
+
+def test_pace_delays_to_the_wanted_factor(clock):
+    pace = Pace(2.0, clock)
+    pace.start(1.0)
+    assert pace.delay(2.0) == pytest.approx(0.5)
+
+
+def test_pace_does_not_make_up_for_lost_time(clock):
+    pace = Pace(1.0, clock)
+    pace.start(0.0)
+    clock.now_s = 10.0
+    assert pace.delay(1.0) == 0.0
+    assert pace.delay(2.0) == pytest.approx(1.0)
+
+
+def test_pace_reports_the_factor_each_30_s(clock):
+    pace = Pace(0.0, clock)
+    pace.start(1.0)
+    clock.now_s = 5.0
+    assert pace.report(30.0) is None
+    assert pace.report(31.0) == "Simulated 30.0 s in 5.0 s: 6.0 x real time"
+    assert pace.report(32.0) is None
+    assert pace.total(41.0) == "Simulated 40.0 s in 5.0 s: 8.0 x real time"
+
+
+STATE = [[["/scan", ["/sim"]], ["/rosout", ["/sim", "/a"]]], [["/scan", ["/a", "/sim"]], ["/rosout", ["/log"]],
+                                                              ["/nobody", ["/a"]]], []]
+
+
+def test_wanted_connections_join_publishers_and_other_subscribers():
+    assert connections.wanted(STATE) == {connections.Connection("/scan", "/sim", "/a")}
+
+
+def test_outgoing_connections_are_read_from_bus_info():
+    info = [[1, "/a", "o", "TCPROS", "/scan", True, "..."], [2, "http://host:1/", "i", "TCPROS", "/hold", True, "..."]]
+    assert connections.outgoing("/sim", info) == {connections.Connection("/scan", "/sim", "/a")}
+
+
+def test_missing_connections_are_named():
+    text = connections.sentence([connections.Connection("/scan", "/sim", "/a")])
+    assert text == "/scan from /sim to /a"
