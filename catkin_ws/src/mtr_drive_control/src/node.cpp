@@ -4,7 +4,6 @@
 #include "mtr_drive_control/node.hpp"
 
 #include "mtr_lockstep/names.hpp"
-#include "mtr_lockstep/read_parameters.hpp"
 
 namespace mtr_drive_control {
 namespace {
@@ -25,16 +24,11 @@ std::optional<SourceCommand> command_of(const VelocityCommand::ConstPtr& message
 
 }  // namespace
 
-NodeParameters read_node_parameters(const ros::NodeHandle& private_node) {
+NodeParameters Node::read(mtr_lockstep::ParameterReader& reader) {
   NodeParameters parameters;
-  mtr_lockstep::read_parameters(private_node, kRows, parameters.limits);
-  check(parameters.limits);
-  mtr_lockstep::read_parameter(private_node, "lock_owners", "a list of names", parameters.lock_owners);
-  for (const std::string& owner : parameters.lock_owners) {
-    ROS_INFO("lock_owners: %s", owner.c_str());
-  }
-  mtr_lockstep::read_parameter(private_node, "manual_expected", "true or false", parameters.manual_expected);
-  ROS_INFO("manual_expected: %s", parameters.manual_expected ? "true" : "false");
+  reader.read_numbers(kRows, parameters.limits);
+  reader.read("lock_owners", parameters.lock_owners);
+  reader.read("manual_expected", parameters.manual_expected);
   return parameters;
 }
 
@@ -56,7 +50,7 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
       wheels_(node.advertise<geometry_msgs::Twist>(names::kWheelCommand, 10)),
       status_(node.advertise<mtr_msgs::DriveStatus>(names::kDriveStatus, 10)) {}
 
-void Node::run() {
+void Node::spin() {
   while (const auto tick_ns = ticker_.sleep()) {
     tick(*tick_ns);
   }

@@ -10,7 +10,6 @@
 #include "mtr_localization/diagnostics.hpp"
 #include "mtr_lockstep/clock.hpp"
 #include "mtr_lockstep/names.hpp"
-#include "mtr_lockstep/read_parameters.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -21,11 +20,10 @@ constexpr double kPeriodS = static_cast<double>(mtr_lockstep::kLocalization.peri
 
 }  // namespace
 
-NodeParameters read_node_parameters(const ros::NodeHandle& private_node) {
+NodeParameters Node::read(mtr_lockstep::ParameterReader& reader) {
   NodeParameters parameters;
-  mtr_lockstep::read_parameters(private_node, kRows, parameters.sensors);
-  mtr_lockstep::read_parameter(private_node, "publish_odom_tf", "true or false", parameters.publish_odom_tf);
-  ROS_INFO("publish_odom_tf: %s", parameters.publish_odom_tf ? "true" : "false");
+  reader.read_numbers(kRows, parameters.sensors);
+  reader.read("publish_odom_tf", parameters.publish_odom_tf);
   return parameters;
 }
 
@@ -46,6 +44,8 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
           ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay())) {
   watch_silence(node);
 }
+
+void Node::spin() { ros::spin(); }
 
 void Node::watch_silence(ros::NodeHandle& node) {
   if (mtr_lockstep::is_simulated()) {

@@ -1,8 +1,7 @@
 """Between ROS messages and the locator's plain types."""
 # SPDX-License-Identifier: Apache-2.0
-import dataclasses
 import math
-from typing import Any, Dict, Optional
+from typing import Any, Optional
 
 import numpy as np
 from geometry_msgs.msg import Point, TransformStamped
@@ -10,26 +9,16 @@ from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import Marker, MarkerArray
 
 from mtr_core import names
-from mtr_core.errors import ConfigurationError
 from mtr_core.se2 import Pose2
+from mtr_core.states import CarState
 from mtr_msgs.msg import CarEstimate, MotionStatus, RobotMode, Waypoint
 
-from .locator import Drive, Estimate, Order, State
-from .parameters import LocatorParameters
+from .locator import Drive, Estimate, Order
 from .rectangle import Rectangle
 from .scan import Scan
 
 LINE_WIDTH_M = 0.04
 MARKER_HEIGHT_M = 0.05
-
-
-def parameters_from(values: Dict[str, Any]) -> LocatorParameters:
-    """Parameters from the node's private namespace; a name that does not exist is an error."""
-    known = [item.name for item in dataclasses.fields(LocatorParameters)]
-    for name in values:
-        if name not in known:
-            raise ConfigurationError(f"Parameter {name} is unknown; there are: {', '.join(known)}.")
-    return LocatorParameters(**values)
 
 
 def order_from(message: Optional[RobotMode]) -> Optional[Order]:
@@ -106,7 +95,7 @@ def _marker(estimate: Estimate, stamp: Any, number: int, kind: int) -> Marker:
     marker = Marker(ns="car", id=number, type=kind, action=Marker.ADD)
     marker.header.stamp, marker.header.frame_id = stamp, names.MAP
     marker.pose.orientation.w = 1.0
-    located = estimate.state == State.LOCATED
+    located = estimate.state == CarState.LOCATED
     marker.color.r, marker.color.g, marker.color.b, marker.color.a = (0.1, 0.8, 0.2, 1.0) if located else (
         1.0, 0.6, 0.0, 1.0)
     return marker

@@ -1,10 +1,10 @@
 """The car locator: at each tick from mode, pose and scans to the estimate of the Car."""
 # SPDX-License-Identifier: Apache-2.0
-import enum
 from dataclasses import dataclass
 from typing import List, Optional, Tuple
 
 from mtr_core.se2 import Pose2
+from mtr_core.states import CarState
 
 from .fit import CarFit, NotLocated
 from .parameters import LocatorParameters
@@ -17,15 +17,6 @@ from .survey import Place, Survey
 PRIOR_POSITION_SIGMA_M, PRIOR_HEADING_SIGMA_RAD = 0.5, 0.1
 POSITION_SIGMA_MIN_M = 0.01
 NOWHERE = Pose2(0.0, 0.0, 0.0)
-
-
-class State(enum.IntEnum):
-    """Numbers of mtr_msgs/CarEstimate."""
-
-    UNKNOWN = 0
-    COLLECTING = 1
-    LOCATED = 2
-    FAILED = 3
 
 
 @dataclass(frozen=True)
@@ -51,7 +42,7 @@ class Drive:
 class Estimate:
     """What is known of the Car at a tick; sigmas are (x, y, heading) in the Car's frame."""
 
-    state: State
+    state: CarState
     rectangle: Rectangle
     outline: Tuple[Tuple[float, float], ...]
     sigmas: Tuple[float, float, float]
@@ -70,7 +61,7 @@ class CarLocator:
         self._poses = PoseHistory()
         self._survey: Optional[Survey] = None
         self._fit: Optional[CarFit] = None
-        self._state = State.UNKNOWN
+        self._state = CarState.UNKNOWN
         self._was_mapping = False
         self._map_car_id = 0
         self._next_place_id = 1
@@ -79,11 +70,11 @@ class CarLocator:
     @property
     def needs_poses(self) -> bool:
         """False while the Car's frame stands and nobody asks for a new one."""
-        return self._state != State.LOCATED
+        return self._state != CarState.LOCATED
 
     def wants_scans(self, order: Optional[Order]) -> bool:
         """True while scans are collected or about to be."""
-        return order is not None and order.mapping and (self._state == State.COLLECTING or self._is_new(order))
+        return order is not None and order.mapping and (self._state == CarState.COLLECTING or self._is_new(order))
 
     def add_pose(self, time_s: float, pose: Pose2) -> None:
         """Take a valid pose of the robot."""
@@ -96,20 +87,20 @@ class CarLocator:
         if mapping and not self._poses.is_empty():
             if self._is_new(order):
                 self._begin(now_s, order.map_car_id)
-            if self._state == State.COLLECTING:
+            if self._state == CarState.COLLECTING:
                 self._collect(now_s, order, drive, scans)
         self._was_mapping = mapping
         return self._estimate()
 
     def _is_new(self, order: Order) -> bool:
-        if self._state == State.UNKNOWN or order.map_car_id != self._map_car_id:
+        if self._state == CarState.UNKNOWN or order.map_car_id != self._map_car_id:
             return True
-        return self._state == State.FAILED and not self._was_mapping
+        return self._state == CarState.FAILED and not self._was_mapping
 
     def _begin(self, now_s: float, map_car_id: int) -> None:
         prior = self._fit.rectangle if self._fit else prior_from(self._poses.newest(), self._parameters)
         self._survey = Survey(prior, now_s, self._next_place_id, self._parameters)
-        self._state, self._map_car_id = State.COLLECTING, map_car_id
+        self._state, self._map_car_id = CarState.COLLECTING, map_car_id
 
     def _collect(self, now_s: float, order: Order, drive: Optional[Drive], scans: List[Scan]) -> None:
         survey = self._survey
@@ -125,15 +116,15 @@ class CarLocator:
         try:
             self._fit = survey.result()
         except NotLocated as reason:
-            self._fit, self._state = None, State.FAILED
+            self._fit, self._state = None, CarState.FAILED
             self._message = f"The Car was not found. {reason} Put the robot at the starting place and map again."
             return
-        self._state = State.LOCATED
+        self._state = CarState.LOCATED
         found = self._fit.rectangle
         self._message = f"The Car was found: {found.length:.2f} m long, {found.width:.2f} m wide."
 
     def _estimate(self) -> Estimate:
-        if self._state == State.LOCATED:
+        if self._state == CarState.LOCATED:
             return self._found(self._fit)
         if self._survey:
             car, was_seen = self._survey.car, self._survey.was_seen
@@ -145,7 +136,7 @@ class CarLocator:
         return self._rough(car, tuple(car.outline(margin)), self._message)
 
     def _rough(self, car: Rectangle, outline: Tuple[Tuple[float, float], ...], message: str) -> Estimate:
-        place = self._survey.place if self._survey and self._state == State.COLLECTING else None
+        place = self._survey.place if self._survey and self._state == CarState.COLLECTING else None
         sigma, size_sigma = PRIOR_POSITION_SIGMA_M, 0.5 * self._parameters.size_tolerance_m
         return Estimate(self._state, car, outline, (sigma, sigma, PRIOR_HEADING_SIGMA_RAD), size_sigma, size_sigma,
                         place, self._map_car_id, message)

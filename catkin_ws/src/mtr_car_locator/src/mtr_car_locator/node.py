@@ -1,6 +1,5 @@
 """The car locator as a ROS node: scans and poses in, the Car's estimate, frame and markers out, 10 times a second."""
 # SPDX-License-Identifier: Apache-2.0
-import contextlib
 from typing import Optional
 
 import rospy
@@ -8,17 +7,15 @@ import tf2_ros
 from visualization_msgs.msg import MarkerArray
 
 from mtr_core import names, schedule
-from mtr_core.errors import RobotError
-from mtr_lockstep import Ticker, TickInput
+from mtr_core.states import CarState
+from mtr_lockstep import Ticker, TickInput, run_node
 from mtr_lockstep.clock import stamp_of
 from mtr_msgs.msg import CarEstimate, RobotMode
 
-from .conversions import estimate_message, markers_message, order_from, parameters_from, transform_message
-from .locator import CarLocator, Estimate, State
+from .conversions import estimate_message, markers_message, order_from, transform_message
+from .locator import CarLocator, Estimate
 from .parameters import LocatorParameters
 from .sensors import MappingSources, PoseSource
-
-MARKERS = "/car_locator/markers"
 
 
 class CarLocatorNode:
@@ -33,7 +30,7 @@ class CarLocatorNode:
         self._mapping: Optional[MappingSources] = None
         self._shown = None
         self._estimates = rospy.Publisher(names.CAR_ESTIMATE, CarEstimate, queue_size=10, tcp_nodelay=True)
-        self._markers = rospy.Publisher(MARKERS, MarkerArray, queue_size=1, latch=True)
+        self._markers = rospy.Publisher(names.CAR_MARKERS, MarkerArray, queue_size=1, latch=True)
         self._frames = tf2_ros.TransformBroadcaster()
 
     def spin(self) -> None:
@@ -61,7 +58,7 @@ class CarLocatorNode:
     def _publish(self, estimate: Estimate, tick_ns: int) -> None:
         stamp = stamp_of(tick_ns)
         self._estimates.publish(estimate_message(estimate, stamp))
-        if estimate.state == State.LOCATED:
+        if estimate.state == CarState.LOCATED:
             self._frames.sendTransform(transform_message(estimate, stamp))
         shown = (estimate.state, estimate.rectangle)
         if shown != self._shown:
@@ -69,13 +66,6 @@ class CarLocatorNode:
             self._markers.publish(markers_message(estimate, stamp))
 
 
-def main() -> None:
-    """Start the node; a wrong parameter ends it with a sentence."""
-    rospy.init_node("car_locator")
-    try:
-        parameters = parameters_from(rospy.get_param("~", {}))
-    except RobotError as error:
-        rospy.logfatal("%s", error)
-        raise SystemExit(1) from error
-    with contextlib.suppress(rospy.ROSInterruptException):
-        CarLocatorNode(parameters).spin()
+def main() -> int:
+    """Run the node; its exit status."""
+    return run_node("car_locator", LocatorParameters, CarLocatorNode)

@@ -1,20 +1,15 @@
 """Parameters of the car locator."""
 # SPDX-License-Identifier: Apache-2.0
-import dataclasses
 import math
 from dataclasses import dataclass
 
-from mtr_core.errors import check_range
+from mtr_core.parameters import ParameterSet, number
 from mtr_core.se2 import Pose2
 
 
-def _parameter(default: float, low: float, high: float, unit: str) -> float:
-    return dataclasses.field(default=default, metadata={"low": low, "high": high, "unit": unit})
-
-
 @dataclass(frozen=True)
-class LocatorParameters:
-    """Checked once, when it is made; ConfigurationError names a parameter out of range.
+class LocatorParameters(ParameterSet):
+    """What the Car locator is started with.
 
     Attributes:
         start_x_m: where the Operator puts the robot, in the Car's frame.
@@ -36,28 +31,23 @@ class LocatorParameters:
         rear_lidar_yaw_rad: its heading.
     """
 
-    start_x_m: float = _parameter(4.0, -20.0, 20.0, "m")
-    start_y_m: float = _parameter(2.6, -20.0, 20.0, "m")
-    start_heading_rad: float = _parameter(math.atan2(-2.6, -4.0), -math.pi, math.pi, "rad")
-    expected_length_m: float = _parameter(4.5, 2.0, 10.0, "m")
-    expected_width_m: float = _parameter(1.8, 1.0, 3.0, "m")
-    size_tolerance_m: float = _parameter(0.8, 0.1, 3.0, "m")
-    position_tolerance_m: float = _parameter(1.2, 0.1, 3.0, "m")
-    drift_limit_m: float = _parameter(0.3, 0.02, 1.0, "m")
-    prior_margin_m: float = _parameter(0.5, 0.0, 2.0, "m")
-    seen_margin_m: float = _parameter(0.3, 0.0, 2.0, "m")
-    ring_distance_m: float = _parameter(1.6, 1.0, 5.0, "m")
-    arrival_m: float = _parameter(0.5, 0.05, 1.0, "m")
-    look_first_s: float = _parameter(1.0, 0.2, 10.0, "s")
-    front_lidar_x_m: float = _parameter(0.12, -1.0, 1.0, "m")
-    front_lidar_yaw_rad: float = _parameter(0.0, -math.pi, math.pi, "rad")
-    rear_lidar_x_m: float = _parameter(-0.20, -1.0, 1.0, "m")
-    rear_lidar_yaw_rad: float = _parameter(math.pi, -math.pi, math.pi, "rad")
-
-    def __post_init__(self) -> None:
-        for item in dataclasses.fields(self):
-            limits = item.metadata
-            check_range(item.name, getattr(self, item.name), limits["low"], limits["high"], limits["unit"])
+    start_x_m: float = number(4.0, -20.0, 20.0, "m")
+    start_y_m: float = number(2.6, -20.0, 20.0, "m")
+    start_heading_rad: float = number(math.atan2(-2.6, -4.0), -math.pi, math.pi, "rad")
+    expected_length_m: float = number(4.5, 2.0, 10.0, "m")
+    expected_width_m: float = number(1.8, 1.0, 3.0, "m")
+    size_tolerance_m: float = number(0.8, 0.1, 3.0, "m")
+    position_tolerance_m: float = number(1.2, 0.1, 3.0, "m")
+    drift_limit_m: float = number(0.3, 0.02, 1.0, "m")
+    prior_margin_m: float = number(0.5, 0.0, 2.0, "m")
+    seen_margin_m: float = number(0.3, 0.0, 2.0, "m")
+    ring_distance_m: float = number(1.6, 1.0, 5.0, "m")
+    arrival_m: float = number(0.5, 0.05, 1.0, "m")
+    look_first_s: float = number(1.0, 0.2, 10.0, "s")
+    front_lidar_x_m: float = number(0.12, -1.0, 1.0, "m")
+    front_lidar_yaw_rad: float = number(0.0, -math.pi, math.pi, "rad")
+    rear_lidar_x_m: float = number(-0.20, -1.0, 1.0, "m")
+    rear_lidar_yaw_rad: float = number(math.pi, -math.pi, math.pi, "rad")
 
     @property
     def car_from_start(self) -> Pose2:

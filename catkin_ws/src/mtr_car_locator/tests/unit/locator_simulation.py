@@ -6,10 +6,11 @@ from typing import List, Sequence, Tuple
 
 import numpy as np
 
-from mtr_car_locator.locator import CarLocator, Drive, Estimate, Order, State
+from mtr_car_locator.locator import CarLocator, Drive, Estimate, Order
 from mtr_car_locator.parameters import LocatorParameters
 from mtr_car_locator.scan import Scan
 from mtr_core.se2 import Pose2, wrap_angle
+from mtr_core.states import CarState
 
 PARAMETERS = LocatorParameters()
 BEAMS, FIELD_RAD, SWEEP_S = 720, math.radians(270.0), 0.030
@@ -87,7 +88,7 @@ class World:
         """Map the Car until the locator has made up its mind."""
         for _ in range(int(limit_s / PERIOD_S)):
             self.step(mapping=True, map_car_id=map_car_id)
-            if self.estimates and self.estimates[-1].state in (State.LOCATED, State.FAILED):
+            if self.estimates and self.estimates[-1].state in (CarState.LOCATED, CarState.FAILED):
                 break
         return self.estimates[-1]
 

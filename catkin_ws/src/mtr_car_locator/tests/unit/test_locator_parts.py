@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from mtr_car_locator.locator import CarLocator, Order, State
+from mtr_car_locator.locator import CarLocator, Order
 from mtr_car_locator.parameters import LocatorParameters
 from mtr_car_locator.point_grid import PointGrid
 from mtr_car_locator.poses import PoseHistory
@@ -15,6 +15,7 @@ from mtr_car_locator.ring import Ring
 from mtr_car_locator.scan import Scan, points_in_map
 from mtr_core.errors import ConfigurationError
 from mtr_core.se2 import Pose2
+from mtr_core.states import CarState
 
 PARAMETERS = LocatorParameters()
 ORIGIN = Pose2(0.0, 0.0, 0.0)
@@ -26,7 +27,7 @@ def test_prior_before_mapping_follows_the_robot_and_is_grown_by_the_margin():
     robot = Pose2(1.0, 2.0, 0.5)
     locator.add_pose(1.0, robot)
     estimate = locator.step(1.1, Order(False, 0, 0, 0.0, 0.0), None, [])
-    assert estimate.state == State.UNKNOWN
+    assert estimate.state == CarState.UNKNOWN
     assert estimate.outline[0] == pytest.approx((2.75, 1.4))
     seen = estimate.rectangle.pose.inverse() @ robot
     assert (seen.x, seen.y) == pytest.approx((4.0, 2.6))

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from locator_simulation import BOX, PARAMETERS, WHEEL, Scene, World, car_with_bumpers, closed, leg_at
 
-from mtr_car_locator.locator import State
 from mtr_core.se2 import Pose2
+from mtr_core.states import CarState
 
 NOMINAL = PARAMETERS.car_from_start
 OFF = Pose2(NOMINAL.x + 0.25, NOMINAL.y - 0.20, NOMINAL.heading + math.radians(5.0))
@@ -30,7 +30,7 @@ FOUND = {
 def test_car_is_located_within_3_cm_and_its_size_within_4_cm(name):
     world = World(FOUND[name])
     estimate = world.run()
-    assert estimate.state == State.LOCATED, estimate.message
+    assert estimate.state == CarState.LOCATED, estimate.message
     position, heading, length, width = world.error()
     assert position < 0.03
     assert abs(math.degrees(heading)) < 0.5
@@ -45,7 +45,7 @@ def test_car_is_located_within_3_cm_and_its_size_within_4_cm(name):
 def test_scene_without_a_car_fails_with_a_sentence(segments):
     world = World(Scene(segments))
     estimate = world.run()
-    assert estimate.state == State.FAILED
+    assert estimate.state == CarState.FAILED
     assert estimate.message.startswith("The Car was not found.")
     assert estimate.message.endswith(".")
 
@@ -53,10 +53,10 @@ def test_scene_without_a_car_fails_with_a_sentence(segments):
 def test_slow_drift_of_the_pose_widens_the_sigmas_and_a_large_one_fails():
     honest, drifting = World(Scene(CAR)), World(Scene(CAR, creep_mps=0.003))
     sure, unsure = honest.run(), drifting.run()
-    assert unsure.state == State.LOCATED
+    assert unsure.state == CarState.LOCATED
     assert max(unsure.length_sigma, unsure.width_sigma) > 2.0 * max(sure.length_sigma, sure.width_sigma)
     lost = World(Scene(CAR, creep_mps=0.012)).run()
-    assert lost.state == State.FAILED
+    assert lost.state == CarState.FAILED
     assert "drifted" in lost.message
 
 
@@ -67,19 +67,19 @@ def test_frame_never_moves_after_it_was_found_and_a_new_order_maps_again():
         world.step(mapping=True, map_car_id=7)
     assert world.estimates[-1] == found
     world.step(mapping=False, map_car_id=8)
-    assert world.estimates[-1].state == State.LOCATED
+    assert world.estimates[-1].state == CarState.LOCATED
     again = world.run(limit_s=1.0, map_car_id=8)
-    assert again.state == State.LOCATED
+    assert again.state == CarState.LOCATED
     for _ in range(5):
         world.step(mapping=True, map_car_id=8)
-    assert world.estimates[-1].state == State.COLLECTING
-    assert world.run(map_car_id=8).state == State.LOCATED
+    assert world.estimates[-1].state == CarState.COLLECTING
+    assert world.run(map_car_id=8).state == CarState.LOCATED
     assert world.error()[0] < 0.03
 
 
 def test_refused_place_is_left_out():
     world = World(Scene(CAR, refused=(3,)))
-    assert world.run().state == State.LOCATED
+    assert world.run().state == CarState.LOCATED
 
 
 def test_mapping_that_pauses_keeps_its_points_and_goes_on():
@@ -88,6 +88,6 @@ def test_mapping_that_pauses_keeps_its_points_and_goes_on():
         for _ in range(500):
             world.step(mapping=not paused, map_car_id=7)
     place = world.estimates[-1].place
-    assert world.estimates[-1].state == State.COLLECTING
+    assert world.estimates[-1].state == CarState.COLLECTING
     assert place.place_id > 1
-    assert world.run().state == State.LOCATED
+    assert world.run().state == CarState.LOCATED

@@ -1,20 +1,17 @@
 """The manual controller's node: sensor_msgs/Joy in, velocity for drive control out."""
 # SPDX-License-Identifier: Apache-2.0
-from dataclasses import asdict
 from typing import Tuple
 
 import rospy
 from sensor_msgs.msg import Joy
 
 from mtr_core import names, schedule
-from mtr_core.errors import RobotError
-from mtr_lockstep import Ticker, clock
+from mtr_lockstep import Ticker, clock, run_node
 from mtr_msgs.msg import VelocityCommand
 
 from .core import velocity
-from .parameters import Parameters, parameters_from
+from .parameters import Parameters
 
-JOY = "/joy"
 NS = 1e-9
 
 
@@ -26,7 +23,7 @@ class ControllerInputNode:
         self._joy: Tuple[int, Joy] = (0, Joy())
         self._was_active = False
         self._velocity = rospy.Publisher(names.MANUAL_VELOCITY, VelocityCommand, queue_size=10, tcp_nodelay=True)
-        self._subscriber = rospy.Subscriber(JOY, Joy, self._take, queue_size=1, tcp_nodelay=True)
+        self._subscriber = rospy.Subscriber(names.JOY, Joy, self._take, queue_size=1, tcp_nodelay=True)
         self._ticker = Ticker(schedule.CONTROLLER_INPUT)
 
     def spin(self) -> None:
@@ -51,15 +48,5 @@ class ControllerInputNode:
 
 
 def main() -> int:
-    """Start the node and run it; the exit status says whether it could start."""
-    rospy.init_node("controller_input")
-    try:
-        parameters = parameters_from(rospy.get_param("~", {}))
-        rospy.loginfo("Controller input: %s", asdict(parameters))
-        ControllerInputNode(parameters).spin()
-    except RobotError as error:
-        rospy.logfatal("The manual controller's node did not start. %s", error)
-        return 2
-    except rospy.ROSInterruptException:
-        pass
-    return 0
+    """Run the node; its exit status."""
+    return run_node("controller_input", Parameters, ControllerInputNode)

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from mtr_controller_input.core import RELEASED, velocity
-from mtr_controller_input.parameters import Parameters, parameters_from
+from mtr_controller_input.parameters import Parameters
 from mtr_core.errors import ConfigurationError
 
 PARAMETERS = Parameters()
@@ -53,9 +53,3 @@ def test_parameter_out_of_range_is_a_sentence(bad):
 def test_two_buttons_on_one_index_are_an_error():
     with pytest.raises(ConfigurationError, match="must differ"):
         Parameters(slow_button=5)
-
-
-@pytest.mark.parametrize("bad", [{"slow_mps": "fast"}, {"slow_mps": True}, {"unheard_of": 1}])
-def test_value_of_the_wrong_type_or_name_is_a_sentence(bad):
-    with pytest.raises(ConfigurationError, match=next(iter(bad))):
-        parameters_from(bad)

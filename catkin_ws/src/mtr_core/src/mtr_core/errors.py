@@ -14,8 +14,22 @@ class ConfigurationError(RobotError):
     """A parameter is missing or out of range."""
 
 
-def check_range(name: str, value: float, low: float, high: float, unit: str) -> float:
+def range_problem(name: str, value: float, low: float, high: float, unit: str = "") -> str:
+    """Sentence that names value and range unless low <= value <= high; else empty. NaN is out of any range."""
+    if low <= value <= high:
+        return ""
+    unit = f" {unit}" if unit else ""
+    return f"{name} is {figure(value)}{unit}; allowed is {figure(low)} to {figure(high)}{unit}."
+
+
+def figure(value: float) -> str:
+    """The number as a person reads it: whole numbers in full, others to six digits."""
+    return str(value) if isinstance(value, int) else f"{value:g}"
+
+
+def check_range(name: str, value: float, low: float, high: float, unit: str = "") -> float:
     """Return value when low <= value <= high; else raise ConfigurationError naming parameter, value and range."""
-    if not low <= value <= high:
-        raise ConfigurationError(f"Parameter {name} is {value:g} {unit}; allowed is {low:g} to {high:g} {unit}.")
+    problem = range_problem(f"Parameter {name}", value, low, high, unit)
+    if problem:
+        raise ConfigurationError(problem)
     return value

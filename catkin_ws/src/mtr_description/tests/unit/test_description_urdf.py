@@ -116,7 +116,7 @@ def test_rviz_shows_what_the_nodes_publish():
     manager = config["Visualization Manager"]
     topics = {display.get("Topic") or display.get("Marker Topic") for display in manager["Displays"]}
     assert manager["Global Options"]["Fixed Frame"] == names.MAP
-    assert topics >= {names.FRONT_SCAN, names.REAR_SCAN, names.MOTION_PATH, names.SIM_TRUTH, "/car_locator/markers"}
+    assert topics >= {names.FRONT_SCAN, names.REAR_SCAN, names.MOTION_PATH, names.SIM_TRUTH, names.CAR_MARKERS}
 
 
 def test_key_is_what_is_foremost(root):

@@ -24,7 +24,11 @@ class CarPose(NamedTuple):
 
 
 def base_in_car(base: UncertainPose, car: UncertainPose) -> CarPose:
-    """Pose of base_link in car from both poses in map; their errors are taken as independent."""
+    """Pose of base_link in car from both poses in map.
+
+    Their errors are independent: the Car's covariance is that of its fit alone, and the drift of the way round it is in
+    the robot's covariance, which grows from the start on.
+    """
     car_from_base = car.pose.inverse() @ base.pose
     # The error of the Car's heading moves the robot across the line from the Car's centre.
     lever_x, lever_y = base.pose.y - car.pose.y, car.pose.x - base.pose.x

@@ -4,13 +4,15 @@ import math
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
+from mtr_core.errors import range_problem
+from mtr_core.states import Direction
+
 # A test area is some ten metres across; a waypoint farther away is a mistake of units or sign.
 MAX_COORDINATE_M = 100.0
 # Highest key of any supported mast; the peripherals know the real range.
 MAX_KEY_HEIGHT_M = 3.0
 MAX_PRESS_DURATION_S = 10.0
 MAX_BUTTONS = 8
-DIRECTIONS = (0, 1, 2)
 
 
 @dataclass(frozen=True)
@@ -54,8 +56,8 @@ class Command:
 def problem_of(command: Command, platform_speed_mps: float) -> str:
     """Sentence that says why the Command is refused; empty when it is acceptable."""
     return (_waypoint_problem(command.waypoint)
-            or _range_problem("Maximum speed", command.max_speed_mps, 0.01, platform_speed_mps, "m/s")
-            or _range_problem("Key height", command.key_height_m, 0.0, MAX_KEY_HEIGHT_M, "m")
+            or _choice_problem("Maximum speed", command.max_speed_mps, 0.01, platform_speed_mps, "m/s")
+            or _choice_problem("Key height", command.key_height_m, 0.0, MAX_KEY_HEIGHT_M, "m")
             or _press_problem(command.press))
 
 
@@ -64,12 +66,12 @@ def _waypoint_problem(waypoint: Optional[Waypoint]) -> str:
         return ""
     if waypoint.id == 0:
         return "Waypoint without an id; ids count from 1."
-    if waypoint.direction not in DIRECTIONS:
+    if waypoint.direction not in tuple(Direction):
         return f"Waypoint {waypoint.id}: direction is {waypoint.direction}; allowed are 0, 1 and 2."
     name = f"Waypoint {waypoint.id}"
-    return (_range_problem(f"{name}: x", waypoint.x, -MAX_COORDINATE_M, MAX_COORDINATE_M, "m")
-            or _range_problem(f"{name}: y", waypoint.y, -MAX_COORDINATE_M, MAX_COORDINATE_M, "m")
-            or _range_problem(f"{name}: heading", waypoint.heading, -4.0 * math.pi, 4.0 * math.pi, "rad"))
+    return (range_problem(f"{name}: x", waypoint.x, -MAX_COORDINATE_M, MAX_COORDINATE_M, "m")
+            or range_problem(f"{name}: y", waypoint.y, -MAX_COORDINATE_M, MAX_COORDINATE_M, "m")
+            or range_problem(f"{name}: heading", waypoint.heading, -4.0 * math.pi, 4.0 * math.pi, "rad"))
 
 
 def _press_problem(press: Optional[Press]) -> str:
@@ -80,12 +82,9 @@ def _press_problem(press: Optional[Press]) -> str:
     name = f"Button press {press.id}"
     if not 1 <= len(press.buttons) <= MAX_BUTTONS or 0 in press.buttons:
         return f"{name}: buttons are {list(press.buttons)}; allowed are 1 to {MAX_BUTTONS} numbers above 0."
-    return (_range_problem(f"{name}: strength", press.strength, 0.0, 1.0, "")
-            or _range_problem(f"{name}: duration", press.duration_s, 0.0, MAX_PRESS_DURATION_S, "s"))
+    return (range_problem(f"{name}: strength", press.strength, 0.0, 1.0)
+            or range_problem(f"{name}: duration", press.duration_s, 0.0, MAX_PRESS_DURATION_S, "s"))
 
 
-def _range_problem(name: str, value: Optional[float], low: float, high: float, unit: str) -> str:
-    if value is None or low <= value <= high:
-        return ""
-    unit = f" {unit}" if unit else ""
-    return f"{name} is {value:g}{unit}; allowed is {low:g} to {high:g}{unit}."
+def _choice_problem(name: str, value: Optional[float], low: float, high: float, unit: str) -> str:
+    return "" if value is None else range_problem(name, value, low, high, unit)

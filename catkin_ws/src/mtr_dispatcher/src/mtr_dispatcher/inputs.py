@@ -4,11 +4,6 @@ from typing import Any, NamedTuple, Optional
 
 # Age at which a periodic message no longer tells the present.
 STALE_AFTER_S = 0.5
-# Values of the messages' constants, so that this core needs no ROS.
-CAR_LOCATED = 2
-MODE_FAULT = 5
-RESULT_REFUSED = 3
-RESULT_BLOCKED = 4
 
 
 class Inputs(NamedTuple):

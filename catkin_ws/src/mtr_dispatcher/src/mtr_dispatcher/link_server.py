@@ -43,6 +43,7 @@ class LinkServer:
             try:
                 socket.bind(f"tcp://{address}:{port}")
             except zmq.ZMQError as error:
+                self.close()
                 raise LinkError(f"The link cannot listen on {address} port {port} ({name}): "
                                 f"{error.strerror}.") from None
 

@@ -1,7 +1,6 @@
 """The dispatcher's node: wires the link and the topics to the core."""
 # SPDX-License-Identifier: Apache-2.0
 import secrets
-from dataclasses import asdict
 from typing import Optional
 
 import rospkg
@@ -9,8 +8,7 @@ import rospy
 from rosgraph_msgs.msg import Log
 
 from mtr_core import names, schedule
-from mtr_core.errors import RobotError
-from mtr_lockstep import Ticker, TickInput, clock
+from mtr_lockstep import Ticker, TickInput, clock, run_node
 from mtr_msgs.msg import CarEstimate, DesiredState, LocalizedPose, MotionLock, PeripheralsState, RobotMode
 
 from .conversions import desired_message, lock_message
@@ -19,7 +17,7 @@ from .inputs import Inputs
 from .link_server import LinkServer
 from .notices import ERROR, WARNING
 from .operator_wait import OperatorWait
-from .parameters import Parameters, parameters_from
+from .parameters import Parameters
 from .session import Desired, Verdict, is_same
 from .status_builder import Identity
 
@@ -51,8 +49,11 @@ class DispatcherNode:
     def spin(self) -> None:
         """Run until shutdown."""
         turn = self._simulated_turn if clock.is_simulated() else self._real_turn
-        while not rospy.is_shutdown():
-            turn()
+        try:
+            while not rospy.is_shutdown():
+                turn()
+        finally:
+            self._server.close()
 
     def _simulated_turn(self) -> None:
         tick = self._ticker.sleep()
@@ -127,22 +128,15 @@ class DispatcherNode:
             self._core.log.add(message.header.stamp.to_sec(), severity, message.name.lstrip("/"), message.msg)
 
 
-def main() -> int:
-    """Start the node and run it; the exit status says whether it could start."""
-    rospy.init_node("dispatcher")
+def make(parameters: Parameters) -> DispatcherNode:
+    """The node with its ports open."""
     server = LinkServer()
-    try:
-        parameters = parameters_from(rospy.get_param("~", {}))
-        server.bind(parameters.bind_address, parameters.status_port, parameters.command_port)
-        rospy.loginfo("Dispatcher: %s", asdict(parameters))
-        identity = Identity(secrets.randbits(63) | 1, rospkg.RosPack().get_manifest("mtr_dispatcher").version,
-                            parameters.key_x_m, parameters.key_y_m)
-        DispatcherNode(parameters, Dispatcher(parameters, identity), server).spin()
-    except RobotError as error:
-        rospy.logfatal("The dispatcher did not start. %s", error)
-        return 2
-    except rospy.ROSInterruptException:
-        pass
-    finally:
-        server.close()
-    return 0
+    server.bind(parameters.bind_address, parameters.status_port, parameters.command_port)
+    identity = Identity(secrets.randbits(63) | 1, rospkg.RosPack().get_manifest("mtr_dispatcher").version,
+                        parameters.key_x_m, parameters.key_y_m)
+    return DispatcherNode(parameters, Dispatcher(parameters, identity), server)
+
+
+def main() -> int:
+    """Run the node; its exit status."""
+    return run_node("dispatcher", Parameters, make)

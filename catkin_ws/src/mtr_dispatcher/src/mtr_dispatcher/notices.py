@@ -3,7 +3,9 @@
 import math
 from typing import Iterator, List, NamedTuple
 
-from .inputs import MODE_FAULT, Inputs
+from mtr_core.states import State
+
+from .inputs import Inputs
 from .session import Desired
 
 INFO, WARNING, ERROR = 1, 2, 3
@@ -49,7 +51,7 @@ def standing_notices(desired: Desired, fresh: Inputs, low_battery: float) -> Ite
 def _mode_notices(fresh: Inputs) -> Iterator[Notice]:
     if fresh.mode is None:
         yield Notice("state_machine_silent", ERROR, "The robot's state machine is silent; the robot stands still.")
-    elif fresh.mode.mode == MODE_FAULT:
+    elif fresh.mode.mode == State.FAULT:
         yield Notice("fault", ERROR, fresh.mode.message)
     elif fresh.mode.message:
         yield Notice("mode", INFO, fresh.mode.message)

@@ -4,10 +4,11 @@ import math
 from typing import Iterable, NamedTuple, Optional
 
 from mtr_core.se2 import Pose2
+from mtr_core.states import CarState, Result
 from mtr_proto import robot_link_pb2 as link
 
 from .car_pose import CarPose, UncertainPose, base_in_car
-from .inputs import CAR_LOCATED, RESULT_BLOCKED, RESULT_REFUSED, Inputs
+from .inputs import Inputs
 from .log_buffer import Entry
 from .notices import Notice
 
@@ -69,7 +70,7 @@ def _add_mode(status: link.Status, mode: Optional[object], session_id: int) -> N
     status.state.is_mapping_car = mode.mapping
     if session_id and mode.session_id == session_id and mode.waypoint_id:
         status.waypoint_id, status.waypoint_result = mode.waypoint_id, mode.waypoint_result
-        if mode.waypoint_result in (RESULT_REFUSED, RESULT_BLOCKED):
+        if mode.waypoint_result in (Result.REFUSED, Result.BLOCKED):
             status.waypoint_message = mode.message
 
 
@@ -88,7 +89,7 @@ def _add_pose(state: link.RobotState, fresh: Inputs) -> None:
     state.x, state.y, state.heading = found.pose.x, found.pose.y, found.pose.heading
     state.position_sigma_m, state.heading_sigma_rad = found.position_sigma_m, found.heading_sigma_rad
     state.localization_accuracy = min(round(100.0 * found.position_sigma_m), MAX_ACCURACY_CM)
-    state.pose_valid = pose.valid and fresh.car.state == CAR_LOCATED
+    state.pose_valid = pose.valid and fresh.car.state == CarState.LOCATED
 
 
 def _in_car(pose: object, car: object) -> CarPose:
@@ -97,7 +98,7 @@ def _in_car(pose: object, car: object) -> CarPose:
 
 
 def _add_car(dimensions: link.CarDimensions, car: Optional[object]) -> None:
-    dimensions.mapped = car is not None and car.state == CAR_LOCATED
+    dimensions.mapped = car is not None and car.state == CarState.LOCATED
     if car is not None:
         dimensions.length, dimensions.width = car.length, car.width
         dimensions.length_sigma, dimensions.width_sigma = car.length_sigma, car.width_sigma

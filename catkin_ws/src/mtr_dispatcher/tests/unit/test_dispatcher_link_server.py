@@ -9,7 +9,7 @@ import zmq
 from mtr_core.errors import ConfigurationError
 from mtr_dispatcher.command_codec import MAX_MESSAGE_BYTES
 from mtr_dispatcher.link_server import LinkError, LinkServer
-from mtr_dispatcher.parameters import Parameters, parameters_from
+from mtr_dispatcher.parameters import Parameters
 
 RECEIVE_LIMIT_S = 5.0
 BEFORE = b"before"
@@ -71,7 +71,6 @@ def test_busy_port_is_a_sentence():
         server = LinkServer()
         with pytest.raises(LinkError, match=f"port {busy} \\(command_port\\)"):
             server.bind("127.0.0.1", free_ports()[0], busy)
-        server.close()
 
 
 @pytest.mark.parametrize("bad", [{"status_port": 0}, {"command_port": 65536}, {"status_port": 3333},
@@ -79,9 +78,3 @@ def test_busy_port_is_a_sentence():
 def test_parameter_out_of_range_is_a_sentence(bad):
     with pytest.raises(ConfigurationError, match=next(iter(bad))):
         Parameters(**bad)
-
-
-@pytest.mark.parametrize("bad", [{"link_timeout_s": "fast"}, {"link_timeout_s": True}, {"unheard_of": 1}])
-def test_value_of_the_wrong_type_or_name_is_a_sentence(bad):
-    with pytest.raises(ConfigurationError, match=next(iter(bad))):
-        parameters_from(bad)

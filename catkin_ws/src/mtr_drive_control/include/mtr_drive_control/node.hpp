@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "mtr_drive_control/drive_control.hpp"
+#include "mtr_lockstep/parameter_reader.hpp"
 #include "mtr_lockstep/tick_input.hpp"
 #include "mtr_lockstep/ticker.hpp"
 
@@ -28,16 +29,16 @@ struct NodeParameters {
   bool manual_expected = false;
 };
 
-/// Throws mtr_lockstep::ConfigurationError.
-NodeParameters read_node_parameters(const ros::NodeHandle& private_node);
-
 /// Publishes the wheel command and the status at each tick.
 class Node {
  public:
+  /// Throws mtr_lockstep::ConfigurationError.
+  static NodeParameters read(mtr_lockstep::ParameterReader& reader);
+
   Node(ros::NodeHandle& node, const NodeParameters& parameters);
 
   /// Returns at shutdown.
-  void run();
+  void spin();
 
  private:
   void tick(std::int64_t tick_ns);

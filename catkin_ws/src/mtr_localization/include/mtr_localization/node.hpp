@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mtr_localization/localizer.hpp"
+#include "mtr_lockstep/parameter_reader.hpp"
 
 namespace mtr_localization {
 
@@ -22,13 +23,16 @@ struct NodeParameters {
   bool publish_odom_tf = true;
 };
 
-/// Throws mtr_lockstep::ConfigurationError.
-NodeParameters read_node_parameters(const ros::NodeHandle& private_node);
-
 /// Answers each wheel odometry message; needs no tick of its own.
 class Node {
  public:
+  /// Throws mtr_lockstep::ConfigurationError.
+  static NodeParameters read(mtr_lockstep::ParameterReader& reader);
+
   Node(ros::NodeHandle& node, const NodeParameters& parameters);
+
+  /// Returns at shutdown.
+  void spin();
 
  private:
   void watch_silence(ros::NodeHandle& node);

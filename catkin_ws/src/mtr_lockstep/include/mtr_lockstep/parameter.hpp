@@ -15,15 +15,27 @@ class ConfigurationError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The value with its unit, if it has one.
+inline std::string with_unit(double value, const std::string& unit) {
+  std::ostringstream text;
+  text << value << (unit.empty() ? "" : " ") << unit;
+  return text.str();
+}
+
+/// The range with its unit, if it has one.
+inline std::string range_text(double low, double high, const std::string& unit) {
+  std::ostringstream text;
+  text << low << " to " << with_unit(high, unit);
+  return text.str();
+}
+
 /// Returns value when low <= value <= high (so NaN never passes); else throws ConfigurationError.
 inline double check_range(const std::string& name, double value, double low, double high, const std::string& unit) {
   if (value >= low && value <= high) {
     return value;
   }
-  std::ostringstream text;
-  text << "Parameter " << name << " is " << value << " " << unit << "; allowed is " << low << " to " << high << " "
-       << unit << ".";
-  throw ConfigurationError(text.str());
+  throw ConfigurationError("Parameter " + name + " is " + with_unit(value, unit) + "; allowed is " +
+                           range_text(low, high, unit) + ".");
 }
 
 /// A parameter's place in the struct P that holds all parameters of a node.

@@ -1,30 +1,19 @@
 """Between ROS messages and the planner's plain types."""
 # SPDX-License-Identifier: Apache-2.0
-import dataclasses
 import math
-from typing import Any, Dict, Optional, Sequence
+from typing import Any, Optional, Sequence
 
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
 from std_msgs.msg import Header
 
 from mtr_core import names
-from mtr_core.errors import ConfigurationError
 from mtr_core.se2 import Pose2
+from mtr_core.states import Direction
 from mtr_msgs.msg import CarEstimate, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
-from .inputs import Car, Direction, Goal, Order, Point, RobotState
-from .parameters import MotionParameters
+from .inputs import Car, Goal, Order, Point, RobotState
 from .planner import Output
-
-
-def parameters_from(values: Dict[str, Any]) -> MotionParameters:
-    """Parameters from the node's private namespace; a name that does not exist is an error."""
-    known = [item.name for item in dataclasses.fields(MotionParameters)]
-    for name in values:
-        if name not in known:
-            raise ConfigurationError(f"Parameter {name} is unknown; there are: {', '.join(known)}.")
-    return MotionParameters(**values)
 
 
 def order_from(message: Optional[RobotMode]) -> Optional[Order]:

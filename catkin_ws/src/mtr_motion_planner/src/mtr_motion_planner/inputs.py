@@ -1,21 +1,13 @@
 """What the motion planner is told at a tick, and the check that it may be used."""
 # SPDX-License-Identifier: Apache-2.0
-import enum
 import math
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
 from mtr_core.se2 import Pose2
+from mtr_core.states import Direction
 
 Point = Tuple[float, float]
-
-
-class Direction(enum.IntEnum):
-    """Travel on the last straight piece; numbers of mtr_msgs/Waypoint."""
-
-    ANY = 0
-    FORWARD = 1
-    BACKWARD = 2
 
 
 @dataclass(frozen=True)

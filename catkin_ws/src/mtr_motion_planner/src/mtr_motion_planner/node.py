@@ -1,35 +1,25 @@
 """The motion planner as a ROS node: topics in, velocity and status out, 25 times a second."""
 # SPDX-License-Identifier: Apache-2.0
-import contextlib
-
 import rospy
 from nav_msgs.msg import Path
 from std_msgs.msg import Header
 
 from mtr_core import names, schedule
-from mtr_core.errors import RobotError
-from mtr_lockstep import Ticker, TickInput
+from mtr_lockstep import Ticker, TickInput, run_node
 from mtr_lockstep.clock import stamp_of
 from mtr_msgs.msg import CarEstimate, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
-from .conversions import (
-    car_from,
-    order_from,
-    parameters_from,
-    path_message,
-    robot_from,
-    status_message,
-    velocity_message,
-)
+from .conversions import car_from, order_from, path_message, robot_from, status_message, velocity_message
 from .inputs import Inputs
+from .parameters import MotionParameters
 from .planner import MotionPlanner
 
 
 class MotionPlannerNode:
     """Feeds the planner at its ticks and publishes what it says."""
 
-    def __init__(self, planner: MotionPlanner):
-        self._planner = planner
+    def __init__(self, parameters: MotionParameters):
+        self._planner = MotionPlanner(parameters)
         self._ticker = Ticker(schedule.MOTION_PLANNER)
         self._pose = TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
@@ -55,13 +45,6 @@ class MotionPlannerNode:
             self._path.publish(path_message(output.path, stamp))
 
 
-def main() -> None:
-    """Start the node; a wrong parameter ends it with a sentence."""
-    rospy.init_node("motion_planner")
-    try:
-        planner = MotionPlanner(parameters_from(rospy.get_param("~", {})))
-    except RobotError as error:
-        rospy.logfatal("%s", error)
-        raise SystemExit(1) from error
-    with contextlib.suppress(rospy.ROSInterruptException):
-        MotionPlannerNode(planner).spin()
+def main() -> int:
+    """Run the node; its exit status."""
+    return run_node("motion_planner", MotionParameters, MotionPlannerNode)

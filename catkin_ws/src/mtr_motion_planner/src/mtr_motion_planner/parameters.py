@@ -1,19 +1,15 @@
 """Parameters of the motion planner."""
 # SPDX-License-Identifier: Apache-2.0
-import dataclasses
 import math
 from dataclasses import dataclass
 
 from mtr_core.errors import check_range
-
-
-def _parameter(default: float, low: float, high: float, unit: str) -> float:
-    return dataclasses.field(default=default, metadata={"low": low, "high": high, "unit": unit})
+from mtr_core.parameters import ParameterSet, number
 
 
 @dataclass(frozen=True)
-class MotionParameters:
-    """Checked once, when it is made; ConfigurationError names a parameter out of range.
+class MotionParameters(ParameterSet):
+    """What the motion planner is started with.
 
     Attributes:
         acceleration_mps2: limit of the linear acceleration, also when braking.
@@ -34,27 +30,25 @@ class MotionParameters:
         input_age_limit_s: older inputs stop the robot.
     """
 
-    acceleration_mps2: float = _parameter(0.5, 0.05, 3.0, "m/s2")
-    angular_acceleration_radps2: float = _parameter(1.0, 0.1, 10.0, "rad/s2")
-    max_angular_radps: float = _parameter(1.0, 0.1, 4.0, "rad/s")
-    footprint_length_m: float = _parameter(0.51, 0.1, 2.0, "m")
-    footprint_width_m: float = _parameter(0.43, 0.1, 2.0, "m")
-    keep_out_m: float = _parameter(0.10, 0.02, 1.0, "m")
-    turn_margin_m: float = _parameter(0.05, 0.0, 1.0, "m")
-    route_margin_m: float = _parameter(0.20, 0.0, 2.0, "m")
-    goal_along_m: float = _parameter(0.02, 0.005, 0.5, "m")
-    goal_across_m: float = _parameter(0.03, 0.005, 0.5, "m")
-    goal_heading_rad: float = _parameter(math.radians(1.0), 0.003, 0.5, "rad")
-    corrections: int = _parameter(3, 0, 20, "attempts")
-    lookahead_m: float = _parameter(0.4, 0.1, 2.0, "m")
-    turn_in_place_rad: float = _parameter(math.radians(45.0), 0.2, 1.5, "rad")
-    longest_reverse_route_m: float = _parameter(3.0, 0.0, 20.0, "m")
-    input_age_limit_s: float = _parameter(0.3, 0.1, 2.0, "s")
+    acceleration_mps2: float = number(0.5, 0.05, 3.0, "m/s2")
+    angular_acceleration_radps2: float = number(1.0, 0.1, 10.0, "rad/s2")
+    max_angular_radps: float = number(1.0, 0.1, 4.0, "rad/s")
+    footprint_length_m: float = number(0.51, 0.1, 2.0, "m")
+    footprint_width_m: float = number(0.43, 0.1, 2.0, "m")
+    keep_out_m: float = number(0.10, 0.02, 1.0, "m")
+    turn_margin_m: float = number(0.05, 0.0, 1.0, "m")
+    route_margin_m: float = number(0.20, 0.0, 2.0, "m")
+    goal_along_m: float = number(0.02, 0.005, 0.5, "m")
+    goal_across_m: float = number(0.03, 0.005, 0.5, "m")
+    goal_heading_rad: float = number(math.radians(1.0), 0.003, 0.5, "rad")
+    corrections: int = number(3, 0, 20, "attempts")
+    lookahead_m: float = number(0.4, 0.1, 2.0, "m")
+    turn_in_place_rad: float = number(math.radians(45.0), 0.2, 1.5, "rad")
+    longest_reverse_route_m: float = number(3.0, 0.0, 20.0, "m")
+    input_age_limit_s: float = number(0.3, 0.1, 2.0, "s")
 
     def __post_init__(self) -> None:
-        for item in dataclasses.fields(self):
-            limits = item.metadata
-            check_range(item.name, getattr(self, item.name), limits["low"], limits["high"], limits["unit"])
+        super().__post_init__()
         check_range("route_margin_m", self.route_margin_m, self.turn_margin_m, 2.0, "m")
 
     @property

@@ -1,10 +1,10 @@
 """The motion planner: at each tick from the inputs to a velocity and a status."""
 # SPDX-License-Identifier: Apache-2.0
-import enum
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
 from mtr_core.se2 import Pose2
+from mtr_core.states import Result
 
 from .follower import Follower
 from .inputs import NO_GOAL, Car, Goal, Inputs, Point, RobotState, fault_of
@@ -15,17 +15,6 @@ from .planning import Planning
 from .ramp import Ramp
 from .tolerance import miss_of, sentence_about, was_displaced
 from .watch import StallWatch, is_heading_into
-
-
-class Result(enum.IntEnum):
-    """Numbers of mtr_msgs/MotionStatus."""
-
-    IDLE = 0
-    PENDING = 1
-    REACHED = 2
-    REFUSED = 3
-    BLOCKED = 4
-
 
 SETTLED = (Result.REACHED, Result.REFUSED)
 

@@ -4,8 +4,8 @@ import math
 from typing import List, Optional, Sequence, Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
+from mtr_core.states import Direction
 
-from .inputs import Direction
 from .obstacle import CarObstacle
 from .parameters import MotionParameters
 from .plan import Leg, Plan, PlanRefused, Route, Straight, Turn

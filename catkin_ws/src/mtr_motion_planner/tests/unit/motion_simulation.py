@@ -7,10 +7,11 @@ from typing import List, Optional
 from shapely.geometry import Polygon
 
 from mtr_core.se2 import Pose2
-from mtr_motion_planner.inputs import Car, Direction, Goal, Inputs, Order, RobotState
+from mtr_core.states import Direction, Result
+from mtr_motion_planner.inputs import Car, Goal, Inputs, Order, RobotState
 from mtr_motion_planner.obstacle import CarObstacle
 from mtr_motion_planner.parameters import MotionParameters
-from mtr_motion_planner.planner import MotionPlanner, Output, Result
+from mtr_motion_planner.planner import MotionPlanner, Output
 
 PARAMETERS = MotionParameters()
 PERIOD_S, SUBSTEPS = 0.04, 4

@@ -7,9 +7,10 @@ import pytest
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.se2 import Pose2
-from mtr_motion_planner.inputs import Car, Direction, Goal, Inputs, Order, RobotState
+from mtr_core.states import Direction, Result
+from mtr_motion_planner.inputs import Car, Goal, Inputs, Order, RobotState
 from mtr_motion_planner.parameters import MotionParameters
-from mtr_motion_planner.planner import MotionPlanner, Result
+from mtr_motion_planner.planner import MotionPlanner
 
 NAN = math.nan
 CAR = Car(1.0, True, Pose2(0, 0, 0), ((2.2, .9), (-2.2, .9), (-2.2, -.9), (2.2, -.9)))

@@ -6,8 +6,7 @@ import pytest
 from motion_simulation import SimulatedRobot, car_at
 
 from mtr_core.se2 import Pose2
-from mtr_motion_planner.inputs import Direction
-from mtr_motion_planner.planner import Result
+from mtr_core.states import Direction, Result
 
 AROUND = [(4.0, 0.0, 180.0), (4.0, -3.0, 140.0), (0.0, -4.0, 90.0), (-5.0, -2.0, 20.0), (-4.0, 0.0, 0.0),
           (-1.0, 3.0, -90.0), (3.0, 3.0, -135.0), (1.5, -1.6, 90.0), (-3.1, 0.3, 0.0)]

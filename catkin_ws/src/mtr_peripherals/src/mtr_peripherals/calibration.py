@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
-from typing import Iterable, Sequence
+from typing import Iterable, Tuple
 
-from mtr_core.errors import ConfigurationError, RobotError, check_range
+from mtr_core.errors import RobotError, check_range
+from mtr_core.parameters import ParameterSet, number
 
 MAX_SERVOS = 2
 MAX_BUTTON = 255
@@ -17,38 +18,33 @@ class OrderRefused(RobotError):
 
 
 @dataclass(frozen=True)
-class Calibration:
+class Calibration(ParameterSet):
     """What config/calibration.yaml says.
 
     Attributes:
-        key_height_at_lower_stop_m: Remote key above ground with the lift at its lower stop, 0.05 to 1.5 m.
-        lift_stroke_m: travel of the lift, 0.05 to 2 m.
+        key_height_at_lower_stop_m: Remote key above ground with the lift at its lower stop.
+        lift_stroke_m: travel of the lift.
         button_of_servo: number of the button that each servo presses, in the firmware's order; 1 or 2 servos.
-        minimum_strength, maximum_strength: allowed travel of a press, 0 to 1.
-        default_hold_s: time a button is held when the order names none, 0.05 to 10 s.
-        maximum_hold_s: longest time a button is held, 0.05 to 60 s (the firmware counts 16-bit milliseconds).
+        minimum_strength, maximum_strength: allowed travel of a press as a share of the servo's.
+        default_hold_s: time a button is held when the order names none.
+        maximum_hold_s: longest time a button is held; the firmware counts 16-bit milliseconds.
     """
 
-    key_height_at_lower_stop_m: float = 0.35
-    lift_stroke_m: float = 1.2
-    button_of_servo: Sequence[int] = (1, 2)
-    minimum_strength: float = 0.0
-    maximum_strength: float = 1.0
-    default_hold_s: float = 0.3
-    maximum_hold_s: float = 10.0
+    key_height_at_lower_stop_m: float = number(0.35, 0.05, 1.5, "m")
+    lift_stroke_m: float = number(1.2, 0.05, 2.0, "m")
+    button_of_servo: Tuple[int, ...] = (1, 2)
+    minimum_strength: float = number(0.0, 0.0, 1.0)
+    maximum_strength: float = number(1.0, 0.0, 1.0)
+    default_hold_s: float = number(0.3, 0.05, 60.0, "s")
+    maximum_hold_s: float = number(10.0, 0.05, 60.0, "s")
 
     def __post_init__(self) -> None:
-        check_range("key_height_at_lower_stop_m", self.key_height_at_lower_stop_m, 0.05, 1.5, "m")
-        check_range("lift_stroke_m", self.lift_stroke_m, 0.05, 2.0, "m")
-        check_range("maximum_strength", self.maximum_strength, 0.0, 1.0, "")
-        check_range("minimum_strength", self.minimum_strength, 0.0, self.maximum_strength, "")
-        check_range("maximum_hold_s", self.maximum_hold_s, 0.05, 60.0, "s")
+        super().__post_init__()
+        check_range("minimum_strength", self.minimum_strength, 0.0, self.maximum_strength)
         check_range("default_hold_s", self.default_hold_s, 0.05, self.maximum_hold_s, "s")
-        check_range("length of button_of_servo", len(self.button_of_servo), 1, MAX_SERVOS, "")
+        check_range("length of button_of_servo", len(self.button_of_servo), 1, MAX_SERVOS)
         for button in self.button_of_servo:
-            if not isinstance(button, int):
-                raise ConfigurationError(f"Parameter button_of_servo holds {button!r}; allowed are whole numbers.")
-            check_range("button_of_servo", button, 1, MAX_BUTTON, "")
+            check_range("button_of_servo", button, 1, MAX_BUTTON)
 
     @property
     def highest_key_m(self) -> float:
@@ -75,7 +71,7 @@ class Calibration:
             if button not in self.button_of_servo:
                 known = ", ".join(map(str, self.button_of_servo))
                 raise OrderRefused(f"Button {button} was refused; this key's mount has servos for {known}.")
-            bits |= 1 << list(self.button_of_servo).index(button)
+            bits |= 1 << self.button_of_servo.index(button)
         if not bits:
             raise OrderRefused("A press without a button was refused.")
         return bits

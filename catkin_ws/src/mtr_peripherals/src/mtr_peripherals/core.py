@@ -4,14 +4,14 @@ import math
 from dataclasses import dataclass
 from typing import List, Optional, Tuple
 
-from .calibration import Calibration, OrderRefused
+from mtr_core.states import State
+
+from .calibration import OrderRefused
 from .firmware import FAULTS, FirmwareOrder, FirmwareReport, Led
 from .parameters import Parameters
 from .presses import Presses, PressOrder, PressResult
 
 NS = 1e-9
-# Values of RobotMode, so that this core needs no ROS.
-MODE_STARTING, MODE_MAPPING, MODE_FOLLOWING, MODE_FAULT = 1, 3, 4, 5
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Orders:
     stop: bool = True
     key_height_m: float = math.nan
     press: PressOrder = PressOrder()
-    mode: int = MODE_STARTING
+    mode: int = State.STARTING
     has_goal: bool = False
 
 
@@ -46,9 +46,9 @@ class Outcome:
 class Peripherals:
     """Decides at each tick what lift, servos and LEDs do."""
 
-    def __init__(self, parameters: Parameters, calibration: Calibration):
-        self._parameters, self._calibration = parameters, calibration
-        self._presses = Presses(calibration)
+    def __init__(self, parameters: Parameters):
+        self._parameters, self._calibration = parameters, parameters.calibration
+        self._presses = Presses(parameters.calibration)
 
     def step(self, orders: Orders, report: Optional[FirmwareReport], now_ns: int) -> Outcome:
         """Decide at one tick; report is the firmware's newest one."""
@@ -83,13 +83,13 @@ class Peripherals:
 
     def _led(self, orders: Orders, failed: bool) -> Led:
         choices = (
-            (Led.ERROR, failed or orders.mode == MODE_FAULT),
-            (Led.STARTING, orders.mode == MODE_STARTING),
+            (Led.ERROR, failed or orders.mode == State.FAULT),
+            (Led.STARTING, orders.mode == State.STARTING),
             (Led.LINK_LOST, bool(orders.session_id) and not orders.link_alive),
             (Led.PRESSING, bool(self._presses.pressed_buttons)),
             (Led.PAUSED, bool(orders.session_id) and orders.stop),
-            (Led.MAPPING, orders.mode == MODE_MAPPING),
-            (Led.MOVING, orders.mode == MODE_FOLLOWING and orders.has_goal),
+            (Led.MAPPING, orders.mode == State.MAPPING_CAR),
+            (Led.MOVING, orders.mode == State.FOLLOWING_WAYPOINT and orders.has_goal),
         )
         return next((led for led, holds in choices if holds), Led.READY)
 

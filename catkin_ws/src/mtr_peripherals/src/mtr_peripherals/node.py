@@ -1,18 +1,15 @@
 """The peripherals' node: wires the topics to the core."""
 # SPDX-License-Identifier: Apache-2.0
-from dataclasses import asdict
 from typing import Optional, Tuple
 
 import rospy
 from sensor_msgs.msg import BatteryState, JointState
 
 from mtr_core import names, schedule
-from mtr_core.errors import RobotError
-from mtr_lockstep import Ticker, TickInput, clock
+from mtr_lockstep import Ticker, TickInput, clock, run_node
 from mtr_lockstep.samples import Samples
 from mtr_msgs.msg import DesiredState, FirmwareCommand, FirmwarePress, FirmwareState, PeripheralsState, RobotMode
 
-from .calibration import Calibration
 from .conversions import (
     battery_charge,
     command_message,
@@ -25,7 +22,7 @@ from .conversions import (
 from .core import Outcome, Peripherals
 from .firmware import FirmwareReport
 from .firmware_clock import FirmwareClock, SharedClock
-from .parameters import Parameters, parameters_from
+from .parameters import Parameters
 
 NS = 1e-9
 
@@ -33,9 +30,9 @@ NS = 1e-9
 class PeripheralsNode:
     """Decides at each tick of its slot."""
 
-    def __init__(self, parameters: Parameters, calibration: Calibration):
+    def __init__(self, parameters: Parameters):
         self._parameters = parameters
-        self._core = Peripherals(parameters, calibration)
+        self._core = Peripherals(parameters)
         self._times = SharedClock() if clock.is_simulated() else FirmwareClock()
         self._reports = Samples(schedule.FIRMWARE, lag_ns=0, waits=clock.is_simulated())
         self._battery: Tuple[int, Optional[float]] = (0, None)
@@ -46,7 +43,7 @@ class PeripheralsNode:
         self._command = rospy.Publisher(names.FIRMWARE_COMMAND, FirmwareCommand, queue_size=10, tcp_nodelay=True)
         self._press = rospy.Publisher(names.FIRMWARE_PRESS, FirmwarePress, queue_size=10, tcp_nodelay=True)
         self._state = rospy.Publisher(names.PERIPHERALS_STATE, PeripheralsState, queue_size=10, tcp_nodelay=True)
-        self._joints = rospy.Publisher("/joint_states", JointState, queue_size=10, tcp_nodelay=True)
+        self._joints = rospy.Publisher(names.JOINT_STATES, JointState, queue_size=10, tcp_nodelay=True)
         self._subscribers = (
             rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, self._take_state, queue_size=50, tcp_nodelay=True),
             rospy.Subscriber(names.BATTERY, BatteryState, self._take_battery, queue_size=1))
@@ -102,15 +99,5 @@ class PeripheralsNode:
 
 
 def main() -> int:
-    """Start the node and run it; the exit status says whether it could start."""
-    rospy.init_node("peripherals")
-    try:
-        parameters, calibration = parameters_from(rospy.get_param("~", {}))
-        rospy.loginfo("Peripherals: %s %s", asdict(parameters), asdict(calibration))
-        PeripheralsNode(parameters, calibration).spin()
-    except RobotError as error:
-        rospy.logfatal("The peripherals' node did not start. %s", error)
-        return 2
-    except rospy.ROSInterruptException:
-        pass
-    return 0
+    """Run the node; its exit status."""
+    return run_node("peripherals", Parameters, PeripheralsNode)

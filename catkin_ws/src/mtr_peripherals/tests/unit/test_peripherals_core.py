@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import pytest
 
-from mtr_peripherals.calibration import Calibration
 from mtr_peripherals.core import Orders, Peripherals
 from mtr_peripherals.firmware import FirmwareReport, Led, PressState
 from mtr_peripherals.parameters import Parameters
@@ -50,7 +49,7 @@ class FakeFirmware:
 
 @pytest.fixture
 def core():
-    return Peripherals(Parameters(), Calibration())
+    return Peripherals(Parameters())
 
 
 def run(core, orders, firmware, ticks, first=0):

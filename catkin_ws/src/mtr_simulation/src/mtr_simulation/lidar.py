@@ -7,7 +7,7 @@ from typing import Dict, Tuple
 import mujoco
 import numpy as np
 
-from mtr_core.errors import check_range
+from mtr_core.parameters import ParameterSet, number
 
 from . import robot
 from .base_state import BaseState
@@ -21,32 +21,23 @@ SLICE_S = 0.01
 
 
 @dataclass(frozen=True)
-class LidarParameters:
+class LidarParameters(ParameterSet):
     """A sensor of the class of a Hokuyo UST or SICK TiM at 25 Hz.
 
     Attributes:
-        beams: 2 to 4000.
-        field_of_view_rad: 0.1 to 2 pi, centred on the LiDAR's x axis.
-        rotation_s: one turn; the period of the scans, 0.02 to 0.2.
-        range_min_m: 0 to 1.
-        range_max_m: 1 to 100.
-        noise_m: 1 sigma of each range, 0 to 0.1.
+        beams: of one sweep.
+        field_of_view_rad: centred on the LiDAR's x axis.
+        rotation_s: one turn; the period of the scans.
+        range_min_m, range_max_m: nearest and farthest that is seen.
+        noise_m: 1 sigma of each range.
     """
 
-    beams: int = 720
-    field_of_view_rad: float = math.radians(270.0)
-    rotation_s: float = 0.04
-    range_min_m: float = 0.1
-    range_max_m: float = 30.0
-    noise_m: float = 0.01
-
-    def __post_init__(self) -> None:
-        check_range("beams", self.beams, 2, 4000, "beams")
-        check_range("field_of_view_rad", self.field_of_view_rad, 0.1, 2.0 * math.pi, "rad")
-        check_range("rotation_s", self.rotation_s, 0.02, 0.2, "s")
-        check_range("range_min_m", self.range_min_m, 0.0, 1.0, "m")
-        check_range("range_max_m", self.range_max_m, 1.0, 100.0, "m")
-        check_range("noise_m", self.noise_m, 0.0, 0.1, "m")
+    beams: int = number(720, 2, 4000, "beams")
+    field_of_view_rad: float = number(math.radians(270.0), 0.1, 2.0 * math.pi, "rad")
+    rotation_s: float = number(0.04, 0.02, 0.2, "s")
+    range_min_m: float = number(0.1, 0.0, 1.0, "m")
+    range_max_m: float = number(30.0, 1.0, 100.0, "m")
+    noise_m: float = number(0.01, 0.0, 0.1, "m")
 
     @property
     def time_increment_s(self) -> float:

@@ -14,8 +14,8 @@ from sensor_msgs.msg import BatteryState, Imu
 from std_msgs.msg import Header
 
 from mtr_core import names
-from mtr_core.errors import ConfigurationError
 from mtr_core.schedule import CLOCK_STEP, FIRMWARE, LIDAR, SIMULATION_START_NS, slot
+from mtr_lockstep import run_node
 from mtr_msgs.msg import FirmwareCommand, FirmwarePress, FirmwareState
 
 from . import connections, conversions
@@ -32,18 +32,24 @@ BATTERY = slot(1000)
 class SimulatorNode:
     """One loop: wait for the holds, do what the nodes ordered, step, publish."""
 
-    def __init__(self, parameters: SimulatorParameters, world: World):
-        self._world = world
+    def __init__(self, parameters: SimulatorParameters):
+        self._world = World(parameters)
         self._output = Output(parameters.rear_lidar)
-        self._barrier = Barrier(parameters.hold_for, NodeWatcher(self._output))
+        self._barrier = Barrier(parameters.held_by, NodeWatcher(self._output))
         self._pace = Pace(parameters.real_time_factor)
         self._stopped = threading.Event()
         self._orders: Deque[Callable[[], None]] = collections.deque()
         self._contacts: Set[str] = set()
         rospy.on_shutdown(self.stop)
 
-    def run(self) -> None:
+    def spin(self) -> None:
         """Simulate until shutdown."""
+        try:
+            self._run()
+        finally:
+            self._world.close()
+
+    def _run(self) -> None:
         self._subscribe()
         self._barrier.wait_for_expected()
         connections.wait_until_complete(rosgraph.get_master_uri(), rospy.get_name(), self._stopped, rospy.logwarn)
@@ -175,17 +181,6 @@ def _publisher(topic: str, message_type: Any) -> rospy.Publisher:
 
 
 def main() -> int:
-    """Run the node; 0 on Ctrl-C, 2 when a parameter is wrong."""
-    rospy.init_node("simulator", disable_rostime=True)
-    try:
-        parameters = SimulatorParameters.from_values(rospy.get_param("~", {}))
-        world = World(parameters)
-    except ConfigurationError as error:
-        rospy.logfatal(str(error))
-        return 2
-    rospy.loginfo("Simulator: %s", parameters)
-    try:
-        SimulatorNode(parameters, world).run()
-    finally:
-        world.close()
-    return 0
+    """Run the node; its exit status."""
+    # The node makes the time that the others wait for.
+    return run_node("simulator", SimulatorParameters, SimulatorNode, disable_rostime=True)

@@ -5,38 +5,31 @@ from dataclasses import dataclass, replace
 from typing import Dict, Optional, Tuple
 
 from mtr_core.errors import ConfigurationError, check_range
+from mtr_core.parameters import ParameterSet, number
 from mtr_core.se2 import Pose2
 
 from .noise import stream
 
 
 @dataclass(frozen=True)
-class CarShape:
+class CarShape(ParameterSet):
     """Body of a car; length and width without mirrors are those that the robot is to find.
 
     Attributes:
-        length_m: 3 to 6.
-        width_m: 1.4 to 2.2.
-        height_m: 1.2 to 2.2.
         wheelbase_m: distance of the axles, less than length_m - 1.
-        wheel_radius_m: 0.25 to 0.45.
-        clearance_m: gap between ground and body, 0.1 to 0.4; a LiDAR below it sees only the wheels.
+        clearance_m: gap between ground and body; a LiDAR below it sees only the wheels.
     """
 
-    length_m: float = 4.5
-    width_m: float = 1.8
-    height_m: float = 1.45
-    wheelbase_m: float = 2.65
-    wheel_radius_m: float = 0.32
-    clearance_m: float = 0.24
+    length_m: float = number(4.5, 3.0, 6.0, "m")
+    width_m: float = number(1.8, 1.4, 2.2, "m")
+    height_m: float = number(1.45, 1.2, 2.2, "m")
+    wheelbase_m: float = number(2.65, 1.5, 5.0, "m")
+    wheel_radius_m: float = number(0.32, 0.25, 0.45, "m")
+    clearance_m: float = number(0.24, 0.1, 0.4, "m")
 
     def __post_init__(self) -> None:
-        check_range("length_m", self.length_m, 3.0, 6.0, "m")
-        check_range("width_m", self.width_m, 1.4, 2.2, "m")
-        check_range("height_m", self.height_m, 1.2, 2.2, "m")
+        super().__post_init__()
         check_range("wheelbase_m", self.wheelbase_m, 1.5, self.length_m - 1.0, "m")
-        check_range("wheel_radius_m", self.wheel_radius_m, 0.25, 0.45, "m")
-        check_range("clearance_m", self.clearance_m, 0.1, 0.4, "m")
 
 
 @dataclass(frozen=True)
@@ -75,33 +68,28 @@ class Walk:
 
 
 @dataclass(frozen=True)
-class Scenario:
+class Scenario(ParameterSet):
     """One test site.
 
     Attributes:
         car: shape of the Car under test.
         world_from_car: pose of the Car; neither at the origin nor aligned, so that no code gets away with that.
         start_in_car: nominal pose of base_link in frame car.
-        start_offset_m: the seed moves the start by up to this, 0 to 0.5, in x and y.
-        start_offset_rad: and turns it by up to this, 0 to 0.3.
-        friction: of tyres on the ground, 0.1 to 1.2; 0.5 as in the Jackal's description.
+        start_offset_m: the seed moves the start by up to this in x and y.
+        start_offset_rad: and turns it by up to this.
+        friction: of tyres on the ground; 0.5 as in the Jackal's description.
     """
 
     car: CarShape = CarShape()
     world_from_car: Pose2 = Pose2(1.3, -0.7, 0.35)
     start_in_car: Pose2 = Pose2(4.0, 2.6, math.atan2(-2.6, -4.0))
-    start_offset_m: float = 0.3
-    start_offset_rad: float = math.radians(5.0)
-    friction: float = 0.5
+    start_offset_m: float = number(0.3, 0.0, 0.5, "m")
+    start_offset_rad: float = number(math.radians(5.0), 0.0, 0.3, "rad")
+    friction: float = number(0.5, 0.1, 1.2, "(Coulomb)")
     poles: Tuple[Pole, ...] = ()
     walls: Tuple[Wall, ...] = ()
     parked_cars: Tuple[ParkedCar, ...] = ()
     person: Optional[Walk] = None
-
-    def __post_init__(self) -> None:
-        check_range("start_offset_m", self.start_offset_m, 0.0, 0.5, "m")
-        check_range("start_offset_rad", self.start_offset_rad, 0.0, 0.3, "rad")
-        check_range("friction", self.friction, 0.1, 1.2, "(Coulomb)")
 
     def start_in_world(self, seed: int) -> Pose2:
         """Pose of base_link in world at the start, moved by the seed."""

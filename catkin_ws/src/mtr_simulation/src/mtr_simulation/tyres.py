@@ -11,7 +11,7 @@ from typing import List, NamedTuple, Tuple
 
 import mujoco
 
-from mtr_core.errors import check_range
+from mtr_core.parameters import ParameterSet, number
 
 from . import robot
 from .base_state import BaseState, Vector
@@ -21,29 +21,22 @@ ROLLING_FADE_RADPS = 0.05
 
 
 @dataclass(frozen=True)
-class TyreParameters:
+class TyreParameters(ParameterSet):
     """Values at which neither mast nor friction made the tyres chatter.
 
     Attributes:
-        stiffness_npm: upwards, 1e3 to 1e5 N/m; 2e4 lets the robot sink 3 mm.
-        damping_nspm: upwards, 0 to 2000 Ns/m.
-        bristle_stiffness_npm: along the ground, 1e3 to 1e5 N/m.
-        bristle_damping_nspm: along the ground while it sticks, 0 to 500 Ns/m.
-        rolling_resistance: 0 to 0.1, force by load.
+        stiffness_npm: upwards; 2e4 N/m lets the robot sink 3 mm.
+        damping_nspm: upwards.
+        bristle_stiffness_npm: along the ground.
+        bristle_damping_nspm: along the ground while it sticks.
+        rolling_resistance: force against the rolling.
     """
 
-    stiffness_npm: float = 2.0e4
-    damping_nspm: float = 1000.0
-    bristle_stiffness_npm: float = 2.0e4
-    bristle_damping_nspm: float = 60.0
-    rolling_resistance: float = 0.015
-
-    def __post_init__(self) -> None:
-        check_range("stiffness_npm", self.stiffness_npm, 1e3, 1e5, "N/m")
-        check_range("damping_nspm", self.damping_nspm, 0.0, 2000.0, "Ns/m")
-        check_range("bristle_stiffness_npm", self.bristle_stiffness_npm, 1e3, 1e5, "N/m")
-        check_range("bristle_damping_nspm", self.bristle_damping_nspm, 0.0, 500.0, "Ns/m")
-        check_range("rolling_resistance", self.rolling_resistance, 0.0, 0.1, "(force by load)")
+    stiffness_npm: float = number(2.0e4, 1e3, 1e5, "N/m")
+    damping_nspm: float = number(1000.0, 0.0, 2000.0, "Ns/m")
+    bristle_stiffness_npm: float = number(2.0e4, 1e3, 1e5, "N/m")
+    bristle_damping_nspm: float = number(60.0, 0.0, 500.0, "Ns/m")
+    rolling_resistance: float = number(0.015, 0.0, 0.1, "(force by load)")
 
 
 class _WheelPlane(NamedTuple):

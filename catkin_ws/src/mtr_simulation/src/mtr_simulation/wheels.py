@@ -10,7 +10,7 @@ from typing import List
 
 import mujoco
 
-from mtr_core.errors import check_range
+from mtr_core.parameters import ParameterSet, number
 
 from . import robot
 from .readings import WheelOdometry
@@ -20,41 +20,29 @@ INTEGRAL_LIMIT_RADPS = 3.0
 
 
 @dataclass(frozen=True)
-class BaseParameters:
+class BaseParameters(ParameterSet):
     """Limits of the platform; those of its data sheet are 2 m/s and 4 rad/s.
 
     Attributes:
-        max_linear_mps: 0.1 to 3.
-        max_angular_radps: 0.1 to 6.
-        max_linear_mps2: 0.1 to 20; a bare Jackal's 20 would tip one with a mast.
-        max_angular_radps2: 0.1 to 25; a bare Jackal has 25.
-        command_timeout_s: stops this long after the last command, 0.05 to 1.
-        separation_multiplier: true by assumed turning rate, 1 to 3; a Jackal's is 1.5.
-        radius_error: relative error of the wheel radius that the base believes in, -0.05 to 0.05.
-        encoder_ticks_per_m: 1e3 to 1e6; a Jackal's is 78000.
-        max_wheel_torque_nm: 1 to 30.
+        max_linear_mps, max_angular_radps: of the commanded velocity.
+        max_linear_mps2: a bare Jackal's 20 would tip one with a mast.
+        max_angular_radps2: a bare Jackal has 25.
+        command_timeout_s: stops this long after the last command.
+        separation_multiplier: true by assumed turning rate; a Jackal's is 1.5.
+        radius_error: relative error of the wheel radius that the base believes in.
+        encoder_ticks_per_m: a Jackal's is 78000.
+        max_wheel_torque_nm: of each wheel.
     """
 
-    max_linear_mps: float = 2.0
-    max_angular_radps: float = 4.0
-    max_linear_mps2: float = 3.0
-    max_angular_radps2: float = 6.0
-    command_timeout_s: float = 0.25
-    separation_multiplier: float = 1.5
-    radius_error: float = 0.003
-    encoder_ticks_per_m: float = 78_000.0
-    max_wheel_torque_nm: float = 6.0
-
-    def __post_init__(self) -> None:
-        check_range("max_linear_mps", self.max_linear_mps, 0.1, 3.0, "m/s")
-        check_range("max_angular_radps", self.max_angular_radps, 0.1, 6.0, "rad/s")
-        check_range("max_linear_mps2", self.max_linear_mps2, 0.1, 20.0, "m/s2")
-        check_range("max_angular_radps2", self.max_angular_radps2, 0.1, 25.0, "rad/s2")
-        check_range("command_timeout_s", self.command_timeout_s, 0.05, 1.0, "s")
-        check_range("separation_multiplier", self.separation_multiplier, 1.0, 3.0, "(ratio)")
-        check_range("radius_error", self.radius_error, -0.05, 0.05, "(relative)")
-        check_range("encoder_ticks_per_m", self.encoder_ticks_per_m, 1e3, 1e6, "1/m")
-        check_range("max_wheel_torque_nm", self.max_wheel_torque_nm, 1.0, 30.0, "Nm")
+    max_linear_mps: float = number(2.0, 0.1, 3.0, "m/s")
+    max_angular_radps: float = number(4.0, 0.1, 6.0, "rad/s")
+    max_linear_mps2: float = number(3.0, 0.1, 20.0, "m/s2")
+    max_angular_radps2: float = number(6.0, 0.1, 25.0, "rad/s2")
+    command_timeout_s: float = number(0.25, 0.05, 1.0, "s")
+    separation_multiplier: float = number(1.5, 1.0, 3.0, "(ratio)")
+    radius_error: float = number(0.003, -0.05, 0.05, "(relative)")
+    encoder_ticks_per_m: float = number(78_000.0, 1e3, 1e6, "1/m")
+    max_wheel_torque_nm: float = number(6.0, 1.0, 30.0, "Nm")
 
 
 class Wheels:

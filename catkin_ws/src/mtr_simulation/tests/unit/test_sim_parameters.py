@@ -3,6 +3,7 @@
 import pytest
 
 from mtr_core.errors import ConfigurationError
+from mtr_core.parameters import parameters_from
 from mtr_simulation.lidar import LidarParameters
 from mtr_simulation.parameters import SimulatorParameters
 from mtr_simulation.scenario import SCENARIOS, CarShape, Scenario, named_scenario
@@ -11,12 +12,13 @@ from mtr_simulation.wheels import BaseParameters
 
 
 def test_defaults_are_valid():
-    assert SimulatorParameters.from_values({}) == SimulatorParameters()
+    assert parameters_from({}, SimulatorParameters) == SimulatorParameters()
 
 
 def test_values_of_the_parameter_server_are_taken():
-    parameters = SimulatorParameters.from_values({"seed": 3, "hold_for": ["a", "/b"], "real_time_factor": 2})
-    assert (parameters.seed, parameters.hold_for, parameters.real_time_factor) == (3, ("/a", "/b"), 2)
+    values = {"seed": 3, "hold_for": ["a", "/b"], "real_time_factor": 2}
+    parameters = parameters_from(values, SimulatorParameters)
+    assert (parameters.seed, parameters.held_by, parameters.real_time_factor) == (3, ("/a", "/b"), 2)
 
 
 @pytest.mark.parametrize(("values", "expected"), [
@@ -30,7 +32,7 @@ def test_values_of_the_parameter_server_are_taken():
 ])
 def test_wrong_value_is_named(values, expected):
     with pytest.raises(ConfigurationError, match=expected):
-        SimulatorParameters.from_values(values)
+        parameters_from(values, SimulatorParameters)
 
 
 @pytest.mark.parametrize(("make", "expected"), [

@@ -4,10 +4,11 @@ from typing import Any, Dict, Optional
 
 import rospy
 
+from mtr_core.states import CarState, Result
 from mtr_msgs.msg import CarEstimate, DesiredState, MotionLock, MotionStatus, RobotMode, Waypoint
 
 from .core import Decision
-from .observation import Car, CarState, Desired, Motion, Observation, Part, Place, Result
+from .observation import Car, Desired, Motion, Observation, Part, Place
 
 OWNER = "state_machine"
 NS = 1e-9

@@ -3,10 +3,12 @@
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
+from mtr_core.states import CarState, Result, State
+
 from .goals import NO_GOAL, Goals, WaypointResult
-from .observation import CarState, Observation, Part, Place, Result
+from .observation import Observation, Part, Place
 from .parameters import Parameters
-from .table import AGAIN, Event, State, StateTable
+from .table import AGAIN, Event, StateTable
 
 # More changes of state in one tick than the table is long would mean that two rows undo each other.
 MAX_EVENTS_PER_TICK = 4

@@ -3,7 +3,9 @@
 from dataclasses import replace
 from typing import Hashable, Optional
 
-from .observation import Motion, Place, Result
+from mtr_core.states import Result
+
+from .observation import Motion, Place
 
 NO_GOAL = Place()
 

@@ -1,12 +1,10 @@
 """The state machine's node: wires the topics to the core."""
 # SPDX-License-Identifier: Apache-2.0
-from dataclasses import asdict
-
 import rospy
 
 from mtr_core import names, schedule
-from mtr_core.errors import RobotError
-from mtr_lockstep import Ticker, TickInput, clock
+from mtr_core.states import State
+from mtr_lockstep import Ticker, TickInput, clock, run_node
 from mtr_msgs.msg import (
     CarEstimate,
     DesiredState,
@@ -21,8 +19,7 @@ from mtr_msgs.msg import (
 from .conversions import lock_message, mode_message, observation
 from .core import Decision, StateMachine
 from .observation import Part
-from .parameters import Parameters, parameters_from
-from .table import State
+from .parameters import Parameters
 
 
 class StateMachineNode:
@@ -68,15 +65,5 @@ class StateMachineNode:
 
 
 def main() -> int:
-    """Start the node and run it; the exit status says whether it could start."""
-    rospy.init_node("state_machine")
-    try:
-        parameters = parameters_from(rospy.get_param("~", {}))
-        rospy.loginfo("State machine: %s", asdict(parameters))
-        StateMachineNode(parameters).spin()
-    except RobotError as error:
-        rospy.logfatal("The state machine did not start. %s", error)
-        return 2
-    except rospy.ROSInterruptException:
-        pass
-    return 0
+    """Run the node; its exit status."""
+    return run_node("state_machine", Parameters, StateMachineNode)

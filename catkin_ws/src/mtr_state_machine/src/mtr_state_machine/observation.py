@@ -4,24 +4,7 @@ import enum
 from dataclasses import dataclass, field
 from typing import Dict, Optional
 
-
-class CarState(enum.Enum):
-    """State of the Car locator; the values are those of CarEstimate."""
-
-    UNKNOWN = 0
-    COLLECTING = 1
-    LOCATED = 2
-    FAILED = 3
-
-
-class Result(enum.Enum):
-    """What the motion planner says of its goal; the values are those of MotionStatus."""
-
-    IDLE = 0
-    PENDING = 1
-    REACHED = 2
-    REFUSED = 3
-    BLOCKED = 4
+from mtr_core.states import CarState, Result
 
 
 class Part(enum.Enum):

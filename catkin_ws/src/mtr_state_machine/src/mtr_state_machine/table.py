@@ -6,20 +6,11 @@ from typing import Tuple
 from transitions import Machine, MachineError
 
 from mtr_core.errors import RobotError
+from mtr_core.states import State
 
 
 class UnknownEvent(RobotError):
     """The event has no place in the state."""
-
-
-class State(enum.Enum):
-    """High-level states; the values are those of RobotMode."""
-
-    STARTING = 1
-    READY_TO_MAP_CAR = 2
-    MAPPING_CAR = 3
-    FOLLOWING_WAYPOINT = 4
-    FAULT = 5
 
 
 class Event(enum.Enum):

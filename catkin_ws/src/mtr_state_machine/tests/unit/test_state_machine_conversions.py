@@ -3,11 +3,11 @@
 import genpy
 import pytest
 
+from mtr_core.states import CarState, Result, State
 from mtr_msgs.msg import CarEstimate, DesiredState, LocalizedPose, MotionStatus, PeripheralsState, Waypoint
 from mtr_state_machine.conversions import lock_message, mode_message, observation
 from mtr_state_machine.core import Decision
-from mtr_state_machine.observation import CarState, Part, Place, Result
-from mtr_state_machine.table import State
+from mtr_state_machine.observation import Part, Place
 
 TICK_NS = 10_020_000_000
 

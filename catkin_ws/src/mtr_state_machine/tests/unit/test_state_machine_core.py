@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import pytest
 
+from mtr_core.states import CarState, Result, State
 from mtr_state_machine.core import StateMachine
-from mtr_state_machine.observation import Car, CarState, Desired, Motion, Observation, Part, Place, Result
+from mtr_state_machine.observation import Car, Desired, Motion, Observation, Part, Place
 from mtr_state_machine.parameters import Parameters
-from mtr_state_machine.table import State
 
 ALL_WELL = {part: 0.1 for part in Part}
 WAYPOINT = Place(7, "car", 3.0, 1.0, 0.5, 2)

@@ -5,9 +5,10 @@ Positions are in the true Car frame (origin on the ground under the Car's centre
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
-from typing import Tuple
+from typing import ClassVar, Tuple
 
 from mtr_core.errors import ConfigurationError, check_range
+from mtr_core.parameters import ParameterSet, number
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class LfAntenna:
     lobe_db: float  # the bodywork adds lobe_db towards lobe_rad and takes as much away opposite to it
     lobe_rad: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         check_range(f"antenna {self.name}.strength_db", self.strength_db, -40.0, 40.0, "dB")
         check_range(f"antenna {self.name}.lobe_db", self.lobe_db, 0.0, 10.0, "dB")
 
@@ -54,63 +55,54 @@ DEFAULT_REMOTE_LOBES = (
 
 
 @dataclass(frozen=True)
-class PassiveEntryParameters:
+class PassiveEntryParameters(ParameterSet):
     """Locks that react to the key's vicinity."""
+
+    PREFIX: ClassVar[str] = "passive_entry."
 
     enabled: bool = True
     antennas: Tuple[LfAntenna, ...] = DEFAULT_ANTENNAS
     unlock_threshold_db: float = 0.0
     lock_threshold_db: float = -12.0
-    poll_period_ms: int = 100
-    debounce_polls: int = 2
-    shadow_sigma_db: float = 1.0
-    noise_sigma_db: float = 0.2
+    poll_period_ms: int = number(100, 20, 1000, "ms")
+    debounce_polls: int = number(2, 1, 10, "polls")
+    shadow_sigma_db: float = number(1.0, 0.0, 10.0, "dB")
+    noise_sigma_db: float = number(0.2, 0.0, 10.0, "dB")
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
+        super().__post_init__()
         if not self.antennas:
             raise ConfigurationError("Parameter passive_entry.antennas is empty; allowed is one or more.")
         check_range("passive_entry.lock_threshold_db", self.lock_threshold_db, -60.0, self.unlock_threshold_db, "dB")
-        check_range("passive_entry.poll_period_ms", self.poll_period_ms, 20, 1000, "ms")
-        check_range("passive_entry.debounce_polls", self.debounce_polls, 1, 10, "polls")
-        check_range("passive_entry.shadow_sigma_db", self.shadow_sigma_db, 0.0, 10.0, "dB")
-        check_range("passive_entry.noise_sigma_db", self.noise_sigma_db, 0.0, 10.0, "dB")
 
 
 @dataclass(frozen=True)
-class RemoteParameters:
+class RemoteParameters(ParameterSet):
     """Button of the Remote key: UHF link from the key to the Receiver, and the contact below the button."""
 
+    PREFIX: ClassVar[str] = "remote."
+
     receiver_xyz_m: Tuple[float, float, float] = (-0.20, 0.10, 1.15)
-    margin_at_1m_db: float = 24.8
-    path_loss_exponent: float = 4.0  # two rays, direct and from the ground, beyond their break point
+    margin_at_1m_db: float = number(24.8, -20.0, 80.0, "dB")
+    # Two rays, direct and from the ground, beyond their break point.
+    path_loss_exponent: float = number(4.0, 1.5, 6.0, "(exponent)")
     lobes: Tuple[Lobe, ...] = DEFAULT_REMOTE_LOBES
     best_height_m: float = 1.0
-    height_3db_m: float = 0.4  # 3 dB less this far above or below the best height
+    height_3db_m: float = number(0.4, 0.05, 10.0, "m")  # 3 dB less this far above or below the best height
     height_loss_limit_db: float = 12.0
-    shadow_sigma_db: float = 0.7
-    noise_sigma_db: float = 0.2
-    contact_travel: float = 0.6  # of the servo's full travel
-    contact_ms: int = 80  # a shorter contact is taken for bouncing
-
-    def __post_init__(self):
-        check_range("remote.margin_at_1m_db", self.margin_at_1m_db, -20.0, 80.0, "dB")
-        check_range("remote.path_loss_exponent", self.path_loss_exponent, 1.5, 6.0, "(exponent)")
-        check_range("remote.height_3db_m", self.height_3db_m, 0.05, 10.0, "m")
-        check_range("remote.shadow_sigma_db", self.shadow_sigma_db, 0.0, 10.0, "dB")
-        check_range("remote.noise_sigma_db", self.noise_sigma_db, 0.0, 10.0, "dB")
-        check_range("remote.contact_travel", self.contact_travel, 0.0, 1.0, "of full travel")
-        check_range("remote.contact_ms", self.contact_ms, 0, 2000, "ms")
+    shadow_sigma_db: float = number(0.7, 0.0, 10.0, "dB")
+    noise_sigma_db: float = number(0.2, 0.0, 10.0, "dB")
+    contact_travel: float = number(0.6, 0.0, 1.0, "of the servo's full travel")
+    contact_ms: int = number(80, 0, 2000, "ms")  # a shorter contact is taken for bouncing
 
 
 @dataclass(frozen=True)
-class CarParameters:
+class CarParameters(ParameterSet):
     """Radio and ECU of the whole Car."""
 
-    boot_ms: int = 200  # until then the ECU reports its locks as unknown
-    shadow_correlation_m: float = 0.5
+    PREFIX: ClassVar[str] = "car."
+
+    boot_ms: int = number(200, 0, 10_000, "ms")  # until then the ECU reports its locks as unknown
+    shadow_correlation_m: float = number(0.5, 0.05, 10.0, "m")
     passive_entry: PassiveEntryParameters = PassiveEntryParameters()
     remote: RemoteParameters = RemoteParameters()
-
-    def __post_init__(self):
-        check_range("car.boot_ms", self.boot_ms, 0, 10_000, "ms")
-        check_range("car.shadow_correlation_m", self.shadow_correlation_m, 0.05, 10.0, "m")

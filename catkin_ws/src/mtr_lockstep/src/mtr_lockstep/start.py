@@ -1,0 +1,35 @@
+"""Life of a node from its parameters to its exit status, the same for all."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import Any, Callable, Type, TypeVar
+
+import rospy
+
+from mtr_core.errors import RobotError
+from mtr_core.parameters import ParameterSet, described, parameters_from
+
+P = TypeVar("P", bound=ParameterSet)
+
+CANNOT_START = 2
+
+
+def run_node(name: str, parameter_type: Type[P], make: Callable[[P], Any], **options: Any) -> int:
+    """Make the node from its private parameters and let it spin() until shutdown.
+
+    Returns the exit status: 0 after Ctrl-C, 2 after one sentence when the node cannot start. The options are those of
+    rospy.init_node.
+    """
+    rospy.init_node(name, **options)
+    try:
+        parameters = parameters_from(rospy.get_param("~", {}), parameter_type)
+        rospy.loginfo("Parameters: %s", described(parameters))
+        node = make(parameters)
+    except RobotError as error:
+        rospy.logfatal("The node %s cannot start. %s", name, error)
+        return CANNOT_START
+    try:
+        node.spin()
+    except rospy.ROSException:
+        # A shutdown wakes whoever sleeps and closes the topics of whoever publishes.
+        if not rospy.is_shutdown():
+            raise
+    return 0
