@@ -124,17 +124,18 @@ def rostest() -> Counts:
         if done.returncode:
             print(done.stdout[-20000:] + done.stderr[-5000:])
         status = status or done.returncode
-    return counts_of(sorted((RESULTS / "rostest").rglob("*.xml")), status)
+    return counts_of(sorted((RESULTS / "rostest").rglob("rosunit-*.xml")), status)
 
 
 def counts_of(reports: List[pathlib.Path], status: int) -> Counts:
-    """Sum of JUnit reports. A missing report, or a failed run whose reports show no failure, is one failure."""
+    """Sum of JUnit reports. A report that cannot be read, or a failed run whose reports show no failure, is one failure."""
     passed = failed = 0
     for report in reports:
-        if not report.exists():
+        try:
+            root = ElementTree.parse(report).getroot()
+        except (OSError, ElementTree.ParseError):
             failed += 1
             continue
-        root = ElementTree.parse(report).getroot()
         for suite in [root] if root.tag == "testsuite" else root.findall("testsuite"):
             bad = int(suite.get("failures", 0)) + int(suite.get("errors", 0))
             passed += int(suite.get("tests", 0)) - bad - int(suite.get("skipped", 0) or 0)
