@@ -8,6 +8,8 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.ports import (
+    KEY_BUTTON,
+    PASSIVE_ENTRY,
     CarDimensions,
     CarEvent,
     CarLink,
@@ -38,6 +40,7 @@ class World:
         spoil: changes a Status before it leaves; returning None loses it.
         car_problem: sentence of the Car's bus at a time.
         refuses: reason why a waypoint is refused, empty when it is not.
+        source_of: what the Car says for the true source of a change.
     """
 
     def __init__(self):
@@ -47,6 +50,7 @@ class World:
         self.spoil = lambda status: status
         self.car_problem = lambda time_s: ""
         self.refuses = lambda waypoint: ""
+        self.source_of = lambda source: source
         self.desired, self.waypoint, self.result, self.message = None, None, WaypointResult.NONE, ""
         self.pressed, self.presses, self.toggles, self.events = set(), [], [], []
 
@@ -94,17 +98,18 @@ class World:
         x, y = self.key()
         gap_m = math.hypot(max(abs(x) - CAR.length / 2, 0.0), max(abs(y) - CAR.width / 2, 0.0))
         if self.locked and gap_m < self.unlock_m:
-            self.turn_locks(False, self.time_s)
+            self.turn_locks(False, self.time_s, PASSIVE_ENTRY)
         elif not self.locked and self.unlock_m < gap_m and self.lock_m < gap_m and self.lock_m > 0:
-            self.turn_locks(True, self.time_s)
+            self.turn_locks(True, self.time_s, PASSIVE_ENTRY)
         for toggle in [toggle for toggle in self.toggles if toggle[0] <= self.time_s]:
             self.toggles.remove(toggle)
-            self.turn_locks(toggle[1], toggle[0])
+            self.turn_locks(toggle[1], toggle[0], KEY_BUTTON)
 
-    def turn_locks(self, locked, time_s):
+    def turn_locks(self, locked, time_s, source):
         if locked is not self.locked:
             self.locked = locked
-            self.events.append(CarEvent(time_s, 0.005, LockState.LOCKED if locked else LockState.UNLOCKED))
+            state = LockState.LOCKED if locked else LockState.UNLOCKED
+            self.events.append(CarEvent(time_s, 0.005, state, self.source_of(source)))
 
 
 class FakeRobot(RobotLink):

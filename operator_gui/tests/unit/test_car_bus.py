@@ -237,7 +237,7 @@ def test_device_that_speaks_another_language_is_no_adapter():
 def test_file_that_is_no_terminal_is_refused(tmp_path):
     path = tmp_path / "file"
     path.write_text("")
-    with pytest.raises(ConnectionFailed, match="Cannot open"):
+    with pytest.raises(ConnectionFailed, match="no serial port"):
         CanCarLink("slcan", str(path)).connect()
 
 
@@ -288,3 +288,11 @@ def test_any_other_driver_of_python_can_works_too():
         finally:
             link.close()
             link.close()
+
+
+def test_adapter_of_another_program_is_left_alone(adapter, link):
+    before = list(adapter.commands)
+    with pytest.raises(ConnectionFailed, match="another program uses it"):
+        CanCarLink("slcan", adapter.path).connect()
+    assert adapter.commands[:len(before)] == before
+    assert adapter.commands.count(b"Z1") == before.count(b"Z1")

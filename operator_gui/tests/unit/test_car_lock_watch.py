@@ -194,6 +194,21 @@ def test_unknown_state_is_an_event_too(bench):
     assert [event.lock_state for event in bench.events] == [LockState.UNKNOWN, LockState.UNLOCKED]
 
 
+@pytest.mark.parametrize(("data", "source"), [
+    (b"\x11\x00\x00\x00", "passive_entry"), (b"\x21\x00\x00\x00", "key_button"), (UNLOCKED, "")])
+def test_event_carries_what_made_the_locks_move(bench, data, source):
+    bench.data = data
+    bench.run(0.2)
+    event, = bench.events
+    assert (event.lock_state, event.source) == (LockState.UNLOCKED, source)
+
+
+def test_another_source_without_a_change_is_no_event(bench):
+    bench.data = b"\x10\x00\x00\x00"
+    bench.run(0.2)
+    assert bench.events == []
+
+
 def test_frames_without_stamps_are_timed_by_their_arrival():
     bench = Bench(stamped=False)
     bench.run(4.0)

@@ -5,7 +5,7 @@ import pytest
 
 from mtr_operator.car_link.profile import PROFILE_FOLDER, load_profile
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, LockState
 
 OTHER_DBC = """VERSION ""
 BU_: GW
@@ -45,7 +45,15 @@ def test_demo_car_is_decoded_as_its_database_says(raw, state):
     message = database.get_message_by_name("DoorLockStatus")
     values = {signal.name: 1 for signal in message.signals}
     data = message.encode({**values, "LockState": raw})
-    assert profile.decode(message.frame_id, False, data) is state
+    assert profile.decode(message.frame_id, False, data) == (state, "passive_entry")
+
+
+@pytest.mark.parametrize(("raw", "source"), [(0, ""), (1, PASSIVE_ENTRY), (2, KEY_BUTTON), (7, "")])
+def test_demo_car_says_what_made_its_locks_move(raw, source):
+    profile = load_profile("mtr_demo_car")
+    values = {signal.name: 0 for signal in profile.message.signals}
+    data = profile.message.encode({**values, "LastCommandSource": raw})
+    assert profile.decode(profile.message.frame_id, False, data).source == source
 
 
 def test_demo_profile_has_the_cycle_time_of_its_database():
@@ -55,8 +63,8 @@ def test_demo_profile_has_the_cycle_time_of_its_database():
 
 def test_second_car_with_other_polarity_needs_only_files(tmp_path):
     profile = load_profile(write(tmp_path))
-    assert profile.decode(OTHER_ID, True, bytes(8)) is LockState.UNLOCKED
-    assert profile.decode(OTHER_ID, True, bytes([0, 0, 0x10, 0, 0, 0, 0, 0])) is LockState.LOCKED
+    assert profile.decode(OTHER_ID, True, bytes(8)) == (LockState.UNLOCKED, "")
+    assert profile.decode(OTHER_ID, True, bytes([0, 0, 0x10, 0, 0, 0, 0, 0])) == (LockState.LOCKED, "")
     assert (profile.cycle_time_s, profile.sent_on_change) == (0.1, True)
 
 
@@ -73,11 +81,16 @@ def test_other_frames_are_not_the_lock_message(tmp_path):
     (("database: other.dbc", "database: lost.dbc"), "lost.dbc cannot be read: No such file"),
     (("cycle_time_s: 0.1", "cycle_time_s: 0"), "cycle_time_s is 0; allowed is 0.001 to 10 s"),
     (("cycle_time_s: 0.1\n", ""), "lacks the entry cycle_time_s"),
-    (("1: locked", "1: shut"), "state 1: 'shut'"),
+    (("1: locked", "1: shut"), "states has 1: 'shut'; allowed is a whole number with unknown, locked or unlocked"),
+    (("sent_on_change: true", "source_signal: Speed"), "source_signal and sources belong together"),
+    (("sent_on_change: true", "sources: {1: key_button}"), "source_signal and sources belong together"),
+    (("sent_on_change: true", "source_signal: Why\nsources: {1: key_button}"), "no signal Why"),
+    (("sent_on_change: true", "source_signal: Speed\nsources: {1: wind}"),
+     "sources has 1: 'wind'; allowed is a whole number with passive_entry or key_button"),
     (("1: locked", "1: unknown"), "must name a value for locked and one for unlocked"),
     (("{0: unlocked, 1: locked}", "locked"), "must be a table"),
     (("description: another car", "colour: red"), "unknown entry colour"),
-    (("description: another car", "{"), "cannot be read"),
+    (("description: another car", "{"), "is not valid YAML; a profile is a YAML file that names the CAN database"),
     ((OTHER_PROFILE, "just words"), "no table")])
 def test_wrong_profile_is_refused_with_a_sentence(tmp_path, change, words):
     with pytest.raises(ConnectionFailed) as raised:

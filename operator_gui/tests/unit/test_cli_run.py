@@ -5,14 +5,17 @@ import json
 import os
 import pathlib
 import signal
+import sys
+from dataclasses import replace
 
 import pytest
 
 from mtr_operator.cli import main
 from mtr_operator.cli.display import Display
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import LogMessage, Notification, RobotStatus
+from mtr_operator.domain.ports import LogMessage, Mode, Notification, RobotStatus
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.report.files import write_report
 
 DEMO = pathlib.Path(__file__).resolve().parents[2] / "examples" / "demo"
 
@@ -55,8 +58,16 @@ def test_same_seed_gives_the_same_results(tmp_path):
 def test_lines_are_told_once_each_without_a_terminal(parameters, tmp_path, capsys):
     assert run("autolock", parameters, tmp_path / "out") == 0
     told = capsys.readouterr().err
-    assert told.count("[8/8] axis 8: ok, ok") == 1
+    assert told.count("[8/8] axis 8 (front left): unlock 1") == 1
     assert "8 of 8 lines to measure" in told
+
+
+def test_table_of_all_lines_ends_a_test(parameters, tmp_path, capsys):
+    assert run("autolock", parameters, tmp_path / "out") == 0
+    heading, *rows, last = capsys.readouterr().out.splitlines()
+    assert heading.split() == ["axis", "unlock", "cm", "±", "cm", "lock", "cm", "±", "cm"]
+    assert [row.split()[0] for row in rows] == [str(number) for number in range(1, 9)]
+    assert last == f"8 lines measured; results are in {tmp_path / 'out'}."
 
 
 def test_ctrl_c_stops_the_robot_saves_and_can_be_continued(parameters, tmp_path, world, robot_link, capsys):
@@ -105,7 +116,7 @@ def test_unreachable_robot_is_one_sentence_and_leaves_no_file(parameters, tmp_pa
     monkeypatch.setattr(robot_link, "connect", fail)
     assert run("autolock", parameters, tmp_path / "out") == 2
     assert capsys.readouterr().err == "Nothing listens on port 3334.\n"
-    assert list((tmp_path / "out").iterdir()) == []
+    assert not (tmp_path / "out").exists()
 
 
 def test_folder_that_cannot_be_written_is_found_before_the_robot_moves(parameters, tmp_path, robot_link, capsys):
@@ -157,7 +168,18 @@ def test_sentences_of_the_robot_are_told_once():
                          notifications=(Notification("low_battery", 2, "The battery is at 9 %."),))
     for _ in range(3):
         display.on_status(status)
-    assert stream.getvalue() == "robot warning (planner): A box.\nrobot warning: The battery is at 9 %.\n"
+    assert stream.getvalue() == "robot warning: A box.\nrobot warning: The battery is at 9 %.\n"
+
+
+def test_what_a_starting_robot_still_lacks_is_not_told():
+    stream = io.StringIO()
+    display = Display(SCENARIOS["autolock"], stream)
+    status = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, mode=Mode.STARTING,
+                         notifications=(Notification("not_localized", 3, "Stand still."),))
+    display.on_status(status)
+    assert stream.getvalue() == ""
+    display.on_status(replace(status, mode=Mode.FAULT))
+    assert stream.getvalue() == "robot error: Stand still.\n"
 
 
 def test_sentence_that_returns_is_told_again():
@@ -177,7 +199,60 @@ def test_terminal_gets_a_bar():
     display = Display(SCENARIOS["autolock"], stream)
     display.on_plan(2, 8)
     display.on_action("approach until the Car unlocks")
-    display.on_result({"axis": 3, "unlock_status": "ok", "lock_status": "ok", "reason": ""}, 3, 8)
+    display.on_result({"axis": 3, "side": "rear_left", "unlock_status": "ok", "unlock_distance_m": 1.2351,
+                       "unlock_uncertainty_m": 0.0321, "lock_status": "not_reached", "lock_distance_m": None,
+                       "lock_uncertainty_m": None, "reason": ""}, 3, 8)
     display.close()
-    assert "3/8" in stream.getvalue()
-    assert "axis 3: ok, ok" in stream.getvalue()
+    assert "3 of 8" in stream.getvalue()
+    assert "[3/8] axis 3 (rear left): unlock 123.5 \N{PLUS-MINUS SIGN} 3.2 cm, lock not reached" in stream.getvalue()
+
+
+def test_ctrl_c_while_the_report_is_written_completes_it(parameters, tmp_path, monkeypatch, capsys):
+    def interrupted(*arguments):
+        os.kill(os.getpid(), signal.SIGINT)
+        write_report(*arguments)
+    monkeypatch.setattr("mtr_operator.cli.measuring.write_report", interrupted)
+    assert run("autolock", parameters, tmp_path / "out") == 130
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
+        "progress.json", "protocol.png", "results.csv"]
+    assert "the results are complete" in capsys.readouterr().err
+
+
+def test_second_ctrl_c_breaks_off_and_keeps_the_lines(parameters, tmp_path, world, robot_link):
+    def interrupt(status):
+        if status.id in (200, 201):
+            os.kill(os.getpid(), signal.SIGINT)
+        return status
+    world.spoil = interrupt
+    assert run("autolock", parameters, tmp_path / "out") == 130
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["progress.json"]
+    assert robot_link.closed
+
+
+def test_ctrl_c_before_anything_has_begun_is_no_traceback(monkeypatch, capsys):
+    def interrupt(_):
+        raise KeyboardInterrupt
+    monkeypatch.setattr("mtr_operator.cli.commands.run_command", interrupt)
+    assert main(["params", "autolock"]) == 130
+    assert capsys.readouterr().err == "Interrupted.\n"
+
+
+@pytest.mark.parametrize(("arguments", "part"), [
+    ([], "required: COMMAND"), (["run", "autolock"], "required: --params, --out"),
+    (["run", "autolock", "--params", "a", "--out", "b", "--publisher-port", "x"], "'x' is not a whole number")])
+def test_wrong_usage_is_one_line(capsys, arguments, part):
+    with pytest.raises(SystemExit) as caught:
+        main(arguments)
+    told = capsys.readouterr().err
+    assert caught.value.code == 2
+    assert part in told and told.count("\n") == 1
+
+
+def test_missing_package_of_the_contract_is_named(tmp_path, monkeypatch, capsys):
+    path = tmp_path / "parameters.yaml"
+    path.write_text("", encoding="utf-8")
+    for name in [name for name in sys.modules if name.startswith(("mtr_proto", "mtr_operator.robot_link"))]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "mtr_proto", None)
+    assert run("autolock", path, tmp_path / "out", "--simulated-car") == 2
+    assert "mtr_proto" in capsys.readouterr().err

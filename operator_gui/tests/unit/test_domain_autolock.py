@@ -6,7 +6,7 @@ import pytest
 
 from mtr_operator.domain.errors import LinkLost, RobotFailed
 from mtr_operator.domain.observer import RunObserver
-from mtr_operator.domain.ports import CarDimensions, Direction, Mode
+from mtr_operator.domain.ports import KEY_BUTTON, CarDimensions, Direction, Mode
 from mtr_operator.domain.progress import Progress
 from mtr_operator.domain.scenarios.autolock import SCENARIO
 from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
@@ -67,6 +67,22 @@ def test_car_that_never_locks_again_is_not_reached_and_then_invalid(run_scenario
     assert (results[0]["unlock_status"], results[0]["lock_status"]) == ("ok", "not_reached")
     assert set(statuses(results[1:], "unlock")) == {"invalid"}
     assert "still unlocked 10 s after" in results[1]["reason"]
+
+
+def test_car_found_unlocked_is_invalid_and_says_what_to_do(run_scenario, world):
+    world.locked, world.lock_m = False, 99.0
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert set(statuses(results, "unlock")) == set(statuses(results, "lock")) == {"invalid"}
+    assert "lock it with its key, or increase maximum_distance_m" in results[0]["reason"]
+
+
+@pytest.mark.parametrize("spoilt", ["unlock", "lock"])
+def test_change_by_a_button_is_no_answer_to_the_keys_vicinity(run_scenario, world, spoilt):
+    pressed_when_locked = spoilt == "lock"
+    world.source_of = lambda source: KEY_BUTTON if world.locked is pressed_when_locked else source
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert statuses(results, spoilt) == 8 * ["invalid"]
+    assert "by the button of a key" in results[0]["reason"]
 
 
 def test_unlocking_on_the_way_of_straightening_counts(run_scenario, world):
@@ -169,9 +185,9 @@ def test_new_robot_is_led_through_mapping(run_scenario, world):
             actions.append(text)
 
     assert len(run_scenario(SCENARIO, PARAMETERS, observer=Listener())) == 8
-    assert actions[:4] == ["wait for robot and Car", "move the key to 1 m", "map the Car",
+    assert actions[:4] == ["wait for robot and Car", "move the key to 100 cm", "map the Car",
                            "axis 1 (front): go to the start"]
-    assert actions[-1] == "done"
+    assert actions[-1] == "the robot stands still"
 
 
 def test_robot_that_cannot_find_the_car_is_an_error(run_scenario, world):

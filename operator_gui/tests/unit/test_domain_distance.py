@@ -85,3 +85,14 @@ def test_outline_sigma_is_half_the_dimension_along_the_axis():
 def test_gap_to_the_outline():
     assert distance_to_outline(Ray(0.0, 0.0, 1.0, 0.0), 3.0, CAR) == pytest.approx(0.75)
     assert distance_to_outline(Ray(0.0, 0.0, 0.0, 1.0), 0.5, CAR) == 0.0
+
+
+def test_uncertainty_takes_the_position_along_the_ray_when_the_robot_says_it():
+    sample = PoseSample(1.0, Pose(0.0, 3.0, -math.pi / 2), 0.0, 0.2, 0.0, 0.25, 0.0, (0.04, 0.0009, 0.0))
+    assert measure(LEFT, sample, 0.0).uncertainty_m == pytest.approx(0.03)
+
+
+def test_uncertainty_on_an_oblique_ray_counts_the_covariance():
+    ray = Ray(0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
+    sample = PoseSample(1.0, Pose(2.0, 2.0, -3 * math.pi / 4), 0.0, 0.2, 0.0, 0.25, 0.0, (0.01, 0.01, -0.009))
+    assert measure(ray, sample, 0.0).uncertainty_m == pytest.approx(math.sqrt(0.001))

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.errors import InvalidParameter
-from mtr_operator.domain.ports import CarDimensions
+from mtr_operator.domain.ports import PASSIVE_ENTRY, CarDimensions
 from mtr_operator.domain.scenarios.key_press import SCENARIO
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 
@@ -70,6 +70,28 @@ def test_each_place_gets_all_its_attempts(run_scenario):
 def test_reaction_after_the_time_limit_does_not_count(run_scenario):
     results = run_scenario(SCENARIO, replace(PARAMETERS, response_timeout_s=0.1, press_duration_s=0.05))
     assert results[0]["status"] == "not_reached"
+
+
+def test_change_by_the_keys_vicinity_is_no_answer_to_a_press(run_scenario, world):
+    world.source_of = lambda source: PASSIVE_ENTRY
+    result = run_scenario(SCENARIO, PARAMETERS)[0]
+    assert (result["status"], result["distance_m"], result["failed_distance_m"]) == ("invalid", None, 5.5)
+    assert result["reason"] == ("The Car was unlocked by the vicinity of a key, not by the press at 5.00 m; switch "
+                                "passive entry off, or increase minimum_distance_m.")
+
+
+def test_line_spoilt_once_by_the_keys_vicinity_is_measured_again(run_scenario, world):
+    sources = [PASSIVE_ENTRY]
+    world.source_of = lambda source: sources.pop() if sources else source
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert [result["status"] for result in run_scenario.saved[3]] == ["invalid", "ok", "ok", "ok"]
+    assert [result["status"] for result in results] == 4 * ["ok"]
+    assert results[0]["distance_m"] == pytest.approx(5.0)
+
+
+def test_car_that_does_not_name_the_source_is_believed(run_scenario, world):
+    world.source_of = lambda source: ""
+    assert [result["status"] for result in run_scenario(SCENARIO, PARAMETERS)] == 4 * ["ok"]
 
 
 def test_press_that_the_robot_cannot_make_is_invalid(run_scenario, world):

@@ -44,6 +44,9 @@ def test_autolock_violation_is_a_sentence_with_name_value_and_range(values, part
     ({"angle_between_radials_deg": 0}, ["angle_between_radials_deg", "0 deg"]),
     ({"attempts": 1.5}, ["attempts", "1.5", "whole numbers"]),
     ({"attempts": 0}, ["attempts", "0", "1 to 20"]),
+    ({"attempts": math.nan}, ["attempts", "nan", "1 to 20"]),
+    ({"attempts": math.inf}, ["attempts", "inf", "1 to 20"]),
+    ({"minimum_distance_m": 10 ** 400}, ["minimum_distance_m", "1000", "...", "0 to 20 m"]),
     ({"press_strength": 1.01}, ["press_strength", "1.01", "0.05 to 1"]),
     ({"minimum_distance_m": 7.0}, ["minimum_distance_m is 7 m", "at most", "6.5 m"]),
     ({"straightening_distance_m": 3.6}, ["straightening_distance_m is 3.6 m", "3.5 m"]),
@@ -122,6 +125,14 @@ def test_missing_and_binary_parameter_files_are_sentences(tmp_path):
     path.write_bytes(b"\xff\xfe\x00\x81")
     with pytest.raises(InvalidParameter, match="not a text file"):
         load_parameters(path, AutolockParameters)
+
+
+@pytest.mark.parametrize(("key", "value", "text"), [
+    ("key_height_m", 1.024, "102.4 cm"), ("maximum_speed_mps", 1.0, "3.6 km/h"), ("minimum_distance_m", 3.0, "3 m"),
+    ("angle_between_radials_deg", 45.0, "45\N{DEGREE SIGN}"), ("attempts", 2, "2")])
+def test_operator_reads_centimetres_degrees_and_kilometres_per_hour(key, value, text):
+    declared = {item.file_key: item for item in KeyPressParameters.declarations().values()}
+    assert declared[key].shown_text(value) == text
 
 
 def test_json_and_empty_files_are_parameter_files(tmp_path):

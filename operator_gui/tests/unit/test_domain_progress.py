@@ -9,7 +9,7 @@ from mtr_operator.domain.ports import CarDimensions
 from mtr_operator.domain.progress import Progress
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
-from mtr_operator.storage.atomic import prepare_folder, write_bytes
+from mtr_operator.storage.atomic import output_folder, write_bytes
 from mtr_operator.storage.progress_file import load_progress, refuse_to_overwrite, save_progress
 
 SCENARIO = SCENARIOS["key_press"]
@@ -65,6 +65,11 @@ def edited(path, **changes):
     ({"results": [result(1), result(1)]}, "damaged"),
     ({"results": [result("1")]}, "damaged"),
     ({"results": {"a": 1}}, "damaged"),
+    ({"results": [{**result(1), "distance_m": "far"}]}, "damaged"),
+    ({"results": [{**result(1), "distance_m": None}]}, "damaged"),
+    ({"results": [{**result(1), "status": "fine"}]}, "damaged"),
+    ({"results": [{**result(1), "reason": None}]}, "damaged"),
+    ({"retried": 3}, "damaged"),
     ({"car": None}, "damaged"),
     ({"car": {"length": 4.5}}, "damaged"),
     ({"car": {"length": "x", "width": 1, "length_sigma": 0, "width_sigma": 0}}, "damaged"),
@@ -79,7 +84,8 @@ def test_file_that_does_not_fit_is_a_sentence(path, changes, part):
     assert str(path) in str(caught.value)
 
 
-@pytest.mark.parametrize("content", [b"", b"[]", b"null", b"{", b"\xff\xfe", b"[" * 100000, b"radial,angle_deg\n1,0\n"])
+@pytest.mark.parametrize("content", [b"", b"[]", b"null", b"{", b"\xff\xfe", b"[" * 100000, b'{"a": NaN}',
+                                     b"radial,angle_deg\n1,0\n"])
 def test_foreign_content_is_a_sentence(path, content):
     path.write_bytes(content)
     with pytest.raises(ProgressFileError, match="truncated or not a JSON file|not a progress file"):
@@ -110,6 +116,12 @@ def test_measured_lines_are_not_overwritten(path):
         refuse_to_overwrite(path)
 
 
+def test_reports_without_their_progress_file_are_not_overwritten(tmp_path):
+    (tmp_path / "results.csv").write_text("", encoding="utf-8")
+    with pytest.raises(OutputError, match=r"holds results\.csv of another test"):
+        refuse_to_overwrite(tmp_path / "progress.json", ["results.csv"])
+
+
 def test_file_without_lines_may_be_overwritten(path, tmp_path):
     edited(path, results=[])
     refuse_to_overwrite(path)
@@ -131,10 +143,33 @@ def test_interrupted_write_leaves_the_former_file(path, monkeypatch, progress):
 def test_folder_that_cannot_be_written_is_a_sentence(tmp_path):
     file = tmp_path / "file"
     file.write_text("x", encoding="utf-8")
-    with pytest.raises(OutputError, match="cannot be written to the folder"):
-        prepare_folder(file / "folder")
+    with pytest.raises(OutputError, match="cannot be written to the folder"), output_folder(file / "folder"):
+        pass
     with pytest.raises(OutputError, match="cannot be written"):
         write_bytes(file / "results.csv", b"")
+
+
+def test_folder_is_made_with_its_parents_and_goes_when_nothing_is_left_in_it(tmp_path):
+    with pytest.raises(RuntimeError), output_folder(tmp_path / "a" / "b"):
+        assert (tmp_path / "a" / "b").is_dir()
+        raise RuntimeError
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_folder_stays_when_something_is_in_it_or_it_was_there(tmp_path):
+    with pytest.raises(RuntimeError), output_folder(tmp_path / "a" / "b"):
+        (tmp_path / "a" / "progress.json").write_text("", encoding="utf-8")
+        raise RuntimeError
+    assert [path.name for path in tmp_path.rglob("*")] == ["a", "progress.json"]
+
+
+def test_interrupted_write_leaves_no_part_of_a_file(path, monkeypatch, progress):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+    monkeypatch.setattr("os.replace", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        save_progress(path, progress)
+    assert len(list(path.parent.iterdir())) == 1
 
 
 def test_numbers_that_are_none_are_refused_by_the_file_format(tmp_path, progress):

@@ -7,6 +7,7 @@ import pytest
 from mtr_operator.domain.car import Car
 from mtr_operator.domain.errors import ConnectionFailed, LinkLost, RobotFailed
 from mtr_operator.domain.ports import Direction, Notification
+from mtr_operator.domain.preparation import prepare
 from mtr_operator.domain.ray import Ray
 from mtr_operator.domain.robot import Robot
 from mtr_operator.domain.session import Session
@@ -51,9 +52,10 @@ def test_lasting_silence_is_a_lost_link(session, world):
         session.step()
 
 
-def test_robot_that_never_speaks_is_a_lost_link(session, world):
+def test_robot_that_never_speaks_is_a_lost_link_and_says_what_came_instead(session, world, robot_link):
     world.spoil = lambda status: None
-    with pytest.raises(LinkLost):
+    robot_link.statistics.last_error = "A message was ignored: 3 bytes are no Status."
+    with pytest.raises(LinkLost, match="no Status has come for 10 s; .* 3 bytes are no Status"):
         session.status.stamp_s  # noqa: B018
 
 
@@ -76,7 +78,7 @@ def test_halt_stops_a_moving_robot_and_answers_its_last_status(session, robot_li
     for _ in range(3):
         session.step()
     assert session.status.speed_mps > 0
-    session.halt()
+    assert session.halt()
     assert session.status.speed_mps == 0
     assert robot_link.answers[-1][0] == session.status.id
     assert robot_link.answers[-1][1].stop
@@ -85,7 +87,7 @@ def test_halt_stops_a_moving_robot_and_answers_its_last_status(session, robot_li
 def test_halt_gives_up_on_a_silent_robot(session, world):
     session.step()
     world.spoil = lambda status: None
-    session.halt()
+    assert session.halt() is False
 
 
 def test_restart_of_the_robot_ends_the_test(session, world):
@@ -93,6 +95,29 @@ def test_restart_of_the_robot_ends_the_test(session, world):
     world.spoil = lambda status: replace(status, robot_session_id=8)
     with pytest.raises(RobotFailed, match="started anew"):
         session.step()
+
+
+def test_robot_in_other_hands_is_an_error(session, spoil, car_link):
+    spoil(lambda status: True, controlled_by_other=True)
+    with pytest.raises(RobotFailed, match="controlled by another application; end that one"):
+        prepare(session, Robot(session), Car(session), 1.0, 1.0)
+    assert session.desired.waypoint is None
+    assert session.halt() is None
+
+
+def test_robot_that_another_application_takes_over_ends_the_test(session, spoil):
+    spoil(lambda status: status.id <= 2, session_id=4)
+    session.step()
+    spoil(lambda status: status.id > 2, session_id=5, controlled_by_other=True)
+    session.step()
+    with pytest.raises(RobotFailed, match="taken over"):
+        session.step()
+
+
+def test_robot_that_is_given_free_in_time_is_prepared(session, spoil):
+    spoil(lambda status: status.stamp_s < 5.0, controlled_by_other=True)
+    prepare(session, Robot(session), Car(session), 1.0, 1.0)
+    assert session.now_s > 5.0
 
 
 @pytest.mark.parametrize(("changes", "part"), [
@@ -145,7 +170,7 @@ def test_press_that_is_never_confirmed_makes_the_line_invalid(session, spoil):
 
 def test_key_that_does_not_reach_its_height_is_an_error(session, spoil):
     spoil(lambda status: True, key_height_m=0.4)
-    with pytest.raises(RobotFailed, match=r"height of 1 m .* 0\.40 m"):
+    with pytest.raises(RobotFailed, match=r"height of 100 cm .* 40 cm"):
         Robot(session).move_key_to(1.0)
 
 

@@ -1,10 +1,11 @@
 """The link's behaviour on the wire, against a server that sends what the test says."""
 # SPDX-License-Identifier: Apache-2.0
 import time
+from dataclasses import replace
 
 import pytest
 
-from mtr_operator.domain.ports import DesiredState, RobotStatus, Waypoint
+from mtr_operator.domain.ports import DesiredState, PressConfirmation, RobotStatus, Waypoint, WaypointResult
 from mtr_operator.robot_link.client import ZmqRobotLink
 from mtr_operator.robot_link.conversions import decode_command, status_message_from
 from mtr_operator.robot_link.inbox import MAXIMUM_BACKLOG
@@ -22,7 +23,10 @@ class Robot:
 
     def send(self, status_id, robot_session_id=1):
         """Send a Status."""
-        status = RobotStatus(status_id, robot_session_id, status_id / 10)
+        self.send_status(RobotStatus(status_id, robot_session_id, status_id / 10))
+
+    def send_status(self, status):
+        """Send this Status."""
         self.send_bytes(status_message_from(status).SerializeToString())
 
     def send_bytes(self, *parts):
@@ -167,3 +171,16 @@ def test_each_link_has_a_session_of_its_own():
     sessions = {ZmqRobotLink("127.0.0.1").session_id for _ in range(20)}
     assert len(sessions) == 20
     assert all(0 < session < 2 ** 63 for session in sessions)
+
+
+def test_confirmations_of_another_session_are_not_taken_for_ours(robot):
+    foreign = RobotStatus(2, 1, 0.2, session_id=robot.link.session_id + 1, command_id=3, waypoint_id=1,
+                          waypoint_result=WaypointResult.REACHED, presses=(PressConfirmation(1, 0.1, 0.15),))
+    robot.send_status(foreign)
+    status = robot.take()
+    assert status.controlled_by_other
+    assert (status.waypoint_id, status.waypoint_result, status.presses) == (0, WaypointResult.NONE, ())
+    robot.send_status(replace(foreign, id=3, session_id=robot.link.session_id))
+    status = robot.take()
+    assert not status.controlled_by_other
+    assert (status.waypoint_id, status.waypoint_result) == (1, WaypointResult.REACHED)

@@ -22,7 +22,8 @@ DESIRED = [
 
 STATUS = ports.RobotStatus(
     id=11, robot_session_id=2 ** 62, stamp_s=100.02, x=1.5, y=-0.5, heading=0.25, speed_mps=-0.5, yaw_rate_radps=0.125,
-    pose_valid=True, position_sigma_m=0.25, heading_sigma_rad=0.0625, key_x=0.25, key_y=0.5, key_height_m=1.0,
+    pose_valid=True, position_sigma_m=0.25, variance_x_m2=0.5, variance_y_m2=0.125,
+    covariance_xy_m2=-0.25, heading_sigma_rad=0.0625, key_x=0.25, key_y=0.5, key_height_m=1.0,
     pressed_buttons=(1, 2), localization_accuracy_cm=2, battery_percent=80, is_mapping_car=True,
     mode=ports.Mode.MAPPING_CAR, car=ports.CarDimensions(4.5, 1.75, 0.25, 0.125), session_id=2 ** 63 - 1, command_id=5,
     waypoint_id=4, waypoint_result=ports.WaypointResult.REFUSED, waypoint_message="Too close.",
@@ -85,5 +86,5 @@ def test_other_bytes_are_undecodable(payload):
 @pytest.mark.parametrize("message", ["Command", "RobotState"])
 def test_every_status_field_of_the_proto_is_read(message):
     """A field added to the proto must be thought of here."""
-    known = {"Command": 12, "RobotState": 16}
+    known = {"Command": 12, "RobotState": 19}
     assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]

@@ -4,12 +4,17 @@ import csv
 import struct
 
 import pytest
+from matplotlib.figure import Figure
 
+from mtr_operator.domain.picture import Picture, Stretch
 from mtr_operator.domain.ports import CarDimensions
 from mtr_operator.domain.progress import Progress
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.report.files import write_report
+from mtr_operator.report.protocol_panel import date_text
+from mtr_operator.report.protocol_png import label_stretches
 from mtr_operator.report.results_csv import results_csv
+from mtr_operator.report.table import results_table
 
 HEADERS = {
     "autolock": "axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unlock_status,unlock_distance_m,"
@@ -59,6 +64,41 @@ def test_metadata_names_parameters_units_version_profile_and_reasons():
                  "# parameter maximum_distance_m: 4 m", "# parameter measuring_speed_mps: not set",
                  "# column unlock_distance_m [m]: ", "# axis 3 is invalid: Bus off.", "# Car length: 4.500 m"):
         assert part in text
+
+
+def test_table_shows_centimetres_and_says_why_a_line_is_invalid():
+    results = [axis(1), axis(12, "ok", "not_reached"), axis(13, "invalid", "invalid", "Bus off.")]
+    assert list(results_table(SCENARIOS["autolock"], results)) == [
+        "axis        unlock      cm  \N{PLUS-MINUS SIGN} cm  lock            cm  \N{PLUS-MINUS SIGN} cm",
+        "   1  left  ok       123.5   3.0  ok           200.0",
+        "  12  left  ok       123.5   3.0  not reached",
+        "  13  left  invalid               invalid",
+        "axis 13 (left) is invalid: Bus off."]
+
+
+@pytest.mark.parametrize(("started", "shown"), [
+    ("2020-02-03T04:05:06+00:00", "2020-02-03  04:05  (UTC+00:00)"),
+    ("2020-02-03T04:05:06-03:30", "2020-02-03  04:05  (UTC-03:30)"),
+    ("2020-02-03T04:05:06", "2020-02-03  04:05"), ("yesterday", "yesterday")])
+def test_date_of_the_protocol_says_its_time_zone(started, shown):
+    assert date_text(started) == shown
+
+
+def test_uncertainty_is_drawn_along_the_axis():
+    scenario = SCENARIOS["autolock"]
+    picture = scenario.picture(scenario.parameters_type(), CarDimensions(4.5, 1.8, 0.02, 0.01), [axis(1), axis(2)])
+    unlocked, locked = picture.point_sets[:2]
+    near, far = unlocked.bars[0]
+    assert (near, far) == (pytest.approx((0.0, 0.9 + 1.20456)), pytest.approx((0.0, 0.9 + 1.26456)))
+    assert (len(unlocked.bars), locked.bars) == (2, ())
+
+
+def test_labels_that_would_touch_are_left_out():
+    axes = Figure().add_axes((0, 0, 1, 1))
+    axes.set_ylim(-8.0, 8.0)
+    stretches = tuple(Stretch((3.0, 0.0), (6.0, 0.02 * number), str(number)) for number in range(100))
+    label_stretches(axes, Picture(stretches, ()))
+    assert 2 < len(axes.texts) < 10
 
 
 def test_file_is_read_back_by_a_csv_reader(tmp_path):

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import logging
 import os
+import stat
 import time
 from dataclasses import dataclass, field
 from typing import Any
@@ -19,6 +21,9 @@ _HIGHEST_BITRATE = 1_000_000
 # Time in which an slcan adapter answers the commands that open it.
 _ANSWER_LIMIT_S = 1.0
 _POLL_S = 0.05
+
+# Drivers log what their exceptions say too, and hints for programmers.
+logging.getLogger("can").addHandler(logging.NullHandler())
 
 
 @dataclass(frozen=True)
@@ -48,8 +53,8 @@ class AdapterSettings:
 
 def open_adapter(settings: AdapterSettings) -> can.BusABC:
     """Open the adapter, or raise ConnectionFailed."""
-    if settings.interface == SLCAN and settings.channel.startswith("/") and not os.path.exists(settings.channel):
-        raise ConnectionFailed(f"There is no CAN adapter at {settings.channel}; check the channel and the USB plug.")
+    if settings.interface == SLCAN and settings.channel.startswith("/"):
+        _check_device(settings.channel)
     try:
         if settings.interface != SLCAN:
             return can.Bus(interface=settings.interface, channel=settings.channel, bitrate=settings.bitrate_bps,
@@ -57,7 +62,8 @@ def open_adapter(settings: AdapterSettings) -> can.BusABC:
         bus = StampedSlcanBus(settings.channel, bitrate=settings.bitrate_bps, **settings.options)
     # Drivers raise whatever their vendor's library does.
     except Exception as error:
-        raise ConnectionFailed(f"Cannot open the {settings}: {' '.join(str(error).split())}.") from None
+        raise ConnectionFailed(f"Cannot open the {settings} at {settings.bitrate_bps} bit/s: {_one_line(error)}.") \
+            from None
     try:
         _wait_for_answer(bus, settings)
     except BaseException:
@@ -75,6 +81,17 @@ def shut_down(bus: can.BusABC) -> None:
         serial_port = getattr(bus, "serialPortOrig", None)
         if serial_port is not None:
             serial_port.close()
+
+
+def _check_device(path: str) -> None:
+    if not os.path.exists(path):
+        raise ConnectionFailed(f"There is no CAN adapter at {path}; check the channel and the USB plug.")
+    if not stat.S_ISCHR(os.stat(path).st_mode):
+        raise ConnectionFailed(f"{path} is no serial port; give the CAN adapter's, e.g. /dev/ttyACM0.")
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split()).rstrip(".")
 
 
 def _wait_for_answer(bus: StampedSlcanBus, settings: AdapterSettings) -> None:

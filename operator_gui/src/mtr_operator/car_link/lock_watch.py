@@ -12,7 +12,7 @@ from .adapter_clock import AdapterClockMap, StampUnwrapper
 from .arrival_clock import ArrivalClockMap
 from .clock_map import ClockMap
 from .liveness import Liveness
-from .profile import CarProfile
+from .profile import CarProfile, LockReading
 
 # Kept small against the cycle, so that "caught up" means the same frame whatever the small error of the map.
 _CATCH_UP_MARGIN_S = 0.003
@@ -37,7 +37,7 @@ class CanFrame:
 class _Change:
     local_s: float
     previous_local_s: float
-    state: LockState
+    reading: LockReading
 
 
 class LockWatch:
@@ -80,10 +80,10 @@ class LockWatch:
         # A late frame does not set the time back; NaN before the first frame.
         self._newest_s = max(local_s, self._newest_s)
         self._map.frame(local_s)
-        state = self._profile.decode(frame.can_id, frame.is_extended, frame.data)
-        self._liveness.frame(is_lock_message=state is not None)
-        if state is not None:
-            self._follow(local_s, state)
+        reading = self._profile.decode(frame.can_id, frame.is_extended, frame.data)
+        self._liveness.frame(is_lock_message=reading is not None)
+        if reading is not None:
+            self._follow(local_s, reading)
 
     def status(self, status: RobotStatus, arrival_s: float) -> None:
         """Take a Status, before waiting for the frames that precede it."""
@@ -112,7 +112,7 @@ class LockWatch:
         while self._changes and self._map.is_ready \
                 and self._map.to_robot(self._changes[0].local_s) <= self._stamp_s:
             change = self._changes.popleft()
-            self._released_state = change.state
+            self._released_state = change.reading.state
             events.append(self._event(change))
         self.lock_state = LockState.UNKNOWN if self._liveness.problem else self._released_state
         return events
@@ -126,12 +126,12 @@ class LockWatch:
             return "The clock of the CAN frames is not mapped to the robot's yet; this takes about two seconds."
         return ""
 
-    def _follow(self, local_s: float, state: LockState) -> None:
+    def _follow(self, local_s: float, reading: LockReading) -> None:
         if self._state is None:
-            self._released_state = state
-        elif state is not self._state:
-            self._changes.append(_Change(local_s, self._state_s, state))
-        self._state, self._state_s = state, local_s
+            self._released_state = reading.state
+        elif reading.state is not self._state:
+            self._changes.append(_Change(local_s, self._state_s, reading))
+        self._state, self._state_s = reading.state, local_s
 
     def _event(self, change: _Change) -> CarEvent:
         # A cyclic message shows a change that happened at any time since the message before.
@@ -139,4 +139,5 @@ class LockWatch:
         gap_s = time_s - self._map.to_robot(change.previous_local_s)
         vague = not self._profile.sent_on_change or gap_s > _LOST_CYCLES * self._profile.cycle_time_s
         spread_s = gap_s if vague else 0.0
-        return CarEvent(time_s - spread_s / 2, math.hypot(self._map.sigma_s, spread_s / math.sqrt(12.0)), change.state)
+        sigma_s = math.hypot(self._map.sigma_s, spread_s / math.sqrt(12.0))
+        return CarEvent(time_s - spread_s / 2, sigma_s, change.reading.state, change.reading.source)

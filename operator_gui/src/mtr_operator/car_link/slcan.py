@@ -12,6 +12,7 @@ import time
 from typing import Any
 
 import can
+import serial
 from can.exceptions import error_check
 from can.interfaces.slcan import slcanBus
 
@@ -44,6 +45,14 @@ class StampedSlcanBus(slcanBus):
         self.answers = 0
         self.malformed = 0
         super().__init__(channel, timeout=_SERIAL_TIMEOUT_S, **{"sleep_after_open": 0.0, **options})
+
+    def set_bitrate(self, bitrate: int, data_bitrate: int | None = None) -> None:
+        """The first thing that the driver does; an adapter of another program is left alone."""
+        try:
+            self.serialPortOrig.exclusive = True
+        except serial.SerialException:
+            raise can.CanInitializationError("another program uses it") from None
+        super().set_bitrate(bitrate, data_bitrate)
 
     def open(self) -> None:
         """Open the channel with time stamps; an adapter without them refuses Z1 and opens all the same."""

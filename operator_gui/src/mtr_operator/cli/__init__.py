@@ -1,5 +1,5 @@
 """The application without a window."""
 # SPDX-License-Identifier: Apache-2.0
-from .commands import main
+from .entry import main
 
 __all__ = ["main"]

@@ -4,14 +4,27 @@ from __future__ import annotations
 
 import argparse
 import pathlib
+import sys
+from typing import NoReturn
 
 from mtr_operator import __version__
 from mtr_operator.domain.scenarios import SCENARIOS
 
+EXIT_USAGE = 2
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        """See ArgumentParser."""
+        print(f"{message[:1].upper()}{message[1:]}; {self.prog} --help lists what there is.", file=sys.stderr)
+        sys.exit(EXIT_USAGE)
+
 
 def argument_parser() -> argparse.ArgumentParser:
     """Parser of all commands."""
-    parser = argparse.ArgumentParser(prog="mtr-operator", description="Measures where a car's remote key works.")
+    parser = _Parser(prog="mtr-operator", description="Measures where a car's remote key works.")
     parser.add_argument("--version", action="version", version=__version__)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     _add_params(commands.add_parser("params", help="list the parameters of a scenario"))
@@ -31,9 +44,9 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
                         help="progress.json of an interrupted test to go on with")
     robot = parser.add_argument_group("robot")
     robot.add_argument("--robot", default="127.0.0.1", metavar="HOST", help="address, default %(default)s")
-    robot.add_argument("--subscriber-port", type=int, default=3334, metavar="N",
+    robot.add_argument("--subscriber-port", type=_whole_number, default=3334, metavar="N",
                        help="TCP port of Status, default %(default)s")
-    robot.add_argument("--publisher-port", type=int, default=3333, metavar="N",
+    robot.add_argument("--publisher-port", type=_whole_number, default=3333, metavar="N",
                        help="TCP port of Command, default %(default)s")
     robot.add_argument("--simulated-robot", action="store_true", help="use a substitute inside the application")
     car = parser.add_argument_group("Car")
@@ -41,9 +54,17 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
                      help="python-can interface: pcan, socketcan, slcan, ...; default %(default)s")
     car.add_argument("--can-channel", default="PCAN_USBBUS1", metavar="NAME",
                      help="channel or device of the adapter, default %(default)s")
-    car.add_argument("--can-bitrate", type=int, default=500000, metavar="N", help="bit/s, default %(default)s")
+    car.add_argument("--can-bitrate", type=_whole_number, default=500000, metavar="N",
+                     help="bit/s, default %(default)s")
     car.add_argument("--car-profile", default="mtr_demo_car", metavar="NAME_OR_PATH",
                      help="how the Car's bus tells its lock state, default %(default)s")
     car.add_argument("--simulated-car", action="store_true", help="use a substitute inside the application")
-    parser.add_argument("--seed", type=int, default=1, metavar="N",
+    parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",
                         help="of the substitutes' random numbers, default %(default)s")
+
+
+def _whole_number(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number") from None

@@ -11,25 +11,26 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.trouble import Cancelled
 
 from .arguments import argument_parser
-from .measuring import run_test
+from .entry import EXIT_INTERRUPTED
+from .measuring import Measuring
 
 EXIT_ERROR = 2
-EXIT_INTERRUPTED = 130
 
 
-def main(arguments: list[str] | None = None) -> int:
+def run_command(arguments: list[str] | None = None) -> int:
     """Run the command line; the exit code."""
+    _accept_any_character()
     options = argument_parser().parse_args(arguments)
     try:
         if options.command == "params":
             list_parameters(options)
         else:
-            run_test(options)
+            Measuring(options).run()
     except OperatorError as error:
         print(error, file=sys.stderr)
         return EXIT_ERROR
-    except (Cancelled, KeyboardInterrupt):
-        print("Interrupted.", file=sys.stderr)
+    except Cancelled as reason:
+        print(reason, file=sys.stderr)
         return EXIT_INTERRUPTED
     return 0
 
@@ -43,3 +44,10 @@ def list_parameters(options: argparse.Namespace) -> None:
     widths = [max(len(row[column]) for row in rows) for column in range(3)]
     for row in rows:
         print("  ".join([*(cell.ljust(width) for cell, width in zip(row, widths)), row[3]]))
+
+
+def _accept_any_character() -> None:
+    # A terminal that knows no degree sign must not end a test.
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")

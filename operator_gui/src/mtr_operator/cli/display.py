@@ -8,11 +8,13 @@ from typing import Any, Mapping, TextIO
 import tqdm
 
 from mtr_operator.domain.observer import RunObserver
-from mtr_operator.domain.ports import RobotStatus
-from mtr_operator.domain.scenario import REASON, Scenario
+from mtr_operator.domain.ports import Mode, RobotStatus
+from mtr_operator.domain.scenario import Scenario
+from mtr_operator.report.table import line_text
 
-_SEVERITY = {1: "info", 2: "warning", 3: "error"}
+_SEVERITY = {2: " warning", 3: " error"}
 _SILENCE_REPEATED_S = 10.0
+_BAR = "{n_fmt} of {total_fmt} |{bar:20}| {remaining} left{postfix}"
 
 
 class Display(RunObserver):
@@ -35,24 +37,21 @@ class Display(RunObserver):
 
     def on_plan(self, done: int, total: int) -> None:
         """See RunObserver."""
-        self._say(f"{total - done} of {total} lines to measure")
+        self.say(f"{total - done} of {total} lines to measure")
         if self._stream.isatty():
             self._bar = tqdm.tqdm(total=total, initial=done, unit=self._scenario.line_word, file=self._stream,
-                                  dynamic_ncols=True)
+                                  dynamic_ncols=True, bar_format=_BAR)
 
     def on_action(self, text: str) -> None:
         """See RunObserver."""
         if self._bar is not None:
             self._bar.set_postfix_str(text)
         else:
-            self._say(text)
+            self.say(text)
 
     def on_result(self, result: Mapping[str, Any], done: int, total: int) -> None:
         """See RunObserver."""
-        scenario = self._scenario
-        states = ", ".join(result[column] for column in scenario.status_columns)
-        reason = f": {result[REASON]}" if result[REASON] else ""
-        self._say(f"[{done}/{total}] {scenario.line_word} {result[scenario.line_word]}: {states}{reason}")
+        self.say(f"[{done}/{total}] {line_text(self._scenario, result)}")
         if self._bar is not None:
             self._bar.update(done - self._bar.n)
 
@@ -65,21 +64,30 @@ class Display(RunObserver):
         for message in status.log:
             if message.id not in self._logged:
                 self._logged.add(message.id)
-                self._say(f"robot {_SEVERITY.get(message.severity, '')} ({message.source}): {message.text}")
-        current = {notification.code: notification for notification in status.notifications}
-        for code, notification in current.items():
-            if self._notified.get(code) != notification.text:
-                self._say(f"robot {_SEVERITY.get(notification.severity, '')}: {notification.text}")
-        self._notified = {code: notification.text for code, notification in current.items()}
+                self._tell(message.severity, message.text)
+        # Until it has started it lacks this and that; what stays is told then, or in the error that ends the test.
+        if status.mode is not Mode.STARTING:
+            self._notify(status)
 
     def on_link_silent(self, silent_s: float) -> None:
         """See RunObserver."""
         if not self._silence_shown_s or silent_s - self._silence_shown_s >= _SILENCE_REPEATED_S:
             self._silence_shown_s = silent_s
-            self._say(f"no answer from the robot for {silent_s:.0f} s, still trying")
+            self.say(f"no answer from the robot for {silent_s:.0f} s, still trying")
 
-    def _say(self, text: str) -> None:
+    def say(self, text: str) -> None:
+        """Show a line."""
         if self._bar is not None:
             self._bar.write(text, file=self._stream)
         else:
             print(text, file=self._stream, flush=True)
+
+    def _notify(self, status: RobotStatus) -> None:
+        current = {notification.code: notification for notification in status.notifications}
+        for code, notification in current.items():
+            if self._notified.get(code) != notification.text:
+                self._tell(notification.severity, notification.text)
+        self._notified = {code: notification.text for code, notification in current.items()}
+
+    def _tell(self, severity: int, text: str) -> None:
+        self.say(f"robot{_SEVERITY.get(severity, '')}: {' '.join(text.split())}")

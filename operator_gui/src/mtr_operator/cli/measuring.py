@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import contextlib
 import datetime
-import sys
 from typing import Any
 
 from mtr_operator import __version__
@@ -15,9 +14,10 @@ from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.session import Session
 from mtr_operator.domain.trouble import Cancelled
-from mtr_operator.report.files import write_report
+from mtr_operator.report.files import FILE_NAMES, write_report
+from mtr_operator.report.table import results_table
 from mtr_operator.storage import progress_file
-from mtr_operator.storage.atomic import prepare_folder
+from mtr_operator.storage.atomic import output_folder
 from mtr_operator.storage.parameter_file import load_parameters
 
 from .display import Display
@@ -25,13 +25,8 @@ from .interrupt import Interrupt
 from .links import car_link, robot_link
 
 
-def run_test(options: argparse.Namespace) -> None:
-    """Run the test that the command line asks for; OperatorError or Cancelled when it does not come to its end."""
-    Measuring(options).run()
-
-
 class Measuring:
-    """A test that the command line asks for. Making it reads and checks the files, and changes nothing."""
+    """A test that the command line asks for. Making it checks options and files, and changes nothing."""
 
     def __init__(self, options: argparse.Namespace):
         self._options = options
@@ -39,25 +34,30 @@ class Measuring:
         self._parameters = load_parameters(options.params, self._scenario.parameters_type)
         self._progress_path = options.out / progress_file.FILE_NAME
         self._progress = self._begin()
+        self._car = car_link(options)
+        self._robot = robot_link(options)
 
     def run(self) -> None:
-        """Measure what is left and write the report."""
-        prepare_folder(self._options.out)
+        """Measure what is left and write the report; OperatorError or Cancelled when it does not come to its end."""
         with contextlib.closing(Display(self._scenario)) as display, Interrupt() as interrupt:
-            try:
-                self._measure(display, interrupt)
-            except BaseException:
-                self._keep()
-                raise
-            display.close()
-            self._save(self._progress)
-            write_report(self._options.out, self._scenario, self._parameters, self._progress)
-        self._say_summary()
+            with output_folder(self._options.out):
+                try:
+                    self._measure(display, interrupt)
+                    display.close()
+                    self._save(self._progress)
+                    write_report(self._options.out, self._scenario, self._parameters, self._progress)
+                except BaseException:
+                    display.close()
+                    self._keep(display)
+                    raise
+            self._say_results()
+            if interrupt.requested:
+                raise Cancelled("Interrupted when all lines were measured; the results are complete.")
 
     def _begin(self) -> Progress:
         continued, path = self._options.continued, self._progress_path
         if continued is None or continued.resolve() != path.resolve():
-            progress_file.refuse_to_overwrite(path)
+            progress_file.refuse_to_overwrite(path, FILE_NAMES)
         parameters = self._parameters.to_mapping()
         if continued is None:
             return Progress(self._scenario.name, parameters, _session_data(self._options))
@@ -66,30 +66,33 @@ class Measuring:
         return progress
 
     def _measure(self, display: Display, interrupt: Interrupt) -> None:
-        with contextlib.closing(car_link(self._options)) as car, contextlib.closing(robot_link(self._options)) as robot:
-            car.connect()
-            robot.connect()
-            if interrupt.requested:
-                raise Cancelled("The Operator ended the test.")
+        with contextlib.closing(self._car) as car, contextlib.closing(self._robot) as robot:
+            for link in (car, robot):
+                link.connect()
+                if interrupt.requested:
+                    raise Cancelled("Interrupted; the robot was not moved.")
             session = Session(robot, car, display, interrupt.is_requested)
+            rejected_before = session.status.rejected_messages
             self._progress.session["robot software"] = session.status.software_version
             try:
                 Runner(self._scenario, self._parameters, session, self._progress, self._save).run()
             finally:
-                _say_statistics(robot, session)
+                _say_statistics(display, robot, session.status.rejected_messages - rejected_before)
 
     def _save(self, progress: Progress) -> None:
         progress_file.save_progress(self._progress_path, progress)
 
-    def _keep(self) -> None:
+    def _keep(self, display: Display) -> None:
         """After a test that did not come to its end: keep what it has measured."""
-        if self._progress.results:
+        count = len(self._progress.results)
+        if count:
             self._save(self._progress)
-            print(f"{len(self._progress.results)} measured lines are kept; go on with --continue {self._progress_path}",
-                  file=sys.stderr)
+            display.say(f"{count} measured lines are kept; go on with --continue {self._progress_path}")
 
-    def _say_summary(self) -> None:
+    def _say_results(self) -> None:
         results = self._progress.results
+        for line in results_table(self._scenario, results):
+            print(line)
         invalid = sum(1 for result in results if self._scenario.invalid_count(result))
         tail = f", {invalid} of them invalid" if invalid else ""
         print(f"{len(results)} lines measured{tail}; results are in {self._options.out}.")
@@ -110,10 +113,9 @@ def _now() -> str:
     return datetime.datetime.now().astimezone().isoformat(timespec="seconds")
 
 
-def _say_statistics(robot: RobotLink, session: Session) -> None:
+def _say_statistics(display: Display, robot: RobotLink, rejected: int) -> None:
     ignored = robot.statistics.undecodable + robot.statistics.oversized
     if ignored:
-        print(f"{ignored} messages from the robot were ignored: {robot.statistics.last_error}", file=sys.stderr)
-    rejected = session.status.rejected_messages
-    if rejected:
-        print(f"The robot has rejected {rejected} messages since its start.", file=sys.stderr)
+        display.say(f"{ignored} messages from the robot were ignored: {robot.statistics.last_error}")
+    if rejected > 0:
+        display.say(f"The robot rejected {rejected} messages during the test.")

@@ -1,10 +1,12 @@
 """The distance of the Remote key on a ray at an instant, with its uncertainty.
 
-The uncertainty is 1 sigma, the root of the sum of squares of four independent parts along the ray:
-    position    localization's sigma of base_link,
-    heading     localization's sigma of the heading times the lever from base_link to the key across the ray,
+The uncertainty is 1 sigma, the root of the sum of squares of independent parts:
+    position    of base_link in the Car coordinate system along the ray, or in its worst direction when the robot does
+                not say more; the error of the Car's centre and heading is in it and is not added again,
+    heading     sigma of the heading times the lever from base_link to the key across the ray,
     time        sigma of the instant (the CAN message's cycle is part of it) times the robot's speed,
-    Car         half the sigma of the Car's length and width, as far as they move the ray's origin.
+    outline     half the sigma of the Car's length and width, as far as they move the ray's origin: what is missing
+                from the error of the Car's centre to that of the side that was seen.
 It is NaN when the robot does not say how well it knows its pose.
 """
 # SPDX-License-Identifier: Apache-2.0
@@ -32,9 +34,17 @@ def measure(ray: Ray, sample: PoseSample, time_sigma_s: float, origin_sigma_m: f
     key_in_base = (sample.key_x, sample.key_y)
     lever_x, lever_y = sample.pose.rotate(key_in_base)
     across_m = ray.direction_y * lever_x - ray.direction_x * lever_y
-    sigma_m = math.hypot(sample.position_sigma_m, sample.heading_sigma_rad * across_m,
+    sigma_m = math.hypot(position_sigma(ray, sample), sample.heading_sigma_rad * across_m,
                          time_sigma_s * sample.speed_mps, origin_sigma_m)
     return Distance(ray.distance_of(sample.pose.apply(key_in_base)), sigma_m, sample.stamp_s)
+
+
+def position_sigma(ray: Ray, sample: PoseSample) -> float:
+    """1 sigma of base_link along the ray, in m."""
+    variance_x, variance_y, covariance = sample.covariance
+    along = (ray.direction_x ** 2 * variance_x + ray.direction_y ** 2 * variance_y
+             + 2.0 * ray.direction_x * ray.direction_y * covariance)
+    return sample.position_sigma_m if math.isnan(along) else math.sqrt(max(along, 0.0))
 
 
 def outline_sigma(ray: Ray, car: CarDimensions) -> float:

@@ -15,6 +15,7 @@ import dataclasses
 import difflib
 import math
 import re
+import sys
 from dataclasses import dataclass
 from typing import Any, Mapping, TypeVar
 
@@ -23,12 +24,20 @@ from .errors import InvalidParameter
 Set = TypeVar("Set", bound="ParameterSet")
 # Rounding of a conversion such as 360 degrees to radians and back.
 _ROUNDING_DIGITS = 9
+_LONGEST_SHOWN = 60
+# Units in which the Operator reads what files hold in m and m/s.
+CENTIMETRES = ("cm", 100.0)
+KILOMETRES_PER_HOUR = ("km/h", 3.6)
+DEGREE = "\N{DEGREE SIGN}"
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
 
 
 @dataclass(frozen=True)
 class Declaration:
-    """One parameter as a person sees it: file_key, range and default are in the unit."""
+    """One parameter as it stands in a file: file_key, range and default are in the unit.
+
+    shown: unit in which a person reads it, and how many of it are one of the file's unit.
+    """
 
     file_key: str
     default: float | None
@@ -38,6 +47,7 @@ class Declaration:
     doc: str
     is_integer: bool
     si_per_unit: float
+    shown: tuple[str, float]
 
     @property
     def allowed(self) -> str:
@@ -50,12 +60,19 @@ class Declaration:
         if value is None and self.default is None:
             return None
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise InvalidParameter(f"Parameter {self.file_key} is {value!r}; {self._hint(value)}")
+            raise InvalidParameter(f"Parameter {self.file_key} is {_short(value)}; {self._hint(value)}")
+        if not abs(value) <= sys.float_info.max:
+            raise InvalidParameter(f"Parameter {self.file_key} is {_short(value)}; allowed is {self.allowed}.")
         if self.is_integer:
             if value != int(value):
                 raise InvalidParameter(f"Parameter {self.file_key} is {value:g}; allowed are {self.allowed}.")
             return int(value)
         return float(value) * self.si_per_unit
+
+    def shown_text(self, value: float) -> str:
+        """A value in the file's unit as a person reads it."""
+        unit, per_unit = self.shown
+        return with_unit(value * per_unit, unit)
 
     def to_unit(self, value: float | None) -> float | None:
         """Inverse of to_si."""
@@ -78,19 +95,25 @@ class Declaration:
 
 def with_unit(value: float, unit: str) -> str:
     """Number with its unit, if it has one."""
-    return f"{value:g} {unit}".rstrip()
+    gap = "" if unit == DEGREE else " "
+    return f"{value:g}{gap}{unit}".rstrip()
+
+
+def _short(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= _LONGEST_SHOWN else text[:_LONGEST_SHOWN] + "..."
 
 
 def parameter(default: Any, low: float, high: float, unit: str, doc: str, *, file_key: str = "",
-              si_per_unit: float = 1.0) -> Any:
+              si_per_unit: float = 1.0, shown: tuple[str, float] | None = None) -> Any:
     """Field of a ParameterSet; default, low and high in the unit of the file, the field's value in SI units.
 
-    file_key: name in files when it differs from the field's (because the unit does). A default of None is left to the
-    scenario.
+    file_key: name in files when it differs from the field's (because the unit does). shown: see Declaration; without it
+    a person reads the unit of the file. A default of None is left to the scenario.
     """
     is_integer = isinstance(default, int) and not isinstance(default, bool)
     value = default if default is None or is_integer else float(default) * si_per_unit
-    declared = Declaration(file_key, default, low, high, unit, doc, is_integer, si_per_unit)
+    declared = Declaration(file_key, default, low, high, unit, doc, is_integer, si_per_unit, shown or (unit, 1.0))
     return dataclasses.field(default=value, metadata={"declared": declared})
 
 

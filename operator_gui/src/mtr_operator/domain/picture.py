@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import enum
 from dataclasses import dataclass
-from typing import Iterator
+from typing import Any, Iterator, Mapping, Sequence
 
 from .pose import Point
+from .ray import Ray
 
 
 class Look(enum.Enum):
@@ -34,13 +35,14 @@ class PointSet:
     """Points with the same meaning.
 
     is_outline: they enclose an area, in this order; None stands for a line without a point, where the outline is not
-    known.
+    known. bars: 1 sigma to both sides of the points, where it is known.
     """
 
     label: str
     look: Look
     points: tuple[Point | None, ...]
     is_outline: bool = False
+    bars: tuple[tuple[Point, Point], ...] = ()
 
     @property
     def known(self) -> tuple[Point, ...]:
@@ -60,3 +62,11 @@ class Picture:
 
     stretches: tuple[Stretch, ...]
     point_sets: tuple[PointSet, ...]
+
+
+def bars_along(measured: Sequence[tuple[Mapping[str, Any], Ray]], distance: str,
+               uncertainty: str) -> tuple[tuple[Point, Point], ...]:
+    """Ends of 1 sigma to both sides of each point along its ray; distance, uncertainty: columns of the results."""
+    known = [(ray, result[distance], result[uncertainty]) for result, ray in measured
+             if result[distance] is not None and result[uncertainty] is not None]
+    return tuple((ray.point(middle_m - sigma_m), ray.point(middle_m + sigma_m)) for ray, middle_m, sigma_m in known)

@@ -52,6 +52,11 @@ class LockState(enum.Enum):
     UNLOCKED = "unlocked"
 
 
+# What made the Car lock or unlock: the key's vicinity, or one of its buttons.
+PASSIVE_ENTRY = "passive_entry"
+KEY_BUTTON = "key_button"
+
+
 @dataclass(frozen=True)
 class Waypoint:
     """A pose of base_link to reach; id is unique within the session and never 0."""
@@ -127,7 +132,10 @@ class LogMessage:
 
 @dataclass(frozen=True)
 class RobotStatus:
-    """One Status message. NaN or None where the robot did not say."""
+    """One Status message. NaN or None where the robot did not say.
+
+    controlled_by_other: another application has the robot; the confirmations are absent then.
+    """
 
     id: int
     robot_session_id: int
@@ -139,6 +147,9 @@ class RobotStatus:
     yaw_rate_radps: float = 0.0
     pose_valid: bool = False
     position_sigma_m: float = math.nan
+    variance_x_m2: float = math.nan
+    variance_y_m2: float = math.nan
+    covariance_xy_m2: float = math.nan
     heading_sigma_rad: float = math.nan
     key_x: float = 0.0
     key_y: float = 0.0
@@ -150,6 +161,7 @@ class RobotStatus:
     mode: Mode = Mode.UNKNOWN
     car: CarDimensions | None = None
     session_id: int = 0
+    controlled_by_other: bool = False
     command_id: int = 0
     waypoint_id: int = 0
     waypoint_result: WaypointResult = WaypointResult.NONE
@@ -164,11 +176,16 @@ class RobotStatus:
 
 @dataclass(frozen=True)
 class CarEvent:
-    """The Car's locks changed. time_s: robot's clock; time_sigma_s: 1 sigma of that time."""
+    """The Car's locks changed.
+
+    time_s: robot's clock; time_sigma_s: 1 sigma of that time. source: PASSIVE_ENTRY or KEY_BUTTON, empty when the
+    Car's bus does not say it.
+    """
 
     time_s: float
     time_sigma_s: float
     lock_state: LockState
+    source: str = ""
 
 
 @dataclass

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import bisect
+import math
 from collections import deque
 from dataclasses import dataclass
 
@@ -21,7 +22,10 @@ class PoseUnknown(Exception):
 
 @dataclass(frozen=True)
 class PoseSample:
-    """Pose of base_link in the Car coordinate system at an instant of robot time, with what a distance needs of it."""
+    """Pose of base_link in the Car coordinate system at an instant of robot time, with what a distance needs of it.
+
+    covariance: variance along x, along y, and covariance of the two, in m2; NaN when the robot does not say.
+    """
 
     stamp_s: float
     pose: Pose
@@ -30,6 +34,7 @@ class PoseSample:
     heading_sigma_rad: float
     key_x: float
     key_y: float
+    covariance: tuple[float, float, float] = (math.nan, math.nan, math.nan)
 
 
 class PoseHistory:
@@ -44,7 +49,8 @@ class PoseHistory:
             return
         self._samples.append(PoseSample(
             status.stamp_s, Pose(status.x, status.y, status.heading), status.speed_mps, status.position_sigma_m,
-            status.heading_sigma_rad, status.key_x, status.key_y))
+            status.heading_sigma_rad, status.key_x, status.key_y,
+            (status.variance_x_m2, status.variance_y_m2, status.covariance_xy_m2)))
         while status.stamp_s - self._samples[0].stamp_s > KEPT_S:
             self._samples.popleft()
 
@@ -74,4 +80,4 @@ def _between(a: PoseSample, b: PoseSample, part: float, time_s: float) -> PoseSa
     turn = wrap_angle(b.pose.heading - a.pose.heading)
     pose = Pose(mix(a.pose.x, b.pose.x), mix(a.pose.y, b.pose.y), wrap_angle(a.pose.heading + part * turn))
     return PoseSample(time_s, pose, mix(a.speed_mps, b.speed_mps), max(a.position_sigma_m, b.position_sigma_m),
-                      max(a.heading_sigma_rad, b.heading_sigma_rad), b.key_x, b.key_y)
+                      max(a.heading_sigma_rad, b.heading_sigma_rad), b.key_x, b.key_y, b.covariance)

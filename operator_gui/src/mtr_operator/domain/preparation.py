@@ -14,6 +14,8 @@ from .session import Session
 # Robot times after which waiting is in vain.
 START_LIMIT_S = 60.0
 MAPPING_LIMIT_S = 600.0
+# A robot gives a silent application up after 3 s, and lets the next one take over.
+CONTROL_LIMIT_S = 10.0
 # The first waypoint makes the robot map the Car; before that nobody knows how long the Car is, so it lies well ahead.
 _AHEAD_OF_CAR = Ray(0.0, 0.0, 1.0, 0.0)
 _AHEAD_M = 5.0
@@ -24,7 +26,8 @@ def prepare(session: Session, robot: Robot, car: Car, key_height_m: float, maxim
     robot.say("wait for robot and Car")
     _wait_until(session, START_LIMIT_S, "did not start", _has_started)
     car.prepare()
-    robot.say(f"move the key to {key_height_m:g} m")
+    _wait_for_control(session)
+    robot.say(f"move the key to {100.0 * key_height_m:g} cm")
     robot.set_maximum_speed(maximum_speed_mps)
     robot.move_key_to(key_height_m)
     if not _is_ready(session.status):
@@ -39,6 +42,14 @@ def _has_started(status: RobotStatus) -> bool:
 
 def _is_ready(status: RobotStatus) -> bool:
     return status.mode is Mode.FOLLOWING_WAYPOINT and status.car is not None and status.pose_valid
+
+
+def _wait_for_control(session: Session) -> None:
+    until_s = session.now_s + CONTROL_LIMIT_S
+    while session.status.controlled_by_other:
+        if session.now_s >= until_s:
+            raise RobotFailed("The robot is controlled by another application; end that one, then start again.")
+        session.step()
 
 
 def _wait_until(session: Session, limit_s: float, failure: str, condition: Callable[[RobotStatus], bool]) -> None:

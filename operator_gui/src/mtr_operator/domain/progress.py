@@ -8,7 +8,7 @@ from typing import Any
 
 from .errors import ProgressFileError
 from .ports import CarDimensions
-from .scenario import Result, Scenario
+from .scenario import REASON, LineStatus, Result, Scenario
 
 FORMAT = "mtr-operator progress"
 VERSION = 1
@@ -86,7 +86,9 @@ def progress_from_document(document: Any, scenario: Scenario, parameters: dict[s
         progress = Progress(scenario.name, parameters, dict(document["session"]),
                             None if car is None else CarDimensions(**{name: float(car[name]) for name in car}),
                             list(document["results"]), [int(number) for number in document["retried"]])
-        _check_results(progress, scenario)
+        _check_lines(progress, scenario)
+        for result in progress.results:
+            _check_result(result, scenario)
     except (KeyError, TypeError, ValueError, AttributeError):
         raise ProgressFileError("It is damaged: parts of it are missing or of the wrong kind.") from None
     return progress
@@ -101,12 +103,26 @@ def _check_parameters(stored: Any, wanted: dict[str, Any]) -> None:
                                     f"now it is {wanted.get(name)}.")
 
 
-def _check_results(progress: Progress, scenario: Scenario) -> None:
+def _check_lines(progress: Progress, scenario: Scenario) -> None:
     if progress.results and progress.car is None:
         raise ValueError("results without a Car")
     numbers = progress.measured(scenario)
     if numbers != sorted(set(numbers)) or not all(isinstance(number, int) for number in numbers):
         raise ValueError("numbers of the lines")
-    for result in progress.results:
-        for column in scenario.columns:
-            result[column.name]
+
+
+def _check_result(result: Result, scenario: Scenario) -> None:
+    for column in scenario.columns:
+        value = result[column.name]
+        if column.unit and not (value is None or _is_number(value)):
+            raise TypeError(column.name)
+    if not isinstance(result[REASON], str):
+        raise TypeError(REASON)
+    for measurement in scenario.measurements:
+        is_measured = LineStatus(result[measurement.status]) is LineStatus.OK
+        if is_measured and not _is_number(result[measurement.distance]):
+            raise TypeError(measurement.distance)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)

@@ -92,8 +92,8 @@ class Robot:
         until_s = self.now_s + HEIGHT_LIMIT_S
         while not abs(self._session.step().key_height_m - height_m) <= tolerance_m:
             if self.now_s >= until_s:
-                raise RobotFailed(f"The Remote key did not reach the height of {height_m:g} m within "
-                                  f"{HEIGHT_LIMIT_S:g} s; it is at {self._session.status.key_height_m:.2f} m.")
+                raise RobotFailed(f"The Remote key did not reach the height of {100.0 * height_m:g} cm within "
+                                  f"{HEIGHT_LIMIT_S:g} s; it is at {100.0 * self._session.status.key_height_m:.0f} cm.")
 
     def press(self, button: int, strength: float, duration_s: float) -> PressConfirmation:
         """Press a button once; returns when the press is over, LineInvalid when it could not be pressed."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, Callable
 
 from .car import Car
+from .errors import ProgressFileError
 from .parameters import ParameterSet
 from .preparation import prepare
 from .progress import Progress
@@ -32,13 +33,18 @@ class Runner:
 
     def run(self) -> None:
         """Measure all lines, the invalid ones once more at the end; the robot stands still afterwards in any case."""
+        parameters = self._parameters
         try:
-            parameters = self._parameters
             prepare(self._session, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
             self._measure(self._lines())
         finally:
-            self._session.halt()
-        self._robot.say("done")
+            self._halt()
+
+    def _halt(self) -> None:
+        stands = self._session.halt()
+        if stands is not None:
+            self._robot.say("the robot stands still" if stands else "the robot does not confirm that it stands still; "
+                            "without an application it stops by itself")
 
     def _lines(self) -> list[Any]:
         mapped = self._car.dimensions()
@@ -50,6 +56,9 @@ class Runner:
         by_number = {line.number: line for line in lines}
         self._total = len(lines)
         done = self._progress.measured(self._scenario)
+        if not set(done) <= set(by_number):
+            raise ProgressFileError(f"The progress file holds {self._scenario.line_word} {max(done)}; this test has "
+                                    f"{self._total}.")
         self._session.observer.on_plan(len(done), self._total)
         for number, line in by_number.items():
             if number not in done:
@@ -61,5 +70,6 @@ class Runner:
         self._car.wait_until_heard()
         result = self._scenario.measure(line, self._parameters, self._robot, self._car)
         self._progress.record(self._scenario, result)
-        self._save(self._progress)
+        # Shown first, so that it is not lost for the Operator when it cannot be saved.
         self._session.observer.on_result(result, len(self._progress.results), self._total)
+        self._save(self._progress)

@@ -40,6 +40,19 @@ class Column:
     digits: int = 4
 
 
+@dataclass(frozen=True)
+class Measurement:
+    """One distance of a line.
+
+    word: what it is called beside the line, "unlock". status, distance, uncertainty (1 sigma): its columns.
+    """
+
+    word: str
+    status: str
+    distance: str
+    uncertainty: str
+
+
 class Scenario(ABC, Generic[Parameters, Line]):
     """One kind of test. Stateless: everything it needs is handed in.
 
@@ -49,7 +62,7 @@ class Scenario(ABC, Generic[Parameters, Line]):
         line_word: what a line is called, "axis"; also the name of the first column, which numbers the lines from 1.
         parameters_type: its ParameterSet. It has to have key_height_m and maximum_speed_mps.
         columns: of results.csv.
-        status_columns: columns that hold a LineStatus.
+        measurements: distances of a line, in the order of being measured.
     """
 
     name: str
@@ -57,7 +70,7 @@ class Scenario(ABC, Generic[Parameters, Line]):
     line_word: str
     parameters_type: type[Parameters]
     columns: tuple[Column, ...]
-    status_columns: tuple[str, ...]
+    measurements: tuple[Measurement, ...]
 
     @abstractmethod
     def lines(self, parameters: Parameters, car: CarDimensions) -> list[Line]:
@@ -70,6 +83,15 @@ class Scenario(ABC, Generic[Parameters, Line]):
     @abstractmethod
     def picture(self, parameters: Parameters, car: CarDimensions, results: Sequence[Result]) -> Picture:
         """What the protocol shows."""
+
+    @abstractmethod
+    def place_of(self, result: Result) -> str:
+        """Where the line of a result lies, for a person: "front right", "45°"."""
+
+    @property
+    def status_columns(self) -> tuple[str, ...]:
+        """Columns that hold a LineStatus."""
+        return tuple(measurement.status for measurement in self.measurements)
 
     def number_of(self, result: Result) -> int:
         """Number of the line that a result belongs to."""

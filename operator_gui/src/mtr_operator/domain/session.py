@@ -20,6 +20,8 @@ from .trouble import Cancelled, LineInvalid, trouble_between
 RESEND_PERIOD_S = 0.2
 # Wall time of silence at which a test ends; an interruption of the Wi-Fi is shorter.
 SILENCE_LIMIT_S = 30.0
+# Wall time within which the first Status has to come.
+FIRST_STATUS_LIMIT_S = 10.0
 # Silence that a view is told of.
 _SILENCE_SHOWN_S = 1.0
 # Robot time that stopping may take, and the speed at which the robot stands.
@@ -50,6 +52,7 @@ class Session:
         self._is_cancelled = is_cancelled
         self._status: RobotStatus | None = None
         self._watched = False
+        self._was_in_control = False
 
     @property
     def status(self) -> RobotStatus:
@@ -76,7 +79,7 @@ class Session:
         """Answer the newest Status and take the next one; Cancelled when the Operator wants to end."""
         status = self._exchange()
         if self._is_cancelled():
-            raise Cancelled("The Operator ended the test.")
+            raise Cancelled("The test was interrupted.")
         return status
 
     @contextlib.contextmanager
@@ -92,23 +95,27 @@ class Session:
         """Why nothing can be measured now; empty when it can."""
         return trouble_between(None, self.status, self._car_link)
 
-    def halt(self) -> None:
-        """Stop the robot and wait a while until it stands; never raises for want of an answer."""
+    def halt(self) -> bool | None:
+        """Stop the robot and wait a while; True when it says that it stands, None when it is not ours to stop.
+
+        Never raises for want of an answer.
+        """
         self.change(stop=True, press=None)
-        if self._status is None:
-            return
+        if self._status is None or self._status.controlled_by_other:
+            return None
         until_s = self.now_s + _STOP_LIMIT_S
+        stands = False
         with contextlib.suppress(LinkLost, RobotFailed, Cancelled):
-            while self._exchange(patience_s=_STOP_LIMIT_S).stamp_s < until_s:
-                if abs(self.status.speed_mps) < _STANDING_MPS:
-                    break
+            while not stands and self._exchange(patience_s=_STOP_LIMIT_S).stamp_s < until_s:
+                stands = abs(self.status.speed_mps) < _STANDING_MPS
             self._robot_link.send(self.desired)
+        return stands
 
     def _exchange(self, patience_s: float = SILENCE_LIMIT_S) -> RobotStatus:
         before = self._status
         if before is not None:
             self._robot_link.send(self.desired)
-        status = self._next_status(patience_s)
+        status = self._next_status(FIRST_STATUS_LIMIT_S if before is None else patience_s)
         restarted = before is not None and (status.robot_session_id != before.robot_session_id
                                             or status.stamp_s < before.stamp_s)
         if restarted:
@@ -121,6 +128,7 @@ class Session:
         if restarted:
             raise RobotFailed("The robot started anew during the test; the measured lines are kept, go on with a "
                               "continued test.")
+        self._check_control(status)
         self._check(before, status)
         return status
 
@@ -134,10 +142,18 @@ class Session:
             if silent_s >= _SILENCE_SHOWN_S:
                 self.observer.on_link_silent(silent_s)
             if self._is_cancelled() and silent_s >= _STOP_LIMIT_S:
-                raise Cancelled("The Operator ended the test.")
+                raise Cancelled("The test was interrupted.")
             if self._status is not None:
                 self._robot_link.send(self.desired)
+        if self._status is None:
+            raise LinkLost(f"The robot's ports are open, but no Status has come for {silent_s:.0f} s; check that both "
+                           f"ports are the robot's. {self._robot_link.statistics.last_error}".rstrip())
         raise LinkLost(f"The robot has been silent for {silent_s:.0f} s; check the Wi-Fi and that its software runs.")
+
+    def _check_control(self, status: RobotStatus) -> None:
+        if status.controlled_by_other and self._was_in_control:
+            raise RobotFailed("Another application has taken over the control of the robot.")
+        self._was_in_control = self._was_in_control or (status.session_id != 0 and not status.controlled_by_other)
 
     def _check(self, before: RobotStatus | None, status: RobotStatus) -> None:
         if self._watched:

@@ -14,6 +14,8 @@ _GLASS = {"facecolor": "#8fa3b8", "edgecolor": "#39424e", "linewidth": 0.7}
 _LAMP = {"facecolor": "#f7e7a1", "edgecolor": "#39424e", "linewidth": 0.6}
 _TAIL_LAMP = {"facecolor": "#c0392b", "edgecolor": "#39424e", "linewidth": 0.6}
 _ROUNDING_PART = 0.16
+# Five bold letters are about 3.9 times as wide as their size.
+_LARGEST_FONT, _FONT_PART = 7.0, 0.2
 
 # Parts as polygons: (part of the half length towards the front, part of the half width towards the left).
 _WINDSCREEN = ((0.38, -0.80), (0.38, 0.80), (0.14, 0.66), (0.14, -0.66))
@@ -23,7 +25,7 @@ _HEADLAMP = ((0.97, 0.42), (0.94, 0.78), (0.86, 0.86), (0.90, 0.46))
 _TAIL = ((-0.985, 0.50), (-0.955, 0.84), (-0.91, 0.90), (-0.94, 0.52))
 
 
-def draw_car(axes: Axes, car: CarDimensions) -> None:
+def draw_car(axes: Axes, car: CarDimensions, points_per_m: float) -> None:
     """Draw the Car; axes have y of the Car coordinate system across (growing to the left) and x upwards."""
     half_length, half_width = car.length / 2.0, car.width / 2.0
     rounding = _ROUNDING_PART * car.width
@@ -35,7 +37,8 @@ def draw_car(axes: Axes, car: CarDimensions) -> None:
     for part, look in ((_HEADLAMP, _LAMP), (_TAIL, _TAIL_LAMP)):
         for side in (part, _mirrored(part)):
             axes.add_patch(Polygon(_scaled(side, half_length, half_width), closed=True, zorder=4, **look))
-    axes.text(0.0, 0.66 * half_length, "FRONT", ha="center", va="center", fontsize=7, color="#39424e", zorder=5,
+    font_size = min(_LARGEST_FONT, _FONT_PART * car.width * points_per_m)
+    axes.text(0.0, 0.66 * half_length, "FRONT", ha="center", va="center", fontsize=font_size, color="#39424e", zorder=5,
               fontweight="bold")
 
 

@@ -11,6 +11,8 @@ from mtr_operator.storage.atomic import write_bytes
 
 from . import protocol_png, results_csv
 
+FILE_NAMES = (results_csv.FILE_NAME, protocol_png.FILE_NAME)
+
 
 def write_report(folder: pathlib.Path, scenario: Scenario, parameters: ParameterSet, progress: Progress) -> None:
     """Write results.csv and protocol.png; OutputError when it fails."""

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import dataclasses
 import math
 import secrets
 import threading
@@ -10,7 +11,7 @@ import time
 import zmq
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import DesiredState, LinkStatistics, RobotLink, RobotStatus
+from mtr_operator.domain.ports import DesiredState, LinkStatistics, RobotLink, RobotStatus, WaypointResult
 
 from . import sockets
 from .address import PUBLISHER_PORT, SUBSCRIBER_PORT, RobotAddress
@@ -71,8 +72,8 @@ class ZmqRobotLink(RobotLink):
             self._receive_waiting()
             status = self._inbox.take()
             if status is not None:
-                self._seen = status
-                return status
+                self._seen = self._own_view(status)
+                return self._seen
             left_s = deadline - time.monotonic()
             if left_s <= 0 or not self._subscriber.poll(math.ceil(left_s * 1000)):
                 return None
@@ -98,6 +99,13 @@ class ZmqRobotLink(RobotLink):
         self._subscriber = None
         self._context.term()
         self._context = None
+
+    def _own_view(self, status: RobotStatus) -> RobotStatus:
+        """The Status without confirmations that are another session's: its ids count from 1 as ours do."""
+        if status.session_id in (0, self.session_id):
+            return status
+        return dataclasses.replace(status, controlled_by_other=True, command_id=0, waypoint_id=0,
+                                   waypoint_result=WaypointResult.NONE, waypoint_message="", presses=(), map_car_id=0)
 
     def _receive_waiting(self) -> None:
         while True:

@@ -104,6 +104,8 @@ def robot_status_from(message: pb.Status) -> ports.RobotStatus:
         x=_value(state, "x", math.nan), y=_value(state, "y", math.nan), heading=_value(state, "heading", math.nan),
         speed_mps=state.speed, yaw_rate_radps=state.yaw_rate_radps, pose_valid=state.pose_valid,
         position_sigma_m=_value(state, "position_sigma_m", math.nan),
+        variance_x_m2=_value(state, "variance_x_m2", math.nan), variance_y_m2=_value(state, "variance_y_m2", math.nan),
+        covariance_xy_m2=_value(state, "covariance_xy_m2", math.nan),
         heading_sigma_rad=_value(state, "heading_sigma_rad", math.nan),
         key_x=state.key_x, key_y=state.key_y, key_height_m=_value(state, "device_height", math.nan),
         pressed_buttons=tuple(state.pressed_device_buttons),
@@ -128,7 +130,9 @@ def status_message_from(status: ports.RobotStatus) -> pb.Status:
     for name, value in (("x", status.x), ("y", status.y), ("heading", status.heading),
                         ("device_height", status.key_height_m), ("position_sigma_m", status.position_sigma_m),
                         ("heading_sigma_rad", status.heading_sigma_rad), ("battery_level", status.battery_percent),
-                        ("localization_accuracy", status.localization_accuracy_cm)):
+                        ("localization_accuracy", status.localization_accuracy_cm),
+                        ("variance_x_m2", status.variance_x_m2), ("variance_y_m2", status.variance_y_m2),
+                        ("covariance_xy_m2", status.covariance_xy_m2)):
         if value is not None and not math.isnan(value):
             setattr(state, name, value)
     message = pb.Status(

@@ -6,23 +6,38 @@ import contextlib
 import os
 import pathlib
 import tempfile
+from typing import Iterator
 
 from mtr_operator.domain.errors import OutputError
 
 
-def prepare_folder(folder: pathlib.Path) -> None:
-    """Make the folder and try to write in it, before anything that could be lost exists; OutputError when it fails."""
+@contextlib.contextmanager
+def output_folder(folder: pathlib.Path) -> Iterator[None]:
+    """Context with a folder that can be written in; OutputError when it cannot.
+
+    Folders that were made for it go again when the body fails and has left nothing in them.
+    """
+    made: list[pathlib.Path] = []
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        raise OutputError(f"Results cannot be written to the folder {folder}: {_reason(error)}.") from None
+        try:
+            made += [place for place in (folder, *folder.parents) if not place.exists()]
+            folder.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryFile(dir=folder):
+                pass
+        except OSError as error:
+            raise OutputError(f"Results cannot be written to the folder {folder}: {_reason(error)}.") from None
+        yield
+    except BaseException:
+        for place in made:
+            with contextlib.suppress(OSError):
+                place.rmdir()
+        raise
 
 
 def write_bytes(path: pathlib.Path, content: bytes) -> None:
     """Replace the file by one with this content; returns when it is safe. OutputError when it fails."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
+    # Always the same name: what a killed application has left is overwritten by the next one.
+    temporary = path.with_name(f".{path.name}.part")
     try:
         with open(temporary, "wb") as file:
             file.write(content)
@@ -31,9 +46,16 @@ def write_bytes(path: pathlib.Path, content: bytes) -> None:
         os.replace(temporary, path)
         _sync_folder(path.parent)
     except OSError as error:
-        with contextlib.suppress(OSError):
-            temporary.unlink()
+        _remove(temporary)
         raise OutputError(f"The file {path} cannot be written: {_reason(error)}.") from None
+    except BaseException:
+        _remove(temporary)
+        raise
+
+
+def _remove(path: pathlib.Path) -> None:
+    with contextlib.suppress(OSError):
+        path.unlink()
 
 
 def _sync_folder(folder: pathlib.Path) -> None:

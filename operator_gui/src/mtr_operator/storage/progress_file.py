@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 import pathlib
-from typing import Any
+from typing import Any, NoReturn, Sequence
 
 from mtr_operator.domain.errors import OutputError, ProgressFileError
 from mtr_operator.domain.progress import Progress, progress_from_document
@@ -31,26 +32,35 @@ def load_progress(path: pathlib.Path, scenario: Scenario, parameters: dict[str, 
         raise ProgressFileError(f"The test cannot be continued from {path}. {error}") from None
 
 
-def refuse_to_overwrite(path: pathlib.Path) -> None:
-    """Raise OutputError when the file holds measured lines that a new test would replace."""
-    if not path.exists():
-        return
-    try:
-        document = _document(path)
-        is_empty = isinstance(document, dict) and not document.get("results")
-    except ProgressFileError:
-        is_empty = False
-    if not is_empty:
+def refuse_to_overwrite(path: pathlib.Path, report_names: Sequence[str] = ()) -> None:
+    """Raise OutputError when the file, or a report beside it, holds measured lines that a new test would replace."""
+    if os.path.lexists(path) and not _is_empty(path):
         raise OutputError(f"The folder {path.parent} holds results of another test; choose another folder, or continue "
                           f"that test with --continue {path}.")
+    for name in report_names:
+        if os.path.lexists(path.with_name(name)):
+            raise OutputError(f"The folder {path.parent} holds {name} of another test; choose another folder.")
+
+
+def _is_empty(path: pathlib.Path) -> bool:
+    try:
+        document = _document(path)
+    except ProgressFileError:
+        return False
+    return isinstance(document, dict) and not document.get("results")
 
 
 def _document(path: pathlib.Path) -> Any:
     try:
         if path.stat().st_size > MAXIMUM_BYTES:
             raise ProgressFileError(f"It is larger than {MAXIMUM_BYTES // 1024 ** 2} MiB.")
-        return json.loads(path.read_text(encoding="utf-8"))
+        return json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse_constant)
     except OSError as error:
         raise ProgressFileError(f"It cannot be read: {error.strerror or error}.") from None
     except (ValueError, RecursionError):
         raise ProgressFileError("It is truncated or not a JSON file.") from None
+
+
+def _refuse_constant(name: str) -> NoReturn:
+    # NaN and infinities are no JSON, and are never written.
+    raise ValueError(name)

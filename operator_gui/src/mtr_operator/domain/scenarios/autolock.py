@@ -8,12 +8,12 @@ from typing import Sequence
 from ..axes import Axis, axes_around
 from ..car import Car
 from ..distance import Distance, outline_sigma
-from ..picture import Look, Picture, PointSet, Stretch
-from ..ports import CarDimensions, CarEvent, Direction, LockState
+from ..picture import Look, Picture, PointSet, Stretch, bars_along
+from ..ports import KEY_BUTTON, CarDimensions, CarEvent, Direction, LockState
 from ..pose import Point
 from ..ray import Ray
 from ..robot import Robot
-from ..scenario import REASON, Column, LineStatus, Result, Scenario, distance_values
+from ..scenario import REASON, Column, LineStatus, Measurement, Result, Scenario, distance_values
 from ..trouble import LineInvalid
 from .autolock_parameters import AutolockParameters
 
@@ -35,7 +35,8 @@ class Autolock(Scenario[AutolockParameters, Axis]):
     title = "Autolock"
     line_word = "axis"
     parameters_type = AutolockParameters
-    status_columns = ("unlock_status", "lock_status")
+    measurements = tuple(Measurement(name, f"{name}_status", f"{name}_distance_m", f"{name}_uncertainty_m")
+                         for name in _MEASURED)
     columns = (
         Column("axis", "", "number of the axis, clockwise around the Car"),
         Column("side", "", "side or corner of the Car that the axis belongs to"),
@@ -77,7 +78,8 @@ class Autolock(Scenario[AutolockParameters, Axis]):
                              str(result["axis"])) for result, ray in rays]
         ends = (("unlock", Look.FIRST, Look.FIRST_FAILED, parameters.minimum_distance_m),
                 ("lock", Look.SECOND, Look.SECOND_FAILED, parameters.straightened_distance_m))
-        sets = [PointSet(f"{name.capitalize()}ed", look, _outline(rays, name), is_outline=True)
+        sets = [PointSet(f"{name.capitalize()}ed", look, _outline(rays, name), is_outline=True,
+                         bars=bars_along(rays, f"{name}_distance_m", f"{name}_uncertainty_m"))
                 for name, look, _, _ in ends]
         for name, _, look, distance_m in ends:
             points = tuple(ray.point(distance_m) for result, ray in rays
@@ -87,6 +89,10 @@ class Autolock(Scenario[AutolockParameters, Axis]):
                         if self.invalid_count(result))
         sets.append(PointSet("Invalid", Look.INVALID, invalid))
         return Picture(tuple(stretches), tuple(sets))
+
+    def place_of(self, result: Result) -> str:
+        """See Scenario."""
+        return str(result["side"]).replace("_", " ")
 
 
 def _go_to_start(line: Axis, parameters: AutolockParameters, robot: Robot, car: Car) -> None:
@@ -98,8 +104,10 @@ def _go_to_start(line: Axis, parameters: AutolockParameters, robot: Robot, car: 
     if robot.trouble():
         raise LineInvalid(robot.trouble())
     if not car.is_locked():
-        raise LineInvalid(f"The Car was still unlocked {parameters.lock_timeout_s:g} s after the robot had reached the "
-                          f"starting distance of {parameters.maximum_distance_m:g} m.")
+        raise LineInvalid(
+            f"The Car was still unlocked {parameters.lock_timeout_s:g} s after the robot had reached the starting "
+            f"distance of {parameters.maximum_distance_m:g} m; lock it with its key, or increase maximum_distance_m if "
+            "it locks farther away.")
 
 
 def _approach(axis: Ray, since_s: float, parameters: AutolockParameters, robot: Robot, car: Car) -> CarEvent | None:
@@ -130,6 +138,9 @@ def _record(measured: _Measured, event: CarEvent | None, axis: Ray, robot: Robot
     if event is None:
         measured.status = LineStatus.NOT_REACHED
         return
+    if event.source == KEY_BUTTON:
+        raise LineInvalid(f"The Car was {event.lock_state.value} by the button of a key, not by the Remote key's "
+                          "vicinity; leave the keys alone during the test.")
     measured.distance = robot.key_distance(axis, event.time_s, event.time_sigma_s, origin_sigma_m)
     measured.status = LineStatus.OK
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..errors import InvalidParameter
-from ..parameters import ParameterSet, parameter
+from ..parameters import CENTIMETRES, KILOMETRES_PER_HOUR, ParameterSet, parameter
 
 
 @dataclass(frozen=True)
@@ -17,10 +17,13 @@ class AutolockParameters(ParameterSet):
     straightening_distance_m: float = parameter(
         0.5, 0.0, 20.0, "m", "First piece of the approach, to correct the heading; the retreat ends where it ended.")
     measurements_distance_m: float = parameter(0.5, 0.05, 10.0, "m", "Distance between neighbouring axes of a side.")
-    key_height_m: float = parameter(1.0, 0.35, 1.55, "m", "Height of the Remote key above ground.")
-    maximum_speed_mps: float = parameter(1.0, 0.05, 2.0, "m/s", "Speed limit on the whole way.")
+    key_height_m: float = parameter(1.0, 0.35, 1.55, "m", "Height of the Remote key above ground.",
+                                    shown=CENTIMETRES)
+    maximum_speed_mps: float = parameter(1.0, 0.05, 2.0, "m/s", "Speed limit on the whole way.",
+                                         shown=KILOMETRES_PER_HOUR)
     measuring_speed_mps: float | None = parameter(
-        None, 0.05, 2.0, "m/s", "Speed limit while approaching and retreating; default: the maximum speed.")
+        None, 0.05, 2.0, "m/s", "Speed limit while approaching and retreating; default: the maximum speed.",
+        shown=KILOMETRES_PER_HOUR)
     clearance_m: float = parameter(
         0.3, 0.0, 5.0, "m", "Gap that has to remain between Remote key and Car.")
     response_timeout_s: float = parameter(

@@ -8,13 +8,13 @@ from typing import Sequence
 from ..car import Car
 from ..distance import Distance, distance_to_outline
 from ..errors import InvalidParameter
-from ..picture import Look, Picture, PointSet, Stretch
-from ..ports import CarDimensions, CarEvent, Direction, LockState
+from ..picture import Look, Picture, PointSet, Stretch, bars_along
+from ..ports import PASSIVE_ENTRY, CarDimensions, CarEvent, Direction, LockState
 from ..pose import Point
 from ..radials import Radial, radials_around
 from ..ray import Ray
 from ..robot import Robot
-from ..scenario import REASON, Column, LineStatus, Result, Scenario, distance_values
+from ..scenario import REASON, Column, LineStatus, Measurement, Result, Scenario, distance_values
 from ..trouble import LineInvalid
 from .key_press_parameters import KeyPressParameters
 
@@ -42,7 +42,7 @@ class KeyPress(Scenario[KeyPressParameters, Radial]):
     title = "Key press"
     line_word = "radial"
     parameters_type = KeyPressParameters
-    status_columns = ("status",)
+    measurements = (Measurement("press", "status", "distance_m", "uncertainty_m"),)
     columns = (
         Column("radial", "", "number of the radial, clockwise from the Car's front"),
         Column("angle_deg", "deg", "angle of the radial, clockwise from the Car's front", digits=3),
@@ -69,7 +69,7 @@ class KeyPress(Scenario[KeyPressParameters, Radial]):
     def measure(self, line: Radial, parameters: KeyPressParameters, robot: Robot, car: Car) -> Result:
         """The thesis' algorithm 1 for one radial."""
         measured = _Measured()
-        robot.say(f"radial {line.number} ({line.clockwise_deg:g} deg): go to the start")
+        robot.say(f"radial {line.number} ({line.clockwise_deg:g}\N{DEGREE SIGN}): go to the start")
         try:
             robot.go_to(line.ray, parameters.maximum_distance_m)
             robot.wait_until_reached()
@@ -91,13 +91,18 @@ class KeyPress(Scenario[KeyPressParameters, Radial]):
         rays = {radial.number: radial.ray for radial in radials_around(parameters.angle_between_radials_rad)}
         measured = [(result, rays[result["radial"]]) for result in results]
         stretches = tuple(Stretch(ray.point(parameters.minimum_distance_m), ray.point(parameters.maximum_distance_m),
-                                  f"{result['angle_deg']:g}\N{DEGREE SIGN}") for result, ray in measured)
+                                  self.place_of(result)) for result, ray in measured)
         invalid = tuple(ray.point(parameters.press_distances_m[0]) for result, ray in measured
                         if result["status"] == LineStatus.INVALID.value)
         return Picture(stretches, (
-            PointSet("Press worked", Look.FIRST, _places(measured, "distance_m"), is_outline=True),
+            PointSet("Press worked", Look.FIRST, _places(measured, "distance_m"), is_outline=True,
+                     bars=bars_along(measured, "distance_m", "uncertainty_m")),
             PointSet("Press failed", Look.FAILED, _places(measured, "failed_distance_m")),
             PointSet("Invalid", Look.INVALID, invalid)))
+
+    def place_of(self, result: Result) -> str:
+        """See Scenario."""
+        return f"{result['angle_deg']:g}\N{DEGREE SIGN}"
 
 
 def _press_here(radial: Ray, measured: _Measured, parameters: KeyPressParameters, robot: Robot, car: Car) -> bool:
@@ -115,6 +120,9 @@ def _press_here(radial: Ray, measured: _Measured, parameters: KeyPressParameters
         robot.wait(press.start_s + parameters.response_timeout_s - robot.now_s, or_when=obeyed)
         place = robot.key_distance(radial, press.start_s, 0.0)
         event = obeyed()
+        if event is not None and event.source == PASSIVE_ENTRY:
+            raise LineInvalid(f"The Car was {event.lock_state.value} by the vicinity of a key, not by the press at "
+                              f"{place.distance_m:.2f} m; switch passive entry off, or increase minimum_distance_m.")
         if event is not None and event.time_s <= press.start_s + parameters.response_timeout_s:
             measured.success = place
             return True

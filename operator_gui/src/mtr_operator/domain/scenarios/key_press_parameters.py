@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from ..errors import InvalidParameter
-from ..parameters import ParameterSet, parameter
+from ..parameters import CENTIMETRES, DEGREE, KILOMETRES_PER_HOUR, ParameterSet, parameter
 
 # Rounding of repeated steps must not skip a press at exactly the minimum distance.
 _ROUNDING_M = 1e-9
@@ -23,9 +23,11 @@ class KeyPressParameters(ParameterSet):
     approach_distance_m: float = parameter(0.5, 0.01, 20.0, "m", "Step towards the Car after a press without success.")
     angle_between_radials_rad: float = parameter(
         45.0, 1.0, 360.0, "deg", "Angle between neighbouring radials.", file_key="angle_between_radials_deg",
-        si_per_unit=math.pi / 180.0)
-    key_height_m: float = parameter(1.0, 0.35, 1.55, "m", "Height of the Remote key above ground.")
-    maximum_speed_mps: float = parameter(1.0, 0.05, 2.0, "m/s", "Speed limit on the whole way.")
+        si_per_unit=math.pi / 180.0, shown=(DEGREE, 1.0))
+    key_height_m: float = parameter(1.0, 0.35, 1.55, "m", "Height of the Remote key above ground.",
+                                    shown=CENTIMETRES)
+    maximum_speed_mps: float = parameter(1.0, 0.05, 2.0, "m/s", "Speed limit on the whole way.",
+                                         shown=KILOMETRES_PER_HOUR)
     press_strength: float = parameter(1.0, 0.05, 1.0, "", "Travel of the button: 1 is pressed down fully.")
     press_duration_s: float = parameter(0.3, 0.05, 5.0, "s", "How long the button is held down.")
     settle_time_s: float = parameter(0.3, 0.0, 60.0, "s", "Standstill before each press.")
