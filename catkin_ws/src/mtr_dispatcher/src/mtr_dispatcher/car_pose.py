@@ -16,9 +16,16 @@ class UncertainPose(NamedTuple):
 
 
 class CarPose(NamedTuple):
-    """Pose of base_link in the Car coordinate system; 1 sigma of the position in its worst direction."""
+    """Pose of base_link in the Car coordinate system, with the covariance of its position there.
+
+    Attributes:
+        position_sigma_m: 1 sigma in the worst direction.
+    """
 
     pose: Pose2
+    variance_x_m2: float
+    variance_y_m2: float
+    covariance_xy_m2: float
     position_sigma_m: float
     heading_sigma_rad: float
 
@@ -36,7 +43,12 @@ def base_in_car(base: UncertainPose, car: UncertainPose) -> CarPose:
     var_x = p[0] + q[0] + lever_x * lever_x * q[8] - 2.0 * lever_x * q[2]
     var_y = p[4] + q[4] + lever_y * lever_y * q[8] - 2.0 * lever_y * q[5]
     cov_xy = p[1] + q[1] + lever_x * lever_y * q[8] - lever_x * q[5] - lever_y * q[2]
-    return CarPose(car_from_base, _largest_sigma(var_x, var_y, cov_xy), _root(p[8] + q[8]))
+    cos, sin = math.cos(car.pose.heading), math.sin(car.pose.heading)
+    return CarPose(car_from_base,
+                   cos * cos * var_x + sin * sin * var_y + 2.0 * cos * sin * cov_xy,
+                   sin * sin * var_x + cos * cos * var_y - 2.0 * cos * sin * cov_xy,
+                   cos * sin * (var_y - var_x) + (cos * cos - sin * sin) * cov_xy,
+                   _largest_sigma(var_x, var_y, cov_xy), _root(p[8] + q[8]))
 
 
 def _largest_sigma(var_x: float, var_y: float, cov_xy: float) -> float:

@@ -8,7 +8,7 @@ import rospy
 from rosgraph_msgs.msg import Log
 
 from mtr_core import names, schedule
-from mtr_lockstep import Ticker, TickInput, clock, run_node
+from mtr_lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_msgs.msg import CarEstimate, DesiredState, LocalizedPose, MotionLock, PeripheralsState, RobotMode
 
 from .conversions import desired_message, lock_message
@@ -41,8 +41,8 @@ class DispatcherNode:
         self._car = TickInput(names.CAR_ESTIMATE, CarEstimate, schedule.CAR_LOCATOR)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
         self._peripherals = TickInput(names.PERIPHERALS_STATE, PeripheralsState, schedule.PERIPHERALS)
-        self._desired = rospy.Publisher(names.DESIRED_STATE, DesiredState, queue_size=10, tcp_nodelay=True)
-        self._lock = rospy.Publisher(names.MOTION_LOCK, MotionLock, queue_size=10, tcp_nodelay=True)
+        self._desired = publisher(names.DESIRED_STATE, DesiredState)
+        self._lock = publisher(names.MOTION_LOCK, MotionLock)
         self._rosout = rospy.Subscriber("/rosout_agg", Log, self._take_log, queue_size=50)
         self._ticker = Ticker(schedule.DISPATCHER)
 

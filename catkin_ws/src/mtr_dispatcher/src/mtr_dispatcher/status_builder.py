@@ -88,6 +88,8 @@ def _add_pose(state: link.RobotState, fresh: Inputs) -> None:
         return
     state.x, state.y, state.heading = found.pose.x, found.pose.y, found.pose.heading
     state.position_sigma_m, state.heading_sigma_rad = found.position_sigma_m, found.heading_sigma_rad
+    state.variance_x_m2, state.variance_y_m2 = found.variance_x_m2, found.variance_y_m2
+    state.covariance_xy_m2 = found.covariance_xy_m2
     state.localization_accuracy = min(round(100.0 * found.position_sigma_m), MAX_ACCURACY_CM)
     state.pose_valid = pose.valid and fresh.car.state == CarState.LOCATED
 

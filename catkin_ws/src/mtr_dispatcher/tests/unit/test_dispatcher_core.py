@@ -106,6 +106,8 @@ def test_status_carries_the_pose_in_the_cars_frame(core):
     assert (state.x, state.y) == (pytest.approx(3.0), pytest.approx(0.0, abs=1e-6))
     assert state.heading == pytest.approx(math.pi / 2)
     assert state.position_sigma_m == pytest.approx(0.03) and state.localization_accuracy == 3
+    assert (state.variance_x_m2, state.variance_y_m2) == (pytest.approx(0.0009), pytest.approx(0.0004))
+    assert state.covariance_xy_m2 == pytest.approx(0.0, abs=1e-9)
     assert state.heading_sigma_rad == pytest.approx(0.01)
     assert state.pose_valid and state.stamp_s == NOW_S and state.speed == 0.5 and state.key_x == 0.25
 

@@ -11,20 +11,21 @@ namespace mtr_localization {
 
 /// Sigmas are 1 standard deviation; densities are per square root of time, distance or angle.
 struct Parameters {
-  /// Gyro, white noise density. MEMS gyros of small robots: 0.007 (BMI270) to 0.01 deg/s/sqrt(Hz) (MPU-9250) by data
-  /// sheet.
-  double gyro_noise_radps_per_sqrt_hz = 2e-4;
-  /// Gyro, random walk of the bias: 1e-4 rad/s (20 deg/h) after 100 s, the bias stability of that class.
-  double gyro_bias_walk_radps_per_sqrt_s = 1e-5;
+  /// Gyro, white noise density: 0.007 deg/s/sqrt(Hz), data sheet of the BMI270. Another gyro has another; 1.75e-4 for
+  /// the MPU-9250.
+  double gyro_noise_radps_per_sqrt_hz = 1.25e-4;
+  /// Gyro, random walk of the bias: 8e-5 rad/s (17 deg/h) after 100 s, usual in that class.
+  double gyro_bias_walk_radps_per_sqrt_s = 8e-6;
   /// Gyro, error of scale after it was compared with full turns against a mark; 0.005 by data sheet when it was not.
   double gyro_scale_sigma = 0.001;
   /// Wheel radius as mounted and inflated against its nominal value.
   double wheel_scale_sigma = 0.005;
-  /// Slip along the path: 5 mm after 1 m, 16 mm after 10 m, on asphalt.
-  double slip_m_per_sqrt_m = 0.005;
-  /// Shift of base_link while a skid-steered base turns about a point that is not base_link: 1 cm after 1 rad. In
-  /// simulation a quarter turn on the spot shifts it by 1 to 2 cm.
-  double turn_slip_m_per_sqrt_rad = 0.01;
+  /// Slip along the path: 1 mm after 1 m. In simulation, without joints and gravel, 0.3 mm; not measured on asphalt.
+  double slip_m_per_sqrt_m = 0.001;
+  /// Shift of base_link while a skid-steered base turns about a point that is not base_link: 6 mm after 1 rad, 6 cm
+  /// after a test with 90 rad. In simulation a quarter turn on the spot shifts it by 1 cm, and of a whole test's
+  /// turns, which cancel in part, this much remains; see docs/accuracy.md.
+  double turn_slip_m_per_sqrt_rad = 0.006;
   /// Wheels slower than this, in m/s and rad/s, may stand still.
   double standstill_linear_mps = 0.005;
   double standstill_angular_radps = 0.01;
