@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""Drive control stands still for every reason of docs/robot.md, within the times stated there."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+import sys
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from scripted_time import NS, Listener, ScriptedTime, Speaker
+
+from mtr_core import names, schedule
+from mtr_msgs.msg import DriveStatus, MotionLock, VelocityCommand
+
+PLANNER_SILENT_S = 0.2
+LOCK_SILENT_S = 0.35
+ONE_TICK_S = 0.1
+# From any permitted velocity, see mtr_drive_control/parameters.hpp.
+STANDSTILL_WITHIN_S = 0.5
+TICK_S = 0.02
+
+
+class DriveControl(unittest.TestCase):
+    """Each test begins with the planner driving at 0.5 m/s."""
+
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("drive_control_test", disable_rostime=True)
+        cls.planner = Speaker(names.PLANNER_VELOCITY, VelocityCommand(), schedule.MOTION_PLANNER)
+        cls.manual = Speaker(names.MANUAL_VELOCITY, VelocityCommand(), schedule.CONTROLLER_INPUT)
+        cls.dispatcher = Speaker(names.MOTION_LOCK, MotionLock(owner="dispatcher"), schedule.DISPATCHER)
+        cls.state_machine = Speaker(names.MOTION_LOCK, MotionLock(owner="state_machine"), schedule.STATE_MACHINE)
+        cls.speakers = (cls.planner, cls.manual, cls.dispatcher, cls.state_machine)
+        cls.drive = Listener(names.DRIVE_STATUS, DriveStatus, schedule.DRIVE_CONTROL)
+        cls.time = ScriptedTime(["/drive_control"], cls.speakers, [cls.drive])
+        cls.wheels = []
+        cls.subscriber = rospy.Subscriber(names.WHEEL_COMMAND, Twist, cls.take_wheels, tcp_nodelay=True)
+        cls.time.start()
+
+    @classmethod
+    def take_wheels(cls, message):
+        cls.wheels.append(message)
+        cls.time.holds.count(message)
+
+    def setUp(self):
+        for speaker in self.speakers:
+            speaker.is_silent = False
+        self.planner.message = VelocityCommand(linear_mps=0.5, active=True)
+        self.manual.message = VelocityCommand(active=False)
+        for lock in (self.dispatcher.message, self.state_machine.message):
+            lock.engaged, lock.reason = False, ""
+        self.time.advance_until(lambda: self.status().linear_mps == 0.5, within_s=3.0)
+        self.wheels.clear()
+
+    def status(self):
+        """Drive control's word on the present tick."""
+        return self.drive.at(self.time.tick_ns)
+
+    def is_standing(self):
+        """True when zero is sent to the wheels."""
+        status = self.status()
+        return status.linear_mps == 0.0 and status.angular_radps == 0.0
+
+    def silence(self, speaker, period_s):
+        """Silence a speaker; returns the simulated time at which its next word would have been due."""
+        speaker.is_silent = True
+        return speaker.heard_ns * NS + period_s
+
+    def assert_noticed(self, condition, since_s, within_s):
+        """The condition holds soon enough, and the robot stands soon after."""
+        self.time.advance_until(condition, within_s=1.0)
+        self.assertLessEqual(self.time.tick_ns * NS - since_s, within_s + 1e-9)
+        self.time.advance_until(self.is_standing, within_s=STANDSTILL_WITHIN_S)
+
+    def test_silent_planner_stops_the_robot_in_time(self):
+        since_s = self.silence(self.planner, 0.04)
+        self.assert_noticed(lambda: self.status().source == "none", since_s, PLANNER_SILENT_S)
+        self.assertIn("planner is silent", self.status().message)
+        self.time.advance_for(1.0)
+        self.assertTrue(self.is_standing())
+
+    def test_silent_dispatcher_stops_the_robot_in_time(self):
+        since_s = self.silence(self.dispatcher, 0.1)
+        self.assert_noticed(lambda: self.status().source == "locked", since_s, LOCK_SILENT_S)
+        self.assertEqual(self.status().engaged_locks, ["dispatcher"])
+
+    def test_silent_state_machine_stops_the_robot_in_time(self):
+        since_s = self.silence(self.state_machine, 0.1)
+        self.assert_noticed(lambda: self.status().source == "locked", since_s, LOCK_SILENT_S)
+        self.assertEqual(self.status().engaged_locks, ["state_machine"])
+
+    def test_engaged_lock_stops_the_robot_at_the_next_tick_of_its_owner(self):
+        self.dispatcher.message.engaged, self.dispatcher.message.reason = True, "The Operator stopped the robot."
+        since_s = self.time.tick_ns * NS
+        self.assert_noticed(lambda: self.status().source == "locked", since_s, ONE_TICK_S + TICK_S)
+        self.assertEqual(self.status().message, "The Operator stopped the robot.")
+
+    def test_released_lock_lets_the_robot_go_on(self):
+        self.state_machine.message.engaged = True
+        self.time.advance_until(self.is_standing, within_s=1.0)
+        self.state_machine.message.engaged = False
+        self.time.advance_until(lambda: self.status().source == "planner", within_s=0.2)
+
+    def test_velocity_that_is_no_number_stops_the_robot_and_never_reaches_the_wheels(self):
+        self.planner.message = VelocityCommand(linear_mps=math.nan, angular_radps=math.inf, active=True)
+        self.time.advance_until(self.is_standing, within_s=ONE_TICK_S + STANDSTILL_WITHIN_S)
+        self.time.advance_for(0.2)
+        self.assertTrue(all(math.isfinite(twist.linear.x) and math.isfinite(twist.angular.z) for twist in self.wheels))
+        self.assertIn("not a finite number", self.status().message)
+
+    def test_manual_controller_overrides_the_planner(self):
+        self.manual.message = VelocityCommand(linear_mps=-0.2, active=True)
+        self.time.advance_until(lambda: self.status().source == "manual", within_s=ONE_TICK_S)
+        self.time.advance_until(lambda: self.status().linear_mps == -0.2, within_s=3.0)
+        self.manual.message = VelocityCommand(active=False)
+        self.time.advance_until(lambda: self.status().source == "planner", within_s=ONE_TICK_S)
+
+    def test_manual_controller_that_falls_silent_does_not_hand_over_to_the_planner(self):
+        self.manual.message = VelocityCommand(linear_mps=0.2, active=True)
+        self.time.advance_until(lambda: self.status().source == "manual", within_s=ONE_TICK_S)
+        since_s = self.silence(self.manual, 0.04)
+        self.assert_noticed(lambda: self.status().source == "none", since_s, PLANNER_SILENT_S)
+        self.assertIn("manual controller is silent", self.status().message)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mtr_tests", "drive_control_test", DriveControl, sys.argv)

@@ -1,0 +1,48 @@
+#!/usr/bin/env python3
+"""The shipped launch files need no argument that is not documented as needed, and every node that they name exists."""
+# SPDX-License-Identifier: Apache-2.0
+import os
+import sys
+import unittest
+
+import roslaunch
+import rospkg
+import rostest
+from roslaunch.node_args import create_local_process_args, get_node_list
+
+NEEDED = {"robot.launch": [], "sim.launch": ["car_port_link:=/tmp/can"], "replay.launch": ["bag:=/tmp/a.bag"],
+          "view.launch": []}
+ROBOT = {"/robot_state_publisher", "/drive_control", "/localization", "/motion_planner", "/car_locator",
+         "/state_machine", "/peripherals", "/dispatcher"}
+NODES = {"robot.launch": ROBOT | {"/controller_input"}, "sim.launch": ROBOT | {"/simulator"},
+         "replay.launch": {"/robot_state_publisher", "/localization", "/car_locator", "/play"},
+         "view.launch": {"/rviz"}}
+
+
+def load(name, arguments):
+    """A shipped launch file as roslaunch reads it."""
+    path = os.path.join(rospkg.RosPack().get_path("mtr_bringup"), "launch", name)
+    return roslaunch.config.load_config_default([(path, arguments)], None)
+
+
+class LaunchFiles(unittest.TestCase):
+    """Nothing is started."""
+
+    def test_each_launch_file_starts_its_nodes_with_no_more_than_the_needed_arguments(self):
+        for name, arguments in NEEDED.items():
+            with self.subTest(name):
+                self.assertEqual(set(get_node_list(load(name, arguments))), NODES[name])
+
+    def test_each_node_of_robot_and_simulation_has_an_executable(self):
+        for node in load("sim.launch", NEEDED["sim.launch"]).nodes:
+            with self.subTest(node.name):
+                command = create_local_process_args(node, None)
+                self.assertTrue(os.access(command[0], os.X_OK), command)
+
+    def test_missing_argument_is_named(self):
+        with self.assertRaisesRegex(Exception, "car_port_link"):
+            load("sim.launch", [])
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mtr_tests", "launch_files_test", LaunchFiles, sys.argv)

@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Localization says in time that a sensor is silent, and its pose never jumps."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+import sys
+import unittest
+
+import rospy
+import rostest
+from nav_msgs.msg import Odometry
+from node_process import NodeProcess
+from scripted_time import NS, STEP_NS, Listener, ScriptedTime, Speaker, wait_for
+from sensor_msgs.msg import Imu
+
+from mtr_core import names, schedule
+from mtr_msgs.msg import LocalizedPose
+
+# Parameters of mtr_localization: gap_limit_s; standstill_settling_s and bias_time_s together.
+GAP_LIMIT_NS = 200_000_000
+STANDSTILL_S = 1.5
+SPEED_MPS = 0.5
+BIAS_RADPS = 0.002
+# In 20 ms at that speed, with room for rounding.
+LARGEST_STEP_M = 0.011
+
+
+class Robot:
+    """Wheels and gyro of a robot that drives straight ahead."""
+
+    def __init__(self):
+        self.wheels = Speaker(names.WHEEL_ODOMETRY, Odometry(), schedule.SENSORS)
+        self.gyro = Speaker(names.IMU_DATA, Imu(), schedule.SENSORS)
+        self.wheels.message.pose.pose.orientation.w = 1.0
+        self.gyro.message.angular_velocity.z = BIAS_RADPS
+
+    def drive(self, speed_mps):
+        """Speed from the next tick on."""
+        self.wheels.message.twist.twist.linear.x = speed_mps
+
+    def move(self):
+        """One tick of motion, whether anybody hears of it or not."""
+        message = self.wheels.message
+        message.pose.pose.position.x += message.twist.twist.linear.x * STEP_NS * NS
+
+
+class Localization(unittest.TestCase):
+    """Each test begins with a localization that tracks a robot that moves."""
+
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("localization_test", disable_rostime=True)
+        cls.robot = Robot()
+        cls.pose = Listener(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION)
+        cls.time = ScriptedTime([], [cls.robot.gyro, cls.robot.wheels], [cls.pose])
+
+    def setUp(self):
+        self.node = NodeProcess("mtr_localization", "localization_node", "localization")
+        self.heard = []
+        self.robot.gyro.is_silent = self.robot.wheels.is_silent = False
+        self.robot.drive(0.0)
+        self.time.start()
+        self.advance(STANDSTILL_S + 0.2)
+        self.robot.drive(SPEED_MPS)
+        self.advance(1.0)
+        self.assertTrue(self.heard[-1].valid, self.heard[-1].message)
+
+    def tearDown(self):
+        self.node.stop()
+        wait_for(lambda: not self.pose.is_connected(), "the end of localization")
+
+    def advance(self, duration_s, lag_ns=0):
+        """Let time pass, each tick answered by a pose; lag_ns: it answers what it has waited for so long."""
+        for _ in range(round(duration_s / (STEP_NS * NS))):
+            self.robot.move()
+            self.heard.append(self.pose.at(self.time.advance() - lag_ns))
+
+    def advance_unanswered(self):
+        """Let the time pass for which localization waits for data."""
+        for _ in range(GAP_LIMIT_NS // STEP_NS):
+            self.robot.move()
+            self.time.advance()
+
+    def assert_no_jump(self):
+        """No pose lies farther from the one before than the robot can drive."""
+        for before, after in zip(self.heard, self.heard[1:]):
+            self.assertLessEqual(math.hypot(after.x - before.x, after.y - before.y), LARGEST_STEP_M)
+
+    def test_silent_wheel_odometry_is_told_in_time_and_loses_the_pose_without_a_jump(self):
+        frozen = self.heard[-1]
+        self.robot.wheels.is_silent = True
+        self.advance_unanswered()
+        self.advance(0.3)
+        self.assertFalse(any(pose.valid for pose in self.heard[-15:]))
+        self.assertIn("odometry is silent", self.heard[-1].message)
+        self.robot.wheels.is_silent = False
+        self.advance(1.0)
+        self.assertIn("Position lost", self.heard[-1].message)
+        self.assertEqual((self.heard[-1].x, self.heard[-1].y), (frozen.x, frozen.y))
+        self.assert_no_jump()
+
+    def test_silent_imu_is_told_in_time_and_loses_the_pose_without_a_jump(self):
+        frozen = self.heard[-1]
+        self.robot.gyro.is_silent = True
+        self.advance_unanswered()
+        self.advance(0.3, lag_ns=GAP_LIMIT_NS + STEP_NS)
+        self.assertFalse(any(pose.valid for pose in self.heard[-14:]))
+        self.assertEqual(self.heard[-1].message, "The IMU is silent.")
+        self.robot.gyro.is_silent = False
+        self.advance(1.0)
+        self.assertIn("Position lost", self.heard[-1].message)
+        self.assertEqual((self.heard[-1].x, self.heard[-1].y), (frozen.x, frozen.y))
+        self.assert_no_jump()
+
+    def test_silence_at_standstill_is_over_after_another_standstill(self):
+        self.robot.drive(0.0)
+        self.advance(1.0)
+        before = self.heard[-1]
+        self.robot.wheels.is_silent = True
+        self.advance_unanswered()
+        self.advance(0.3)
+        self.assertFalse(self.heard[-1].valid)
+        self.robot.wheels.is_silent = False
+        self.advance(STANDSTILL_S + 0.2)
+        self.assertTrue(self.heard[-1].valid, self.heard[-1].message)
+        self.assertAlmostEqual(self.heard[-1].x, before.x, places=6)
+        self.assert_no_jump()
+
+    def test_short_gap_is_bridged(self):
+        before = self.heard[-1]
+        self.robot.wheels.is_silent = True
+        for _ in range(5):
+            self.robot.move()
+            self.time.advance()
+        self.robot.wheels.is_silent = False
+        self.advance(0.1)
+        self.assertTrue(self.heard[-1].valid)
+        self.assertAlmostEqual(self.heard[-1].x - before.x, 0.2 * SPEED_MPS, places=3)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mtr_tests", "localization_test", Localization, sys.argv)

@@ -1,0 +1,34 @@
+"""A node as a child process, for tests that need it fresh, slow or dead."""
+# SPDX-License-Identifier: Apache-2.0
+import json
+import signal
+import subprocess
+from typing import Any
+
+import roslib.packages
+
+STOP_LIMIT_S = 10.0
+END_LIMIT_S = 60.0
+
+
+class NodeProcess:
+    """One run of a node; parameters are private ones."""
+
+    def __init__(self, package: str, executable: str, name: str, **parameters: Any):
+        path = roslib.packages.find_node(package, executable)[0]
+        values = [f"_{key}:={json.dumps(value)}" for key, value in parameters.items()]
+        self._process = subprocess.Popen([path, f"__name:={name}", *values], stdout=subprocess.PIPE, text=True)
+
+    def output(self) -> str:
+        """What it has printed, when it ends by itself."""
+        return self._process.communicate(timeout=END_LIMIT_S)[0]
+
+    def stop(self) -> None:
+        """End it as Ctrl-C does, and when it hangs by force."""
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+            try:
+                self._process.communicate(timeout=STOP_LIMIT_S)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+        self._process.communicate()

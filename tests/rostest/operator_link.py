@@ -1,0 +1,56 @@
+"""The Operator's end of the link in simulated time: every Status is answered, and time waits for the answer."""
+# SPDX-License-Identifier: Apache-2.0
+import secrets
+import threading
+from typing import Any
+
+import zmq
+
+from mtr_proto import robot_link_pb2 as link
+
+POLL_MS = 50
+
+
+class OperatorLink:
+    """Answers from a thread of its own, so that a test can let time pass.
+
+    Attributes:
+        status: the newest Status.
+    """
+
+    def __init__(self, status_port: int, command_port: int):
+        self.status = link.Status()
+        self._command = link.Command(session_id=secrets.randbits(63) | 1, id=1)
+        self._lock = threading.Lock()
+        self._stopped = threading.Event()
+        context = zmq.Context.instance()
+        self._statuses, self._commands = context.socket(zmq.SUB), context.socket(zmq.PUB)
+        self._statuses.setsockopt(zmq.SUBSCRIBE, b"")
+        self._statuses.connect(f"tcp://127.0.0.1:{status_port}")
+        self._commands.connect(f"tcp://127.0.0.1:{command_port}")
+        self._thread = threading.Thread(target=self._answer_all)
+        self._thread.start()
+
+    def order(self, **content: Any) -> None:
+        """What the Operator wants from the next Status on."""
+        with self._lock:
+            self._command = link.Command(session_id=self._command.session_id, id=self._command.id + 1, **content)
+
+    def close(self) -> None:
+        """Say no more."""
+        self._stopped.set()
+        self._thread.join()
+        self._statuses.close(0)
+        self._commands.close(0)
+
+    def _answer_all(self) -> None:
+        while not self._stopped.is_set():
+            if self._statuses.poll(POLL_MS):
+                self._answer(link.Status.FromString(self._statuses.recv()))
+
+    def _answer(self, status: link.Status) -> None:
+        with self._lock:
+            self._command.seen_status_id, self._command.seen_robot_time_s = status.id, status.sent_time_s
+            data = self._command.SerializeToString()
+        self.status = status
+        self._commands.send(data)
