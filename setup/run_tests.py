@@ -128,7 +128,7 @@ def rostest() -> Counts:
 
 
 def counts_of(reports: List[pathlib.Path], status: int) -> Counts:
-    """Sum of JUnit reports. A report that cannot be read, or a failed run whose reports show no failure, is one failure."""
+    """Sum of JUnit reports; an unreadable one, and a failed run whose reports show no failure, count as a failure."""
     passed = failed = 0
     for report in reports:
         try:

@@ -8,7 +8,7 @@ from visualization_msgs.msg import MarkerArray
 
 from mtr_core import names, schedule
 from mtr_core.states import CarState
-from mtr_lockstep import Ticker, TickInput, run_node
+from mtr_lockstep import Ticker, TickInput, publisher, run_node
 from mtr_lockstep.clock import stamp_of
 from mtr_msgs.msg import CarEstimate, RobotMode
 
@@ -29,7 +29,7 @@ class CarLocatorNode:
         self._poses = PoseSource(self._locator)
         self._mapping: Optional[MappingSources] = None
         self._shown = None
-        self._estimates = rospy.Publisher(names.CAR_ESTIMATE, CarEstimate, queue_size=10, tcp_nodelay=True)
+        self._estimates = publisher(names.CAR_ESTIMATE, CarEstimate)
         self._markers = rospy.Publisher(names.CAR_MARKERS, MarkerArray, queue_size=1, latch=True)
         self._frames = tf2_ros.TransformBroadcaster()
 

@@ -6,7 +6,7 @@ import rospy
 from sensor_msgs.msg import Joy
 
 from mtr_core import names, schedule
-from mtr_lockstep import Ticker, clock, run_node
+from mtr_lockstep import Ticker, clock, publisher, run_node
 from mtr_msgs.msg import VelocityCommand
 
 from .core import velocity
@@ -22,7 +22,7 @@ class ControllerInputNode:
         self._parameters = parameters
         self._joy: Tuple[int, Joy] = (0, Joy())
         self._was_active = False
-        self._velocity = rospy.Publisher(names.MANUAL_VELOCITY, VelocityCommand, queue_size=10, tcp_nodelay=True)
+        self._velocity = publisher(names.MANUAL_VELOCITY, VelocityCommand)
         self._subscriber = rospy.Subscriber(names.JOY, Joy, self._take, queue_size=1, tcp_nodelay=True)
         self._ticker = Ticker(schedule.CONTROLLER_INPUT)
 

@@ -17,7 +17,7 @@ namespace mtr_lockstep {
 
 /// A producer that lets a simulated tick wait longer than this (wall time) is taken for dead: nobody waits for it any
 /// more until it speaks again, and the consumer sees its sample grow old.
-inline constexpr double kProducerLostAfterWallS = 5.0;
+inline constexpr double kProducerLostAfterWallS = 4.0;
 inline constexpr std::size_t kKeptSamples = 64;
 
 /// How a single-threaded consumer waits for a sample.

@@ -27,3 +27,4 @@ class TickInput:
 
     def _take(self, message: Any) -> None:
         self._samples.add(message.header.stamp.to_nsec(), message)
+        self._samples.wait_until_wanted()

@@ -11,7 +11,9 @@ T = TypeVar("T")
 
 # A producer that lets a simulated tick wait longer than this (wall time) is taken for dead: nobody waits for it any
 # more until it speaks again, and the consumer sees its sample grow old.
-PRODUCER_LOST_AFTER_WALL_S = 5.0
+PRODUCER_LOST_AFTER_WALL_S = 4.0
+# A consumer that has not come back by then (wall time) gets the next sample all the same.
+UNWANTED_LIMIT_WALL_S = 1.0
 KEPT_SAMPLES = 64
 
 
@@ -32,6 +34,7 @@ class Samples(Generic[T]):
         self._stamps: List[int] = []
         self._values: List[T] = []
         self._lost = False
+        self._asked_ns = self._wanted_ns = 0
 
     def add(self, stamp_ns: int, value: T) -> None:
         """Take the producer's next sample; an older one replaces history (a restart), an equal one the last."""
@@ -43,16 +46,35 @@ class Samples(Generic[T]):
             self._values.append(value)
             del self._stamps[:-KEPT_SAMPLES], self._values[:-KEPT_SAMPLES]
             self._lost = False
-            self._changed.notify_all()
+            if stamp_ns >= self._asked_ns:
+                self._changed.notify_all()
+
+    def wait_until_wanted(self) -> None:
+        """Return when the consumer wants a newer sample than the newest, unless it is the next one that it wants.
+
+        Whoever takes the samples from a connection calls this after each: those of a fast producer then stay in the
+        connection until one of them is due, and a thread wakes once for all of them.
+        """
+        with self._changed:
+            newest_ns = self._stamps[-1] if self._stamps else 0
+            if self.waits and self._asked_ns <= newest_ns < self._wanted_ns - self.slot.period_ns:
+                self._changed.wait(UNWANTED_LIMIT_WALL_S)
 
     def at(self, tick_ns: int) -> Optional[T]:
         """Sample that a consumer reads at its tick: in lock-step the one that is due, else the newest."""
         with self._changed:
             if not self.waits:
                 return self._values[-1] if self._values else None
-            self._wait_for(self.slot.last_at(tick_ns - self.lag_ns))
+            self._wait_for(self._ask(tick_ns))
             index = bisect.bisect_right(self._stamps, tick_ns - self.lag_ns)
             return self._values[index - 1] if index else None
+
+    def _ask(self, tick_ns: int) -> int:
+        """Stamp of the sample that is due; whoever waits until it is wanted goes on."""
+        due_ns = self.slot.last_at(tick_ns - self.lag_ns)
+        self._asked_ns, self._wanted_ns = due_ns, due_ns + (due_ns - self._asked_ns if self._asked_ns else 0)
+        self._changed.notify_all()
+        return due_ns
 
     def _wait_for(self, due_ns: int) -> None:
         if due_ns <= SIMULATION_START_NS:

@@ -60,3 +60,4 @@ class StampedQueue:
         # The queue first: whoever waits for the sample finds the message there.
         self._queue.append(message)
         self._samples.add(message.header.stamp.to_nsec(), message)
+        self._samples.wait_until_wanted()

@@ -7,6 +7,7 @@ from mtr_core import names
 from mtr_core.schedule import SIMULATION_START_NS, Slot
 
 from . import clock
+from .publishers import direct_publisher
 
 
 class Ticker:
@@ -26,7 +27,7 @@ class Ticker:
         self._tick_ns = SIMULATION_START_NS
         self._holds = None
         if clock.is_simulated():
-            self._holds = rospy.Publisher(names.SIM_HOLD, Header, queue_size=20, tcp_nodelay=True, latch=True)
+            self._holds = direct_publisher(names.SIM_HOLD, Header, latch=True)
 
     def sleep(self) -> int:
         """Wait for the next tick and return it in ns of the ROS clock; rospy.ROSInterruptException on shutdown.

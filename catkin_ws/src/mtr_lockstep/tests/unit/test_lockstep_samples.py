@@ -66,6 +66,63 @@ def test_due_sample_is_waited_for():
     assert read == ["due"]
 
 
+def taking_thread(samples):
+    """Thread that takes samples from a connection and waits until more are wanted."""
+    thread = threading.Thread(target=samples.wait_until_wanted)
+    thread.start()
+    return thread
+
+
+@pytest.fixture
+def slowly_read():
+    """Samples of a fast producer with a consumer that reads each 100 ms, last at 2100 ms."""
+    samples = Samples(SENSORS, lag_ns=0)
+    for tick in (2000, 2100):
+        samples.add(ms(tick), tick)
+        samples.at(ms(tick))
+    return samples
+
+
+def test_samples_that_nobody_wants_yet_wait_for_the_consumer(slowly_read, monkeypatch):
+    monkeypatch.setattr("mtr_lockstep.samples.UNWANTED_LIMIT_WALL_S", 60.0)
+    slowly_read.add(ms(2120), "unwanted")
+    thread = taking_thread(slowly_read)
+    assert thread.is_alive()
+    consumer = threading.Thread(target=lambda: slowly_read.at(ms(2200)))
+    consumer.start()
+    thread.join(timeout=10.0)
+    assert not thread.is_alive()
+    slowly_read.add(ms(2200), "due")
+    consumer.join()
+
+
+def test_sample_that_the_consumer_wants_next_is_taken_at_once(slowly_read, monkeypatch):
+    monkeypatch.setattr("mtr_lockstep.samples.UNWANTED_LIMIT_WALL_S", 60.0)
+    slowly_read.add(ms(2180), "the last that nobody wants")
+    slowly_read.wait_until_wanted()
+
+
+def test_samples_of_an_equally_fast_producer_never_wait(monkeypatch):
+    monkeypatch.setattr("mtr_lockstep.samples.UNWANTED_LIMIT_WALL_S", 60.0)
+    samples = Samples(MOTION_PLANNER, lag_ns=0)
+    for tick in (2000, 2040, 2080):
+        samples.add(ms(tick), tick)
+        samples.wait_until_wanted()
+        assert samples.at(ms(tick)) == tick
+
+
+def test_consumer_that_stays_away_gets_the_next_sample_all_the_same(slowly_read, monkeypatch):
+    monkeypatch.setattr("mtr_lockstep.samples.UNWANTED_LIMIT_WALL_S", 0.0)
+    slowly_read.add(ms(2120), "unwanted")
+    slowly_read.wait_until_wanted()
+
+
+def test_without_lock_step_no_sample_waits():
+    samples = Samples(SENSORS, waits=False)
+    samples.add(ms(2120), "newest")
+    samples.wait_until_wanted()
+
+
 def test_silent_producer_is_given_up_and_its_old_sample_is_read(samples):
     samples.add(ms(2000), "old")
     assert samples.at(ms(2060)) == "old"

@@ -5,7 +5,7 @@ from nav_msgs.msg import Path
 from std_msgs.msg import Header
 
 from mtr_core import names, schedule
-from mtr_lockstep import Ticker, TickInput, run_node
+from mtr_lockstep import Ticker, TickInput, publisher, run_node
 from mtr_lockstep.clock import stamp_of
 from mtr_msgs.msg import CarEstimate, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
@@ -24,8 +24,8 @@ class MotionPlannerNode:
         self._pose = TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
         self._car = TickInput(names.CAR_ESTIMATE, CarEstimate, schedule.CAR_LOCATOR)
-        self._velocity = rospy.Publisher(names.PLANNER_VELOCITY, VelocityCommand, queue_size=10, tcp_nodelay=True)
-        self._status = rospy.Publisher(names.MOTION_STATUS, MotionStatus, queue_size=10, tcp_nodelay=True)
+        self._velocity = publisher(names.PLANNER_VELOCITY, VelocityCommand)
+        self._status = publisher(names.MOTION_STATUS, MotionStatus)
         self._path = rospy.Publisher(names.MOTION_PATH, Path, queue_size=1, latch=True)
 
     def spin(self) -> None:

@@ -6,7 +6,7 @@ import rospy
 from sensor_msgs.msg import BatteryState, JointState
 
 from mtr_core import names, schedule
-from mtr_lockstep import Ticker, TickInput, clock, run_node
+from mtr_lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_lockstep.samples import Samples
 from mtr_msgs.msg import DesiredState, FirmwareCommand, FirmwarePress, FirmwareState, PeripheralsState, RobotMode
 
@@ -40,10 +40,10 @@ class PeripheralsNode:
         self._logged = None
         self._desired = TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
-        self._command = rospy.Publisher(names.FIRMWARE_COMMAND, FirmwareCommand, queue_size=10, tcp_nodelay=True)
-        self._press = rospy.Publisher(names.FIRMWARE_PRESS, FirmwarePress, queue_size=10, tcp_nodelay=True)
-        self._state = rospy.Publisher(names.PERIPHERALS_STATE, PeripheralsState, queue_size=10, tcp_nodelay=True)
-        self._joints = rospy.Publisher(names.JOINT_STATES, JointState, queue_size=10, tcp_nodelay=True)
+        self._command = publisher(names.FIRMWARE_COMMAND, FirmwareCommand)
+        self._press = publisher(names.FIRMWARE_PRESS, FirmwarePress)
+        self._state = publisher(names.PERIPHERALS_STATE, PeripheralsState)
+        self._joints = publisher(names.JOINT_STATES, JointState)
         self._subscribers = (
             rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, self._take_state, queue_size=50, tcp_nodelay=True),
             rospy.Subscriber(names.BATTERY, BatteryState, self._take_battery, queue_size=1))
@@ -74,6 +74,7 @@ class PeripheralsNode:
         stamp_ns = self._times.observe(message.time_us, clock.now_ns())
         report: FirmwareReport = firmware_report(message, stamp_ns, self._times)
         self._reports.add(stamp_ns, report)
+        self._reports.wait_until_wanted()
 
     def _take_battery(self, message: BatteryState) -> None:
         self._battery = (clock.now_ns(), message.percentage)

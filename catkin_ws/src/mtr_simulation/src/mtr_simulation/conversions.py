@@ -1,12 +1,15 @@
 """Readings of the simulated sensors as ROS messages; each is filled anew and sent at once, so one object serves."""
 # SPDX-License-Identifier: Apache-2.0
+import io
 import math
 
 import numpy as np
+from genpy import Message
 from geometry_msgs.msg import Quaternion
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from rospy import Time
+from rospy.msg import serialize_message
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import BatteryState, Imu, LaserScan
 
@@ -30,6 +33,13 @@ NO_INTENSITIES = np.zeros(0, dtype=np.float32)
 def stamp(time_ns: int) -> Time:
     """Nanoseconds as a ROS time."""
     return Time(time_ns // 1_000_000_000, time_ns % 1_000_000_000)
+
+
+def serialized(message: Message) -> bytes:
+    """The message as it goes over a connection."""
+    buffer = io.BytesIO()
+    serialize_message(buffer, 0, message)
+    return buffer.getvalue()
 
 
 def clock_message(time_ns: int) -> Clock:

@@ -3,7 +3,7 @@
 import threading
 import time
 from dataclasses import dataclass
-from typing import Callable, Dict, Iterable, List, Optional
+from typing import Callable, Dict, Iterable, List, Optional, Set
 
 # A node that keeps the clock waiting and says nothing for this long (wall time) is taken for dead.
 SILENT_AFTER_WALL_S = 5.0
@@ -44,7 +44,7 @@ class Barrier:
     A repeated hold is a sign of life: a node that has reason to let time stand still says its hold again.
 
     Attributes:
-        waited_s: wall time that each node kept the clock waiting.
+        waited_s: wall time that the clock waited, by the node that came last.
     """
 
     def __init__(self, expected: Iterable[str], watcher: Watcher,
@@ -54,6 +54,8 @@ class Barrier:
         self._watcher, self._wall_clock = watcher, wall_clock
         self._changed = threading.Condition()
         self._nodes: Dict[str, _Node] = {}
+        self._awaited_ns: Optional[int] = None
+        self._last = ""
         self._stopped = False
 
     def hold(self, name: str, stamp_ns: int, sent: int) -> None:
@@ -67,13 +69,13 @@ class Barrier:
                 # It counts from 0 again: a new instance, of which nothing can be missing yet.
                 node.received = sent
             node.stamp_ns, node.sent, node.heard_s = stamp_ns, sent, self._wall_clock()
-            self._changed.notify_all()
+            self._came(name)
 
     def message(self, name: str) -> None:
         """A message of a node has arrived at the simulator."""
         with self._changed:
             self._nodes.setdefault(name, _Node()).received += 1
-            self._changed.notify_all()
+            self._came(name)
 
     def stop(self) -> None:
         """Let every wait end at once."""
@@ -95,7 +97,7 @@ class Barrier:
     def wait(self, time_ns: int) -> bool:
         """Wait until the clock may go to time_ns; False when stopped."""
         with self._changed:
-            begun_s = self._wall_clock()
+            begun_s, self._awaited_ns = self._wall_clock(), time_ns
             while not self._stopped:
                 name = self._blocker(time_ns)
                 if name is None:
@@ -105,15 +107,26 @@ class Barrier:
                 if left_s <= 0.0:
                     self._give_up(name, time_ns)
                     continue
-                self._changed.wait(left_s)
-                self.waited_s[name] = self.waited_s.get(name, 0.0) + self._wall_clock() - now_s
+                last = self._last if self._changed.wait(left_s) else name
+                self.waited_s[last] = self.waited_s.get(last, 0.0) + self._wall_clock() - now_s
             return False
+
+    def asleep(self, time_ns: int) -> Set[str]:
+        """Nodes whose next work is later than time_ns."""
+        with self._changed:
+            return {name for name, node in self._nodes.items() if node.stamp_ns is not None and node.stamp_ns > time_ns}
 
     def longest_waits(self) -> str:
         """For whom the clock waited longest, for a person."""
         with self._changed:
             waits = sorted(self.waited_s.items(), key=lambda item: -item[1])[:3]
         return "waited so far for " + (", ".join(f"{name} {seconds:.1f} s" for name, seconds in waits) or "nobody")
+
+    def _came(self, name: str) -> None:
+        """Something came from a node; wakes the loop only when it need not wait any longer."""
+        self._last = name
+        if self._awaited_ns is None or self._blocker(self._awaited_ns) is None:
+            self._changed.notify_all()
 
     def _blocker(self, time_ns: int) -> Optional[str]:
         for name, node in self._nodes.items():

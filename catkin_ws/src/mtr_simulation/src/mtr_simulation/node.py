@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import threading
-import warnings
 from typing import Any, Callable, Deque, List, Set, Tuple
 
 import rosgraph
@@ -10,12 +9,13 @@ import rospy
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
+from rospy.exceptions import TransportException
 from sensor_msgs.msg import BatteryState, Imu
 from std_msgs.msg import Header
 
 from mtr_core import names
 from mtr_core.schedule import CLOCK_STEP, FIRMWARE, LIDAR, SIMULATION_START_NS, slot
-from mtr_lockstep import run_node
+from mtr_lockstep import direct_publisher, run_node
 from mtr_msgs.msg import FirmwareCommand, FirmwarePress, FirmwareState
 
 from . import connections, conversions
@@ -55,7 +55,7 @@ class SimulatorNode:
         connections.wait_until_complete(rosgraph.get_master_uri(), rospy.get_name(), self._stopped, rospy.logwarn)
         time_ns = SIMULATION_START_NS
         self._pace.start(time_ns * 1e-9)
-        self._output.clock(time_ns)
+        self._output.clock(time_ns, set())
         while self._barrier.wait(time_ns + CLOCK_STEP.period_ns):
             while self._orders:
                 self._orders.popleft()()
@@ -67,6 +67,7 @@ class SimulatorNode:
             if delay_s:
                 self._stopped.wait(delay_s)
             self._output.publish(sensors, self._world)
+            self._output.clock(time_ns, self._barrier.asleep(time_ns))
             self._world.sim.look_ahead()
             self._log(time_ns)
         rospy.loginfo("%s; %s.", self._pace.total(time_ns * 1e-9), self._barrier.longest_waits())
@@ -106,17 +107,20 @@ class SimulatorNode:
 
 
 class Output:
-    """Publishers, and which of them speak at which tick."""
+    """Publishers, and which of them speak at which tick.
+
+    The loop itself sends, without queues, so that everything of a tick is on its way before the clock.
+    """
 
     def __init__(self, rear_lidar: bool):
-        self._clock = _publisher("/clock", Clock)
-        self._front = _publisher(names.FRONT_SCAN, conversions.NumpyScan)
-        self._rear = _publisher(names.REAR_SCAN, conversions.NumpyScan) if rear_lidar else None
-        self._imu = _publisher(names.IMU_DATA, Imu)
-        self._odometry = _publisher(names.WHEEL_ODOMETRY, Odometry)
-        self._battery = _publisher(names.BATTERY, BatteryState)
-        self._truth = _publisher(names.SIM_TRUTH, Odometry)
-        self._firmware = _publisher(names.FIRMWARE_STATE, FirmwareState)
+        self._clock = direct_publisher("/clock", Clock)
+        self._front = direct_publisher(names.FRONT_SCAN, conversions.NumpyScan)
+        self._rear = direct_publisher(names.REAR_SCAN, conversions.NumpyScan) if rear_lidar else None
+        self._imu = direct_publisher(names.IMU_DATA, Imu)
+        self._odometry = direct_publisher(names.WHEEL_ODOMETRY, Odometry)
+        self._battery = direct_publisher(names.BATTERY, BatteryState)
+        self._truth = direct_publisher(names.SIM_TRUTH, Odometry)
+        self._firmware = direct_publisher(names.FIRMWARE_STATE, FirmwareState)
         self._publishers = [each for each in vars(self).values() if each]
         self._muted: List[Tuple[Any, Any]] = []
         self._imu_message = conversions.ImuMessage(ImuParameters())
@@ -143,12 +147,17 @@ class Output:
         """True when anybody listens to a LiDAR."""
         return any(each.get_num_connections() for each in (self._front, self._rear) if each)
 
-    def clock(self, time_ns: int) -> None:
-        """The time alone."""
-        self._clock.publish(conversions.clock_message(time_ns))
+    def clock(self, time_ns: int, asleep: Set[str]) -> None:
+        """The time, for all but the nodes that work later: each message wakes a process."""
+        topic, data = self._clock.impl, conversions.serialized(conversions.clock_message(time_ns))
+        for connection in [each for each in topic.connections if each.endpoint_id not in asleep]:
+            try:
+                connection.write_data(data)
+            except (OSError, TransportException):
+                topic.remove_connection(connection)
 
     def publish(self, sensors: Sensors, world: World) -> None:
-        """Everything of a tick, the clock last."""
+        """Everything of a tick but the clock, which comes last."""
         time_ns = sensors.time_ns
         for publisher, scan, frame in ((self._front, sensors.front_scan, names.FRONT_LIDAR),
                                        (self._rear, sensors.rear_scan, names.REAR_LIDAR)):
@@ -162,7 +171,6 @@ class Output:
             self._battery.publish(conversions.battery_message(time_ns, sensors.battery))
         self._imu.publish(self._imu_message.fill(time_ns, sensors.imu))
         self._odometry.publish(self._odometry_message.fill(time_ns, sensors.odometry))
-        self.clock(time_ns)
 
 
 class NodeWatcher(Watcher):
@@ -170,14 +178,6 @@ class NodeWatcher(Watcher):
 
     def __init__(self, output: Output):
         self.warn, self.dropped, self.returned = rospy.logwarn, output.mute, output.unmute
-
-
-def _publisher(topic: str, message_type: Any) -> rospy.Publisher:
-    """Publisher without a queue: the loop itself sends, so everything of a tick is on its way before the clock."""
-    with warnings.catch_warnings():
-        # rospy warns of a missing queue_size, as a slow subscriber then blocks; lock-step waits for it anyway.
-        warnings.simplefilter("ignore", SyntaxWarning)
-        return rospy.Publisher(topic, message_type, tcp_nodelay=True)
 
 
 def main() -> int:

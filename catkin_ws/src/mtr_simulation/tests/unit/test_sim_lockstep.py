@@ -71,6 +71,30 @@ def test_clock_waits_for_the_earliest_hold(barrier):
     assert results == [True]
 
 
+def test_who_works_later_is_asleep_until_then(barrier):
+    barrier.message("/b")
+    barrier.hold("/a", 2 * STEP, 0)
+    assert barrier.asleep(STEP) == {"/a"}
+    assert barrier.asleep(2 * STEP) == set()
+
+
+def test_dropped_node_is_not_asleep(barrier, clock):
+    barrier.hold("/a", STEP, 0)
+    clock.hurry_s = SILENT_AFTER_WALL_S + 1.0
+    barrier.wait(2 * STEP)
+    assert barrier.asleep(0) == set()
+
+
+def test_wait_is_counted_for_the_node_that_came_last(barrier, clock):
+    barrier.hold("/a", STEP, 0)
+    barrier.hold("/b", STEP, 0)
+    thread, _ = wait_in_thread(barrier, 2 * STEP)
+    barrier.hold("/a", 2 * STEP, 0)
+    barrier.hold("/b", 2 * STEP, 0)
+    thread.join(10.0)
+    assert set(barrier.waited_s) <= {"/b"}
+
+
 def test_clock_waits_for_messages_that_are_under_way(barrier):
     barrier.hold("/a", STEP, 2)
     barrier.message("/a")

@@ -4,7 +4,7 @@ import rospy
 
 from mtr_core import names, schedule
 from mtr_core.states import State
-from mtr_lockstep import Ticker, TickInput, clock, run_node
+from mtr_lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_msgs.msg import (
     CarEstimate,
     DesiredState,
@@ -36,8 +36,8 @@ class StateMachineNode:
             Part.DRIVE_CONTROL: TickInput(names.DRIVE_STATUS, DriveStatus, schedule.DRIVE_CONTROL),
             Part.PERIPHERALS: TickInput(names.PERIPHERALS_STATE, PeripheralsState, schedule.PERIPHERALS),
         }
-        self._mode = rospy.Publisher(names.ROBOT_MODE, RobotMode, queue_size=10, tcp_nodelay=True)
-        self._lock = rospy.Publisher(names.MOTION_LOCK, MotionLock, queue_size=10, tcp_nodelay=True)
+        self._mode = publisher(names.ROBOT_MODE, RobotMode)
+        self._lock = publisher(names.MOTION_LOCK, MotionLock)
         self._ticker = Ticker(schedule.STATE_MACHINE)
 
     def spin(self) -> None:
