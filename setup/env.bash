@@ -4,11 +4,12 @@ _top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 export PATH="$_top/.venv/bin:/usr/bin:$PATH"
 unset PYTHONHOME PYENV_VERSION
 # Catkin's own script reads variables that may be unset.
-_options=$(set +o)
+_options=$-
 set +eu
 # shellcheck disable=SC1091
 [ -f "$_top/catkin_ws/devel/setup.bash" ] && source "$_top/catkin_ws/devel/setup.bash"
-eval "$_options"
+[[ $_options != *e* ]] || set -e
+[[ $_options != *u* ]] || set -u
 export ROS_PACKAGE_PATH="$_top/catkin_ws/src:/usr/share"
 export ROS_MASTER_URI="${ROS_MASTER_URI:-http://127.0.0.1:11311}"
 export ROS_IP=127.0.0.1
