@@ -28,6 +28,6 @@ if [[ ! -x .venv/bin/python || "$(cat .setup/venv 2>/dev/null)" != "$fingerprint
   echo "Making the virtual environment .venv"
   rm -rf .venv
   /usr/bin/python3 -m venv --system-site-packages .venv
-  .venv/bin/pip install --quiet --disable-pip-version-check --no-input -r setup/python-requirements.txt
+  .venv/bin/pip install -qq --disable-pip-version-check --no-input -r setup/python-requirements.txt
   echo "$fingerprint" >.setup/venv
 fi
