@@ -6,6 +6,7 @@ Usage: run_tests.py all | [lint] [unit] [gtest] [rostest] [system]
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -25,6 +26,8 @@ def main(wanted: List[str]) -> int:
     if unknown:
         print(f"Unknown suite {unknown[0]}; there are: {', '.join(SUITES)}.", file=sys.stderr)
         return 2
+    # A runner in the background may have been started with Ctrl-C ignored, and its children would inherit that.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     passed = failed = 0
     for name in names:
         shutil.rmtree(RESULTS / name, ignore_errors=True)

@@ -72,6 +72,7 @@ def test_table_of_all_lines_ends_a_test(parameters, tmp_path, capsys):
 
 def test_ctrl_c_stops_the_robot_saves_and_can_be_continued(parameters, tmp_path, world, robot_link, capsys):
     out = tmp_path / "out"
+    handler = signal.getsignal(signal.SIGINT)
 
     def interrupt(status):
         if status.id == 200:
@@ -85,7 +86,7 @@ def test_ctrl_c_stops_the_robot_saves_and_can_be_continued(parameters, tmp_path,
     assert 0 < len(measured) < 8
     assert not (out / "results.csv").exists()
     assert "--continue" in capsys.readouterr().err
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert signal.getsignal(signal.SIGINT) is handler
 
     assert run("autolock", parameters, out, "--continue", out / "progress.json") == 0
     results = json.loads((out / "progress.json").read_text(encoding="utf-8"))["results"]
