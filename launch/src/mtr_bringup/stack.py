@@ -3,6 +3,7 @@
 import contextlib
 import os
 import pathlib
+import secrets
 import signal
 import socket
 import subprocess
@@ -13,6 +14,7 @@ from typing import Dict, Optional
 START_LIMIT_S = 60.0
 STOP_LIMIT_S = 20.0
 POLL_S = 0.1
+LISTENING_PORTS = range(20000, 32000)
 
 
 class StackError(Exception):
@@ -41,10 +43,16 @@ class StackOptions:
 
 
 def free_port() -> int:
-    """A TCP port of the loopback interface that nobody listens on now."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    """A TCP port of the loopback interface that nobody listens on now.
+
+    Below the range from which the system takes ports for outgoing connections: the nodes' own connections could
+    otherwise take it before the node that is to listen there.
+    """
+    while True:
+        port = secrets.choice(LISTENING_PORTS)
+        with socket.socket() as probe, contextlib.suppress(OSError):
+            probe.bind(("127.0.0.1", port))
+            return port
 
 
 class Stack:
