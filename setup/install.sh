@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Installs the Debian packages and the virtual environment that are missing; quick when nothing is.
+# Usage: install.sh [FILE with further Debian packages]
 # SPDX-License-Identifier: Apache-2.0
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-mapfile -t wanted < <(grep -vE '^\s*(#|$)' setup/debian-packages.txt)
+mapfile -t wanted < <(grep -hvE '^\s*(#|$)' setup/debian-packages.txt ${1:+"$1"})
 installed=$(dpkg-query -W -f='${db:Status-Abbrev} ${Package}\n' 2>/dev/null | awk '$1 == "ii" {print $2}')
 missing=()
 for package in "${wanted[@]}"; do

@@ -11,6 +11,7 @@ class State(enum.IntEnum):
     MAPPING_CAR = 3
     FOLLOWING_WAYPOINT = 4
     FAULT = 5
+    CHECKING_CAR = 6
 
 
 class CarState(enum.IntEnum):
@@ -19,6 +20,15 @@ class CarState(enum.IntEnum):
     UNKNOWN = 0
     COLLECTING = 1
     LOCATED = 2
+    FAILED = 3
+
+
+class Check(enum.IntEnum):
+    """How the self-check of the Car's frame stands, as in CarCheck."""
+
+    NONE = 0
+    RUNNING = 1
+    PASSED = 2
     FAILED = 3
 
 
