@@ -1,0 +1,55 @@
+"""Topics and services that a device offers, checked against the messages that the host has."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import Callable, Dict, NamedTuple, Optional, Tuple
+
+from .wire import Special, TopicInfo
+
+
+class Endpoint(NamedTuple):
+    """One direction of a topic or service; kind says which."""
+
+    kind: Special
+    info: TopicInfo
+
+
+class Endpoints:
+    """What the device has told so far.
+
+    Attributes:
+        by_id: endpoints by their topic id.
+        to_device: those that the host sends to (topics the device subscribes to, requests it serves), by name.
+    """
+
+    def __init__(self, md5_of: Callable[[str], Optional[str]]):
+        self._md5_of = md5_of
+        self.by_id: Dict[int, Endpoint] = {}
+        self.to_device: Dict[str, Endpoint] = {}
+
+    def add(self, kind: Special, info: TopicInfo) -> Tuple[Optional[Endpoint], str]:
+        """The endpoint when it is new or has changed, and the sentence that says why it cannot be served."""
+        refusal = self._refusal(kind, info)
+        if refusal:
+            return None, refusal
+        endpoint = Endpoint(kind, info)
+        if self.by_id.get(info.topic_id) == endpoint:
+            return None, ""
+        self.by_id[info.topic_id] = endpoint
+        if kind in (Special.SUBSCRIBER, Special.SERVICE_REQUEST):
+            self.to_device[info.name] = endpoint
+        return endpoint, ""
+
+    def clear(self) -> None:
+        """Another device, or the same after a replug."""
+        self.by_id.clear()
+        self.to_device.clear()
+
+    def _refusal(self, kind: Special, info: TopicInfo) -> str:
+        part = {Special.SERVICE_REQUEST: "Request", Special.SERVICE_RESPONSE: "Response"}.get(kind, "")
+        ours = self._md5_of(info.type_name + part)
+        if ours is None:
+            return (f"The firmware's {info.name} is a {info.type_name}, which this machine does not know; "
+                    "build the firmware and the workspace from the same source.")
+        if ours != info.md5:
+            return (f"The firmware's {info.name} uses another {info.type_name} (checksum {info.md5}) than this machine "
+                    f"({ours}); build the firmware and the workspace from the same source and flash it.")
+        return ""

@@ -1,0 +1,147 @@
+"""Runs a session on a port in a thread of its own: opens, reads, writes, and opens again after a replug."""
+# SPDX-License-Identifier: Apache-2.0
+import collections
+import os
+import select
+import threading
+import time
+from typing import Any, Callable, Deque, Dict, Optional
+
+from .port import PortError, SerialPort
+from .session import Event, Session
+
+TICK_S = 0.1
+FIRST_BACKOFF_S = 0.2
+LAST_BACKOFF_S = 2.0
+# A topic that is faster than the line loses its oldest messages.
+QUEUED_PER_TOPIC = 4
+
+
+class LineHandler:
+    """Who is told, in the line's thread, what happens; this one does not care."""
+
+    def event(self, event: Event) -> None:
+        """Something of the session."""
+
+    def closed(self, reason: str) -> None:
+        """The port is gone; nothing of the device is known any more."""
+
+    def tick(self, now_s: float) -> None:
+        """Ten times a second at least."""
+
+
+class Line:
+    """The port's thread.
+
+    Attributes:
+        session: with the device; to be used in the line's thread only, but for its health.
+        trouble: why the port is not open, empty when it is.
+        dropped: messages that were older than the line could carry.
+    """
+
+    def __init__(self, open_port: Callable[[], SerialPort], session: Session, handler: LineHandler):
+        self._open_port = open_port
+        self._handler = handler
+        self._queues: Dict[str, Deque[bytes]] = {}
+        self._lock = threading.Lock()
+        self._wake_read, self._wake_write = os.pipe()
+        self._stopping = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="serial line", daemon=True)
+        self._unsent = b""
+        self.session = session
+        self.trouble = ""
+        self.dropped = 0
+
+    def start(self) -> None:
+        """Begin."""
+        os.set_blocking(self._wake_write, False)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Say goodbye to the device and end; returns when the port is closed."""
+        self._stopping.set()
+        self._wake()
+        self._thread.join()
+
+    def send(self, name: str, payload: bytes) -> None:
+        """Give a message to the line, from any thread."""
+        with self._lock:
+            queue = self._queues.setdefault(name, collections.deque(maxlen=QUEUED_PER_TOPIC))
+            self.dropped += len(queue) == QUEUED_PER_TOPIC
+            queue.append(payload)
+        self._wake()
+
+    def _wake(self) -> None:
+        try:
+            os.write(self._wake_write, b"w")
+        except BlockingIOError:
+            pass  # It is awake already.
+
+    def _run(self) -> None:
+        backoff_s = FIRST_BACKOFF_S
+        while not self._stopping.is_set():
+            try:
+                port = self._open_port()
+            except PortError as error:
+                self.trouble = str(error)
+                self._handler.tick(time.monotonic())
+                self._stopping.wait(backoff_s)
+                backoff_s = min(2.0 * backoff_s, LAST_BACKOFF_S)
+                continue
+            backoff_s = FIRST_BACKOFF_S
+            try:
+                self._serve(port)
+                reason = ""
+            except PortError as error:
+                reason = str(error)
+            port.close()
+            self.trouble = reason
+            self.session.endpoints.clear()
+            self._handler.closed(reason)
+
+    def _serve(self, port: SerialPort) -> None:
+        """Until stopped; PortError when the port is gone."""
+        self.trouble, self._unsent = "", b""
+        self.session.outbox.clear()
+        self.session.start(time.monotonic())
+        ready = select.poll()
+        ready.register(self._wake_read, select.POLLIN)
+        while not self._stopping.is_set():
+            self._write(port)
+            ready.register(port.fd, select.POLLIN | (select.POLLOUT if self._unsent else 0))
+            woken = dict(ready.poll(1000.0 * TICK_S))
+            now_s = time.monotonic()
+            if port.fd in woken and woken[port.fd] & ~select.POLLOUT:
+                self._hand_on(self.session.receive(port.read(), now_s))
+            if self._wake_read in woken:
+                os.read(self._wake_read, 4096)
+            self._take_queued()
+            self._hand_on(self.session.tick(now_s))
+            self._handler.tick(now_s)
+        self.session.stop()
+        self._write(port)
+
+    def _hand_on(self, events: Any) -> None:
+        for event in events:
+            self._handler.event(event)
+
+    def _take_queued(self) -> None:
+        with self._lock:
+            queues, self._queues = self._queues, {}
+        for name, queue in queues.items():
+            for payload in queue:
+                self.session.send(name, payload)
+
+    def _write(self, port: SerialPort) -> None:
+        self._unsent += b"".join(self.session.outbox)
+        self.session.outbox.clear()
+        if self._unsent:
+            self._unsent = self._unsent[port.write(self._unsent):]
+
+
+def state_sentence(line: Line, path: str, now_s: Optional[float] = None) -> str:
+    """What is wrong with the line, for a person; empty when nothing is."""
+    if line.trouble:
+        return line.trouble
+    problem = line.session.problem(time.monotonic() if now_s is None else now_s)
+    return f"The port {path} {problem.value}." if problem.value else ""

@@ -1,0 +1,26 @@
+"""Parameters of the serial line to the firmware."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+
+from mtr_core.parameters import ParameterSet, number
+
+
+@dataclass(frozen=True)
+class LinkParameters(ParameterSet):
+    """How the line is used and judged.
+
+    Attributes:
+        baud: of the UART; 57600 is rosserial's default and exact within 0.8 % on a 16 MHz board.
+        lost_after_s: without a good frame for longer, the device is lost.
+        ask_every_s: a device that is not known or lost is asked for its topics so often.
+        frame_gap_s: a frame does not go on after a pause of this length; a device sends it in one go.
+        max_payload_bytes: longer frames are damage.
+        service_timeout_s: a call that is not answered by then has failed.
+    """
+
+    baud: int = number(57600, 9600, 1000000, "baud")
+    lost_after_s: float = number(1.0, 0.2, 10.0, "s")
+    ask_every_s: float = number(0.5, 0.1, 5.0, "s")
+    frame_gap_s: float = number(0.05, 0.005, 1.0, "s")
+    max_payload_bytes: int = number(512, 64, 4096, "bytes")
+    service_timeout_s: float = number(2.0, 0.1, 30.0, "s")
