@@ -1,4 +1,4 @@
-"""Check sum inside messages that cross the serial line: rosserial's own is an 8-bit sum, which two errors can cancel."""
+"""Check sum inside messages on the serial line: rosserial's own is an 8-bit sum, which two errors can cancel."""
 # SPDX-License-Identifier: Apache-2.0
 import binascii
 import io
