@@ -45,6 +45,8 @@ JOY = "/joy"
 # Host to firmware and back
 FIRMWARE_COMMAND = "/firmware/command"
 FIRMWARE_PRESS = "/firmware/press"
+FIRMWARE_CALIBRATE = "/firmware/calibrate"
+FIRMWARE_ECHO = "/firmware/echo"
 FIRMWARE_STATE = "/firmware/state"
 FIRMWARE_HEALTH = "/firmware/health"
 

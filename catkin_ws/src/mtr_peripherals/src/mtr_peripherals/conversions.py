@@ -6,6 +6,7 @@ from typing import Optional, Union
 import rospy
 from sensor_msgs.msg import JointState
 
+from mtr_core.crc import seal
 from mtr_lockstep import clock
 from mtr_msgs.msg import (
     DesiredState,
@@ -50,12 +51,12 @@ def firmware_report(state: FirmwareState, stamp_ns: int, times: Union[FirmwareCl
 
 def command_message(outcome: Outcome, seq: int) -> FirmwareCommand:
     """Lift and LEDs, for the firmware."""
-    return FirmwareCommand(seq % 2 ** 32, outcome.lift_height_m, outcome.led.value)
+    return seal(FirmwareCommand(seq=seq % 2 ** 32, lift_height_m=outcome.lift_height_m, led_pattern=outcome.led.value))
 
 
 def press_message(order: FirmwareOrder) -> FirmwarePress:
     """One press, for the firmware."""
-    return FirmwarePress(order.id, order.servos, order.strength, order.hold_ms)
+    return seal(FirmwarePress(id=order.id, servos=order.servos, strength=order.strength, hold_ms=order.hold_ms))
 
 
 def state_message(outcome: Outcome, battery: float, stamp: rospy.Time) -> PeripheralsState:

@@ -11,6 +11,7 @@ class PressState(enum.Enum):
     PRESSING = 1
     DONE = 2
     REFUSED = 3
+    CUT_SHORT = 4
 
 
 class Led(enum.Enum):
@@ -25,6 +26,7 @@ class Led(enum.Enum):
     PAUSED = 6
     ERROR = 7
     LINK_LOST = 8
+    WARNING = 9
 
 
 FAULTS = {

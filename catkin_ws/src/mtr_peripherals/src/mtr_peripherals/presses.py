@@ -94,6 +94,8 @@ class Presses:
                 self._finish(running.order, report.press_start_ns, report.press_end_ns)
             elif report.press_state is PressState.REFUSED:
                 self._finish(running.order, now_ns, now_ns, "The firmware refused the press.")
+            elif report.press_state is PressState.CUT_SHORT:
+                self._finish(running.order, now_ns, now_ns, "The press was cut short; it may have pressed or not.")
         elif running.seen:
             self._finish(running.order, now_ns, now_ns, "The firmware started again during the press.")
         if self._running and now_ns > running.deadline_ns:

@@ -4,7 +4,8 @@ import math
 
 import rospy
 
-from mtr_msgs.msg import ButtonPress, DesiredState, FirmwareCommand, FirmwareState, RobotMode, Waypoint
+from mtr_core.crc import is_sound
+from mtr_msgs.msg import ButtonPress, DesiredState, FirmwareState, RobotMode, Waypoint
 from mtr_peripherals.conversions import (
     battery_charge,
     command_message,
@@ -26,8 +27,10 @@ OUTCOME = Outcome(0.5, Led.MOVING, FirmwareOrder(3, 2, 0.5, 250), True, 0.4, 0.7
 
 
 def test_leds_are_those_of_the_message():
-    assert {led.value for led in Led} == set(range(9))
-    assert command_message(OUTCOME, 6) == FirmwareCommand(6, 0.5, 4)
+    assert {led.value for led in Led} == set(range(10))
+    command = command_message(OUTCOME, 6)
+    assert (command.seq, command.lift_height_m, command.led_pattern) == (6, 0.5, 4)
+    assert is_sound(command) and is_sound(press_message(OUTCOME.press))
 
 
 def test_orders_take_session_height_and_press():

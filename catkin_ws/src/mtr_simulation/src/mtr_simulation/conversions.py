@@ -14,6 +14,7 @@ from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import BatteryState, Imu, LaserScan
 
 from mtr_core import names
+from mtr_core.crc import seal
 from mtr_msgs.msg import FirmwareState
 
 from .battery import CAPACITY_WH, FULL_V
@@ -122,7 +123,7 @@ def battery_message(time_ns: int, reading: BatteryReading) -> BatteryState:
 
 def firmware_message(state: State) -> FirmwareState:
     """What the firmware reports."""
-    return FirmwareState(*state)
+    return seal(FirmwareState(*state, 0))
 
 
 def _diagonal(values: tuple) -> list:

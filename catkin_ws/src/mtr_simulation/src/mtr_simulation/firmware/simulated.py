@@ -9,7 +9,7 @@ from .press import Presser, PressOrder, PressState
 SILENCE_LIMIT_NS = 1_000_000_000
 FAULT_LINK_LOST = 3
 LED_LINK_LOST = 8
-LED_LAST = 8
+LED_LAST = 9
 
 # Its clock starts two minutes before it wraps, so that each longer run meets the wrap (each 71 minutes on hardware).
 CLOCK_START_US = (1 << 32) - 120_000_000
@@ -18,7 +18,7 @@ _REMEMBERED_IDS = 16
 
 
 class State(NamedTuple):
-    """Fields of mtr_msgs/FirmwareState."""
+    """Fields of mtr_msgs/FirmwareState but the check sum."""
 
     time_us: int
     lift_height_m: float
@@ -29,6 +29,9 @@ class State(NamedTuple):
     press_end_us: int
     led_pattern: int
     fault: int
+    lift_state: int
+    calibration_id: int
+    calibration_state: int
 
 
 class SimulatedFirmware:
@@ -114,6 +117,9 @@ class SimulatedFirmware:
             press_end_us=self._press_end_us,
             led_pattern=self._led,
             fault=self._fault,
+            lift_state=int(abs(self._lift.speed_mps) > 0.0),
+            calibration_id=0,
+            calibration_state=0,
         )
 
     def _hear(self) -> bool:
