@@ -29,6 +29,9 @@ class LineHandler:
     def tick(self, now_s: float) -> None:
         """Ten times a second at least."""
 
+    def ended(self) -> None:
+        """The thread ends."""
+
 
 class Line:
     """The port's thread.
@@ -46,7 +49,7 @@ class Line:
         self._lock = threading.Lock()
         self._wake_read, self._wake_write = os.pipe()
         self._stopping = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="serial line", daemon=True)
+        self._thread = threading.Thread(target=self._main, name="serial line", daemon=True)
         self._unsent = b""
         self.session = session
         self.trouble = ""
@@ -76,6 +79,12 @@ class Line:
             os.write(self._wake_write, b"w")
         except BlockingIOError:
             pass  # It is awake already.
+
+    def _main(self) -> None:
+        try:
+            self._run()
+        finally:
+            self._handler.ended()
 
     def _run(self) -> None:
         backoff_s = FIRST_BACKOFF_S

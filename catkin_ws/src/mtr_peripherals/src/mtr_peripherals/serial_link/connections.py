@@ -1,0 +1,153 @@
+"""Topics and services in ROS for the endpoints of a device."""
+# SPDX-License-Identifier: Apache-2.0
+import io
+import threading
+import time
+from typing import Any, Callable, Dict, Optional
+
+import genpy
+import roslib.message
+import rospy
+
+from .calls import Calls, CallState
+from .endpoints import Endpoint
+from .frames import Frame
+from .wire import Special
+
+HALVES = {"Request": "_request_class", "Response": "_response_class"}
+CALL_POLL_S = 0.05
+
+
+def class_of(type_name: str) -> Optional[Any]:
+    """Message class, or half of a service for a name that ends in Request or Response; None when it is unknown."""
+    for half, attribute in HALVES.items():
+        if type_name.endswith(half):
+            service = _service_of(type_name[:-len(half)])
+            if service:
+                return getattr(service, attribute)
+    try:
+        return roslib.message.get_message_class(type_name)
+    except (ImportError, ValueError, AttributeError):
+        return None
+
+
+def md5_of(type_name: str) -> Optional[str]:
+    """Checksum of this machine's definition."""
+    found = class_of(type_name)
+    return found._md5sum if found else None
+
+
+class Connections:
+    """Publishers, subscribers and services; opened as the device tells of them, closed when its port goes."""
+
+    def __init__(self, send: Callable[[str, bytes], None], service_timeout_s: float):
+        self._send = send
+        self._service_timeout_s = service_timeout_s
+        self._publishers: Dict[int, Any] = {}
+        self._subscribers: Dict[str, Any] = {}
+        self._services: Dict[str, "ServiceBridge"] = {}
+        self._responses: Dict[int, "ServiceBridge"] = {}
+
+    def open(self, endpoint: Endpoint) -> None:
+        """Serve an endpoint."""
+        kind, info = endpoint
+        if kind is Special.PUBLISHER:
+            self._publishers[info.topic_id] = rospy.Publisher(info.name, class_of(info.type_name), queue_size=50,
+                                                              tcp_nodelay=True)
+        elif kind is Special.SUBSCRIBER:
+            self._close_subscriber(info.name)
+            self._subscribers[info.name] = rospy.Subscriber(
+                info.name, class_of(info.type_name), lambda message: self._send(info.name, _bytes_of(message)),
+                queue_size=4, tcp_nodelay=True)
+        else:
+            if info.name not in self._services:
+                self._services[info.name] = ServiceBridge(info.name, info.type_name, self._send,
+                                                          self._service_timeout_s)
+            if kind is Special.SERVICE_RESPONSE:
+                self._responses[info.topic_id] = self._services[info.name]
+
+    def take(self, frame: Frame) -> str:
+        """A message of the device; a sentence when its bytes are no such message."""
+        if frame.topic_id in self._responses:
+            self._responses[frame.topic_id].take(frame.payload)
+            return ""
+        publisher = self._publishers.get(frame.topic_id)
+        if publisher is None:
+            return ""
+        message = publisher.data_class()
+        try:
+            message.deserialize(frame.payload)
+        except genpy.DeserializationError as error:
+            return f"A message on {publisher.name} of {len(frame.payload)} bytes could not be read: {error}."
+        publisher.publish(message)
+        return ""
+
+    def close(self) -> None:
+        """Take everything down."""
+        for publisher in self._publishers.values():
+            publisher.unregister()
+        for name in list(self._subscribers):
+            self._close_subscriber(name)
+        for service in self._services.values():
+            service.close()
+        self._publishers.clear()
+        self._services.clear()
+        self._responses.clear()
+
+    def _close_subscriber(self, name: str) -> None:
+        former = self._subscribers.pop(name, None)
+        if former:
+            former.unregister()
+
+
+class ServiceBridge:
+    """A service of the device as a ROS service; a call that the device does not answer fails in time."""
+
+    def __init__(self, name: str, type_name: str, send: Callable[[str, bytes], None], timeout_s: float):
+        self._name, self._send, self._timeout_s = name, send, timeout_s
+        self._calls = Calls(timeout_s)
+        self._changed = threading.Condition()
+        self._closed = False
+        service = _service_of(type_name)
+        self._response_class = service._response_class
+        self._service = rospy.Service(name, service, self._call)
+
+    def take(self, payload: bytes) -> None:
+        """An answer of the device."""
+        with self._changed:
+            self._calls.take(payload, time.monotonic())
+            self._changed.notify_all()
+
+    def close(self) -> None:
+        """Callers that wait are told."""
+        with self._changed:
+            self._closed = True
+            self._calls.cut()
+            self._changed.notify_all()
+        self._service.shutdown("the firmware's port is gone")
+
+    def _call(self, request: Any) -> Any:
+        with self._changed:
+            refusal = self._calls.begin(time.monotonic())
+            if refusal:
+                raise rospy.ServiceException(f"{self._name} of the firmware cannot be called: {refusal}.")
+            self._send(self._name, _bytes_of(request))
+            self._changed.wait_for(lambda: self._closed or self._calls.state(time.monotonic()) is not CallState.WAITING,
+                                   self._timeout_s + CALL_POLL_S)
+            if self._closed or self._calls.state(time.monotonic()) is not CallState.ANSWERED:
+                raise rospy.ServiceException(f"{self._name} of the firmware did not answer within "
+                                             f"{self._timeout_s:g} s.")
+            return self._response_class().deserialize(self._calls.answer)
+
+
+def _service_of(type_name: str) -> Optional[Any]:
+    try:
+        return roslib.message.get_service_class(type_name)
+    except (ImportError, ValueError, AttributeError):
+        return None
+
+
+def _bytes_of(message: Any) -> bytes:
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()
