@@ -6,6 +6,7 @@ import rospy
 from sensor_msgs.msg import BatteryState, JointState
 
 from mtr_core import names, schedule
+from mtr_core.crc import is_sound
 from mtr_lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_lockstep.samples import Samples
 from mtr_msgs.msg import DesiredState, FirmwareCommand, FirmwarePress, FirmwareState, PeripheralsState, RobotMode
@@ -34,7 +35,8 @@ class PeripheralsNode:
         self._parameters = parameters
         self._core = Peripherals(parameters)
         self._times = SharedClock() if clock.is_simulated() else FirmwareClock()
-        self._reports = Samples(schedule.FIRMWARE, lag_ns=0, waits=clock.is_simulated())
+        self._reports = Samples(schedule.FIRMWARE, lag_ns=round(parameters.firmware_lag_s / NS),
+                                waits=clock.is_simulated())
         self._battery: Tuple[int, Optional[float]] = (0, None)
         self._seq = 0
         self._logged = None
@@ -71,6 +73,8 @@ class PeripheralsNode:
         self._ticker.messages_sent += 1
 
     def _take_state(self, message: FirmwareState) -> None:
+        if not is_sound(message):
+            return
         stamp_ns = self._times.observe(message.time_us, clock.now_ns())
         report: FirmwareReport = firmware_report(message, stamp_ns, self._times)
         self._reports.add(stamp_ns, report)

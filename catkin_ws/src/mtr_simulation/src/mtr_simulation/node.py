@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import threading
-from typing import Any, Callable, Deque, List, Set, Tuple
+from typing import Any, Callable, Deque, Iterable, List, Set, Tuple
 
 import rosgraph
 import rospy
@@ -14,11 +14,11 @@ from sensor_msgs.msg import BatteryState, Imu
 from std_msgs.msg import Header
 
 from mtr_core import names
-from mtr_core.schedule import CLOCK_STEP, FIRMWARE, LIDAR, SIMULATION_START_NS, slot
+from mtr_core.schedule import CLOCK_STEP, LIDAR, SIMULATION_START_NS, slot
 from mtr_lockstep import direct_publisher, run_node
-from mtr_msgs.msg import FirmwareCommand, FirmwarePress, FirmwareState
 
 from . import connections, conversions
+from .firmware.connections import emulated_firmware, firmware_topics
 from .imu import ImuParameters
 from .lockstep_barrier import Barrier, Watcher
 from .pacing import Pace
@@ -33,8 +33,10 @@ class SimulatorNode:
     """One loop: wait for the holds, do what the nodes ordered, step, publish."""
 
     def __init__(self, parameters: SimulatorParameters):
-        self._world = World(parameters)
-        self._output = Output(parameters.rear_lidar)
+        firmware = emulated_firmware(parameters.firmware_elf) if parameters.firmware_elf else None
+        self._world = World(parameters, firmware)
+        self._firmware = firmware_topics(self._world.firmware)
+        self._output = Output(parameters.rear_lidar, self._firmware.publishers)
         self._barrier = Barrier(parameters.held_by, NodeWatcher(self._output))
         self._pace = Pace(parameters.real_time_factor)
         self._stopped = threading.Event()
@@ -67,6 +69,7 @@ class SimulatorNode:
             if delay_s:
                 self._stopped.wait(delay_s)
             self._output.publish(sensors, self._world)
+            self._firmware.publish(time_ns)
             self._output.clock(time_ns, self._barrier.asleep(time_ns))
             self._world.sim.look_ahead()
             self._log(time_ns)
@@ -78,12 +81,14 @@ class SimulatorNode:
         self._barrier.stop()
 
     def _subscribe(self) -> None:
-        sim, firmware = self._world.sim, self._world.firmware
+        sim = self._world.sim
         self._listen(names.WHEEL_COMMAND, Twist, lambda twist: sim.command(twist.linear.x, twist.angular.z))
         self._listen(names.FIRMWARE_COMMAND, FirmwareCommand,
                      lambda order: firmware.command(order.lift_height_m, order.led_pattern))
         self._listen(names.FIRMWARE_PRESS, FirmwarePress,
                      lambda order: firmware.press(order.id, order.servos, order.strength, order.hold_ms))
+        for topic, message_type, obey in self._firmware.orders:
+            self._listen(topic, message_type, obey)
         rospy.Subscriber(names.SIM_HOLD, Header, self._hold, tcp_nodelay=True)
 
     def _listen(self, topic: str, message_type: Any, obey: Callable[[Any], None]) -> None:
@@ -112,7 +117,7 @@ class Output:
     The loop itself sends, without queues, so that everything of a tick is on its way before the clock.
     """
 
-    def __init__(self, rear_lidar: bool):
+    def __init__(self, rear_lidar: bool, further: Iterable[Any] = ()):
         self._clock = direct_publisher("/clock", Clock)
         self._front = direct_publisher(names.FRONT_SCAN, conversions.NumpyScan)
         self._rear = direct_publisher(names.REAR_SCAN, conversions.NumpyScan) if rear_lidar else None
@@ -120,8 +125,7 @@ class Output:
         self._odometry = direct_publisher(names.WHEEL_ODOMETRY, Odometry)
         self._battery = direct_publisher(names.BATTERY, BatteryState)
         self._truth = direct_publisher(names.SIM_TRUTH, Odometry)
-        self._firmware = direct_publisher(names.FIRMWARE_STATE, FirmwareState)
-        self._publishers = [each for each in vars(self).values() if each]
+        self._publishers = [*(each for each in vars(self).values() if each), *further]
         self._muted: List[Tuple[Any, Any]] = []
         self._imu_message = conversions.ImuMessage(ImuParameters())
         self._odometry_message = conversions.OdometryMessage(names.ODOM)
@@ -163,8 +167,6 @@ class Output:
                                        (self._rear, sensors.rear_scan, names.REAR_LIDAR)):
             if scan and publisher.get_num_connections():
                 publisher.publish(conversions.scan_message(scan, frame))
-        if FIRMWARE.last_at(time_ns) == time_ns:
-            self._firmware.publish(conversions.firmware_message(world.firmware.state()))
         if LIDAR.last_at(time_ns) == time_ns and self._truth.get_num_connections():
             self._truth.publish(self._truth_message.fill(world.truth))
         if BATTERY.last_at(time_ns) == time_ns:

@@ -1,6 +1,6 @@
 """Robot, firmware and Car together, one tick at a time."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Optional, Set, Tuple
+from typing import Any, Optional, Set, Tuple
 
 from mtr_core.schedule import SIMULATION_START_NS
 
@@ -36,17 +36,17 @@ class World:
 
     Attributes:
         sim: robot and sensors.
-        firmware: of the peripherals.
+        firmware: of the peripherals, simulated in this process or emulated.
         truth: true state after the last step.
         contacts: what the robot touches after the last step.
     """
 
-    def __init__(self, parameters: SimulatorParameters):
+    def __init__(self, parameters: SimulatorParameters, firmware: Optional[Any] = None):
         scenario = named_scenario(parameters.scenario)
         self.sim = Sim(parameters.seed, scenario, SimParameters(rear_lidar=parameters.rear_lidar))
         # The firmware's clock is the simulated one; that of a real board starts anywhere.
-        self.firmware = SimulatedFirmware(clock_start_us=SIMULATION_START_NS // 1000)
-        self.firmware.step(SIMULATION_START_NS)
+        self.firmware = firmware or SimulatedFirmware(clock_start_us=SIMULATION_START_NS // 1000)
+        self.firmware.start(SIMULATION_START_NS)
         self.truth: TrueState = self.sim.truth()
         self.contacts: Set[str] = set()
         self._truth_log = TruthLog(parameters.truth_dir) if parameters.truth_dir else NoTruthLog()
@@ -68,7 +68,8 @@ class World:
         return sensors
 
     def close(self) -> None:
-        """Take the CAN adapter away and close the truth's file."""
+        """Take the CAN adapter away, end the firmware, and close the truth's file."""
+        self.firmware.close()
         if self._port:
             self._port.close()
         self._truth_log.close()

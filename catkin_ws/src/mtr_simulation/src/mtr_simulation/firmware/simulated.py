@@ -90,6 +90,13 @@ class SimulatedFirmware:
         self._running_id = id
         self._report(id, PressState.PRESSING, start_ns=self._presser.reached_ns)
 
+    def start(self, time_ns: int) -> None:
+        """Power on."""
+        self.step(time_ns)
+
+    def close(self) -> None:
+        """Power off; there is nothing to do."""
+
     def step(self, time_ns: int) -> None:
         """Advance to time_ns."""
         if self._boot_ns is None:

@@ -1,0 +1,91 @@
+"""The firmware's topics, for the one simulated in this process and for the emulated one."""
+# SPDX-License-Identifier: Apache-2.0
+import io
+import pathlib
+import tempfile
+from typing import Any, Callable, List, Tuple, Union
+
+from mtr_core import names
+from mtr_core.schedule import FIRMWARE
+from mtr_lockstep import direct_publisher
+from mtr_msgs.msg import (
+    FirmwareCalibrate,
+    FirmwareCommand,
+    FirmwareEcho,
+    FirmwareHealth,
+    FirmwarePress,
+    FirmwareState,
+)
+from mtr_peripherals.serial_link.connections import md5_of
+
+from ..conversions import firmware_message
+from .emulated import EmulatedFirmware
+from .simulated import SimulatedFirmware
+
+MCU = "atmega2560"
+# Topic, type of its messages, and what obeys one.
+Order = Tuple[str, Any, Callable[[Any], None]]
+
+
+def emulated_firmware(elf: str) -> EmulatedFirmware:
+    """The firmware in a file, on a microcontroller that is not powered yet."""
+    from mtr_emulator import Emulator  # noqa: PLC0415 - only developers' machines have it
+
+    folder = tempfile.mkdtemp(prefix="mtr_firmware_")
+    return EmulatedFirmware(Emulator(pathlib.Path(elf), MCU, stepped=True, folder=pathlib.Path(folder)), md5_of)
+
+
+def firmware_topics(firmware: Union[SimulatedFirmware, EmulatedFirmware]) -> "Union[SimulatedTopics, EmulatedTopics]":
+    """Topics of either."""
+    return EmulatedTopics(firmware) if isinstance(firmware, EmulatedFirmware) else SimulatedTopics(firmware)
+
+
+class SimulatedTopics:
+    """Attributes:
+        orders: what the firmware listens to.
+        publishers: what it says.
+    """
+
+    def __init__(self, firmware: SimulatedFirmware):
+        self._firmware = firmware
+        self._state = direct_publisher(names.FIRMWARE_STATE, FirmwareState)
+        self.publishers = [self._state]
+        self.orders: List[Order] = [
+            (names.FIRMWARE_COMMAND, FirmwareCommand,
+             lambda order: firmware.command(order.lift_height_m, order.led_pattern)),
+            (names.FIRMWARE_PRESS, FirmwarePress,
+             lambda order: firmware.press(order.id, order.servos, order.strength, order.hold_ms)),
+        ]
+
+    def publish(self, time_ns: int) -> None:
+        """Its report, when it is due."""
+        if FIRMWARE.last_at(time_ns) == time_ns:
+            self._state.publish(firmware_message(self._firmware.state()))
+
+
+class EmulatedTopics:
+    """As SimulatedTopics, with the messages as they come from the line."""
+
+    def __init__(self, firmware: EmulatedFirmware):
+        self._firmware = firmware
+        self._by_topic = {topic: direct_publisher(topic, message_type) for topic, message_type in (
+            (names.FIRMWARE_STATE, FirmwareState), (names.FIRMWARE_HEALTH, FirmwareHealth),
+            (names.FIRMWARE_ECHO, FirmwareEcho))}
+        self.publishers = list(self._by_topic.values())
+        self.orders: List[Order] = [self._order(*each) for each in (
+            (names.FIRMWARE_COMMAND, FirmwareCommand), (names.FIRMWARE_PRESS, FirmwarePress),
+            (names.FIRMWARE_CALIBRATE, FirmwareCalibrate))]
+
+    def publish(self, time_ns: int) -> None:
+        """What has come from the firmware in this tick."""
+        for topic, payload in self._firmware.take_messages():
+            publisher = self._by_topic.get(topic)
+            if publisher:
+                publisher.publish(publisher.data_class().deserialize(payload))
+
+    def _order(self, topic: str, message_type: Any) -> Order:
+        def send(message: Any) -> None:
+            buffer = io.BytesIO()
+            message.serialize(buffer)
+            self._firmware.send(topic, buffer.getvalue())
+        return topic, message_type, send

@@ -1,0 +1,97 @@
+"""The flashed firmware on an emulated microcontroller, behind a pseudo-terminal, in step with the simulated time.
+
+The host's side of the line is the robot's own session; it runs here and not in a node of its own, so that each byte
+passes at a known simulated time and a run is the same on any machine.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import select
+from typing import Any, Callable, List, Optional, Tuple
+
+from mtr_core.errors import RobotError
+from mtr_peripherals.serial_link.parameters import LinkParameters
+from mtr_peripherals.serial_link.port import SerialPort
+from mtr_peripherals.serial_link.session import Session
+
+NS_PER_US = 1000
+NS = 1e-9
+TICK_NS = 20_000_000
+# Wall time in which bytes that the emulator has sent must have come through the pseudo-terminal.
+ARRIVAL_LIMIT_MS = 2000
+
+
+class EmulationError(RobotError):
+    """The emulated microcontroller does not answer."""
+
+
+class EmulatedFirmware:
+    """Same work as SimulatedFirmware, done by the binary.
+
+    Attributes:
+        lift_height_m: of the emulated lift, above its lower stop.
+        servo_us: pulse widths that the emulated servos get.
+        session: the host's side of the line.
+    """
+
+    def __init__(self, board: Any, md5_of: Callable[[str], Optional[str]]):
+        self._board = board
+        self._now_ns = 0
+        self._sent = self._received = 0
+        self._port: Optional[SerialPort] = None
+        self._messages: List[Tuple[str, bytes]] = []
+        self.session = Session(LinkParameters(), md5_of, lambda: self._now_ns)
+        self.lift_height_m = 0.0
+        self.servo_us: Tuple[float, float] = (0.0, 0.0)
+
+    def start(self, time_ns: int) -> None:
+        """Power on at time 0, so that its clock is the simulated one, and run to the given time."""
+        self._board.start()
+        self._port = SerialPort(self._board.pty, LinkParameters().baud)
+        self.session.start(0.0)
+        while self._now_ns < time_ns:
+            self.step(min(time_ns, self._now_ns + TICK_NS))
+
+    def send(self, topic: str, payload: bytes) -> None:
+        """A message for the firmware."""
+        self.session.send(topic, payload)
+
+    def take_messages(self) -> List[Tuple[str, bytes]]:
+        """What the firmware has said since the last call: topics and payloads."""
+        messages, self._messages = self._messages, []
+        return messages
+
+    def step(self, time_ns: int) -> None:
+        """Let the microcontroller run to time_ns."""
+        self._write()
+        reply = self._board.step((time_ns - self._now_ns) // NS_PER_US, rx_bytes=self._sent)
+        self._now_ns = time_ns
+        for event in self.session.receive(self._read(reply["tx"]), time_ns * NS) + self.session.tick(time_ns * NS):
+            if event.message:
+                name = self.session.endpoints.by_id[event.message.topic_id].info.name
+                self._messages.append((name, event.message.payload))
+            elif event.refused:
+                raise EmulationError(event.refused)
+        seen = self._board.probe()
+        self.lift_height_m, self.servo_us = seen["lift_m"], tuple(seen["servo_us"])
+
+    def close(self) -> None:
+        """Power off."""
+        if self._port:
+            self._port.close()
+        self._board.stop()
+
+    def _write(self) -> None:
+        data = b"".join(self.session.outbox)
+        self.session.outbox.clear()
+        self._sent += len(data)
+        while data:
+            data = data[self._port.write(data):]
+
+    def _read(self, total: int) -> bytes:
+        """Everything up to that many bytes since the start; a pseudo-terminal delivers a little later."""
+        pieces = []
+        while self._received < total:
+            if not select.select([self._port.fd], [], [], ARRIVAL_LIMIT_MS * 1e-3)[0]:
+                raise EmulationError(f"The emulated firmware sent {total} bytes, of which {self._received} came.")
+            pieces.append(self._port.read())
+            self._received += len(pieces[-1])
+        return b"".join(pieces)
