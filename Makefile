@@ -9,9 +9,13 @@ SHELL := /bin/bash
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
 FACTOR ?= 1
+# Of demo and sim: fake (simulated in the simulator) or emulated (the flashed firmware on an emulated board).
+PERIPHERALS ?= fake
 RVIZ ?= $(if $(DISPLAY),true,false)
 
 STAMPS := .setup
+FIRMWARE_ELF := $(CURDIR)/firmware/build/mtr_firmware_atmega2560.elf
+EMULATED := $(filter emulated,$(PERIPHERALS))
 RUN := source setup/env.bash &&
 BUILD_INPUTS := $(shell find -L catkin_ws/src proto launch tests -not -path '*/.*' \( -name CMakeLists.txt -o -name package.xml \
 	-o -name setup.py -o -name '*.msg' -o -name '*.proto' -o -name '*.cpp' -o -name '*.hpp' -o -path '*/scripts/*' \) \
@@ -29,13 +33,13 @@ $(STAMPS)/build: $(BUILD_INPUTS) setup/debian-packages.txt setup/python-requirem
 	@setup/build.sh
 	@touch $@
 
-demo: setup build ## Run both scenarios on the simulated robot and Car; results in out/demo
-	@$(RUN) python -m mtr_bringup.demo --seed $(SEED) --out out/demo
+demo: setup build $(if $(EMULATED),firmware) ## Run both scenarios on the simulated robot and Car; results in out/demo
+	@$(RUN) python -m mtr_bringup.demo --seed $(SEED) --out out/demo $(if $(EMULATED),--firmware $(FIRMWARE_ELF))
 
-sim: setup build ## Start the simulated robot and Car for an application on ports 3333 and 3334 (Ctrl-C ends)
+sim: setup build $(if $(EMULATED),firmware) ## Start the simulated robot and Car for an application on ports 3333 and 3334 (Ctrl-C ends)
 	@mkdir -p out/sim
 	@$(RUN) roslaunch mtr_bringup sim.launch seed:=$(SEED) real_time_factor:=$(FACTOR) rviz:=$(RVIZ) \
-		car_port_link:=$(CURDIR)/out/sim/can truth_dir:=$(CURDIR)/out/sim
+		car_port_link:=$(CURDIR)/out/sim/can truth_dir:=$(CURDIR)/out/sim $(if $(EMULATED),firmware_elf:=$(FIRMWARE_ELF))
 
 test: setup build ## Lint, layer test, unit tests, rostest suites and system tests
 	@$(RUN) python setup/run_tests.py all

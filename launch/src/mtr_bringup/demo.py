@@ -24,13 +24,15 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seed", type=int, default=1, help="seed of every random number in the simulation")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/demo"), help="result folder")
+    parser.add_argument("--firmware", default="", help="firmware for an emulated ATmega2560; else it is simulated")
     options = parser.parse_args(arguments)
 
     shutil.rmtree(options.out, ignore_errors=True)
     options.out.mkdir(parents=True)
     started = time.monotonic()
     try:
-        with Stack(StackOptions(options.out, options.seed, rviz="DISPLAY" in os.environ)) as stack:
+        with Stack(StackOptions(options.out, options.seed, rviz="DISPLAY" in os.environ,
+                                arguments={"firmware_elf": options.firmware})) as stack:
             statuses = [run_scenario(stack, name, options.out / name) for name in SCENARIOS]
     except StackError as error:
         print(error, file=sys.stderr)
