@@ -18,15 +18,18 @@ def nearest_unwrapped_ns(time_us: int, near_ns: int) -> int:
 
 
 class SharedClock:
-    """The simulated firmware's clock is the robot's own, modulo the wrap."""
+    """The simulated firmware's clock is the robot's own but for a constant, modulo the wrap."""
+
+    def __init__(self, start_us: int = 0):
+        self._start_us = start_us
 
     def observe(self, time_us: int, arrival_ns: int) -> int:
         """Robot's time at which the firmware sent a message, from its time and the robot's time near arrival."""
-        return nearest_unwrapped_ns(time_us, arrival_ns)
+        return nearest_unwrapped_ns(time_us - self._start_us, arrival_ns)
 
     def robot_ns(self, time_us: int, near_ns: int) -> int:
         """Robot's time of an instant of the firmware's clock that lies near a known one."""
-        return nearest_unwrapped_ns(time_us, near_ns)
+        return nearest_unwrapped_ns(time_us - self._start_us, near_ns)
 
 
 class FirmwareClock:

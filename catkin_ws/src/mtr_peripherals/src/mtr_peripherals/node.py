@@ -26,6 +26,11 @@ from .firmware_clock import FirmwareClock, SharedClock
 from .parameters import Parameters
 
 NS = 1e-9
+# Each report of emulated firmware is there by then: it reports every 40 ms, needs 10 ms on the line, and the simulator
+# hands on every 20 ms.
+EMULATED_LAG_NS = 100_000_000
+# The firmware's clock when it is powered on, at time 0 of a simulation: 2 minutes before it wraps, see its config.hpp.
+EMULATED_CLOCK_START_US = 2 ** 32 - 1 - 120_000_000
 
 
 class PeripheralsNode:
@@ -34,9 +39,9 @@ class PeripheralsNode:
     def __init__(self, parameters: Parameters):
         self._parameters = parameters
         self._core = Peripherals(parameters)
-        self._times = SharedClock() if clock.is_simulated() else FirmwareClock()
-        self._reports = Samples(schedule.FIRMWARE, lag_ns=round(parameters.firmware_lag_s / NS),
-                                waits=clock.is_simulated())
+        emulated = parameters.emulated_firmware
+        self._times = SharedClock(EMULATED_CLOCK_START_US if emulated else 0) if clock.is_simulated() else FirmwareClock()
+        self._reports = Samples(schedule.FIRMWARE, EMULATED_LAG_NS if emulated else 0, clock.is_simulated())
         self._battery: Tuple[int, Optional[float]] = (0, None)
         self._seq = 0
         self._logged = None

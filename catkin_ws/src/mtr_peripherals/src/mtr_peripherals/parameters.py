@@ -15,13 +15,13 @@ class Parameters(ParameterSet):
         firmware_silent_after_s: age of the newest FirmwareState at which the firmware has failed.
         order_silent_after_s: age of DesiredState and RobotMode at which they hold no longer.
         battery_silent_after_s: age at which the battery's charge is unknown.
-        firmware_lag_s: in simulation with emulated firmware, reports are read so late that each has certainly come; 0 for
-            the firmware that reports exactly at its ticks.
+        emulated_firmware: in simulation, the firmware is the flashed one on an emulated board: its clock starts elsewhere,
+            and its reports take time to come.
         calibration: of lift and servos.
     """
 
     firmware_silent_after_s: float = number(1.0, 0.2, 5.0, "s")
     order_silent_after_s: float = number(0.5, 0.2, 5.0, "s")
     battery_silent_after_s: float = number(30.0, 1.0, 600.0, "s")
-    firmware_lag_s: float = number(0.0, 0.0, 0.5, "s")
+    emulated_firmware: bool = False
     calibration: Calibration = Calibration()

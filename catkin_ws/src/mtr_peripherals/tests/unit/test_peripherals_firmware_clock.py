@@ -24,6 +24,12 @@ def test_shared_clock_gives_the_firmwares_own_tick_however_late_the_message_is_r
     assert clock.robot_ns(WRAP_US - 10_000, stamp) == stamp - 50 * MS
 
 
+def test_shared_clock_that_starts_elsewhere_is_mapped_by_its_start():
+    clock = SharedClock(WRAP_US - 120_000_000)
+    assert clock.observe(WRAP_US - 119_000_000, 1010 * MS) == SECOND
+    assert clock.observe(5_000_000, 125 * SECOND) == 125 * SECOND
+
+
 def run(clock, start_us, rate, seconds, robot_start=1000 * SECOND):
     """Feed 25 messages a second with 2 to 12 ms delay; returns the largest error of the last half, in ns."""
     random.seed(1)

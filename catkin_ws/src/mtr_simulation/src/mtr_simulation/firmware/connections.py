@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import io
 import pathlib
-import tempfile
 from typing import Any, Callable, List, Tuple, Union
 
 from mtr_core import names
@@ -31,8 +30,7 @@ def emulated_firmware(elf: str) -> EmulatedFirmware:
     """The firmware in a file, on a microcontroller that is not powered yet."""
     from mtr_emulator import Emulator  # noqa: PLC0415 - only developers' machines have it
 
-    folder = tempfile.mkdtemp(prefix="mtr_firmware_")
-    return EmulatedFirmware(Emulator(pathlib.Path(elf), MCU, stepped=True, folder=pathlib.Path(folder)), md5_of)
+    return EmulatedFirmware(Emulator(MCU, stepped=True, elf=pathlib.Path(elf)), md5_of)
 
 
 def firmware_topics(firmware: Union[SimulatedFirmware, EmulatedFirmware]) -> "Union[SimulatedTopics, EmulatedTopics]":

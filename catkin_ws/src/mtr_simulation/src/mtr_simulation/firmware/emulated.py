@@ -45,7 +45,7 @@ class EmulatedFirmware:
     def start(self, time_ns: int) -> None:
         """Power on at time 0, so that its clock is the simulated one, and run to the given time."""
         self._board.start()
-        self._port = SerialPort(self._board.pty, LinkParameters().baud)
+        self._port = SerialPort(str(self._board.pty), LinkParameters().baud)
         self.session.start(0.0)
         while self._now_ns < time_ns:
             self.step(min(time_ns, self._now_ns + TICK_NS))
@@ -71,7 +71,7 @@ class EmulatedFirmware:
             elif event.refused:
                 raise EmulationError(event.refused)
         seen = self._board.probe()
-        self.lift_height_m, self.servo_us = seen["lift_m"], tuple(seen["servo_us"])
+        self.lift_height_m, self.servo_us = seen.lift_m, seen.servo_us
 
     def close(self) -> None:
         """Power off."""
