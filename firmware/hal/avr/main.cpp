@@ -1,0 +1,44 @@
+/// @file
+/// Main loop: a pass of the board, then sleep until there is work.
+// SPDX-License-Identifier: Apache-2.0
+#include <avr/interrupt.h>
+#include <avr/sleep.h>
+#include <avr/wdt.h>
+
+#include "../../logic/board.hpp"
+#include "board_avr.hpp"
+
+namespace {
+
+mtr::PressMemory press_memory __attribute__((section(".noinit")));
+mtr::Board board(&press_memory);
+
+}  // namespace
+
+void hal::idle() {
+  cli();
+  if (!has_byte() && !has_tick()) {
+    sleep_enable();
+    // The instruction after sei runs before any interrupt, so that none is slept through.
+    sei();
+    sleep_cpu();
+    sleep_disable();
+  }
+  sei();
+}
+
+int main() {
+  hal::start_lift();
+  hal::start_leds();
+  hal::start_uart();
+  hal::start_timers();
+  set_sleep_mode(SLEEP_MODE_IDLE);
+  wdt_enable(WDTO_250MS);
+  sei();
+  board.start();
+  for (;;) {
+    wdt_reset();
+    board.step();
+    hal::idle();
+  }
+}

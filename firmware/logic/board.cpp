@@ -1,0 +1,257 @@
+/// @file
+/// Wiring of the parts, and the silence of the host.
+// SPDX-License-Identifier: Apache-2.0
+#include "board.hpp"
+
+#include <math.h>
+
+#include "../hal/hal.hpp"
+#include "endpoints.hpp"
+
+namespace mtr {
+namespace {
+
+constexpr uint8_t kLedSlots = 16;
+/// A pass takes at most so many bytes, so that a flood of them starves nothing.
+constexpr uint8_t kBytesPerPass = 64;
+
+/// True once per period; periods that were missed are not made up for.
+bool is_due(uint32_t now_us, uint32_t period_us, uint32_t* last_us) {
+  const uint32_t late_us = now_us - *last_us;
+  if (late_us < period_us) {
+    return false;
+  }
+  *last_us = late_us < 2 * period_us ? *last_us + period_us : now_us;
+  return true;
+}
+
+int32_t to_um(float metres) { return static_cast<int32_t>(metres * 1e6f + 0.5f); }
+
+}  // namespace
+
+void Board::start() {
+  now_us_ = heard_us_ = hal::clock_us();
+  state_us_ = health_us_ = now_us_;
+  memory_.load();
+  presses_.start();
+  for (uint8_t servo = 0; servo < kServoCount; ++servo) {
+    hal::servo_write(servo, presses_.width_us(servo));
+  }
+  client_.start(now_us_);
+}
+
+void Board::step() {
+  now_us_ = hal::clock_us();
+  const uint32_t began_us = now_us_;
+  uint8_t byte;
+  for (uint8_t i = 0; i < kBytesPerPass && hal::uart_take(&byte); ++i) {
+    client_.receive(byte, now_us_);
+  }
+  if (!link_lost_ && now_us_ - heard_us_ > kSilenceUs) {
+    lose_link();
+  }
+  client_.poll(now_us_, !link_lost_);
+  for (uint8_t ticks = hal::take_ticks(); ticks > 0; --ticks) {
+    tick();
+  }
+  uint32_t period_us;
+  if (hal::servo_turn(&period_us)) {
+    presses_.step(period_us);
+    for (uint8_t servo = 0; servo < kServoCount; ++servo) {
+      hal::servo_write(servo, presses_.width_us(servo));
+    }
+  }
+  memory_.poll();
+  if (client_.is_open()) {
+    report(now_us_);
+  }
+  const uint32_t took_us = hal::clock_us() - began_us;
+  worst_loop_us_ = took_us > worst_loop_us_ ? took_us : worst_loop_us_;
+}
+
+void Board::take(void* self, uint16_t topic, const uint8_t* payload, uint8_t length) {
+  Board* board = static_cast<Board*>(self);
+  Command command;
+  Press press;
+  Calibrate calibrate;
+  if (topic == kTopicStop) {
+    board->lose_link();
+  } else if (topic == kTopicCommand && read(payload, length, &command)) {
+    board->on_command(command);
+  } else if (topic == kTopicPress && read(payload, length, &press)) {
+    board->on_press(press);
+  } else if (topic == kTopicCalibrate && read(payload, length, &calibrate)) {
+    board->on_calibrate(calibrate);
+  } else {
+    count(&board->counters_.checksum_errors);
+  }
+}
+
+void Board::on_command(const Command& command) {
+  hear();
+  if (!send_echo(static_cast<uint8_t>(command.seq))) {
+    count(&counters_.dropped_reports);
+  }
+  if (command.led_pattern < kLedPatternCount) {
+    led_pattern_ = command.led_pattern;
+  } else {
+    counters_.refuse(Refusal::kLedPattern);
+  }
+  const float height_m = command.lift_height_m;
+  const int32_t stroke_um = memory_.calibration().stroke_um();
+  const float least_m = -kHeightToleranceUm * 1e-6f, most_m = (stroke_um + kHeightToleranceUm) * 1e-6f;
+  if (height_m >= least_m && height_m <= most_m) {
+    if (!calibrator_.is_running()) {
+      lift_.go_to(to_um(height_m));
+    }
+    return;
+  }
+  if (!isnan(height_m)) {
+    counters_.refuse(Refusal::kHeight);
+  }
+  calibrator_.abort();
+  lift_.hold();
+}
+
+void Board::on_press(const Press& press) {
+  hear();
+  const Refusal refusal = presses_.order(press);
+  if (refusal != Refusal::kNone) {
+    counters_.refuse(refusal);
+  }
+}
+
+void Board::on_calibrate(const Calibrate& calibrate) {
+  hear();
+  if (calibrate.id == calibration_id_ && calibrate.id != 0) {
+    return;
+  }
+  const bool fits = calibrate.stroke_m >= kShortestStrokeMm * 1e-3f && calibrate.stroke_m <= kLongestStrokeMm * 1e-3f;
+  if (calibrate.id == 0 || calibrator_.is_running()) {
+    counters_.refuse(Refusal::kCalibration);
+    return;
+  }
+  calibration_id_ = calibrate.id;
+  if (!fits || sensor_.is_broken()) {
+    counters_.refuse(Refusal::kCalibration);
+    calibration_state_ = CalibrationState::kFailed;
+    return;
+  }
+  lift_.cut();
+  calibrator_.start(static_cast<uint16_t>(calibrate.stroke_m * 1e3f + 0.5f));
+  calibration_state_ = CalibrationState::kUnderWay;
+}
+
+void Board::hear() {
+  heard_us_ = now_us_;
+  link_lost_ = false;
+}
+
+void Board::lose_link() {
+  link_lost_ = true;
+  lift_.cut();
+  calibrator_.abort();
+  presses_.abort();
+  hal::motor_drive(0);
+}
+
+void Board::tick() {
+  if (sensor_.add(hal::position_take())) {
+    step_lift();
+  }
+  if (++led_ms_ >= kLedSlotMs) {
+    led_ms_ = 0;
+    step_leds();
+  }
+}
+
+void Board::step_lift() {
+  if (sensor_.is_broken()) {
+    calibrator_.abort();
+    lift_.cut();
+    hal::motor_drive(0);
+  } else if (calibrator_.is_running()) {
+    hal::motor_drive(calibrator_.step(sensor_.counts()));
+  } else {
+    const Calibration& calibration = memory_.calibration();
+    hal::motor_drive(lift_.step(calibration.height_um(sensor_.counts()), calibration.stroke_um()));
+  }
+  Calibration found;
+  if (calibrator_.take(&found)) {
+    memory_.save(found);
+    calibration_state_ = CalibrationState::kDone;
+  } else if (calibration_state_ == CalibrationState::kUnderWay && calibrator_.has_failed()) {
+    calibration_state_ = CalibrationState::kFailed;
+  }
+}
+
+void Board::step_leds() {
+  led_slot_ = static_cast<uint8_t>((led_slot_ + 1) % kLedSlots);
+  hal::leds_write(leds_of(shown_pattern(), led_slot_));
+}
+
+void Board::report(uint32_t now_us) {
+  if (is_due(now_us, kStatePeriodUs, &state_us_)) {
+    send_state();
+  } else if (is_due(now_us, kHealthPeriodUs, &health_us_)) {
+    send_health();
+  }
+}
+
+void Board::send_state() {
+  const bool is_broken = sensor_.is_broken();
+  State state;
+  state.time_us = hal::clock_us();
+  state.lift_height_m = is_broken ? NAN : memory_.calibration().height_um(sensor_.counts()) * 1e-6f;
+  for (uint8_t servo = 0; servo < kServoCount; ++servo) {
+    state.servo_us[servo] = presses_.width_us(servo);
+  }
+  state.press = presses_.report();
+  state.led_pattern = shown_pattern();
+  state.fault = fault();
+  state.lift_state = calibrator_.is_running() ? LiftState::kCalibrating
+                     : lift_.is_moving()      ? LiftState::kMoving
+                                              : LiftState::kStill;
+  state.calibration_id = calibration_id_;
+  state.calibration_state = calibration_state_;
+  if (!send(state)) {
+    count(&counters_.dropped_reports);
+  }
+}
+
+void Board::send_health() {
+  Health health;
+  health.reset_cause = hal::reset_cause();
+  health.resets = memory_.resets();
+  health.uart_overruns = hal::uart_overruns();
+  health.dropped_bytes = hal::uart_dropped();
+  health.counters = counters_;
+  health.worst_loop_us = worst_loop_us_;
+  health.free_ram = hal::free_ram();
+  health.calibration_copies = memory_.copies();
+  health.stroke_mm = memory_.calibration().stroke_mm;
+  if (send(health)) {
+    worst_loop_us_ = 0;
+  } else {
+    count(&counters_.dropped_reports);
+  }
+}
+
+uint8_t Board::shown_pattern() const {
+  if (link_lost_) {
+    return kLedLinkLost;
+  }
+  return sensor_.is_broken() || lift_.is_jammed() ? static_cast<uint8_t>(kLedError) : led_pattern_;
+}
+
+Fault Board::fault() const {
+  if (sensor_.is_broken()) {
+    return Fault::kSensorBroken;
+  }
+  if (lift_.is_jammed()) {
+    return Fault::kLiftJammed;
+  }
+  return link_lost_ ? Fault::kLinkLost : Fault::kNone;
+}
+
+}  // namespace mtr

@@ -1,0 +1,67 @@
+/// @file
+/// The firmware: what arrives becomes orders for lift, servos and LEDs; what they do is reported.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdint.h>
+
+#include "counters.hpp"
+#include "leds.hpp"
+#include "lift.hpp"
+#include "lift_calibrator.hpp"
+#include "memory.hpp"
+#include "messages.hpp"
+#include "position_sensor.hpp"
+#include "presses.hpp"
+#include "rosserial_client.hpp"
+
+namespace mtr {
+
+class Board {
+ public:
+  explicit Board(PressMemory* press_memory) : client_(take, this, &counters_), presses_(press_memory) {}
+
+  void start();
+
+  /// One pass of the main loop.
+  void step();
+
+ private:
+  static void take(void* self, uint16_t topic, const uint8_t* payload, uint8_t length);
+  void on_command(const Command& command);
+  void on_press(const Press& press);
+  void on_calibrate(const Calibrate& calibrate);
+  /// The host lives.
+  void hear();
+  void lose_link();
+
+  void tick();
+  void step_lift();
+  void step_leds();
+  void report(uint32_t now_us);
+  void send_state();
+  void send_health();
+  uint8_t shown_pattern() const;
+  Fault fault() const;
+
+  Counters counters_;
+  RosserialClient client_;
+  Presses presses_;
+  Memory memory_;
+  PositionSensor sensor_;
+  Lift lift_;
+  LiftCalibrator calibrator_;
+  uint32_t now_us_ = 0;
+  uint32_t heard_us_ = 0;
+  uint32_t state_us_ = 0;
+  uint32_t health_us_ = 0;
+  uint32_t worst_loop_us_ = 0;
+  uint32_t calibration_id_ = 0;
+  CalibrationState calibration_state_ = CalibrationState::kNone;
+  uint8_t led_pattern_ = kLedStarting;
+  uint8_t led_slot_ = 0;
+  uint8_t led_ms_ = 0;
+  bool link_lost_ = false;
+};
+
+}  // namespace mtr

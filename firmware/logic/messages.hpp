@@ -1,0 +1,84 @@
+/// @file
+/// Messages between host and firmware as plain data.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdint.h>
+
+#include "config.hpp"
+#include "counters.hpp"
+
+namespace mtr {
+
+/// mtr_msgs/FirmwareCommand
+struct Command {
+  uint32_t seq;
+  float lift_height_m;
+  uint8_t led_pattern;
+};
+
+/// mtr_msgs/FirmwarePress
+struct Press {
+  uint32_t id;
+  uint8_t servos;
+  float strength;
+  uint16_t hold_ms;
+};
+
+/// mtr_msgs/FirmwareCalibrate
+struct Calibrate {
+  uint32_t id;
+  float stroke_m;
+};
+
+enum class PressState : uint8_t { kNone = 0, kPressing = 1, kDone = 2, kRefused = 3, kCutShort = 4 };
+enum class Fault : uint8_t { kNone = 0, kLiftJammed = 1, kSensorBroken = 2, kLinkLost = 3 };
+enum class LiftState : uint8_t { kStill = 0, kMoving = 1, kCalibrating = 2 };
+enum class CalibrationState : uint8_t { kNone = 0, kUnderWay = 1, kDone = 2, kFailed = 3 };
+
+/// What FirmwareState says of the newest press.
+struct PressReport {
+  uint32_t id = 0;
+  PressState state = PressState::kNone;
+  uint32_t start_us = 0;
+  uint32_t end_us = 0;
+};
+
+/// mtr_msgs/FirmwareState
+struct State {
+  uint32_t time_us;
+  float lift_height_m;
+  uint16_t servo_us[kServoCount];
+  PressReport press;
+  uint8_t led_pattern;
+  Fault fault;
+  LiftState lift_state;
+  uint32_t calibration_id;
+  CalibrationState calibration_state;
+};
+
+/// mtr_msgs/FirmwareHealth
+struct Health {
+  uint8_t reset_cause;
+  uint16_t resets;
+  uint16_t uart_overruns;
+  uint16_t dropped_bytes;
+  Counters counters;
+  uint32_t worst_loop_us;
+  uint16_t free_ram;
+  uint8_t calibration_copies;
+  uint16_t stroke_mm;
+};
+
+/// Reads a payload; false when its CRC or its length is wrong.
+bool read(const uint8_t* payload, uint8_t length, Command* message);
+bool read(const uint8_t* payload, uint8_t length, Press* message);
+bool read(const uint8_t* payload, uint8_t length, Calibrate* message);
+
+/// Sends a message; false when there is no room.
+bool send(const State& message);
+bool send(const Health& message);
+/// Echo of a command's seq.
+bool send_echo(uint8_t seq);
+
+}  // namespace mtr
