@@ -83,10 +83,6 @@ class SimulatorNode:
     def _subscribe(self) -> None:
         sim = self._world.sim
         self._listen(names.WHEEL_COMMAND, Twist, lambda twist: sim.command(twist.linear.x, twist.angular.z))
-        self._listen(names.FIRMWARE_COMMAND, FirmwareCommand,
-                     lambda order: firmware.command(order.lift_height_m, order.led_pattern))
-        self._listen(names.FIRMWARE_PRESS, FirmwarePress,
-                     lambda order: firmware.press(order.id, order.servos, order.strength, order.hold_ms))
         for topic, message_type, obey in self._firmware.orders:
             self._listen(topic, message_type, obey)
         rospy.Subscriber(names.SIM_HOLD, Header, self._hold, tcp_nodelay=True)
