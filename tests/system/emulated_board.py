@@ -1,0 +1,103 @@
+"""The peripherals' core and the host's session with the flashed firmware on an emulated board, in step, without ROS nodes."""
+# SPDX-License-Identifier: Apache-2.0
+import io
+import pathlib
+from typing import Any, List, Optional
+
+from mtr_emulator import Emulator
+
+from mtr_core import names
+from mtr_core.crc import is_sound
+from mtr_core.states import State
+from mtr_msgs.msg import FirmwareState
+from mtr_peripherals.conversions import command_message, firmware_report, press_message
+from mtr_peripherals.core import Orders, Outcome, Peripherals
+from mtr_peripherals.firmware_clock import FirmwareClock
+from mtr_peripherals.parameters import Parameters
+from mtr_peripherals.presses import PressOrder, PressResult
+from mtr_peripherals.serial_link.connections import md5_of
+from mtr_simulation.firmware.emulated import EmulatedFirmware
+
+ELF = pathlib.Path(__file__).resolve().parents[2] / "firmware" / "build" / "mtr_firmware_atmega2560.elf"
+TICK_NS = 20_000_000
+DECISION_TICKS = 5
+NS = 1e-9
+START_NS = 1_000_000_000
+SESSION = 5
+RELEASED_US = 1000
+
+
+class EmulatedBoard:
+    """Everything between the dispatcher's wish and the servo, without the wires of ROS.
+
+    Attributes:
+        board: the emulator, for faults and probes.
+        outcome: of the newest decision.
+        pulses: (time ns, pulse of the lock servo in us) at each tick.
+        heights: (time ns, true height of the lift in m) at each tick.
+        results: all presses that ended, in order.
+    """
+
+    def __init__(self) -> None:
+        self.board = Emulator("atmega2560", stepped=True, elf=ELF)
+        self._firmware = EmulatedFirmware(self.board, md5_of)
+        self._core = Peripherals(Parameters())
+        self._clock = FirmwareClock()
+        self._report: Any = None
+        self._seq = 0
+        self._ticks = 0
+        self.now_ns = START_NS
+        self.outcome: Optional[Outcome] = None
+        self.pulses: List[tuple] = []
+        self.heights: List[tuple] = []
+        self.results: List[PressResult] = []
+
+    def __enter__(self) -> "EmulatedBoard":
+        self._firmware.start(START_NS)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._firmware.close()
+
+    def run(self, duration_s: float, key_height_m: float, press: PressOrder = PressOrder()) -> None:
+        """Let time pass with these wishes."""
+        orders = Orders(session_id=SESSION, link_alive=True, stop=False, key_height_m=key_height_m, press=press,
+                        mode=State.FOLLOWING_WAYPOINT)
+        for _ in range(round(duration_s / (TICK_NS * NS))):
+            if self._ticks % DECISION_TICKS == 0:
+                self._decide(orders)
+            self._ticks += 1
+            self.now_ns += TICK_NS
+            self._firmware.step(self.now_ns)
+            self._listen()
+            self.pulses.append((self.now_ns, self._firmware.servo_us[0]))
+            self.heights.append((self.now_ns, self._firmware.lift_height_m))
+
+    def closings(self) -> int:
+        """How often the lock servo has left its released place."""
+        pressed = [pulse > RELEASED_US + 500 for _, pulse in self.pulses]
+        return sum(now and not before for before, now in zip([False, *pressed], pressed))
+
+    def _decide(self, orders: Orders) -> None:
+        self.outcome = self._core.step(orders, self._report, self.now_ns)
+        for result in self.outcome.results:
+            if result not in self.results:
+                self.results.append(result)
+        self._seq += 1
+        self._send(names.FIRMWARE_COMMAND, command_message(self.outcome, self._seq))
+        if self.outcome.press:
+            self._send(names.FIRMWARE_PRESS, press_message(self.outcome.press))
+
+    def _send(self, topic: str, message: Any) -> None:
+        buffer = io.BytesIO()
+        message.serialize(buffer)
+        self._firmware.send(topic, buffer.getvalue())
+
+    def _listen(self) -> None:
+        for topic, payload in self._firmware.take_messages():
+            if topic != names.FIRMWARE_STATE:
+                continue
+            state = FirmwareState().deserialize(payload)
+            if is_sound(state):
+                stamp_ns = self._clock.observe(state.time_us, self.now_ns)
+                self._report = firmware_report(state, stamp_ns, self._clock)
