@@ -1,4 +1,4 @@
-"""The peripherals' core and the host's session with the flashed firmware on an emulated board, in step, without ROS nodes."""
+"""The peripherals' core and the host's session with the flashed firmware on an emulated board, in step."""
 # SPDX-License-Identifier: Apache-2.0
 import io
 import pathlib
@@ -25,6 +25,7 @@ NS = 1e-9
 START_NS = 1_000_000_000
 SESSION = 5
 RELEASED_US = 1000
+NO_PRESS = PressOrder()
 
 
 class EmulatedBoard:
@@ -59,7 +60,7 @@ class EmulatedBoard:
     def __exit__(self, *_: object) -> None:
         self._firmware.close()
 
-    def run(self, duration_s: float, key_height_m: float, press: PressOrder = PressOrder()) -> None:
+    def run(self, duration_s: float, key_height_m: float, press: PressOrder = NO_PRESS) -> None:
         """Let time pass with these wishes."""
         orders = Orders(session_id=SESSION, link_alive=True, stop=False, key_height_m=key_height_m, press=press,
                         mode=State.FOLLOWING_WAYPOINT)

@@ -39,9 +39,9 @@ class PeripheralsNode:
     def __init__(self, parameters: Parameters):
         self._parameters = parameters
         self._core = Peripherals(parameters)
-        emulated = parameters.emulated_firmware
-        self._times = SharedClock(EMULATED_CLOCK_START_US if emulated else 0) if clock.is_simulated() else FirmwareClock()
-        self._reports = Samples(schedule.FIRMWARE, EMULATED_LAG_NS if emulated else 0, clock.is_simulated())
+        start_us, lag_ns = (EMULATED_CLOCK_START_US, EMULATED_LAG_NS) if parameters.emulated_firmware else (0, 0)
+        self._times = SharedClock(start_us) if clock.is_simulated() else FirmwareClock()
+        self._reports = Samples(schedule.FIRMWARE, lag_ns, clock.is_simulated())
         self._battery: Tuple[int, Optional[float]] = (0, None)
         self._seq = 0
         self._logged = None

@@ -15,8 +15,8 @@ class Parameters(ParameterSet):
         firmware_silent_after_s: age of the newest FirmwareState at which the firmware has failed.
         order_silent_after_s: age of DesiredState and RobotMode at which they hold no longer.
         battery_silent_after_s: age at which the battery's charge is unknown.
-        emulated_firmware: in simulation, the firmware is the flashed one on an emulated board: its clock starts elsewhere,
-            and its reports take time to come.
+        emulated_firmware: in simulation, the firmware is the flashed one on an emulated board: its clock starts
+            elsewhere, and its reports take time to come.
         calibration: of lift and servos.
     """
 

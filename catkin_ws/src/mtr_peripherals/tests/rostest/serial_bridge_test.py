@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The serial bridge as its users see it: topics, a service, unplugging, a frozen device, and what it says of the line."""
+"""The serial bridge as its users see it: topics, a service, unplugging, a frozen device, and its sentences."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import signal

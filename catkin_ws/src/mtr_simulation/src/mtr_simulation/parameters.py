@@ -20,7 +20,7 @@ class SimulatorParameters(ParameterSet):
         hold_for: nodes whose first hold the clock waits for.
         car_port_link: path at which the Car's CAN adapter appears; empty: there is no Car's electronics.
         truth_dir: folder for the true events; empty: they are not written.
-        firmware_elf: firmware of the peripherals for an ATmega2560, to be run on an emulated one; empty: it is simulated.
+        firmware_elf: firmware for an ATmega2560, to be run on an emulated one; empty: it is simulated.
     """
 
     seed: int = number(1, 0, 2**31 - 1)

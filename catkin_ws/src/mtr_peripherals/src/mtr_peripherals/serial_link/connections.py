@@ -45,8 +45,8 @@ class Connections:
         self._service_timeout_s = service_timeout_s
         self._publishers: Dict[int, Any] = {}
         self._subscribers: Dict[str, Any] = {}
-        self._services: Dict[str, "ServiceBridge"] = {}
-        self._responses: Dict[int, "ServiceBridge"] = {}
+        self._services: Dict[str, ServiceBridge] = {}
+        self._responses: Dict[int, ServiceBridge] = {}
 
     def open(self, endpoint: Endpoint) -> None:
         """Serve an endpoint."""

@@ -1,6 +1,7 @@
 """Runs a session on a port in a thread of its own: opens, reads, writes, and opens again after a replug."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
+import contextlib
 import os
 import select
 import threading
@@ -75,10 +76,9 @@ class Line:
         self._wake()
 
     def _wake(self) -> None:
-        try:
+        # A full pipe means that it is awake already.
+        with contextlib.suppress(BlockingIOError):
             os.write(self._wake_write, b"w")
-        except BlockingIOError:
-            pass  # It is awake already.
 
     def _main(self) -> None:
         try:

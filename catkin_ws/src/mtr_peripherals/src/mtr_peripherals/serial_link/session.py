@@ -1,4 +1,4 @@
-"""One rosserial session with a device, without port and without ROS: bytes, times and messages in, bytes and events out.
+"""One rosserial session with a device, without port and ROS: bytes, times and messages in, bytes and events out.
 
 Times are seconds of a clock that never steps; only the answer to the device's TIME request is the robot's clock.
 """

@@ -28,7 +28,8 @@ Order = Tuple[str, Any, Callable[[Any], None]]
 
 def emulated_firmware(elf: str) -> EmulatedFirmware:
     """The firmware in a file, on a microcontroller that is not powered yet."""
-    from mtr_emulator import Emulator  # noqa: PLC0415 - only developers' machines have it
+    # Only a developer's machine has it.
+    from mtr_emulator import Emulator
 
     return EmulatedFirmware(Emulator(MCU, stepped=True, elf=pathlib.Path(elf)), md5_of)
 
