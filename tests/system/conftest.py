@@ -13,6 +13,7 @@ from mtr_bringup.stack import Stack, StackOptions
 from mtr_proto import robot_link_pb2
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
+FIRMWARE = TOP / "firmware" / "build" / "mtr_firmware_atmega2560.elf"
 OUT = TOP / "out" / "test" / "system"
 WALL_LIMIT_S = 60.0
 
@@ -28,8 +29,8 @@ def out(request):
 
 @pytest.fixture(scope="module")
 def stack(out):
-    """Simulated robot and Car in lock-step with the application."""
-    with Stack(StackOptions(out)) as running:
+    """Simulated robot and Car, with the firmware that is flashed, in lock-step with the application."""
+    with Stack(StackOptions(out, arguments={"firmware_elf": str(FIRMWARE)})) as running:
         yield running
 
 

@@ -110,7 +110,16 @@ class Emulator:
 
         Returns time_us, rx and tx: bytes taken and given so far.
         """
-        return self._ask(f"step {us}" if rx_bytes is None else f"step {us} {rx_bytes}")
+        self.begin_step(us, rx_bytes)
+        return self.end_step()
+
+    def begin_step(self, us: int, rx_bytes: Optional[int] = None) -> None:
+        """As step, but returns at once; end_step must follow before anything else is asked."""
+        self._say(f"step {us}" if rx_bytes is None else f"step {us} {rx_bytes}")
+
+    def end_step(self) -> Dict[str, int]:
+        """Wait for the end of the step that was begun; returns what step returns."""
+        return self._hear()
 
     def probe(self) -> Probe:
         """Look at the board."""
@@ -123,8 +132,14 @@ class Emulator:
         self._ask(f"fault {name} {one_in}")
 
     def _ask(self, question: str) -> Dict[str, Any]:
+        self._say(question)
+        return self._hear()
+
+    def _say(self, question: str) -> None:
         self._lines.write(question + "\n")
         self._lines.flush()
+
+    def _hear(self) -> Dict[str, Any]:
         line = self._lines.readline()
         if not line:
             raise EmulatorError(f"The emulator has ended: {self._process.stderr.read().strip()}")

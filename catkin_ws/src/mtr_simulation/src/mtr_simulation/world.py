@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, Optional, Set, Tuple
 
-from mtr_core.schedule import SIMULATION_START_NS
+from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS
 
 from .car.car import SimulatedCar
 from .car.parameters import CarParameters
@@ -58,6 +58,7 @@ class World:
 
     def step(self) -> Sensors:
         """Advance one tick of 20 ms."""
+        self.firmware.begin_step(self.sim.time_ns + CLOCK_STEP.period_ns)
         sensors = self.sim.step()
         self.firmware.step(sensors.time_ns)
         self.sim.set_lift(self.firmware.lift_height_m)

@@ -59,11 +59,17 @@ class EmulatedFirmware:
         messages, self._messages = self._messages, []
         return messages
 
-    def step(self, time_ns: int) -> None:
-        """Let the microcontroller run to time_ns."""
+    def begin_step(self, time_ns: int) -> None:
+        """Let the microcontroller run to time_ns, beside what the caller does until it calls step."""
         self._write()
-        reply = self._board.step((time_ns - self._now_ns) // NS_PER_US, rx_bytes=self._sent)
+        self._board.begin_step((time_ns - self._now_ns) // NS_PER_US, rx_bytes=self._sent)
         self._now_ns = time_ns
+
+    def step(self, time_ns: int) -> None:
+        """Let the microcontroller run to time_ns, if it has not been begun, and take what it says."""
+        if self._now_ns != time_ns:
+            self.begin_step(time_ns)
+        reply = self._board.end_step()
         for event in self.session.receive(self._read(reply["tx"]), time_ns * NS) + self.session.tick(time_ns * NS):
             if event.message:
                 name = self.session.endpoints.by_id[event.message.topic_id].info.name

@@ -97,6 +97,9 @@ class SimulatedFirmware:
     def close(self) -> None:
         """Power off; there is nothing to do."""
 
+    def begin_step(self, time_ns: int) -> None:
+        """Its step takes no time worth sharing; there is nothing to begin."""
+
     def step(self, time_ns: int) -> None:
         """Advance to time_ns."""
         if self._boot_ns is None:
