@@ -97,8 +97,8 @@ def _made(values: Mapping[str, Any], kind: Type[P]) -> P:
 # What a person may write for a type, and the types that it arrives as.
 _KINDS = {float: ("a number", (int, float)), int: ("a whole number", (int,)), bool: ("true or false", (bool,)),
           str: ("a text", (str,)), Tuple[int, ...]: ("a list of whole numbers", (int,)),
-          Tuple[str, ...]: ("a list of texts", (str,))}
-_LISTS = (Tuple[int, ...], Tuple[str, ...])
+          Tuple[float, ...]: ("a list of numbers", (int, float)), Tuple[str, ...]: ("a list of texts", (str,))}
+_LISTS = (Tuple[int, ...], Tuple[float, ...], Tuple[str, ...])
 
 
 def _checked(item: Any, hint: Any, value: Any) -> Any:

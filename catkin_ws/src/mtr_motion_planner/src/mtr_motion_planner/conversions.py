@@ -1,7 +1,7 @@
 """Between ROS messages and the planner's plain types."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Any, Optional, Sequence
+from typing import Any, Optional
 
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
@@ -10,10 +10,11 @@ from std_msgs.msg import Header
 from mtr_core import names
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction
-from mtr_msgs.msg import CarEstimate, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
+from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
-from .inputs import Car, Goal, Order, Point, RobotState
+from .inputs import Car, Drive, Goal, Order, RobotState, Zone
 from .planner import Output
+from .planner import Path as PlannedPath
 
 
 def order_from(message: Optional[RobotMode]) -> Optional[Order]:
@@ -34,7 +35,7 @@ def robot_from(message: Optional[LocalizedPose]) -> Optional[RobotState]:
     if message is None:
         return None
     return RobotState(message.header.stamp.to_sec(), message.valid, Pose2(message.x, message.y, message.heading),
-                      message.speed_mps, message.yaw_rate_radps, message.message)
+                      message.speed_mps, message.yaw_rate_radps, message.message, message.degenerate)
 
 
 def car_from(message: Optional[CarEstimate]) -> Optional[Car]:
@@ -43,6 +44,14 @@ def car_from(message: Optional[CarEstimate]) -> Optional[Car]:
         return None
     return Car(message.header.stamp.to_sec(), message.state == CarEstimate.LOCATED,
                Pose2(message.x, message.y, message.heading), tuple(zip(message.outline_x, message.outline_y)))
+
+
+def drive_from(message: Optional[DriveStatus]) -> Optional[Drive]:
+    """What the collision stop does."""
+    if message is None:
+        return None
+    zone = Zone(message.zone) if message.zone in tuple(Zone) else Zone.BLOCKED
+    return Drive(message.header.stamp.to_sec(), zone, message.obstacle_m, message.obstacle_bearing, message.message)
 
 
 def velocity_message(output: Output, header: Header) -> VelocityCommand:
@@ -56,10 +65,10 @@ def status_message(output: Output, header: Header) -> MotionStatus:
     return MotionStatus(header, output.goal_id, int(output.result), output.remaining_m, output.message)
 
 
-def path_message(points: Sequence[Point], stamp: Any) -> Path:
+def path_message(planned: PlannedPath, stamp: Any) -> Path:
     """Path for people who look."""
-    path = Path(header=Header(stamp=stamp, frame_id=names.MAP))
-    for x, y in points:
+    path = Path(header=Header(stamp=stamp, frame_id=names.CAR if planned.in_car_frame else names.MAP))
+    for x, y in planned.points:
         pose = PoseStamped(header=path.header)
         pose.pose.position.x, pose.pose.position.y, pose.pose.orientation.w = x, y, 1.0
         path.poses.append(pose)

@@ -1,51 +1,145 @@
-"""Follows a plan leg by leg."""
+"""Follows a plan part by part; waits for a robot that is held and times the rest anew."""
 # SPDX-License-Identifier: Apache-2.0
 import math
+from dataclasses import dataclass
 from typing import Optional
 
+from mtr_core.se2 import Pose2
+
 from .inputs import RobotState
+from .limits import MotionLimits
 from .parameters import MotionParameters
-from .plan import Plan, Straight, Turn
-from .tracking import RouteTracker, Wanted, tracker_of
+from .plan import Moving, Part, Plan
+from .tolerance import miss_of
+from .tracking import DELAY_S, Velocity, deviation, tracked
+from .trajectory import Drive, Reference
+
+# The reference waits for a robot that lags by more than this, and the rest is timed anew from the robot's own speed.
+LAG_M, LAG_RAD = 0.08, 0.15
+RETIME_AFTER_S = 0.2
+# Farther away than this from its reference the robot needs another plan.
+LOST_ALONG_M, LOST_ACROSS_M, LOST_RAD = 0.40, 0.15, math.radians(25.0)
+# A robot slower than this stands.
+STANDING_MPS, STANDING_RADPS = 0.02, 0.03
+# After the end of the last trajectory the controller has so long to take out what is left.
+SETTLE_S = 0.8
+# Said to remain while the robot still turns on the spot.
+LEAST_REMAINING_M = 0.001
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Velocity now, what is left of the way (0: the reference has arrived), and what became of the plan."""
+
+    velocity: Velocity
+    remaining_m: float
+    finished: bool = False
+    lost: bool = False
+
+
+def stands(robot: RobotState) -> bool:
+    """True when the robot does not move."""
+    return abs(robot.speed_mps) < STANDING_MPS and abs(robot.yaw_rate_radps) < STANDING_RADPS
 
 
 class Follower:
-    """Velocity wanted along a plan.
+    """Reference of a plan and the velocity that follows it; all poses in the plan's frame.
 
     Attributes:
-        plan: the plan that is followed.
+        plan: what is followed.
     """
 
-    def __init__(self, plan: Plan, parameters: MotionParameters):
+    def __init__(self, plan: Plan, parameters: MotionParameters, speed: float):
         self.plan = plan
-        self._parameters = parameters
-        self._index = 0
-        self._tracker = tracker_of(plan.legs[0], parameters)
+        self._parameters, self._speed = parameters, speed
+        self._index, self._time_s = 0, 0.0
+        self._part: Optional[Part] = plan.parts[0] if plan.parts else None
+        self._waited_s = 0.0
 
-    def step(self, robot: RobotState, max_speed_mps: float, commanded_mps: float) -> Optional[Wanted]:
-        """Velocity wanted now, None when all legs are finished."""
-        while True:
-            wanted = self._tracker.step(robot, max_speed_mps, commanded_mps)
-            if not wanted.finished:
-                rest = wanted.remaining_m + self.plan.length_after(self._index)
-                return Wanted(wanted.linear_mps, wanted.angular_radps, rest, False)
-            if self._index + 1 == len(self.plan.legs):
-                return None
+    @property
+    def _limits(self) -> MotionLimits:
+        return self._parameters.limits
+
+    def reference(self, ahead_s: float = 0.0) -> Reference:
+        """Where the robot is to be."""
+        if self._part is None:
+            return Reference(self.plan.goal, 0.0, 0.0, 0.0)
+        return self._part.trajectory.at(self._time_s + ahead_s)
+
+    def moving(self) -> Moving:
+        """The reference as the beginning of another plan."""
+        now = self.reference()
+        return Moving(now.pose, now.linear_mps, now.angular_radps)
+
+    def is_near(self, pose: Pose2) -> bool:
+        """True when the robot is close enough to its reference to go on from there."""
+        error = deviation(self.reference(), pose)
+        return abs(error.x) < LOST_ALONG_M and abs(error.y) < LOST_ACROSS_M and abs(error.heading) < LOST_RAD
+
+    def set_speed(self, speed: float) -> bool:
+        """Change the speed limit; False when the robot could not stop in time and needs another plan."""
+        if speed == self._speed or self._part is None:
+            return True
+        self._speed = speed
+        now = self.reference()
+        return self._retime(now.way, abs(now.linear_mps if self._part.trajectory.length_m else now.angular_radps))
+
+    def step(self, pose: Pose2, robot: RobotState, passed_s: float) -> Wanted:
+        """Velocity wanted now, passed_s after the last step."""
+        if not self.is_near(pose):
+            return Wanted(Velocity(), self._remaining(), lost=True)
+        if self._part is not None:
+            self._advance(pose, robot, passed_s)
+        now = self.reference()
+        if self._is_over() and self._has_settled(pose, robot):
+            return Wanted(Velocity(), 0.0, finished=True)
+        return Wanted(tracked(now, self.reference(DELAY_S), pose), self._remaining())
+
+    def _advance(self, pose: Pose2, robot: RobotState, passed_s: float) -> None:
+        now = self.reference()
+        lag = self._lag(now, pose)
+        limit = LAG_M if self._part.trajectory.length_m else LAG_RAD
+        self._waited_s = self._waited_s + passed_s if lag > limit else 0.0
+        if self._waited_s > RETIME_AFTER_S:
+            self._waited_s = 0.0
+            on_the_spot = self._part.trajectory.length_m == 0.0
+            self._retime(now.way - lag, min(abs(robot.yaw_rate_radps if on_the_spot else robot.speed_mps),
+                                            abs(now.angular_radps if on_the_spot else now.linear_mps)))
+        elif lag <= limit:
+            self._time_s += passed_s
+        while self._time_s >= self._part.trajectory.duration_s and self._index + 1 < len(self.plan.parts):
+            self._time_s -= self._part.trajectory.duration_s
             self._index += 1
-            self._tracker = tracker_of(self.plan.legs[self._index], self._parameters)
+            self._part = self.plan.parts[self._index]
 
-    def continues(self, robot: RobotState, commanded_mps: float) -> bool:
-        """True when the first leg can be entered at the commanded speed, without a stop."""
-        leg = self.plan.legs[0]
-        if isinstance(leg, Turn):
-            return False
-        if commanded_mps * leg.sign < 0.0:
-            return False
-        if isinstance(leg, Straight):
-            return self._can_stop_on(math.dist(*leg.points), commanded_mps)
-        x, y = leg.points[1] if len(leg.points) > 2 else leg.points[-1]
-        error = RouteTracker(leg, self._parameters).error_to(robot, x, y)
-        return abs(error) < self._parameters.turn_in_place_rad
+    def _lag(self, now: Reference, pose: Pose2) -> float:
+        """How far the robot is behind on its way, m or rad."""
+        error = deviation(now, pose)
+        motion = self._part.motion
+        return error.x * motion.sign if isinstance(motion, Drive) else math.copysign(1.0, motion.angle) * error.heading
 
-    def _can_stop_on(self, length_m: float, speed_mps: float) -> bool:
-        return speed_mps ** 2 <= 2.0 * self._parameters.acceleration_mps2 * length_m
+    def _retime(self, way: float, speed: float) -> bool:
+        rest = self._part.motion.from_way(max(way, 0.0))
+        trajectory = rest.timed(self._limits, self._speed, speed)
+        if trajectory is None:
+            return False
+        self._part, self._time_s = Part(rest, trajectory), 0.0
+        return True
+
+    def _is_over(self) -> bool:
+        return self._part is None or (self._index + 1 == len(self.plan.parts)
+                                      and self._time_s >= self._part.trajectory.duration_s)
+
+    def _has_settled(self, pose: Pose2, robot: RobotState) -> bool:
+        if not stands(robot):
+            return False
+        late = self._part is None or self._time_s >= self._part.trajectory.duration_s + SETTLE_S
+        return late or miss_of(self.plan.goal, pose, self._parameters.arrival).is_within
+
+    def _remaining(self) -> float:
+        if self._part is None:
+            return 0.0
+        if self._is_over():
+            return 0.0
+        done = self.reference().way if self._part.trajectory.length_m else 0.0
+        return max(self._part.trajectory.length_m - done + self.plan.length_after(self._index), LEAST_REMAINING_M)

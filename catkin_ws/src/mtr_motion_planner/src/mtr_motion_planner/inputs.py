@@ -1,5 +1,6 @@
 """What the motion planner is told at a tick, and the check that it may be used."""
 # SPDX-License-Identifier: Apache-2.0
+import enum
 import math
 from dataclasses import dataclass
 from typing import Optional, Tuple
@@ -42,6 +43,7 @@ class RobotState:
     speed_mps: float
     yaw_rate_radps: float
     message: str = ""
+    is_degenerate: bool = False
 
 
 @dataclass(frozen=True)
@@ -54,14 +56,35 @@ class Car:
     outline: Tuple[Point, ...]
 
 
+class Zone(enum.IntEnum):
+    """What drive control's collision stop does, as in DriveStatus."""
+
+    CLEAR = 0
+    SLOWED = 1
+    BLOCKED = 2
+    BLIND = 3
+
+
+@dataclass(frozen=True)
+class Drive:
+    """What drive control says; obstacle in base_link, NaN: none."""
+
+    stamp_s: float
+    zone: Zone = Zone.CLEAR
+    obstacle_m: float = math.nan
+    obstacle_bearing: float = math.nan
+    message: str = ""
+
+
 @dataclass(frozen=True)
 class Inputs:
-    """Newest message of each kind at a tick, None before the first."""
+    """Newest message of each kind at a tick, None before the first; the planner can do without drive control's."""
 
     tick_s: float
     order: Optional[Order]
     robot: Optional[RobotState]
     car: Optional[Car]
+    drive: Optional[Drive] = None
 
 
 def fault_of(inputs: Inputs, age_limit_s: float) -> str:

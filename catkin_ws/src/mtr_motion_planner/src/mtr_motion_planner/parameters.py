@@ -1,10 +1,110 @@
 """Parameters of the motion planner."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Tuple
 
-from mtr_core.errors import check_range
+from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import ParameterSet, number
+from mtr_core.se2 import Pose2
+
+from .limits import MotionLimits
+
+FRAMES = ("car", "map")
+
+
+@dataclass(frozen=True)
+class Slip(ParameterSet):
+    """How a skid-steered base slides sideways when it turns; without a slip a value is 0.
+
+    The defaults are a fit to the simulation, at up to 0.8 m/s and 1.2 rad/s. The controller takes out what a wrong
+    value leaves, and a correction at the goal what it cannot.
+
+    Attributes:
+        turn_centre_x_m: point, ahead of base_link, about which it turns on the spot; below its centre of mass.
+        curve_slip_s2: this point slides outwards at this times speed times the square of the yaw rate: the wheels'
+            side forces must turn the motion.
+        acceleration_slip_s2: and inwards, while it gets faster, at this times acceleration times yaw rate: the load
+            moves to the wheels behind.
+    """
+
+    turn_centre_x_m: float = number(-0.006, -0.2, 0.2, "m")
+    curve_slip_s2: float = number(0.07, 0.0, 1.0, "s2")
+    acceleration_slip_s2: float = number(0.09, 0.0, 1.0, "s2")
+
+    @property
+    def base_from_centre(self) -> Pose2:
+        """The turn centre, whose way is planned: unlike base_link it stays where it is when the robot turns."""
+        return Pose2(self.turn_centre_x_m, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Footprint(ParameterSet):
+    """The robot from above: a rectangle centred about base_link."""
+
+    footprint_length_m: float = number(0.51, 0.1, 2.0, "m")
+    footprint_width_m: float = number(0.43, 0.1, 2.0, "m")
+    slip: Slip = field(default_factory=Slip)
+
+    @property
+    def half_length_m(self) -> float:
+        """From base_link to the front."""
+        return 0.5 * self.footprint_length_m
+
+    @property
+    def half_width_m(self) -> float:
+        """From base_link to a side."""
+        return 0.5 * self.footprint_width_m
+
+    @property
+    def radius_m(self) -> float:
+        """About the turn centre, of what a turn on the spot sweeps."""
+        return math.hypot(self.half_length_m + abs(self.slip.turn_centre_x_m), self.half_width_m)
+
+
+@dataclass(frozen=True)
+class Margins(ParameterSet):
+    """How far the robot stays away from things, by plan.
+
+    Attributes:
+        keep_out_m: the footprint never gets closer to the Car's outline.
+        route_margin_m: gap beside the robot on its way around the Car.
+        geofence_xy: corners x, y, x, y, ... of the polygon in m that footprint and stopping distance stay in; empty:
+            no bound.
+        geofence_frame: frame of these corners, car or map.
+    """
+
+    keep_out_m: float = number(0.10, 0.02, 1.0, "m")
+    route_margin_m: float = number(0.25, 0.02, 2.0, "m")
+    geofence_xy: Tuple[float, ...] = ()
+    geofence_frame: str = "car"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if len(self.geofence_xy) % 2 or len(self.geofence_xy) in (2, 4):
+            raise ConfigurationError(f"Parameter geofence_xy has {len(self.geofence_xy)} numbers; allowed is x and y "
+                                     "of 3 corners or more.")
+        if not all(math.isfinite(value) for value in self.geofence_xy):
+            raise ConfigurationError("Parameter geofence_xy holds a number that is not finite; allowed are m.")
+        if self.geofence_frame not in FRAMES:
+            raise ConfigurationError(f"Parameter geofence_frame is '{self.geofence_frame}'; allowed is car or map.")
+
+
+@dataclass(frozen=True)
+class Arrival(ParameterSet):
+    """When a goal is reached.
+
+    Attributes:
+        goal_along_m: REACHED needs this along the goal's heading.
+        goal_across_m: REACHED needs this across the goal's heading.
+        goal_heading_rad: REACHED needs this.
+        corrections: attempts to get within these tolerances before the robot stays where it is.
+    """
+
+    goal_along_m: float = number(0.015, 0.005, 0.5, "m")
+    goal_across_m: float = number(0.015, 0.005, 0.5, "m")
+    goal_heading_rad: float = number(math.radians(0.8), 0.003, 0.5, "rad")
+    corrections: int = number(3, 0, 20, "attempts")
 
 
 @dataclass(frozen=True)
@@ -12,46 +112,31 @@ class MotionParameters(ParameterSet):
     """What the motion planner is started with.
 
     Attributes:
-        acceleration_mps2: limit of the linear acceleration, also when braking.
-        angular_acceleration_radps2: limit of the angular acceleration.
-        max_angular_radps: limit of the yaw rate.
-        footprint_length_m: the robot's length, centred about base_link.
-        footprint_width_m: the robot's width, centred about base_link.
-        keep_out_m: the footprint never gets closer to the Car's outline by plan.
-        turn_margin_m: gap beside the circle of the turning robot that must be free where it turns.
-        route_margin_m: the same gap on a route around the Car.
-        goal_along_m: REACHED needs this along the goal's heading.
-        goal_across_m: REACHED needs this across the goal's heading.
-        goal_heading_rad: REACHED needs this.
-        corrections: attempts to get within these tolerances before the robot stays where it is.
-        lookahead_m: distance on the route to the point that is steered for.
-        turn_in_place_rad: a larger change of direction is made standing.
-        longest_reverse_route_m: a longer route that is not straight along an axis is driven forwards.
+        run_in_m: straight piece with the heading held before a goal whose direction of travel is given.
+        longest_reverse_m: a longer way is not begun backwards; the straight piece to a goal may be.
+        degenerate_speed_mps: speed limit while localization says that its surroundings do not hold the pose.
         input_age_limit_s: older inputs stop the robot.
+        accept_nav_goal: for developers: goals from rviz are taken while the Operator wants none.
+        nav_goal_speed_mps: speed limit of those.
     """
 
-    acceleration_mps2: float = number(0.5, 0.05, 3.0, "m/s2")
-    angular_acceleration_radps2: float = number(1.0, 0.1, 10.0, "rad/s2")
-    max_angular_radps: float = number(1.0, 0.1, 4.0, "rad/s")
-    footprint_length_m: float = number(0.51, 0.1, 2.0, "m")
-    footprint_width_m: float = number(0.43, 0.1, 2.0, "m")
-    keep_out_m: float = number(0.10, 0.02, 1.0, "m")
-    turn_margin_m: float = number(0.05, 0.0, 1.0, "m")
-    route_margin_m: float = number(0.20, 0.0, 2.0, "m")
-    goal_along_m: float = number(0.02, 0.005, 0.5, "m")
-    goal_across_m: float = number(0.03, 0.005, 0.5, "m")
-    goal_heading_rad: float = number(math.radians(1.0), 0.003, 0.5, "rad")
-    corrections: int = number(3, 0, 20, "attempts")
-    lookahead_m: float = number(0.4, 0.1, 2.0, "m")
-    turn_in_place_rad: float = number(math.radians(45.0), 0.2, 1.5, "rad")
-    longest_reverse_route_m: float = number(3.0, 0.0, 20.0, "m")
+    limits: MotionLimits = field(default_factory=MotionLimits)
+    footprint: Footprint = field(default_factory=Footprint)
+    margins: Margins = field(default_factory=Margins)
+    arrival: Arrival = field(default_factory=Arrival)
+    run_in_m: float = number(0.3, 0.0, 2.0, "m")
+    longest_reverse_m: float = number(3.0, 0.0, 20.0, "m")
+    degenerate_speed_mps: float = number(0.3, 0.05, 2.0, "m/s")
     input_age_limit_s: float = number(0.3, 0.1, 2.0, "s")
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        check_range("route_margin_m", self.route_margin_m, self.turn_margin_m, 2.0, "m")
+    accept_nav_goal: bool = False
+    nav_goal_speed_mps: float = number(0.5, 0.05, 2.0, "m/s")
 
     @property
-    def turn_radius_m(self) -> float:
-        """Radius about base_link that a turn on the spot sweeps."""
-        return 0.5 * math.hypot(self.footprint_length_m, self.footprint_width_m)
+    def pivot_gap_m(self) -> float:
+        """Distance of the turn centre from the Car that a turn on the spot needs."""
+        return self.footprint.radius_m + self.margins.keep_out_m
+
+    @property
+    def route_gap_m(self) -> float:
+        """Distance of the turn centre from the Car on the way around it; the robot can turn on the spot there."""
+        return max(self.footprint.half_width_m + self.margins.route_margin_m, self.pivot_gap_m + 0.02)

@@ -1,13 +1,13 @@
-"""A plan: pieces of motion, one after the other."""
+"""A plan: motions with their trajectories, one after the other, each from and to standstill but the first."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
-from typing import List, Tuple, Union
+from typing import List, Tuple
 
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 
 from .inputs import Point
-from .route import length_of
+from .trajectory import Motion, Trajectory
 
 
 class PlanRefused(RobotError):
@@ -15,54 +15,40 @@ class PlanRefused(RobotError):
 
 
 @dataclass(frozen=True)
-class Straight:
-    """Drive along the heading of end until base_link is there; sign -1: backwards."""
+class Moving:
+    """Pose of the robot and its velocity."""
 
-    start: Point
-    end: Pose2
-    sign: int
-
-    @property
-    def points(self) -> Tuple[Point, ...]:
-        """Polyline of base_link."""
-        return self.start, (self.end.x, self.end.y)
+    pose: Pose2
+    linear_mps: float = 0.0
+    angular_radps: float = 0.0
 
 
 @dataclass(frozen=True)
-class Route:
-    """Follow the polyline; sign -1: the rear leads."""
+class Part:
+    """One motion and its trajectory."""
 
-    points: Tuple[Point, ...]
-    sign: int
-
-
-@dataclass(frozen=True)
-class Turn:
-    """Turn on the spot to the heading in map."""
-
-    heading: float
-
-    @property
-    def points(self) -> Tuple[Point, ...]:
-        """Polyline of base_link: none."""
-        return ()
-
-
-Leg = Union[Straight, Route, Turn]
+    motion: Motion
+    trajectory: Trajectory
 
 
 @dataclass(frozen=True)
 class Plan:
-    """Legs that lead to the goal, a pose in map."""
+    """Parts that lead to the goal, in the goal's frame."""
 
     goal: Pose2
-    legs: Tuple[Leg, ...]
+    parts: Tuple[Part, ...]
+
+    @property
+    def duration_s(self) -> float:
+        """Time that it takes."""
+        return sum(part.trajectory.duration_s for part in self.parts)
 
     @property
     def points(self) -> List[Point]:
-        """Polyline of base_link over all legs."""
-        return [point for leg in self.legs for point in leg.points]
+        """Line of the turn centre over all parts."""
+        return [(float(x), float(y)) for part in self.parts for x, y, _ in part.trajectory.poses[::5]] + [
+            (self.goal.x, self.goal.y)]
 
     def length_after(self, index: int) -> float:
-        """Length in m of the legs behind the one with the index."""
-        return sum(length_of(leg.points) for leg in self.legs[index + 1:])
+        """Way in m of the parts behind the one with the index."""
+        return sum(part.trajectory.length_m for part in self.parts[index + 1:])

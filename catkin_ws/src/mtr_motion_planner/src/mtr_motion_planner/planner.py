@@ -3,20 +3,31 @@
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
+from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 from mtr_core.states import Result
 
-from .follower import Follower
-from .inputs import NO_GOAL, Car, Goal, Inputs, Point, RobotState, fault_of
-from .obstacle import CarObstacle, is_material_change
+from .follower import Follower, Wanted
+from .inputs import NO_GOAL, Car, Inputs, Order, Point, RobotState, Zone, fault_of
 from .parameters import MotionParameters
-from .plan import Plan, PlanRefused
+from .plan import Moving
 from .planning import Planning
 from .ramp import Ramp
+from .site import Site
 from .tolerance import miss_of, sentence_about, was_displaced
 from .watch import StallWatch, is_heading_into
+from .watch import sentence_about as sentence_about_drive
 
 SETTLED = (Result.REACHED, Result.REFUSED)
+STANDING = (Zone.BLOCKED, Zone.BLIND)
+
+
+@dataclass(frozen=True)
+class Path:
+    """Line of the turn centre of a new plan, in map or in the Car's frame."""
+
+    in_car_frame: bool
+    points: Tuple[Point, ...]
 
 
 @dataclass(frozen=True)
@@ -30,140 +41,166 @@ class Output:
     result: Result
     remaining_m: float
     message: str
-    path: Optional[Tuple[Point, ...]] = None
+    path: Optional[Path] = None
 
 
 class MotionPlanner:
     """Leads the robot to one goal at a time.
 
-    A new goal id replaces the goal at once; a plan is made when the goal or the Car changes, not at each tick.
+    A new goal id replaces the goal at once; a plan is made when the goal or the Car changes or when the robot is off
+    its reference, not at each tick.
+
+    Attributes:
+        site: frame of the present plan, None before the first.
+        follower: at work, None when there is nothing to follow.
     """
 
     def __init__(self, parameters: MotionParameters):
         self._parameters = parameters
-        self._ramp = Ramp(parameters)
+        self._ramp = Ramp(parameters.limits)
         self._stall = StallWatch()
         self._goal = NO_GOAL
-        self._car: Optional[Car] = None
-        self._obstacle: Optional[CarObstacle] = None
-        self._restart(Result.IDLE)
+        self.site: Optional[Site] = None
+        self.follower: Optional[Follower] = None
+        self._followed_in_car = False
+        self._begin(Result.IDLE)
 
     def step(self, inputs: Inputs) -> Output:
         """Velocity and status at a tick."""
         self._path = None
         order = inputs.order
         if order and order.goal.goal_id != self._goal.goal_id:
-            self._goal = order.goal
-            self._restart(Result.PENDING if order.goal.goal_id else Result.IDLE)
+            self._goal, self.site = order.goal, None
+            self._begin(Result.PENDING if order.goal.goal_id else Result.IDLE)
         fault = fault_of(inputs, self._parameters.input_age_limit_s)
         if fault:
-            self._ramp.drop()
-            self._stall.reset()
-            idle = self._goal.goal_id == 0
-            return self._output(Result.IDLE if idle else self._pending_or_settled(), 0.0, "" if idle else fault)
+            return self._stop_at_once(fault)
         self._ramp.begin(inputs.tick_s, inputs.robot)
         if self._goal.goal_id == 0:
             self._ramp.brake()
-            return self._output(Result.IDLE, 0.0, "")
+            self.follower = None
+            return self._output(Result.IDLE)
         self._take_car(inputs.car)
-        return self._pursue(inputs.robot, order.max_speed_mps, inputs.tick_s)
+        return self._pursue(inputs)
 
-    def _restart(self, result: Result) -> None:
+    def _begin(self, result: Result) -> None:
+        """Start anew with the goal; a follower stays until the new plan goes on from its motion."""
         self._result, self._message = result, ""
-        self._follower: Optional[Follower] = None
-        self._braking = False
+        self._must_plan = True
         self._corrections = 0
         self._settled_at: Optional[Pose2] = None
         self._stall.reset()
 
-    def _pending_or_settled(self) -> Result:
-        return self._result if self._result in SETTLED else Result.PENDING
+    def _stop_at_once(self, fault: str) -> Output:
+        self._ramp.drop()
+        self._stall.reset()
+        self.follower, self._must_plan = None, True
+        if self._goal.goal_id == 0:
+            return self._output(Result.IDLE)
+        return self._output(self._result if self._result in SETTLED else Result.PENDING, message=fault)
 
     def _take_car(self, car: Car) -> None:
-        if self._car is not None and not is_material_change(self._car, car):
+        """Plan again when the Car is not what the plan was made for; a robot that has arrived stays."""
+        if self.site is None or self.site.holds_for(car):
             return
-        self._car = car
-        self._obstacle = CarObstacle(car, self._parameters) if len(car.outline) >= 3 else None
-        self._restart(Result.PENDING)
+        self.site = None
+        if self._result != Result.REACHED:
+            self._begin(Result.PENDING)
 
-    def _pursue(self, robot: RobotState, max_speed_mps: float, now_s: float) -> Output:
+    def _pursue(self, inputs: Inputs) -> Output:
+        if self.site is None and not self._arrange(inputs.car):
+            return self._stay()
+        base = self.site.frame_from_map(inputs.car) @ inputs.robot.pose
+        pose = base @ self._parameters.footprint.slip.base_from_centre
         if self._result in SETTLED:
-            if not was_displaced(self._settled_at, robot.pose):
-                self._ramp.brake()
-                return self._output(self._result, 0.0, self._message)
-            self._restart(Result.PENDING)
-        if self._follower is None and not self._prepare(robot):
-            self._ramp.brake()
-            return self._output(self._result, 0.0, self._message)
-        return self._follow(robot, max_speed_mps, now_s)
+            if not was_displaced(self._settled_at, pose):
+                return self._stay()
+            self._begin(Result.PENDING)
+        speed = self._speed(inputs.order, inputs.robot)
+        if self._must_plan and not self._plan(pose, inputs.robot, speed):
+            return self._stay()
+        return self._follow(pose, inputs, speed)
 
-    def _prepare(self, robot: RobotState) -> bool:
-        """Make a plan that goes on from the present motion; False while the robot brakes, or when it must stay."""
-        if self._braking and not self._ramp.is_still:
-            return False
+    def _arrange(self, car: Car) -> bool:
         try:
-            plan = self._make_plan(robot.pose)
-        except PlanRefused as refusal:
-            self._settle(Result.REFUSED, str(refusal), robot)
+            self.site = Site(self._goal, car, self._parameters)
+        except RobotError as refusal:
+            self._settle(Result.REFUSED, str(refusal), None)
+        return self.site is not None
+
+    def _stay(self) -> Output:
+        self._ramp.brake()
+        return self._output(self._result, message=self._message)
+
+    def _speed(self, order: Order, robot: RobotState) -> float:
+        limit = self._parameters.degenerate_speed_mps
+        return min(order.max_speed_mps, limit) if robot.is_degenerate else order.max_speed_mps
+
+    def _plan(self, pose: Pose2, robot: RobotState, speed: float) -> bool:
+        """Make a plan that goes on from the present motion; False when the robot must stay."""
+        planning = Planning(self.site.keep_out, self.site.fence, self._parameters, speed)
+        try:
+            plan = planning.plan(self._present(pose, robot), self.site.goal, self._goal.direction)
+        except RobotError as refusal:
+            self._settle(Result.REFUSED, str(refusal), pose)
             return False
-        follower = Follower(plan, self._parameters)
-        self._braking = not self._ramp.is_still and not follower.continues(robot, self._ramp.linear_mps)
-        if self._braking:
-            return False
-        self._follower = follower
-        self._path = tuple(plan.points)
+        self._must_plan, self._followed_in_car = False, self.site.in_car_frame
+        self.follower = Follower(plan, self._parameters, speed)
+        self._path = Path(self.site.in_car_frame, tuple(plan.points))
         return True
 
-    def _make_plan(self, start: Pose2) -> Plan:
-        goal = goal_in_map(self._goal, self._car)
-        if self._obstacle is None:
-            raise PlanRefused("The Car's outline is unknown, so there is no way around it.")
-        return Planning(self._obstacle, self._parameters).plan(start, goal, self._goal.direction)
+    def _present(self, pose: Pose2, robot: RobotState) -> Moving:
+        # Another frame has other coordinates: what was followed means nothing in it.
+        same_frame = self._followed_in_car == self.site.in_car_frame
+        if self.follower is not None and same_frame and self.follower.is_near(pose):
+            return self.follower.moving()
+        return Moving(pose, robot.speed_mps, robot.yaw_rate_radps)
 
-    def _follow(self, robot: RobotState, max_speed_mps: float, now_s: float) -> Output:
-        follower = self._follower
-        wanted = follower.step(robot, max_speed_mps, self._ramp.linear_mps)
-        if wanted is None:
-            self._arrive(robot, follower.plan.goal)
+    def _follow(self, pose: Pose2, inputs: Inputs, speed: float) -> Output:
+        robot, follower = inputs.robot, self.follower
+        if not follower.set_speed(speed):
+            self._must_plan = True
+        wanted = follower.step(pose, robot, self._ramp.step_s)
+        if wanted.lost:
+            # The next tick plans from where the robot is; until then it goes on slowing down.
+            self._must_plan = True
             self._ramp.brake()
-            return self._output(self._result, 0.0, self._message)
-        if is_heading_into(self._obstacle, robot, wanted, self._parameters):
+            return self._output(Result.PENDING, wanted.remaining_m)
+        if wanted.finished:
+            self._arrive(pose)
+            return self._stay()
+        if is_heading_into(self.site.keep_out, pose, robot, wanted.velocity, self._parameters):
             self._ramp.brake()
             return self._output(Result.BLOCKED, wanted.remaining_m, "The robot stands before it touches the Car.")
-        self._ramp.drive(wanted.linear_mps, wanted.angular_radps)
-        if self._stall.stalls(robot, self._ramp, now_s):
+        self._ramp.drive(wanted.velocity)
+        return self._under_way(pose, inputs, wanted)
+
+    def _under_way(self, pose: Pose2, inputs: Inputs, wanted: Wanted) -> Output:
+        message = sentence_about_drive(inputs.drive) if inputs.drive else ""
+        if message and inputs.drive.zone in STANDING:
+            self._stall.reset()
+            return self._output(Result.BLOCKED, wanted.remaining_m, message)
+        if self._stall.stalls(pose, wanted.remaining_m > 0.0, inputs.tick_s):
             return self._output(Result.BLOCKED, wanted.remaining_m, "The robot is told to drive and does not move.")
-        return self._output(Result.PENDING, wanted.remaining_m, "")
+        return self._output(Result.PENDING, wanted.remaining_m, message)
 
-    def _arrive(self, robot: RobotState, goal: Pose2) -> None:
-        """All legs are done: within tolerance, or one more attempt, or near enough."""
-        self._follower = None
-        miss = miss_of(goal, robot.pose, self._parameters)
+    def _arrive(self, pose: Pose2) -> None:
+        """The plan is done: within tolerance, or one more attempt, or near enough."""
+        miss = miss_of(self.site.goal, pose, self._parameters.arrival)
         if miss.is_within:
-            self._settle(Result.REACHED, "", robot)
-        elif self._corrections < self._parameters.corrections:
+            self._settle(Result.REACHED, "", pose)
+        elif self._corrections < self._parameters.arrival.corrections:
             self._corrections += 1
-        elif miss.is_near:
-            self._settle(Result.REACHED, sentence_about(miss, self._corrections), robot)
+            self._must_plan = True
         else:
-            self._settle(Result.REFUSED, sentence_about(miss, self._corrections), robot)
+            result = Result.REACHED if miss.is_near else Result.REFUSED
+            self._settle(result, sentence_about(miss, self._corrections), pose)
 
-    def _settle(self, result: Result, message: str, robot: RobotState) -> None:
-        self._result, self._message, self._settled_at = result, message, robot.pose
-        self._braking = False
+    def _settle(self, result: Result, message: str, pose: Optional[Pose2]) -> None:
+        self._result, self._message, self._settled_at = result, message, pose
+        self.follower = None
 
-    def _output(self, result: Result, remaining_m: float, message: str) -> Output:
+    def _output(self, result: Result, remaining_m: float = 0.0, message: str = "") -> Output:
         active = self._goal.goal_id != 0 or not self._ramp.is_still
         return Output(self._ramp.linear_mps, self._ramp.angular_radps, active, self._goal.goal_id, result, remaining_m,
                       message, self._path)
-
-
-def goal_in_map(goal: Goal, car: Car) -> Pose2:
-    """Goal's pose in map; PlanRefused when it has none."""
-    if not goal.pose.is_finite():
-        raise PlanRefused("The goal is not a number.")
-    if not goal.in_car_frame:
-        return goal.pose
-    if not car.located:
-        raise PlanRefused("The Car has not been located, so a goal relative to it means nothing yet.")
-    return car.pose @ goal.pose

@@ -1,127 +1,121 @@
-"""From start to goal without touching the Car: straight along the goal's axis if possible, else around."""
+"""From a start to a goal without touching the Car, in the shortest time."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import List, Optional, Sequence, Tuple
+from typing import List, Optional
 
-from mtr_core.se2 import Pose2, wrap_angle
+from mtr_core.se2 import Pose2
 from mtr_core.states import Direction
 
-from .obstacle import CarObstacle
+from .assembly import Assembly, line, pivot
+from .candidates import MOVING_MPS, Candidates
+from .fence import Fence
+from .keep_out import KeepOut
+from .options import Straight
 from .parameters import MotionParameters
-from .plan import Leg, Plan, PlanRefused, Route, Straight, Turn
-from .route import length_of, route_between
+from .plan import Moving, Part, Plan, PlanRefused
+from .route import moved
 
-# A goal is "straight ahead or behind" when heading and lateral offset are this close to its axis.
-AXIS_HEADING_RAD = math.radians(15.0)
-AXIS_OFFSET_PER_M = 0.15
-AXIS_OFFSET_MAX_M = 0.30
+# A robot this close to the goal's axis drives straight along it; the controller takes the rest out on the way, as early
+# as it can. With the direction of travel given the axis matters more than the time.
+ON_AXIS_PER_M = 0.06
+ON_AXIS_M = {Direction.ANY: 0.03, Direction.FORWARD: 0.12, Direction.BACKWARD: 0.12}
+ON_AXIS_RAD = {Direction.ANY: math.radians(3.0), Direction.FORWARD: math.radians(10.0),
+               Direction.BACKWARD: math.radians(10.0)}
 # Within this distance a correction may go either way, whatever direction was asked for.
 CORRECTION_M = 0.10
-# Search of straight pieces out of and into the zone where the robot must not turn.
-STEP_M = 0.05
-LONGEST_STRAIGHT_OUT_M = 6.0
-RUN_IN_M = 0.40
+# How many candidates are worked out, and how many of them must be free to drive before the best is taken.
+TRIED, COMPARED = 40, 3
 LEAST_CLEARANCE_M = 0.02
-ROUNDING_M = 0.005
+TURNING_RADPS = 0.05
+# A way longer than the straight line by more than this is compared with a stop and a new beginning.
+DETOUR_SHARE, DETOUR_M = 1.15, 0.3
 
 
 class Planning:
-    """Plans for one Car and one robot."""
+    """Plans in one frame, around one Car."""
 
-    def __init__(self, obstacle: CarObstacle, parameters: MotionParameters):
-        self._obstacle = obstacle
-        self._parameters = parameters
+    def __init__(self, keep_out: KeepOut, fence: Optional[Fence], parameters: MotionParameters, speed: float):
+        self._keep_out, self._fence, self._parameters = keep_out, fence, parameters
+        self._candidates = Candidates(keep_out, parameters, speed)
+        self._assembly = Assembly(keep_out, fence, parameters, speed)
 
-    def plan(self, start: Pose2, goal: Pose2, direction: Direction) -> Plan:
-        """Legs from start to goal, both in map; PlanRefused when there are none."""
-        self._check(start, goal)
-        axis = self._along_axis(start, goal, direction)
-        if axis:
-            return Plan(goal, (axis, Turn(goal.heading)))
-        legs: List[Leg] = []
-        if self._obstacle.forbids_turn(start):
-            leave = self._way_out(start)
-            legs.append(leave)
-            start = leave.end
-        arrival, last = self._arrival(goal, direction)
-        legs += self._transit(start, arrival, Direction.ANY if last else direction)
-        return Plan(goal, tuple(legs + ([last, Turn(goal.heading)] if last else [])))
+    def plan(self, start: Moving, goal: Pose2, direction: Direction) -> Plan:
+        """The quickest plan found that goes on from the present motion, with a stop first if need be."""
+        self._check(start.pose, goal)
+        turns_on_the_spot = _moves(start) and abs(start.linear_mps) <= MOVING_MPS
+        parts = None if turns_on_the_spot else self._parts(start, goal, direction)
+        if _moves(start) and self._may_gain_by_a_stop(parts, start, goal):
+            brake = self._assembly.brake(start)
+            stopped = self._parts(Moving(brake.trajectory.at(math.inf).pose), goal, direction)
+            parts = quicker(parts, None if stopped is None else [brake, *stopped])
+        if parts is None:
+            raise PlanRefused("No way to the goal was found that keeps the robot away from the Car"
+                              f"{' and inside the test area' if self._fence else ''}.")
+        return Plan(goal, tuple(parts))
+
+    def _may_gain_by_a_stop(self, parts: Optional[List[Part]], start: Moving, goal: Pose2) -> bool:
+        """False for a plan without a stop that is hardly longer than the straight line."""
+        return parts is None or sum(part.trajectory.length_m for part in parts) > (
+            DETOUR_SHARE * start.pose.distance_to(goal) + DETOUR_M)
 
     def _check(self, start: Pose2, goal: Pose2) -> None:
-        keep_out = self._parameters.keep_out_m
-        left = self._obstacle.clearance(goal)
+        keep_out = self._parameters.margins.keep_out_m
+        left = self._keep_out.clearance(goal)
         if left < keep_out:
             raise PlanRefused(f"At the goal the robot would leave {left:.2f} m to the Car; at least {keep_out:.2f} m "
                               "must be left.")
-        if self._obstacle.clearance(start) < LEAST_CLEARANCE_M:
+        if self._keep_out.clearance(start) < LEAST_CLEARANCE_M:
             raise PlanRefused("The robot stands too close to the Car to plan; move it away by hand.")
+        if self._fence and not self._fence.holds_pose(goal):
+            raise PlanRefused("At the goal the robot would not be inside the test area.")
+        if self._fence and not self._fence.holds_pose(start):
+            raise PlanRefused("The robot stands outside the test area; move it back by hand.")
 
-    def _along_axis(self, start: Pose2, goal: Pose2, direction: Direction) -> Optional[Straight]:
-        """The straight piece when the goal lies ahead or behind on the robot's own heading."""
-        offset = goal.inverse() @ start
-        reach = self._parameters.goal_across_m + AXIS_OFFSET_PER_M * abs(offset.x)
-        if abs(offset.heading) > AXIS_HEADING_RAD or abs(offset.y) > min(reach, AXIS_OFFSET_MAX_M):
+    def _parts(self, start: Moving, goal: Pose2, direction: Direction) -> Optional[List[Part]]:
+        parts = self._straight(start, goal, direction)
+        return self._quickest(start, goal, direction) if parts is None else parts
+
+    def _straight(self, start: Moving, goal: Pose2, direction: Direction) -> Optional[List[Part]]:
+        """The straight piece when the goal lies ahead or behind on the robot's own axis; no parts when it is there."""
+        arrival = self._parameters.arrival
+        offset = goal.inverse() @ start.pose
+        way = abs(offset.x)
+        if way <= 0.5 * arrival.goal_along_m and abs(offset.y) <= 0.8 * arrival.goal_across_m:
+            return None if _moves(start) else self._assembly.timed(pivot(start.pose, goal.heading), start.pose)
+        aside = max(arrival.goal_across_m, min(ON_AXIS_M[direction], ON_AXIS_PER_M * way))
+        if abs(offset.heading) > ON_AXIS_RAD[direction] or abs(offset.y) > aside:
             return None
         sign = 1 if offset.x < 0.0 else -1
         wrong = Direction.BACKWARD if sign > 0 else Direction.FORWARD
-        if direction == wrong and abs(offset.x) > CORRECTION_M:
+        if direction == wrong and way > CORRECTION_M:
             return None
-        if self._obstacle.swept_clearance(start, goal) < self._least_on_the_way(start):
-            return None
-        return Straight((start.x, start.y), goal, sign)
+        drive = line(moved(goal, offset.x), Straight(sign, way))
+        return self._assembly.timed([(drive, sign * start.linear_mps)], start.pose)
 
-    def _least_on_the_way(self, start: Pose2) -> float:
-        return min(self._parameters.keep_out_m, self._obstacle.clearance(start)) - ROUNDING_M
-
-    def _way_out(self, start: Pose2) -> Straight:
-        """Shortest straight piece, backwards or forwards, to where the robot may turn."""
-        least = self._least_on_the_way(start)
-        for step in range(1, int(LONGEST_STRAIGHT_OUT_M / STEP_M)):
-            for sign in (-1, 1):
-                end = ahead_of(start, sign * step * STEP_M)
-                if not self._obstacle.forbids_turn(end) and self._obstacle.swept_clearance(start, end) >= least:
-                    return Straight((start.x, start.y), end, sign)
-        raise PlanRefused("The robot stands so close to the Car that it cannot drive straight out; move it by hand.")
-
-    def _arrival(self, goal: Pose2, direction: Direction) -> Tuple[Pose2, Optional[Straight]]:
-        """Pose where the route ends, and the straight piece from there when the goal is close to the Car."""
-        if not self._obstacle.near_route_edge(goal):
-            return goal, None
-        signs = {Direction.FORWARD: (1,), Direction.BACKWARD: (-1,), Direction.ANY: (1, -1)}[direction]
-        for sign in signs:
-            for step in range(1, int(LONGEST_STRAIGHT_OUT_M / STEP_M)):
-                begin = ahead_of(goal, -sign * step * STEP_M)
-                if self._obstacle.swept_clearance(begin, goal) < self._parameters.keep_out_m - ROUNDING_M:
-                    break
-                if not self._obstacle.near_route_edge(begin):
-                    begin = ahead_of(begin, -sign * RUN_IN_M)
-                    return begin, Straight((begin.x, begin.y), goal, sign)
-        if self._obstacle.forbids_turn(goal):
-            raise PlanRefused("No straight piece leads to the goal past the Car without getting too close to it.")
-        return goal, None
-
-    def _transit(self, start: Pose2, end: Pose2, direction: Direction) -> List[Leg]:
-        points = route_between(start, end, self._obstacle)
-        if length_of(points) < ROUNDING_M:
-            return [Turn(end.heading)]
-        return [Route(tuple(points), self._sign_of(points, start, end, direction)), Turn(end.heading)]
-
-    def _sign_of(self, points: Sequence[Tuple[float, float]], start: Pose2, end: Pose2, direction: Direction) -> int:
-        if direction != Direction.ANY:
-            return 1 if direction == Direction.FORWARD else -1
-        if length_of(points) > self._parameters.longest_reverse_route_m:
-            return 1
-        return 1 if turning(points, start, end, 1) <= turning(points, start, end, -1) else -1
+    def _quickest(self, start: Moving, goal: Pose2, direction: Direction) -> Optional[List[Part]]:
+        best: Optional[List[Part]] = None
+        compared = 0
+        for candidate in self._candidates.between(start, goal, direction)[:TRIED]:
+            if compared == COMPARED or best is not None and candidate.time_s >= duration_of(best):
+                break
+            parts = self._assembly.work_out(candidate, start, goal)
+            if parts is not None:
+                compared += 1
+                best = quicker(best, parts)
+        return best
 
 
-def turning(points: Sequence[Tuple[float, float]], start: Pose2, end: Pose2, sign: int) -> float:
-    """Radians that the robot turns before and after a route."""
-    flip = 0.0 if sign > 0 else math.pi
-    first = math.atan2(points[1][1] - points[0][1], points[1][0] - points[0][0]) + flip
-    last = math.atan2(points[-1][1] - points[-2][1], points[-1][0] - points[-2][0]) + flip
-    return abs(wrap_angle(first - start.heading)) + abs(wrap_angle(end.heading - last))
+def duration_of(parts: List[Part]) -> float:
+    """Time in s that all parts take."""
+    return sum(part.trajectory.duration_s for part in parts)
 
 
-def ahead_of(pose: Pose2, distance: float) -> Pose2:
-    """Pose moved along its own heading."""
-    return pose @ Pose2(distance, 0.0, 0.0)
+def quicker(first: Optional[List[Part]], second: Optional[List[Part]]) -> Optional[List[Part]]:
+    """The one that takes less time; None is no plan."""
+    if first is None or second is None:
+        return second if first is None else first
+    return second if duration_of(second) < duration_of(first) else first
+
+
+def _moves(start: Moving) -> bool:
+    return abs(start.linear_mps) > MOVING_MPS or abs(start.angular_radps) > TURNING_RADPS

@@ -1,17 +1,19 @@
-"""The commanded velocity: it changes within the limits and never runs away from the measured one."""
+"""The commanded velocity: it changes within the limits of drive control and never runs away from the measured one."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Optional
 
 from .inputs import RobotState
-from .parameters import MotionParameters
-from .profile import clamp, slew
+from .limits import MotionLimits
+from .tracking import Velocity
 
 # A robot that is held (drive control, a wheel block) must not be left with a command that has wound up.
-LEAD_MPS, LEAD_RADPS = 0.25, 0.6
+LEAD_MPS, LEAD_RADPS = 0.3, 0.8
 PERIOD_S = 0.04
 # A gap between ticks counts as at most this.
 LONGEST_STEP_S = 0.1
 STILL_MPS, STILL_RADPS = 0.02, 0.05
+# The controller may add to the planned accelerations; with the defaults this is what drive control lets pass.
+LINEAR_SHARE, ANGULAR_SHARE = 1.25, 1.4
 
 
 class Ramp:
@@ -20,12 +22,13 @@ class Ramp:
     Attributes:
         linear_mps: commanded along base_link x.
         angular_radps: commanded about z.
+        step_s: time since the last tick.
     """
 
-    def __init__(self, parameters: MotionParameters):
-        self._parameters = parameters
+    def __init__(self, limits: MotionLimits):
+        self._limits = limits
         self._last_s: Optional[float] = None
-        self._step_s = PERIOD_S
+        self.step_s = PERIOD_S
         self.linear_mps = 0.0
         self.angular_radps = 0.0
 
@@ -37,23 +40,33 @@ class Ramp:
     def begin(self, now_s: float, robot: RobotState) -> None:
         """Start a tick."""
         passed = PERIOD_S if self._last_s is None else now_s - self._last_s
-        self._step_s = max(0.0, min(passed, LONGEST_STEP_S))
+        self.step_s = max(0.0, min(passed, LONGEST_STEP_S))
         self._last_s = now_s
-        self.linear_mps = robot.speed_mps + clamp(self.linear_mps - robot.speed_mps, LEAD_MPS)
-        self.angular_radps = robot.yaw_rate_radps + clamp(self.angular_radps - robot.yaw_rate_radps, LEAD_RADPS)
+        self.linear_mps = robot.speed_mps + _clamp(self.linear_mps - robot.speed_mps, LEAD_MPS)
+        self.angular_radps = robot.yaw_rate_radps + _clamp(self.angular_radps - robot.yaw_rate_radps, LEAD_RADPS)
 
-    def drive(self, linear_mps: float, angular_radps: float) -> None:
+    def drive(self, wanted: Velocity) -> None:
         """Move towards the wanted velocity."""
-        limits = self._parameters
-        self.linear_mps = slew(self.linear_mps, linear_mps, limits.acceleration_mps2 * self._step_s)
-        self.angular_radps = slew(self.angular_radps, clamp(angular_radps, limits.max_angular_radps),
-                                  limits.angular_acceleration_radps2 * self._step_s)
+        linear = LINEAR_SHARE * self._limits.acceleration_mps2 * self.step_s
+        angular = ANGULAR_SHARE * self._limits.angular_acceleration_radps2 * self.step_s
+        self.linear_mps += _clamp(wanted.linear_mps - self.linear_mps, linear)
+        self.angular_radps += _clamp(wanted.angular_radps - self.angular_radps, angular)
 
     def brake(self) -> None:
-        """Move towards standstill."""
-        self.drive(0.0, 0.0)
+        """Move towards standstill on the present curve."""
+        step = self._limits.acceleration_mps2 * self.step_s
+        kept = max(0.0, 1.0 - step / abs(self.linear_mps)) if self.linear_mps else 0.0
+        angular = self.angular_radps - _clamp(
+            self.angular_radps, self._limits.angular_acceleration_radps2 * self.step_s)
+        if abs(self.linear_mps) > STILL_MPS:
+            angular = self.angular_radps * kept
+        self.linear_mps, self.angular_radps = self.linear_mps * kept, angular
 
     def drop(self) -> None:
         """Command zero at once: there is nothing to control by."""
         self.linear_mps = self.angular_radps = 0.0
         self._last_s = None
+
+
+def _clamp(value: float, limit: float) -> float:
+    return max(-limit, min(limit, value))

@@ -1,68 +1,108 @@
-"""Shortest way around a convex zone."""
+"""Geometry of a route: straight lines and arcs from a start around the Car to an end."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import List, Sequence
+from dataclasses import dataclass
+from typing import List, Optional, Sequence, Tuple
 
-from shapely.geometry import LineString, MultiPoint, Point
-from shapely.ops import nearest_points
+from mtr_core.se2 import Pose2, wrap_angle
 
-from mtr_core.se2 import Pose2
+from .circles import Circle, tangent
+from .inputs import Point
 
-from .inputs import Point as XY
-from .obstacle import CarObstacle
-
-
-def length_of(points: Sequence[XY]) -> float:
-    """Length of a polyline."""
-    return sum(math.hypot(b[0] - a[0], b[1] - a[1]) for a, b in zip(points, points[1:]))
+# More than this in one arc is a loop that no quick route has.
+LONGEST_ARC_RAD = math.radians(250.0)
 
 
-def route_between(start: Pose2, end: Pose2, obstacle: CarObstacle) -> List[XY]:
-    """Polyline from start to end around the Car; both must lie where the robot may turn."""
-    first, last = (start.x, start.y), (end.x, end.y)
-    if obstacle.lets_pass([first, last]) and not obstacle.blocks_route([first, last]):
-        return [first, last]
-    entry, leave = _out_of(first, obstacle.route_zone), _out_of(last, obstacle.route_zone)
-    around = [entry, leave] if not obstacle.blocks_route([entry, leave]) else _around(entry, leave, obstacle)
-    points = [first, *around, last]
-    return _without_detours([p for i, p in enumerate(points) if i == 0 or p != points[i - 1]], obstacle)
+@dataclass(frozen=True)
+class Ring:
+    """Polygon whose corners the route turns about.
 
-
-def _out_of(point: XY, zone) -> XY:
-    """The point itself, or the nearest one on the zone's edge when it lies inside."""
-    if not zone.contains(Point(point)):
-        return point
-    on_edge = nearest_points(zone.exterior, Point(point))[0]
-    return on_edge.x, on_edge.y
-
-
-def _around(start: XY, end: XY, obstacle: CarObstacle) -> List[XY]:
-    """Shortest way between two points outside a convex zone whose connection crosses it.
-
-    Both are corners of the common convex hull then, and the visibility graph has just two ways: the hull's two sides.
+    Attributes:
+        corners: counterclockwise.
+        radius: of the turns in m.
     """
-    corners = list(obstacle.route_zone.exterior.coords)[:-1]
-    hull = MultiPoint([*corners, start, end]).convex_hull
-    ring = list(hull.exterior.coords)[:-1]
-    i, j = _index_of(ring, start), _index_of(ring, end)
-    ahead = [ring[(i + k) % len(ring)] for k in range((j - i) % len(ring) + 1)]
-    back = [ring[(i - k) % len(ring)] for k in range((i - j) % len(ring) + 1)]
-    shorter = min(ahead, back, key=length_of)
-    return [start, *shorter[1:-1], end]
+
+    corners: Tuple[Point, ...]
+    radius: float
+
+    @property
+    def middle(self) -> Point:
+        """Mean of the corners."""
+        return (sum(x for x, _ in self.corners) / len(self.corners),
+                sum(y for _, y in self.corners) / len(self.corners))
 
 
-def _index_of(ring: Sequence[XY], point: XY) -> int:
-    return min(range(len(ring)), key=lambda k: math.hypot(ring[k][0] - point[0], ring[k][1] - point[1]))
+@dataclass(frozen=True)
+class Leg:
+    """A turn on a circle, then a straight line."""
+
+    radius: float
+    turn: float
+    line: float
+
+    @property
+    def arc(self) -> float:
+        """Length of the turn."""
+        return abs(self.radius * self.turn)
 
 
-def _without_detours(points: List[XY], obstacle: CarObstacle) -> List[XY]:
-    """Drop the second and the last but one point where the robot can as well go straight."""
-    while len(points) > 2 and obstacle.lets_pass([points[0], points[2]]) and _is_near(points[0], points[1]):
-        del points[1]
-    while len(points) > 2 and obstacle.lets_pass([points[-3], points[-1]]) and _is_near(points[-2], points[-1]):
-        del points[-2]
-    return points
+@dataclass(frozen=True)
+class Route:
+    """Legs; the first turns out of the start, the last one, without a line, into the end. Radius 0: on the spot."""
+
+    legs: Tuple[Leg, ...]
+    points: Tuple[Point, ...]  # where the straight lines begin and end
 
 
-def _is_near(a: XY, b: XY, limit_m: float = 0.3) -> bool:
-    return LineString([a, b]).length < limit_m
+def route_along(circles: Sequence[Circle], first_heading: float, last_heading: float) -> Optional[Route]:
+    """Route that turns on each circle; None when a circle cannot be joined with the next, or is looped around."""
+    heading, legs, points = first_heading, [], []
+    for circle, following in zip(circles, circles[1:]):
+        joined = tangent(circle, following)
+        if joined is None:
+            return None
+        direction, line = joined
+        legs.append(Leg(circle.radius, circle.turn(heading, direction), line))
+        points += [circle.point(direction), following.point(direction)]
+        heading = direction
+    legs.append(Leg(circles[-1].radius, circles[-1].turn(heading, last_heading), 0.0))
+    if any(abs(leg.turn) > LONGEST_ARC_RAD for leg in legs) or any(abs(leg.turn) > math.pi for leg in legs[1:-1]):
+        return None
+    return Route(tuple(legs), tuple(points))
+
+
+def around(first: Circle, last: Circle, ring: Ring, side: int) -> Optional[List[Circle]]:
+    """Circles on which a route with the ring to its left (side 1) or right (-1) turns, first and last included."""
+    begin = _support(first, ring, side)
+    back = _support(Circle(last.x, last.y, -last.radius), ring, -side)
+    if begin is None or back is None:
+        return None
+    count = len(ring.corners)
+    steps = (side * (back - begin)) % count
+    corners = [ring.corners[(begin + side * step) % count] for step in range(steps + 1)]
+    return [first, *(Circle(x, y, side * ring.radius) for x, y in corners), last]
+
+
+def _support(circle: Circle, ring: Ring, side: int) -> Optional[int]:
+    """Corner on which the tangent from the circle lies that has the whole ring on one side."""
+    x, y = ring.middle
+    towards = math.atan2(y - circle.y, x - circle.x)
+    best, found = math.inf, None
+    for index, (corner_x, corner_y) in enumerate(ring.corners):
+        joined = tangent(circle, Circle(corner_x, corner_y, side * ring.radius))
+        if joined is None:
+            return None
+        offset = side * wrap_angle(joined[0] - towards)
+        if offset < best:
+            best, found = offset, index
+    return found
+
+
+def moved(pose: Pose2, way: float) -> Pose2:
+    """Pose moved along its own heading."""
+    return pose @ Pose2(way, 0.0, 0.0)
+
+
+def facing(pose: Pose2, sign: int) -> Pose2:
+    """The robot's pose with the heading of travel, or back."""
+    return pose if sign > 0 else Pose2(pose.x, pose.y, wrap_angle(pose.heading + math.pi))

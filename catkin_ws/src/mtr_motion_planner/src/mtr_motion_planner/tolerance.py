@@ -6,7 +6,7 @@ from typing import Optional
 
 from mtr_core.se2 import Pose2
 
-from .parameters import MotionParameters
+from .parameters import Arrival
 
 # Near enough for a measurement, though not within tolerance, when no correction helped.
 NEAR_M = 0.10
@@ -30,11 +30,11 @@ class Miss:
         return self.distance_m <= NEAR_M and abs(self.heading_rad) <= NEAR_RAD
 
 
-def miss_of(goal: Pose2, pose: Pose2, parameters: MotionParameters) -> Miss:
+def miss_of(goal: Pose2, pose: Pose2, arrival: Arrival) -> Miss:
     """How far pose is from goal."""
     at = goal.inverse() @ pose
-    within = (abs(at.x) <= parameters.goal_along_m and abs(at.y) <= parameters.goal_across_m
-              and abs(at.heading) <= parameters.goal_heading_rad)
+    within = (abs(at.x) <= arrival.goal_along_m and abs(at.y) <= arrival.goal_across_m
+              and abs(at.heading) <= arrival.goal_heading_rad)
     return Miss(math.hypot(at.x, at.y), at.heading, within)
 
 

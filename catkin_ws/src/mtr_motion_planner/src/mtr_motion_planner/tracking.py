@@ -1,124 +1,70 @@
-"""Controllers that follow one leg of a plan each."""
+"""Controller that keeps a differential drive on its reference.
+
+Feed-forward of the reference's velocity at the instant at which the command acts, and feedback of the pose: Kanayama's
+law (Kanayama et al., "A stable tracking control method for an autonomous mobile robot", 1990) with gains that grow with
+the speed, so that an offset decays over the same length at every speed.
+"""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
-from typing import Union
 
-from mtr_core.se2 import wrap_angle
+from mtr_core.se2 import Pose2
 
-from .inputs import RobotState
-from .parameters import MotionParameters
-from .plan import Leg, Route, Straight, Turn
-from .profile import approach_speed, clamp
-from .pursuit import Polyline
+from .trajectory import Reference
 
-# Slowest motion that still ends a leg, and the rest at which it is cut.
-CREEP_MPS, CREEP_RADPS = 0.03, 0.05
-STOP_AT_M, STOP_AT_RAD = 0.006, math.radians(0.4)
-# A robot slower than this stands.
-STANDING_MPS, STANDING_RADPS = 0.02, 0.03
-# Heading loop, 1/s, and lateral offset to change of heading, rad/m, on a straight leg.
-HEADING_GAIN = 2.5
-OFFSET_GAIN_RADPM = 1.5
-OFFSET_HEADING_MAX_RAD = 0.3
-# The offset no longer bends the heading on the last stretch, so that the robot arrives aligned.
-ALIGN_OVER_M = 0.25
-TURNED_RAD = math.radians(6.0)
-YAW_RESERVE = 0.8
+# Time between a pose and the effect of the velocity computed from it: half of the planner's period, one tick of drive
+# control, and the wheels' response.
+DELAY_S = 0.06
+ALONG_GAIN_PER_S = 2.0
+HEADING_GAIN_PER_S = 2.5
+# An offset decays over this length, at higher speeds over more, as the loop's delay bounds the gain.
+OFFSET_LENGTH_M = 0.2
+HEADING_GAIN_MAX_PER_S = 6.0
+# Feedback is bounded: a jump of the pose must not become a jump of the robot.
+FEEDBACK_MPS, FEEDBACK_RADPS = 0.15, 0.6
+OFFSET_MAX_M = 0.10
+# At a reference that stands nothing is corrected below these; the robot would only rock to and fro.
+DEAD_M, DEAD_RAD = 0.007, math.radians(0.25)
 
 
 @dataclass(frozen=True)
-class Wanted:
-    """Velocity that a leg asks for before the limits of acceleration, and what is left of it."""
+class Velocity:
+    """Velocity of base_link."""
 
-    linear_mps: float
-    angular_radps: float
-    remaining_m: float
-    finished: bool
+    linear_mps: float = 0.0
+    angular_radps: float = 0.0
 
 
-def stands(robot: RobotState) -> bool:
-    """True when the robot does not move."""
-    return abs(robot.speed_mps) < STANDING_MPS and abs(robot.yaw_rate_radps) < STANDING_RADPS
+def deviation(reference: Reference, pose: Pose2) -> Pose2:
+    """Reference seen from the robot."""
+    return pose.inverse() @ reference.pose
 
 
-class StraightTracker:
-    """Drives along an axis with the heading held."""
-
-    def __init__(self, leg: Straight, parameters: MotionParameters):
-        self._leg, self._parameters = leg, parameters
-
-    def step(self, robot: RobotState, max_speed_mps: float, _commanded_mps: float) -> Wanted:
-        """Velocity for the robot's present state."""
-        leg, limits = self._leg, self._parameters
-        at = leg.end.inverse() @ robot.pose
-        rest = -at.x * leg.sign
-        speed = approach_speed(rest - STOP_AT_M, robot.speed_mps, limits.acceleration_mps2, CREEP_MPS)
-        fade = max(0.0, min(1.0, rest / ALIGN_OVER_M))
-        bend = -leg.sign * fade * clamp(OFFSET_GAIN_RADPM * at.y, OFFSET_HEADING_MAX_RAD)
-        yaw_rate = clamp(HEADING_GAIN * wrap_angle(bend - at.heading), limits.max_angular_radps)
-        finished = rest <= 2.0 * STOP_AT_M and stands(robot)
-        if speed == 0.0:
-            yaw_rate = 0.0
-        return Wanted(leg.sign * min(speed, max_speed_mps), yaw_rate, max(rest, 0.0), finished)
+def tracked(reference: Reference, ahead: Reference, pose: Pose2) -> Velocity:
+    """Velocity that follows the reference; ahead is the reference DELAY_S later."""
+    error = deviation(reference, pose)
+    speed = ahead.linear_mps
+    if speed == 0.0 and ahead.angular_radps == 0.0:
+        return _at_rest(error)
+    along = _clamp(ALONG_GAIN_PER_S * error.x, FEEDBACK_MPS)
+    length = max(OFFSET_LENGTH_M, 2.0 * abs(speed) / HEADING_GAIN_MAX_PER_S)
+    gain = max(HEADING_GAIN_PER_S, 2.0 * abs(speed) / length)
+    offset = _clamp(error.y, OFFSET_MAX_M) * _sinc(error.heading) / length ** 2
+    turning = _clamp(gain * error.heading + speed * offset, FEEDBACK_RADPS)
+    linear = speed * math.cos(error.heading) + along
+    # A robot that is ahead of its reference waits for it; it does not go back.
+    return Velocity(linear if linear * speed >= 0.0 else 0.0, ahead.angular_radps + turning)
 
 
-class RouteTracker:
-    """Follows a polyline towards a point ahead of the robot; corners become arcs, large turns are made standing."""
-
-    def __init__(self, leg: Route, parameters: MotionParameters):
-        self._line, self._sign, self._parameters = Polyline(leg.points), leg.sign, parameters
-        self._turning = False
-
-    def step(self, robot: RobotState, max_speed_mps: float, commanded_mps: float) -> Wanted:
-        """Velocity for the robot's present state."""
-        limits = self._parameters
-        rest = self._line.advance(robot.pose.x, robot.pose.y)
-        x, y = self._line.ahead(limits.lookahead_m)
-        reach = max(math.hypot(x - robot.pose.x, y - robot.pose.y), 0.5 * limits.lookahead_m)
-        error = self.error_to(robot, x, y)
-        self._turning = abs(error) > (TURNED_RAD if self._turning else limits.turn_in_place_rad)
-        if rest <= 2.0 * STOP_AT_M and stands(robot):
-            return Wanted(0.0, 0.0, 0.0, True)
-        if self._turning:
-            return Wanted(0.0, turn_rate(error, robot, limits), rest, False)
-        curvature = 2.0 * math.sin(error) / reach
-        speed = approach_speed(rest - STOP_AT_M, robot.speed_mps, limits.acceleration_mps2, CREEP_MPS)
-        speed = min(speed, max_speed_mps, YAW_RESERVE * limits.max_angular_radps / max(abs(curvature), 1e-6))
-        return Wanted(self._sign * speed, curvature * abs(commanded_mps), rest, False)
-
-    def error_to(self, robot: RobotState, x: float, y: float) -> float:
-        """Change of heading that lets the leading side face the point."""
-        bearing = math.atan2(y - robot.pose.y, x - robot.pose.x)
-        return wrap_angle(bearing - robot.pose.heading + (0.0 if self._sign > 0 else math.pi))
+def _at_rest(error: Pose2) -> Velocity:
+    along = 0.0 if abs(error.x) < DEAD_M else _clamp(ALONG_GAIN_PER_S * error.x, FEEDBACK_MPS)
+    turning = 0.0 if abs(error.heading) < DEAD_RAD else _clamp(HEADING_GAIN_PER_S * error.heading, FEEDBACK_RADPS)
+    return Velocity(along, turning)
 
 
-class TurnTracker:
-    """Turns on the spot."""
-
-    def __init__(self, leg: Turn, parameters: MotionParameters):
-        self._heading, self._parameters = leg.heading, parameters
-
-    def step(self, robot: RobotState, _max_speed_mps: float, _commanded_mps: float) -> Wanted:
-        """Velocity for the robot's present state."""
-        error = wrap_angle(self._heading - robot.pose.heading)
-        finished = abs(error) <= 0.8 * self._parameters.goal_heading_rad and stands(robot)
-        return Wanted(0.0, turn_rate(error, robot, self._parameters), 0.0, finished)
+def _sinc(angle: float) -> float:
+    return 1.0 if abs(angle) < 1e-6 else math.sin(angle) / angle
 
 
-def turn_rate(error: float, robot: RobotState, parameters: MotionParameters) -> float:
-    """Yaw rate that ends a turn on the spot in time."""
-    if abs(error) > math.radians(170.0) and abs(robot.yaw_rate_radps) > CREEP_RADPS:
-        error = math.copysign(error, robot.yaw_rate_radps)
-    rate = approach_speed(abs(error) - STOP_AT_RAD, robot.yaw_rate_radps, parameters.angular_acceleration_radps2,
-                          CREEP_RADPS)
-    return math.copysign(min(rate, parameters.max_angular_radps), error)
-
-
-Tracker = Union[StraightTracker, RouteTracker, TurnTracker]
-
-
-def tracker_of(leg: Leg, parameters: MotionParameters) -> Tracker:
-    """Controller for a leg."""
-    kinds = {Straight: StraightTracker, Route: RouteTracker, Turn: TurnTracker}
-    return kinds[type(leg)](leg, parameters)
+def _clamp(value: float, limit: float) -> float:
+    return max(-limit, min(limit, value))

@@ -5,20 +5,18 @@ from typing import Optional
 
 from mtr_core.se2 import Pose2
 
-from .inputs import RobotState
-from .obstacle import CarObstacle
+from .inputs import Drive, RobotState, Zone
+from .keep_out import KeepOut
 from .parameters import MotionParameters
-from .profile import DELAY_S
-from .ramp import Ramp
-from .tracking import Wanted
+from .tracking import DELAY_S, Velocity
 
 STALL_AFTER_S = 2.0
-STALL_MPS, STALL_RADPS = 0.03, 0.05
 MOVED_M, MOVED_RAD = 0.01, math.radians(1.0)
-# The plan keeps 0.10 m; half of it is left for errors of control before the robot is stopped.
+# The plan keeps the margin; half of it is left for errors of control before the robot is stopped.
 GUARD_SHARE = 0.5
 # A pose that leaves more room than the present one may be driven to from anywhere.
 OPENING_M = 0.002
+SIDES = ((math.radians(45.0), "ahead"), (math.radians(135.0), "to the left"), (math.radians(180.0), "behind"))
 
 
 class StallWatch:
@@ -32,11 +30,10 @@ class StallWatch:
         """Forget what was seen."""
         self._since_s = self._from = None
 
-    def stalls(self, robot: RobotState, ramp: Ramp, now_s: float) -> bool:
-        """True when motion has been commanded for a while and the pose stayed."""
-        commanded = abs(ramp.linear_mps) >= STALL_MPS or abs(ramp.angular_radps) >= STALL_RADPS
-        if not commanded or self._from is None or self._since_s is None or self._moved(robot.pose):
-            self._since_s, self._from = now_s, robot.pose
+    def stalls(self, pose: Pose2, is_wanted: bool, now_s: float) -> bool:
+        """True when motion has been wanted for a while and the pose stayed."""
+        if not is_wanted or self._from is None or self._since_s is None or self._moved(pose):
+            self._since_s, self._from = now_s, pose
             return False
         return now_s - self._since_s > STALL_AFTER_S
 
@@ -45,14 +42,33 @@ class StallWatch:
         return math.hypot(moved.x, moved.y) > MOVED_M or abs(moved.heading) > MOVED_RAD
 
 
-def is_heading_into(obstacle: CarObstacle, robot: RobotState, wanted: Wanted, parameters: MotionParameters) -> bool:
+def is_heading_into(keep_out: KeepOut, pose: Pose2, robot: RobotState, wanted: Velocity, parameters: MotionParameters
+                    ) -> bool:
     """True when the robot, braking now, would come too close to the Car and closer than it is."""
     speed = max(abs(robot.speed_mps), abs(wanted.linear_mps) * 0.1)
-    reach = speed ** 2 / (2.0 * parameters.acceleration_mps2) + speed * DELAY_S
-    if wanted.linear_mps == 0.0 or obstacle.distance_of_point(robot.pose) > parameters.turn_radius_m + reach + 0.1:
+    reach = speed ** 2 / (2.0 * parameters.limits.acceleration_mps2) + speed * DELAY_S
+    if wanted.linear_mps == 0.0 or keep_out.distance(pose) > parameters.footprint.radius_m + reach + 0.1:
         return False
-    sign = robot.speed_mps if abs(robot.speed_mps) > 0.05 else wanted.linear_mps
-    ahead = robot.pose @ Pose2(math.copysign(reach, sign), 0.0, 0.0)
-    clearance = obstacle.clearance(ahead)
-    return (clearance < GUARD_SHARE * parameters.keep_out_m
-            and clearance < obstacle.clearance(robot.pose) - OPENING_M)
+    sense = robot.speed_mps if abs(robot.speed_mps) > 0.05 else wanted.linear_mps
+    clearance = keep_out.clearance(pose @ Pose2(math.copysign(reach, sense), 0.0, 0.0))
+    return (clearance < GUARD_SHARE * parameters.margins.keep_out_m
+            and clearance < keep_out.clearance(pose) - OPENING_M)
+
+
+def sentence_about(drive: Drive) -> str:
+    """What a person should know about drive control's collision stop; empty when the way is free."""
+    if drive.zone == Zone.CLEAR:
+        return ""
+    if drive.zone == Zone.BLIND:
+        return drive.message or "The robot stands because a LiDAR that should see its way is silent."
+    what = "blocked" if drive.zone == Zone.BLOCKED else "slowed"
+    if not math.isfinite(drive.obstacle_m):
+        return f"The robot is {what} by an obstacle."
+    return f"The robot is {what} by an obstacle {drive.obstacle_m:.1f} m {_side(drive.obstacle_bearing)}."
+
+
+def _side(bearing: float) -> str:
+    if not math.isfinite(bearing):
+        return "away"
+    side = next((name for limit, name in SIDES if abs(bearing) <= limit), "behind")
+    return "to the right" if side == "to the left" and bearing < 0.0 else side

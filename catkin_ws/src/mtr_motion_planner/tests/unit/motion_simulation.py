@@ -1,4 +1,4 @@
-"""A tiny robot for tests: unicycle with limited acceleration, first-order lag and a delayed command."""
+"""A tiny robot for tests: it slides as a skid-steered base does, lags, and hears a command late."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from collections import deque
@@ -9,14 +9,14 @@ from shapely.geometry import Polygon
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
 from mtr_motion_planner.inputs import Car, Goal, Inputs, Order, RobotState
-from mtr_motion_planner.obstacle import CarObstacle
-from mtr_motion_planner.parameters import MotionParameters
+from mtr_motion_planner.parameters import MotionParameters, Slip
 from mtr_motion_planner.planner import MotionPlanner, Output
 
 PARAMETERS = MotionParameters()
+EXPECTED_SLIP = PARAMETERS.footprint.slip
 PERIOD_S, SUBSTEPS = 0.04, 4
-LAG_S = 0.10
-BASE_ACCELERATION_MPS2, BASE_ANGULAR_RADPS2 = 1.0, 2.0
+LAG_S = 0.03
+BASE_ACCELERATION_MPS2, BASE_ANGULAR_RADPS2 = 3.0, 6.0
 OUTLINE = ((2.25, 0.6), (1.9, 0.9), (-1.9, 0.9), (-2.25, 0.6), (-2.25, -0.6), (-1.9, -0.9), (1.9, -0.9), (2.25, -0.6))
 ORIGIN = Pose2(0.0, 0.0, 0.0)
 
@@ -29,11 +29,10 @@ def car_at(pose: Pose2 = ORIGIN, located: bool = True, outline=OUTLINE) -> Car:
 class SimulatedRobot:
     """Robot, planner and Car; `run` steps them until the goal is settled."""
 
-    def __init__(self, pose: Pose2, car: Optional[Car] = None, held: bool = False):
-        self.pose, self.car, self.held = pose, car or car_at(), held
+    def __init__(self, pose: Pose2, car: Optional[Car] = None, held: bool = False, slip: Slip = EXPECTED_SLIP):
+        self.pose, self.car, self.held, self.slip = pose, car or car_at(), held, slip
         self.speed = self.yaw_rate = 0.0
         self.planner = MotionPlanner(PARAMETERS)
-        self.obstacle = CarObstacle(self.car, PARAMETERS)
         self.ticks = 0
         self.goal = Goal(0, True, Pose2(0, 0, 0), Direction.ANY)
         self.max_speed = 0.5
@@ -94,9 +93,12 @@ class SimulatedRobot:
         linear, angular = (0.0, 0.0) if self.held else self._queue[0]
         dt = PERIOD_S / SUBSTEPS
         for _ in range(SUBSTEPS):
-            self.speed += limited((linear - self.speed) / LAG_S, BASE_ACCELERATION_MPS2) * dt
+            acceleration = limited((linear - self.speed) / LAG_S, BASE_ACCELERATION_MPS2)
+            self.speed += acceleration * dt
             self.yaw_rate += limited((angular - self.yaw_rate) / LAG_S, BASE_ANGULAR_RADPS2) * dt
-            self.pose = self.pose @ Pose2(self.speed * dt, 0.0, self.yaw_rate * dt)
+            side = self.yaw_rate * (self.slip.acceleration_slip_s2 * acceleration - self.slip.turn_centre_x_m
+                                    - self.slip.curve_slip_s2 * self.speed * abs(self.yaw_rate))
+            self.pose = self.pose @ Pose2(self.speed * dt, side * dt, self.yaw_rate * dt)
         self.poses.append(self.pose)
         self.least_clearance = min(self.least_clearance, self.clearance())
 

@@ -6,6 +6,7 @@ import math
 import pytest
 
 from mtr_core.errors import ConfigurationError
+from mtr_core.parameters import parameters_from
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
 from mtr_motion_planner.inputs import Car, Goal, Inputs, Order, RobotState
@@ -69,4 +70,4 @@ def test_input_that_turns_bad_in_mid_motion_gives_zero_at_once_and_goes_on_from_
                                          ("route_margin_m", 0.01)])
 def test_parameter_out_of_range_is_named(name, value):
     with pytest.raises(ConfigurationError, match=name):
-        MotionParameters(**{name: value})
+        parameters_from({name: value}, MotionParameters)

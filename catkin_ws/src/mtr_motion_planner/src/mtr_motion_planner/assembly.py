@@ -1,0 +1,119 @@
+"""From a candidate to motions with trajectories that are known to be free."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import List, Optional, Sequence, Tuple
+
+import numpy as np
+
+from mtr_core.se2 import Pose2, wrap_angle
+
+from .candidates import MOVING_MPS, Candidate
+from .curve import trace
+from .fence import Fence
+from .keep_out import KeepOut
+from .options import ROUNDING_M, Straight
+from .parameters import MotionParameters
+from .plan import Moving, Part
+from .route import facing, moved
+from .shaping import Driving, Start, curve_of
+from .trajectory import Drive, Motion, Pivot, Trajectory
+
+# Away from start and goal a rounded corner may use up the route's margin to this share of it.
+CORNER_SHARE = 0.4
+ENDS_M = 0.6
+NO_TURN_RAD = 0.002
+# What a stop may take longer than the formula says, by rounding to samples.
+BRAKE_SHARE, BRAKE_M, BRAKE_RAD = 1.05, 0.02, 0.02
+# One of so many samples, 60 ms, is checked for what it comes close to.
+CHECKED = 3
+
+Begun = Tuple[Motion, float]  # with its first speed
+
+
+class Assembly:
+    """Works out motions for one Car, robot and speed limit."""
+
+    def __init__(self, keep_out: KeepOut, fence: Optional[Fence], parameters: MotionParameters, speed: float):
+        self._keep_out, self._fence, self._parameters, self._speed = keep_out, fence, parameters, speed
+        self._driving = Driving(parameters.limits, parameters.footprint.slip, speed)
+
+    def work_out(self, candidate: Candidate, start: Moving, goal: Pose2) -> Optional[List[Part]]:
+        """Parts of a candidate; None when its curve does not exist or is not free."""
+        out, sign, into = candidate.out, candidate.sign, candidate.into
+        motions: List[Begun] = []
+        begin, end = start, goal
+        if out.sign and out.sign != sign:
+            motions.append((line(start.pose, out), out.sign * start.linear_mps))
+            begin = Moving(moved(start.pose, out.sign * out.length))
+        if into.sign and into.sign != sign:
+            end = moved(goal, -into.sign * into.length)
+        transit = self._transit(candidate, begin, end)
+        if transit is None:
+            return None
+        motions += transit
+        if into.sign and into.sign != sign:
+            motions.append((line(end, into), 0.0))
+        return self.timed(motions, start.pose)
+
+    def _transit(self, candidate: Candidate, begin: Moving, end: Pose2) -> Optional[List[Begun]]:
+        sign, shape = candidate.sign, candidate.shape
+        speed = sign * begin.linear_mps if abs(begin.linear_mps) > MOVING_MPS else 0.0
+        curvature = begin.angular_radps / speed if speed else 0.0
+        curve = curve_of(shape, Start(facing(begin.pose, sign), speed, curvature), facing(end, sign),
+                         self._driving)
+        if curve is None:
+            return None
+        first, last = facing(curve.start, sign), facing(curve.end, sign)
+        motions: List[Begun] = [(Drive(curve, sign), speed)]
+        if shape.first == 0.0:
+            motions[:0] = pivot(begin.pose, first.heading)
+        if shape.last == 0.0:
+            motions += pivot(Pose2(end.x, end.y, last.heading), end.heading)
+        return motions
+
+    def timed(self, motions: Sequence[Begun], start: Pose2) -> Optional[List[Part]]:
+        """Motions with trajectories; None when one cannot be driven from its first speed or is not free."""
+        least = min(self._parameters.margins.keep_out_m, self._keep_out.clearance(start)) - ROUNDING_M
+        total, done, parts = sum(motion.length_m for motion, _ in motions), 0.0, []
+        for motion, speed in motions:
+            trajectory = motion.timed(self._parameters.limits, self._speed, max(speed, 0.0))
+            if trajectory is None or speed < -MOVING_MPS or not self._is_free(trajectory, least, done, total):
+                return None
+            done += motion.length_m
+            parts.append(Part(motion, trajectory))
+        return parts
+
+    def _is_free(self, trajectory: Trajectory, least: float, done: float, total: float) -> bool:
+        poses, ways = trajectory.poses[::CHECKED], trajectory.ways[::CHECKED]
+        along = done + (ways if trajectory.length_m else np.zeros(len(ways)))
+        on_the_way = (along > ENDS_M) & (along < total - ENDS_M)
+        wanted = np.where(on_the_way, max(least, CORNER_SHARE * self._parameters.margins.route_margin_m), least)
+        if (self._keep_out.clearances(poses) < wanted).any():
+            return False
+        return self._fence is None or self._fence.holds(poses, trajectory.linear[::CHECKED])
+
+    def brake(self, start: Moving) -> Part:
+        """Stop on the present curve, or the turn on the spot."""
+        limits = self._parameters.limits
+        speed, rate = abs(start.linear_mps), abs(start.angular_radps)
+        if speed > MOVING_MPS:
+            sign = 1 if start.linear_mps > 0.0 else -1
+            length = BRAKE_SHARE * limits.stopping_distance(speed) + BRAKE_M
+            curve = trace(facing(start.pose, sign), [0.0, length], [start.angular_radps / speed, 0.0])
+            motion: Motion = Drive(curve, sign)
+            return Part(motion, motion.timed(limits, speed, speed))
+        angle = BRAKE_SHARE * (0.5 * rate ** 2 / limits.angular_acceleration_radps2
+                               + 0.5 * rate * limits.angular_ramp_s) + BRAKE_RAD
+        motion = Pivot(start.pose, math.copysign(angle, start.angular_radps))
+        return Part(motion, motion.timed(limits, 0.0, rate))
+
+
+def line(start: Pose2, straight: Straight) -> Drive:
+    """Straight motion from a pose of the robot."""
+    return Drive(trace(facing(start, straight.sign), [0.0, straight.length], [0.0, 0.0]), straight.sign)
+
+
+def pivot(start: Pose2, heading: float) -> List[Begun]:
+    """Turn on the spot to a heading, nothing where none is needed."""
+    turn = wrap_angle(heading - start.heading)
+    return [(Pivot(start, turn), 0.0)] if abs(turn) > NO_TURN_RAD else []

@@ -1,0 +1,106 @@
+"""All ways from a start to a goal that are worth trying, the quickest by estimate first."""
+# SPDX-License-Identifier: Apache-2.0
+import itertools
+from dataclasses import dataclass
+from typing import Iterator, List, Optional, Sequence, Tuple
+
+from mtr_core.se2 import Pose2
+from mtr_core.states import Direction
+
+from .estimate import time_of
+from .keep_out import KeepOut
+from .limits import MotionLimits, rest_to_rest_time
+from .options import NEAR_M, Straight, arrivals, departures
+from .parameters import MotionParameters
+from .plan import Moving
+from .route import Ring, facing, moved
+from .shaping import Shape, route_of
+
+# Radii of the turns at both ends, in m, beside the one that is driven at full speed: about as tight as linear and
+# angular acceleration build up together from rest, and half of it.
+TIGHT_RADII_M = (0.2, 0.45)
+LARGEST_RING_M = 1.5
+MOVING_MPS = 0.02
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A way: straight out (0: not needed), a shaped transit, straight in; sign -1: the rear leads in the transit."""
+
+    time_s: float
+    out: Straight
+    sign: int
+    shape: Shape
+    into: Straight
+
+
+class Candidates:
+    """Makes them for one Car, robot and speed limit."""
+
+    def __init__(self, keep_out: KeepOut, parameters: MotionParameters, speed: float):
+        self._keep_out, self._parameters, self._speed = keep_out, parameters, speed
+        cruise = parameters.limits.corner_radius(speed)
+        self._radii = sorted({*(radius for radius in TIGHT_RADII_M if radius < 0.9 * cruise), cruise})
+        gap = parameters.route_gap_m
+        sizes = {gap, min(LARGEST_RING_M, max(gap, cruise)), min(LARGEST_RING_M, max(gap, 0.6 * cruise))}
+        self._rings = [Ring(tuple(keep_out.centres(size, gap)), size) for size in sorted(sizes)]
+
+    def between(self, start: Moving, goal: Pose2, direction: Direction) -> List[Candidate]:
+        """Candidates, the quickest first; PlanRefused when start or goal lies too close to the Car."""
+        is_near = start.pose.distance_to(goal) < NEAR_M
+        outs = departures(start.pose, self._keep_out, self._parameters)
+        ins = arrivals(goal, direction, is_near, self._keep_out, self._parameters)
+        found = [candidate for out, into, sign in itertools.product(outs, ins, (1, -1))
+                 for candidate in self._transits(start, goal, out, into, sign)]
+        return sorted(found, key=lambda candidate: candidate.time_s)
+
+    def _transits(self, start: Moving, goal: Pose2, out: Straight, into: Straight, sign: int) -> Iterator[Candidate]:
+        """Transits in one sense of travel."""
+        speed = start.linear_mps
+        moving = abs(speed) > MOVING_MPS
+        if moving and speed * (out.sign or sign) < 0.0:
+            return
+        limits = self._parameters.limits
+        begin = moved(start.pose, out.sign * out.length)
+        finish = moved(goal, -into.sign * into.length)
+        joined_out, joined_in = out.sign == sign, into.sign == sign
+        from_speed = abs(speed) if moving and (joined_out or not out.sign) else 0.0
+        extra = 0.0
+        if out.sign and not joined_out:
+            extra += _straight_time(out.length, self._speed, limits)
+        if into.sign and not joined_in:
+            extra += _straight_time(into.length, self._speed, limits)
+        lead = facing(start.pose if joined_out else begin, sign)
+        end = facing(goal if joined_in else finish, sign)
+        firsts = self._signed_radii(on_the_spot=from_speed == 0.0 and not joined_out)
+        lasts = self._signed_radii(on_the_spot=not joined_in)
+        for ring, side in self._ways(begin, finish):
+            for first, last in itertools.product(firsts, lasts):
+                shape = Shape(first, last, out.length if joined_out else 0.0, into.length if joined_in else 0.0, ring,
+                              side)
+                time_s = self._time(shape, lead, end, sign, from_speed)
+                if time_s is not None:
+                    yield Candidate(time_s + extra, out, sign, shape, into)
+
+    def _time(self, shape: Shape, start: Pose2, end: Pose2, sign: int, from_speed: float) -> Optional[float]:
+        route = route_of(shape, start, end)
+        if route is None:
+            return None
+        length = sum(leg.arc + leg.line for leg in route.legs)
+        if sign < 0 and length > self._parameters.longest_reverse_m:
+            return None
+        return time_of(route, shape, self._parameters.limits, self._speed, from_speed)
+
+    def _ways(self, begin: Pose2, finish: Pose2) -> Sequence[Tuple[Optional[Ring], int]]:
+        line = [(begin.x, begin.y), (finish.x, finish.y)]
+        gap = min(self._parameters.route_gap_m, self._keep_out.distance(begin), self._keep_out.distance(finish))
+        if begin.distance_to(finish) < 1e-6 or not self._keep_out.crosses(line, gap):
+            return [(None, 1)]
+        return list(itertools.product(self._rings, (1, -1)))
+
+    def _signed_radii(self, on_the_spot: bool) -> List[float]:
+        return [*([0.0] if on_the_spot else []), *self._radii, *(-radius for radius in self._radii)]
+
+
+def _straight_time(length: float, speed: float, limits: MotionLimits) -> float:
+    return rest_to_rest_time(length, speed, limits.acceleration_mps2, limits.ramp_s)

@@ -1,0 +1,47 @@
+"""A quick guess of how long a route takes, to try the most promising routes first."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+from .limits import MotionLimits
+from .route import Leg, Route
+from .shaping import Shape
+
+
+def time_of(route: Route, shape: Shape, limits: MotionLimits, speed: float, start_speed: float) -> float:
+    """Time in s from the start speed to rest, turns on the spot included."""
+    total = limits.ramp_s
+    entry = start_speed
+    legs = route.legs
+    for index, leg in enumerate(legs):
+        corner = _corner_speed(leg, limits, speed)
+        if leg.radius == 0.0:
+            total += limits.turn_time(leg.turn)
+        else:
+            total += leg.arc / max(corner, 1e-3)
+            if entry == 0.0 or index + 1 == len(legs):
+                total += corner / (2.0 * min(limits.acceleration_mps2,
+                                             limits.angular_acceleration_radps2 * abs(leg.radius)))
+            entry = corner
+        if index + 1 < len(legs):
+            leave = _corner_speed(legs[index + 1], limits, speed)
+            straight = leg.line + (shape.way_out if index == 0 else 0.0) + (
+                shape.run_in if index + 2 == len(legs) else 0.0)
+            total += _line_time(straight, entry, leave, speed, limits.acceleration_mps2)
+            entry = leave
+    return total
+
+
+def _corner_speed(leg: Leg, limits: MotionLimits, speed: float) -> float:
+    if leg.radius == 0.0:
+        return 0.0
+    return min(speed, limits.corner_speed(1.0 / leg.radius))
+
+
+def _line_time(length: float, entry: float, leave: float, speed: float, acceleration: float) -> float:
+    """Time on a straight line between two speeds; as if it were driven at their mean where it is too short."""
+    peak_square = min(speed ** 2, acceleration * length + 0.5 * (entry ** 2 + leave ** 2))
+    peak = math.sqrt(peak_square)
+    if peak <= max(entry, leave) + 1e-9:
+        return 2.0 * length / max(entry + leave, 1e-3)
+    rest = length - (2.0 * peak_square - entry ** 2 - leave ** 2) / (2.0 * acceleration)
+    return (2.0 * peak - entry - leave) / acceleration + max(rest, 0.0) / peak

@@ -1,0 +1,45 @@
+"""The bound of the test area: footprint and stopping distance stay inside; poses are those of the turn centre."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import Sequence
+
+import numpy as np
+from shapely.geometry import MultiPoint, Polygon
+from shapely.prepared import prep
+
+from mtr_core.errors import ConfigurationError
+from mtr_core.se2 import Pose2
+
+from .inputs import Point
+from .limits import MotionLimits
+from .parameters import Footprint
+
+
+def corners_of(numbers: Sequence[float]) -> Sequence[Point]:
+    """Points from x, y, x, y, ...; ConfigurationError when they bound no area."""
+    corners = tuple(zip(numbers[::2], numbers[1::2]))
+    if corners and not Polygon(corners).is_valid:
+        raise ConfigurationError("Parameter geofence_xy crosses itself; allowed is a simple polygon.")
+    return corners
+
+
+class Fence:
+    """Polygon in the frame of the plan."""
+
+    def __init__(self, corners: Sequence[Point], footprint: Footprint, limits: MotionLimits):
+        self._area = prep(Polygon(corners))
+        self._footprint, self._limits = footprint, limits
+
+    def holds(self, poses: np.ndarray, speeds: np.ndarray) -> bool:
+        """True when the robot may have these poses (rows of x, y, heading) at these signed speeds in m/s."""
+        ahead, aside = self._footprint.half_length_m, self._footprint.half_width_m
+        reach = speeds * np.abs(speeds) / (2.0 * self._limits.acceleration_mps2)
+        cos, sin = np.cos(poses[:, 2]), np.sin(poses[:, 2])
+        points = []
+        for x, y in ((ahead, aside), (ahead, -aside), (-ahead, aside), (-ahead, -aside)):
+            along = x - self._footprint.slip.turn_centre_x_m + np.where(reach * x > 0.0, reach, 0.0)
+            points.append(np.column_stack((poses[:, 0] + cos * along - sin * y, poses[:, 1] + sin * along + cos * y)))
+        return self._area.contains(MultiPoint(np.concatenate(points)))
+
+    def holds_pose(self, pose: Pose2) -> bool:
+        """True when the robot may stand there."""
+        return self.holds(np.array([[pose.x, pose.y, pose.heading]]), np.zeros(1))

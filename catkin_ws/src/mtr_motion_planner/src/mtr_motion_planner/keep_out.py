@@ -1,0 +1,109 @@
+"""The Car's outline as something to stay away from, for the robot's true footprint at poses of its turn centre."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import List, Sequence, Tuple
+
+import numpy as np
+from shapely.geometry import LineString, MultiPoint, Polygon
+from shapely.geometry import Point as ShapelyPoint
+from shapely.geometry.polygon import orient
+
+from mtr_core.errors import RobotError
+from mtr_core.se2 import Pose2
+
+from .inputs import Point
+from .parameters import Footprint
+
+# The outline is sampled this densely; a footprint 0.1 m beside it is then seen at most 2 mm too far away.
+OUTLINE_STEP_M = 0.04
+LEAST_AREA_M2 = 0.05
+# A line that only grazes a zone by less than this runs along its edge.
+GRAZE_M = 0.005
+
+
+class OutlineUnusable(RobotError):
+    """The outline is no polygon that one could drive around."""
+
+
+class KeepOut:
+    """The Car in the frame of the plan.
+
+    Attributes:
+        hull: convex hull of the outline.
+    """
+
+    def __init__(self, outline: Sequence[Point], footprint: Footprint):
+        self._footprint = footprint
+        self._outline = polygon_of(outline)
+        self.hull: Polygon = orient(self._outline.convex_hull)
+        self._edge = _sampled(self._outline)
+
+    def clearances(self, poses: np.ndarray) -> np.ndarray:
+        """Distance of the footprint from the outline at each pose (rows of x, y, heading); 0 when they overlap."""
+        half_length, half_width = self._footprint.half_length_m, self._footprint.half_width_m
+        cos, sin = np.cos(poses[:, 2:3]), np.sin(poses[:, 2:3])
+        dx, dy = self._edge[0] - poses[:, 0:1], self._edge[1] - poses[:, 1:2]
+        ahead = np.maximum(np.abs(cos * dx + sin * dy + self._footprint.slip.turn_centre_x_m) - half_length, 0.0)
+        aside = np.maximum(np.abs(cos * dy - sin * dx) - half_width, 0.0)
+        return np.sqrt((ahead * ahead + aside * aside).min(axis=1))
+
+    def clearance(self, pose: Pose2) -> float:
+        """Distance of the footprint from the outline, 0 inside it."""
+        if self._outline.contains(ShapelyPoint(pose.x, pose.y)):
+            return 0.0
+        return float(self.clearances(np.array([[pose.x, pose.y, pose.heading]]))[0])
+
+    def distance(self, pose: Pose2) -> float:
+        """Distance of the turn centre from the hull."""
+        return float(self.hull.distance(ShapelyPoint(pose.x, pose.y)))
+
+    def crosses(self, line: Sequence[Point], gap_m: float) -> bool:
+        """True when the turn centre would come closer to the hull than the gap on the line."""
+        return bool(self.hull.distance(LineString(line)) < gap_m - GRAZE_M)
+
+    def centres(self, radius: float, gap_m: float) -> List[Point]:
+        """Corners, counterclockwise, of the polygon that is the zone of the gap when it is grown by the radius.
+
+        Each corner of the hull moves inwards on its bisector by radius - gap, so that it stays within that distance
+        of the new polygon: grown by the radius this covers the hull grown by the gap, and no bend is tighter.
+        """
+        corners = list(self.hull.exterior.coords)[:-1]
+        inset = radius - gap_m
+        moved = [_inwards(corners[i - 1], corner, corners[(i + 1) % len(corners)], inset)
+                 for i, corner in enumerate(corners)]
+        core = MultiPoint(moved).convex_hull
+        if not isinstance(core, Polygon):
+            core = MultiPoint(corners).convex_hull.buffer(-0.1 * gap_m)
+        return list(orient(core).exterior.coords)[:-1]
+
+
+def polygon_of(points: Sequence[Point]) -> Polygon:
+    """Simple polygon of a size that can be a Car; OutlineUnusable says what is wrong."""
+    if len(points) < 3:
+        raise OutlineUnusable("The Car's outline is unknown, so there is no way around it.")
+    polygon = Polygon(points)
+    if not polygon.is_valid:
+        raise OutlineUnusable("The Car's outline crosses itself.")
+    if polygon.area < LEAST_AREA_M2:
+        raise OutlineUnusable("The Car's outline has no size.")
+    return polygon
+
+
+def _sampled(polygon: Polygon) -> Tuple[np.ndarray, np.ndarray]:
+    corners = np.asarray(polygon.exterior.coords)
+    parts = []
+    for a, b in zip(corners, corners[1:]):
+        steps = max(1, math.ceil(float(np.hypot(*(b - a))) / OUTLINE_STEP_M))
+        parts.append(a + (b - a) * np.linspace(0.0, 1.0, steps, endpoint=False)[:, None])
+    points = np.concatenate(parts)
+    return points[:, 0], points[:, 1]
+
+
+def _inwards(before: Point, corner: Point, after: Point, distance: float) -> Point:
+    """The corner of a counterclockwise polygon moved on its bisector."""
+    if distance <= 0.0:
+        return corner
+    first = math.atan2(corner[1] - before[1], corner[0] - before[0])
+    turn = math.remainder(math.atan2(after[1] - corner[1], after[0] - corner[0]) - first, 2.0 * math.pi)
+    bisector = first + 0.5 * (math.pi + turn)
+    return corner[0] + distance * math.cos(bisector), corner[1] + distance * math.sin(bisector)

@@ -1,0 +1,78 @@
+"""Ways to leave a start and to come to a goal: straight out from close to the Car, straight in, or turning there."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import List, Sequence
+
+import numpy as np
+
+from mtr_core.se2 import Pose2
+from mtr_core.states import Direction
+
+from .keep_out import KeepOut
+from .parameters import MotionParameters
+from .plan import PlanRefused
+from .route import moved
+
+STEP_M = 0.05
+LONGEST_STRAIGHT_M = 6.0
+ROUNDING_M = 0.005
+# A goal this close is also tried with a straight piece into it, which takes out what is left across its axis.
+NEAR_M, NEAR_RUN_IN_M = 1.0, 0.5
+SIGNS = {Direction.ANY: (1, -1), Direction.FORWARD: (1,), Direction.BACKWARD: (-1,)}
+
+
+@dataclass(frozen=True)
+class Straight:
+    """Straight piece at the start or at the goal; sign -1: backwards, 0: none."""
+
+    sign: int = 0
+    length: float = 0.0
+
+
+NONE = Straight()
+
+
+def departures(start: Pose2, keep_out: KeepOut, parameters: MotionParameters) -> List[Straight]:
+    """None needed where the robot may turn, else the shortest ways straight out; PlanRefused when there is none."""
+    if keep_out.distance(start) >= parameters.pivot_gap_m:
+        return [NONE]
+    least = min(parameters.margins.keep_out_m, keep_out.clearance(start)) - ROUNDING_M
+    found = [Straight(sign, length) for sign in (-1, 1)
+             for length in _free_after(start, sign, least, keep_out, parameters)]
+    if not found:
+        raise PlanRefused("The robot stands so close to the Car that it cannot drive straight out; move it by hand.")
+    return found
+
+
+def arrivals(goal: Pose2, direction: Direction, is_near: bool, keep_out: KeepOut, parameters: MotionParameters
+             ) -> List[Straight]:
+    """Straight pieces into the goal, none where the robot may turn at it; PlanRefused when no way leads there."""
+    may_turn = keep_out.distance(goal) >= parameters.pivot_gap_m
+    found = [NONE] if may_turn and direction == Direction.ANY else []
+    if may_turn:
+        length = max(parameters.run_in_m, NEAR_RUN_IN_M) if is_near else parameters.run_in_m
+        if is_near or direction != Direction.ANY:
+            found += [Straight(sign, length) for sign in SIGNS[direction]]
+        return found
+    least = parameters.margins.keep_out_m - ROUNDING_M
+    found = [Straight(sign, length + parameters.run_in_m) for sign in SIGNS[direction]
+             for length in _free_after(goal, -sign, least, keep_out, parameters)]
+    if not found:
+        raise PlanRefused("No straight piece leads to the goal past the Car without getting too close to it.")
+    return found
+
+
+def _free_after(pose: Pose2, sign: int, least: float, keep_out: KeepOut, parameters: MotionParameters
+                ) -> Sequence[float]:
+    """Length, if any, of the shortest straight piece from the pose to where the robot may turn."""
+    lengths = STEP_M * np.arange(1, math.ceil(LONGEST_STRAIGHT_M / STEP_M))
+    poses = np.column_stack((pose.x + sign * lengths * math.cos(pose.heading),
+                             pose.y + sign * lengths * math.sin(pose.heading), np.full_like(lengths, pose.heading)))
+    clear = keep_out.clearances(poses) >= least
+    for length, is_clear in zip(lengths.tolist(), clear.tolist()):
+        if not is_clear:
+            return ()
+        if keep_out.distance(moved(pose, sign * length)) >= parameters.route_gap_m:
+            return (length,)
+    return ()

@@ -1,0 +1,180 @@
+"""From a route to a curve without jumps of curvature that ends where the route is to end."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass, replace
+from typing import List, Optional, Sequence, Tuple
+
+import numpy as np
+
+from mtr_core.se2 import Pose2, wrap_angle
+
+from .circles import Circle, circle_through
+from .curve import Curve, Piece, breakpoints, merged, trace
+from .limits import MotionLimits
+from .parameters import Slip
+from .route import Ring, Route, around, moved, route_along
+from .timing import speeds_on
+
+# Rounding the joints moves the end; the route is bent until it is this close.
+CLOSE_M, CLOSE_RAD = 0.001, 0.0005
+ATTEMPTS = 8
+# Two arcs of the same sense with a straight line shorter than this between them are driven as one.
+MERGE_M = 0.25
+# A straight line gives at most this share to the turn at one of its ends.
+GIVEN_SHARE = 0.45
+LARGEST_STRETCHED_RAD = 2.0
+# Turns at the ends below this are made gentle; least: as if they were so large.
+SMALL_TURN_RAD, LEAST_TURN_RAD = 0.35, 0.002
+
+
+@dataclass(frozen=True)
+class Start:
+    """Pose in the direction of travel, and how the robot moves there; curvature is that of its present curve."""
+
+    pose: Pose2
+    speed: float = 0.0
+    curvature: float = 0.0
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What a route is to look like.
+
+    Attributes:
+        first, last: signed radii of the turns out of the start and into the end; 0: on the spot.
+        way_out: straight piece before the first turn.
+        run_in: straight piece after the last one.
+        ring: what it turns about, None to go straight from the first turn to the last.
+        side: 1 to have the ring to the left.
+    """
+
+    first: float
+    last: float
+    way_out: float = 0.0
+    run_in: float = 0.0
+    ring: Optional[Ring] = None
+    side: int = 1
+
+
+def route_of(shape: Shape, start: Pose2, end: Pose2) -> Optional[Route]:
+    """Route between two poses in the direction of travel."""
+    begin, finish = moved(start, shape.way_out), moved(end, -shape.run_in)
+    first, last = circle_through(begin, shape.first), circle_through(finish, shape.last)
+    circles: Optional[List[Circle]] = [first, last]
+    if shape.ring:
+        circles = around(first, last, shape.ring, shape.side)
+    return circles and route_along(circles, begin.heading, finish.heading)
+
+
+@dataclass(frozen=True)
+class Driving:
+    """How a curve is driven.
+
+    Attributes:
+        speed: limit in m/s.
+    """
+
+    limits: MotionLimits
+    slip: Slip
+    speed: float
+
+
+def curve_of(shape: Shape, start: Start, end: Pose2, driving: Driving) -> Optional[Curve]:
+    """Smooth curve where the base goes, slip included.
+
+    With a turn on the spot at either end the curve's heading there is its own.
+    """
+    limits, speed, aim = driving.limits, driving.speed, end
+    for _ in range(ATTEMPTS):
+        route = route_of(shape, start.pose, aim)
+        if route is None:
+            return None
+        shape = _gentle(shape, route, limits, speed)
+        curve = _curve(shape, start, route, limits, speed)
+        speeds = curve and speeds_on(curve, limits, speed, start.speed)
+        if speeds is None:
+            return None
+        curve = _slid(curve, np.asarray(speeds), driving.slip)
+        miss = _miss(curve.end, end, turned_on_the_spot=shape.last == 0.0)
+        if math.hypot(miss.x, miss.y) < CLOSE_M and abs(miss.heading) < CLOSE_RAD:
+            return curve
+        aim = Pose2(aim.x + miss.x, aim.y + miss.y, wrap_angle(aim.heading + miss.heading))
+    return None
+
+
+def _slid(curve: Curve, speeds: np.ndarray, slip: Slip) -> Curve:
+    curvature, squares = 0.5 * (curve.curvature[1:] + curve.curvature[:-1]), speeds ** 2
+    outwards = slip.curve_slip_s2 * curvature * np.abs(curvature) * 0.5 * (squares[1:] + squares[:-1]) * curve.step_m
+    return curve.slid(0.5 * slip.acceleration_slip_s2 * curvature * np.diff(squares) - outwards)
+
+
+def _miss(reached: Pose2, wanted: Pose2, turned_on_the_spot: bool) -> Pose2:
+    heading = 0.0 if turned_on_the_spot else wrap_angle(wanted.heading - reached.heading)
+    return Pose2(wanted.x - reached.x, wanted.y - reached.y, heading)
+
+
+def _curve(shape: Shape, start: Start, route: Route, limits: MotionLimits, speed: float) -> Optional[Curve]:
+    turns = stretched(merged(_pieces(route), MERGE_M), limits, speed)
+    pieces = merged([Piece(0.0, shape.way_out), *turns, Piece(0.0, shape.run_in)], gap_m=0.0)
+    if not pieces:
+        return None
+    initial = start.curvature if start.speed > 0.0 else pieces[0].curvature
+    return trace(_turned(start.pose, route), *breakpoints(pieces, _widths(pieces, initial, limits, speed), initial))
+
+
+def _turned(pose: Pose2, route: Route) -> Pose2:
+    first = route.legs[0]
+    return pose if first.radius else Pose2(pose.x, pose.y, wrap_angle(pose.heading + first.turn))
+
+
+def _pieces(route: Route) -> List[Piece]:
+    pieces = []
+    for leg in route.legs:
+        if leg.radius:
+            pieces.append(Piece(1.0 / leg.radius, leg.arc))
+        pieces.append(Piece(0.0, leg.line))
+    return pieces
+
+
+def _widths(pieces: Sequence[Piece], initial: float, limits: MotionLimits, speed: float) -> Tuple[float, ...]:
+    """Length over which the curvature changes at the beginning and at each joint, at the speed that is driven there."""
+    curvatures = [initial, *(piece.curvature for piece in pieces)]
+    widths = []
+    for before, after in zip(curvatures, curvatures[1:]):
+        driven = min(speed, limits.corner_speed(before), limits.corner_speed(after))
+        widths.append(driven ** 2 * abs(after - before) / (0.85 * limits.angular_acceleration_radps2))
+    return tuple(widths)
+
+
+def stretched(pieces: Sequence[Piece], limits: MotionLimits, speed: float) -> List[Piece]:
+    """Small turns between two straight lines made longer at the cost of these.
+
+    There is no time to build up a yaw rate and take it back on a short arc; the same turn on a longer one is quicker.
+    """
+    longer = list(pieces)
+    for i in range(1, len(pieces) - 1):
+        before, piece, after = pieces[i - 1], pieces[i], pieces[i + 1]
+        turn = abs(piece.curvature * piece.length)
+        if piece.curvature == 0.0 or before.curvature or after.curvature or turn > LARGEST_STRETCHED_RAD:
+            continue
+        tangent = math.tan(0.5 * turn)
+        radius = 2.0 * speed / math.sqrt(limits.angular_acceleration_radps2 * turn)
+        more = min(radius - piece.length / turn, GIVEN_SHARE * min(before.length, after.length) / tangent)
+        if more > 0.0:
+            length = piece.length + more * turn
+            longer[i - 1:i + 2] = [Piece(0.0, longer[i - 1].length - more * tangent),
+                                   Piece(math.copysign(turn / length, piece.curvature), length),
+                                   Piece(0.0, longer[i + 1].length - more * tangent)]
+    return longer
+
+
+def _gentle(shape: Shape, route: Route, limits: MotionLimits, speed: float) -> Shape:
+    """The same for the first and the last turn; both are made from or to standstill if the robot stands there."""
+    def radius(signed: float, turn: float) -> float:
+        size = max(abs(turn), LEAST_TURN_RAD)
+        least = 2.0 * speed / math.sqrt(limits.angular_acceleration_radps2 * size)
+        # From rest with full linear and angular acceleration: length = half of a t^2 while the turn is done.
+        least = min(least, 4.0 * limits.acceleration_mps2 / limits.angular_acceleration_radps2)
+        return math.copysign(max(abs(signed), least), signed) if signed and size < SMALL_TURN_RAD else signed
+
+    return replace(shape, first=radius(shape.first, route.legs[0].turn), last=radius(shape.last, route.legs[-1].turn))

@@ -1,0 +1,67 @@
+"""The frame in which a goal is planned, and what the robot must stay away from in it.
+
+A goal beside the Car is planned in the Car's own frame: when the Car's estimated pose changes a little, outline, goal
+and plan stay as they are, and only the robot is seen elsewhere.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import Optional
+
+from mtr_core.se2 import Pose2
+
+from .fence import Fence, corners_of
+from .inputs import Car, Goal
+from .keep_out import KeepOut
+from .parameters import MotionParameters
+from .plan import PlanRefused
+
+SHIFT_M, SHIFT_RAD = 0.02, math.radians(0.5)
+MAP_FROM_MAP = Pose2(0.0, 0.0, 0.0)
+
+
+class Site:
+    """Frame, outline and test area for one goal.
+
+    Attributes:
+        in_car_frame: the frame is the Car's, else map.
+        goal: pose of the robot's turn centre in the frame.
+        keep_out: the Car's outline in the frame.
+        fence: the test area in the frame, None when there is no bound.
+    """
+
+    def __init__(self, goal: Goal, car: Car, parameters: MotionParameters):
+        """OutlineUnusable or PlanRefused when one cannot plan here."""
+        self._car = car
+        if not goal.pose.is_finite():
+            raise PlanRefused("The goal is not a number.")
+        if goal.in_car_frame and not car.located:
+            raise PlanRefused("The Car has not been located, so a goal relative to it means nothing yet.")
+        self.in_car_frame, self.goal = goal.in_car_frame, goal.pose @ parameters.footprint.slip.base_from_centre
+        frame_from_car = MAP_FROM_MAP if goal.in_car_frame else car.pose
+        self.keep_out = KeepOut([frame_from_car.apply(x, y) for x, y in car.outline], parameters.footprint)
+        self.fence = self._fence(parameters, frame_from_car)
+
+    def _fence(self, parameters: MotionParameters, frame_from_car: Pose2) -> Optional[Fence]:
+        margins = parameters.margins
+        corners = corners_of(margins.geofence_xy)
+        if not corners:
+            return None
+        in_car = margins.geofence_frame == "car"
+        if in_car and not self._car.located:
+            return None  # while the Car is mapped nobody knows yet where its frame is
+        frame = frame_from_car if in_car else self.frame_from_map(self._car)
+        return Fence([frame.apply(x, y) for x, y in corners], parameters.footprint, parameters.limits)
+
+    def frame_from_map(self, car: Car) -> Pose2:
+        """Where map is in the frame, by the Car's newest pose."""
+        return car.pose.inverse() if self.in_car_frame else MAP_FROM_MAP
+
+    def holds_for(self, car: Car) -> bool:
+        """True when a plan made here is still right for the Car."""
+        old = self._car
+        if old.located != car.located or len(old.outline) != len(car.outline):
+            return False
+        moved = old.pose.inverse() @ car.pose
+        if not self.in_car_frame and (math.hypot(moved.x, moved.y) > SHIFT_M or abs(moved.heading) > SHIFT_RAD):
+            return False
+        return all(math.hypot(a[0] - b[0], a[1] - b[1]) <= SHIFT_M for a, b in zip(old.outline, car.outline))

@@ -1,0 +1,111 @@
+"""Lower bound of the time from one pose to another for a differential drive with limited motion.
+
+No motion is quicker than the largest of these, and each of them leaves out what would make it slower:
+
+turning     The heading changes by the angle between the poses at least; from rest to rest with limited yaw rate,
+            angular acceleration and angular jerk this takes a known time.
+travelling  base_link stays at least (half the width + margin) away from the Car's hull, as the footprint holds the
+            circle of that radius less the margin. Let L be the length of the shortest such way. The robot moves along
+            its own heading only, so the distance still to go shrinks at most with speed times cosine of the angle
+            between heading and way. At time t after the start the speed is at most that of the jerk-limited S-curve
+            from rest, S(t), and before the end at T at most S(T - t). At the start the heading is off the way by an
+            angle, of which at most P(t) has been turned away, P being the quickest turn from rest; the same holds
+            backwards from the end. Moving sideways meanwhile only turns the way to go further away from the heading.
+            So T is at least the shortest time for which
+
+                integral over 0..T of  min(S(t), S(T-t)) * cos(rest of the angle at the start, at the end)  >=  L.
+
+            The angle counts from the front or the rear, whichever is nearer. Curvature limits at corners, lateral
+            acceleration, and the detour that turning while moving makes, are left out.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import List, Sequence, Tuple
+
+import numpy as np
+from shapely.geometry import LineString, MultiPoint, Polygon
+from shapely.geometry import Point as ShapelyPoint
+
+from mtr_core.se2 import Pose2, wrap_angle
+from mtr_motion_planner.limits import MotionLimits, rest_to_rest_time
+
+Point = Tuple[float, float]
+STEP_S = 0.01
+LONGEST_S = 120.0
+ROUND_STEPS = 32
+
+
+@dataclass(frozen=True)
+class Ends:
+    """Where the motion begins and ends, at rest."""
+
+    start: Pose2
+    end: Pose2
+
+
+def lower_bound(ends: Ends, hull: Polygon, gap_m: float, limits: MotionLimits, speed: float) -> float:
+    """Time in s; base_link stays gap_m away from the hull."""
+    start, end = ends.start, ends.end
+    gap = min(gap_m, *(hull.distance(ShapelyPoint(pose.x, pose.y)) for pose in (start, end))) - 1e-3
+    way = shortest_way((start.x, start.y), (end.x, end.y), hull.buffer(max(gap, 0.0), ROUND_STEPS))
+    turn = abs(wrap_angle(end.heading - start.heading))
+    turning = rest_to_rest_time(turn, limits.max_angular_radps, limits.angular_acceleration_radps2,
+                                limits.angular_ramp_s)
+    return max(turning, travelling(way, start.heading, end.heading, limits, speed))
+
+
+def shortest_way(start: Point, end: Point, zone: Polygon) -> List[Point]:
+    """Polyline around a convex zone; both ends lie outside."""
+    if not LineString([start, end]).crosses(zone):
+        return [start, end]
+    ring = list(MultiPoint([*zone.exterior.coords, start, end]).convex_hull.exterior.coords)[:-1]
+    first, last = (min(range(len(ring)), key=lambda k, at=point: math.dist(ring[k], at)) for point in (start, end))
+    ahead = [ring[(first + k) % len(ring)] for k in range((last - first) % len(ring) + 1)]
+    back = [ring[(first - k) % len(ring)] for k in range((first - last) % len(ring) + 1)]
+    return min(ahead, back, key=length_of)
+
+
+def length_of(points: Sequence[Point]) -> float:
+    """Length of a polyline."""
+    return sum(math.dist(a, b) for a, b in zip(points, points[1:]))
+
+
+def travelling(way: Sequence[Point], first_heading: float, last_heading: float, limits: MotionLimits, speed: float
+               ) -> float:
+    """Shortest T of the integral above."""
+    length = length_of(way)
+    if length < 1e-6:
+        return 0.0
+    off_start = _off(first_heading, way[0], way[1])
+    off_end = _off(last_heading, way[-2], way[-1])
+    times = np.arange(0.0, LONGEST_S, STEP_S)
+    speeds = _from_rest(times, speed, limits.acceleration_mps2, limits.ramp_s)
+    rates = _from_rest(times, limits.max_angular_radps, limits.angular_acceleration_radps2, limits.angular_ramp_s)
+    turned = np.concatenate(([0.0], np.cumsum(0.5 * (rates[1:] + rates[:-1]) * STEP_S)))
+    at_start, at_end = (np.maximum(0.0, off - turned) for off in (off_start, off_end))
+    low, high = 1, len(times)
+    while high - low > 1:
+        middle = (low + high) // 2
+        off = np.maximum(at_start[:middle], at_end[:middle][::-1])
+        gone = float(np.sum(np.minimum(speeds[:middle], speeds[:middle][::-1]) * np.cos(off))) * STEP_S
+        low, high = (low, middle) if gone >= length else (middle, high)
+    return float(times[low])
+
+
+def _off(heading: float, a: Point, b: Point) -> float:
+    """Angle between the robot's axis and the way."""
+    angle = abs(wrap_angle(math.atan2(b[1] - a[1], b[0] - a[0]) - heading))
+    return min(angle, math.pi - angle)
+
+
+def _from_rest(times: np.ndarray, most: float, acceleration: float, ramp_s: float) -> np.ndarray:
+    """Quickest speed from rest: acceleration that builds up within the ramp and goes back within it."""
+    jerk = acceleration / ramp_s
+    peak = min(acceleration, math.sqrt(most * jerk))
+    ramp = peak / jerk
+    hold = max(0.0, most / peak - ramp)
+    first = 0.5 * jerk * np.minimum(times, ramp) ** 2
+    middle = peak * np.clip(times - ramp, 0.0, hold)
+    late = np.clip(times - ramp - hold, 0.0, ramp)
+    return np.minimum(most, first + middle + peak * late - 0.5 * jerk * late ** 2)
