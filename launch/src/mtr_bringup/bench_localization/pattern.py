@@ -91,9 +91,9 @@ def _radial(shape: CarShape, here: Point, direction: float, reach_m: float) -> T
     """Retreat backwards facing the Car's centre with a stop at each step, then return."""
     begin = outline_distance(shape, direction)
     cos, sin = math.cos(direction), math.sin(direction)
-    steps = math.floor((reach_m - RADIAL_NEAR_M) / RADIAL_STEP_M) + 1
-    stops = [((begin + RADIAL_NEAR_M + step * RADIAL_STEP_M) * cos, (begin + RADIAL_NEAR_M + step * RADIAL_STEP_M) * sin)
-             for step in range(steps)] + [((begin + reach_m) * cos, (begin + reach_m) * sin)]
+    steps = math.ceil((reach_m - RADIAL_NEAR_M) / RADIAL_STEP_M)
+    distances = [*(begin + RADIAL_NEAR_M + step * RADIAL_STEP_M for step in range(steps)), begin + reach_m]
+    stops = [(distance * cos, distance * sin) for distance in distances]
     legs: List[Leg] = [Stand(STAND_S)]
     for stop in stops[1:]:
         legs += [Straight(stop, RADIAL_SPEED_MPS, True), Stand(STAND_S)]
@@ -107,8 +107,8 @@ def _transfer(shape: CarShape, here: Point, there: Point, heading: float) -> Lis
     places = ring(shape, TRANSFER_DISTANCE_M)
     begin, end = (math.atan2(y, x) for x, y in (here, there))
     turn = wrap_angle(end - begin)
-    between = [(abs(angle), place) for angle, place in ((wrap_angle(math.atan2(y, x) - begin), (x, y)) for x, y in places)
-               if angle * turn > 0.0 and abs(angle) < abs(turn)]
+    turns = [(wrap_angle(math.atan2(y, x) - begin), (x, y)) for x, y in places]
+    between = [(abs(angle), place) for angle, place in turns if angle * turn > 0.0 and abs(angle) < abs(turn)]
     way = (*(place for _, place in sorted(between)), there)
     return [Piece(Turn(_bearing(here, way[0])), TRANSFER), Piece(Path(way, TRANSFER_SPEED_MPS), TRANSFER),
             Piece(Turn(heading), TRANSFER)]

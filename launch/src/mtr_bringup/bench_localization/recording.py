@@ -8,6 +8,8 @@ from typing import Any, Dict, Optional, Type
 
 import rosbag
 from geometry_msgs.msg import Transform, TransformStamped
+from tf2_msgs.msg import TFMessage
+
 from mtr_core import names
 from mtr_core.se2 import Pose2
 from mtr_msgs.msg import MappingOrder
@@ -15,7 +17,6 @@ from mtr_simulation import conversions, robot
 from mtr_simulation.imu import ImuParameters
 from mtr_simulation.readings import Sensors
 from mtr_simulation.true_state import TrueState
-from tf2_msgs.msg import TFMessage
 
 BAG, TRUTH, META = "drive.bag", "truth.csv", "meta.json"
 TRUTH_COLUMNS = ("stamp_s", "car_x_m", "car_y_m", "car_heading_rad", "world_x_m", "world_y_m", "world_heading_rad",

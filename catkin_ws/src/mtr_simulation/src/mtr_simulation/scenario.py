@@ -59,7 +59,8 @@ _LOT = Scenario(
 )
 # Nothing but the Car within 20 m of its centre, and a few things in the LiDAR's range of 30 m beyond.
 _FAR = Scenario(
-    poles=tuple(Pole(1.3 + 22.0 * math.cos(angle), -0.7 + 22.0 * math.sin(angle), 0.12) for angle in (0.5, 2.2, 3.9, 5.2)),
+    poles=tuple(Pole(1.3 + 22.0 * math.cos(angle), -0.7 + 22.0 * math.sin(angle), 0.12)
+                for angle in (0.5, 2.2, 3.9, 5.2)),
     walls=(Wall(Pose2(3.0, 23.5, 0.05), 24.0), Wall(Pose2(-23.0, -3.0, math.pi / 2.0 - 0.1), 14.0)),
     parked_cars=(ParkedCar(Pose2(23.0, -9.0, 1.4)),),
 )

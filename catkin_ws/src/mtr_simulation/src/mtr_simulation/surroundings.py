@@ -60,7 +60,7 @@ WAVE_LENGTHS_M = (2.5, 3.5, 5.0, 7.0)
 
 
 class Ground:
-    """Height of uneven ground as a sum of waves in directions that the seed decides; gentle against the robot's size."""
+    """Height of uneven ground as a sum of waves in directions that the seed decides."""
 
     def __init__(self, waves: List[Tuple[float, float, float, float]]):
         self._waves = waves
