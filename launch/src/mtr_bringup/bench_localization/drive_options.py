@@ -35,6 +35,7 @@ class DriveOptions(ParameterSet):
         mixed_pixel_share: of the beams at an edge.
         rear: the rear LiDAR is recorded too.
         person: somebody walks to and fro beside the Car.
+        kidnap: after the loop somebody lifts the robot and puts it down 2 m aside; no axes, no radials.
     """
 
     scene: str = "lot"
@@ -50,6 +51,7 @@ class DriveOptions(ParameterSet):
     mixed_pixel_share: float = number(0.0, 0.0, 1.0, "(share)")
     rear: bool = False
     person: bool = False
+    kidnap: bool = False
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -42,7 +42,14 @@ class Path(NamedTuple):
     speed_mps: float
 
 
-Leg = Union[Stand, Turn, Straight, Path]
+class Lift(NamedTuple):
+    """Somebody lifts the robot and puts it down beside: to its left, turned."""
+
+    aside_m: float
+    turn_rad: float
+
+
+Leg = Union[Stand, Turn, Straight, Path, Lift]
 
 
 class LegFollower:
@@ -56,6 +63,8 @@ class LegFollower:
     def update(self, pose: Pose2) -> Tuple[Velocity, bool]:
         """Command for the true pose, and whether the leg is finished."""
         self._elapsed_s += self._period_s
+        if isinstance(self._leg, Lift):
+            return (0.0, 0.0), True
         if isinstance(self._leg, Stand):
             return (0.0, 0.0), self._elapsed_s >= self._leg.duration_s
         if isinstance(self._leg, Turn):

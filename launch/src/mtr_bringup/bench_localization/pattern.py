@@ -7,7 +7,7 @@ from mtr_core.se2 import Pose2, wrap_angle
 from mtr_simulation import robot
 from mtr_simulation.car_shape import CarShape
 
-from .legs import Leg, Path, Point, Stand, Straight, Turn
+from .legs import Leg, Lift, Path, Point, Stand, Straight, Turn
 
 LOOP_DISTANCE_M, LOOP_SPEED_MPS = 1.6, 0.5
 TRANSFER_DISTANCE_M, TRANSFER_SPEED_MPS = 2.2, 0.8
@@ -16,7 +16,10 @@ AXIS_SPEED_MPS, RADIAL_SPEED_MPS = 0.5, 0.5
 AXIS_FAR_M, AXIS_NEAR_M = 2.5, 0.4
 RADIAL_NEAR_M, RADIAL_STEP_M = 1.5, 1.0
 STAND_FIRST_S, STAND_S, STAND_AFTER_LOOP_S = 2.0, 1.5, 4.0
-LOOP, TRANSFER, AXIS, RADIAL, START = "loop", "transfer", "axis", "radial", "start"
+LOOP, TRANSFER, AXIS, RADIAL, START, KIDNAP = "loop", "transfer", "axis", "radial", "start", "kidnap"
+# Lifted away from the Car, which is to the left on the way round it; then it stands as the fail-safes let it.
+LIFTED = Lift(-2.0, math.radians(20.0))
+STAND_AFTER_LIFT_S = 20.0
 
 
 class Piece(NamedTuple):
@@ -28,11 +31,12 @@ class Piece(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """Which axes and radials, as directions in frame car, and how far from the Car the radials go."""
+    """Which axes and radials, as directions in frame car, how far from the Car the radials go, and a kidnapping."""
 
     axes_rad: Tuple[float, ...]
     radials_rad: Tuple[float, ...]
     reach_m: float
+    kidnap: bool = False
 
 
 def pieces(shape: CarShape, start: Pose2, plan: Plan) -> List[Piece]:
@@ -40,6 +44,8 @@ def pieces(shape: CarShape, start: Pose2, plan: Plan) -> List[Piece]:
     here = (start.x, start.y)
     way = [Piece(Stand(STAND_FIRST_S), START), *_loop(shape, here)]
     here = way[-2].leg.points[-1]
+    if plan.kidnap:
+        return [*way, Piece(LIFTED, KIDNAP), Piece(Stand(STAND_AFTER_LIFT_S), KIDNAP)]
     for direction in plan.axes_rad:
         legs, here = _axis(shape, here, direction)
         way += legs

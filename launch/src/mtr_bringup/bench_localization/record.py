@@ -12,12 +12,13 @@ from typing import Any, Dict, List, Optional
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.schedule import CAR_LOCATOR, SIMULATION_START_NS
+from mtr_core.se2 import Pose2
 from mtr_msgs.msg import MappingOrder
 from mtr_simulation.car_shape import size_at
 from mtr_simulation.sim import TICK_S, Sim
 
 from .drive_options import DriveOptions
-from .legs import LegFollower
+from .legs import LegFollower, Lift
 from .pattern import LOOP, Piece, Plan, pieces
 from .recording import Recording, pose_values
 
@@ -39,7 +40,7 @@ def plan(options: DriveOptions) -> Plan:
     axes = tuple(EIGHTH_RAD * ((first + 3 * step) % 8) for step in range(4))
     # None to the right, where a person may walk.
     radials = tuple(EIGHTH_RAD * ((options.seed + step) % 5) for step in (0, 2))
-    return Plan(axes, radials, REACH_M.get(options.scene, FULL_REACH_M))
+    return Plan(axes, radials, REACH_M.get(options.scene, FULL_REACH_M), options.kidnap)
 
 
 def record(options: DriveOptions, folder: pathlib.Path) -> Dict[str, Any]:
@@ -71,6 +72,8 @@ def _phase(way: List[Piece], index: int) -> int:
 def _drive(sim: Sim, files: Recording, index: int, piece: Piece, phase: int) -> Dict[str, Any]:
     """Follow one leg to its end; what it was, for meta.json."""
     begin_ns = sim.time_ns
+    if isinstance(piece.leg, Lift):
+        sim.kidnap(sim.truth().world_from_base @ Pose2(0.0, piece.leg.aside_m, piece.leg.turn_rad))
     follower = LegFollower(piece.leg, sim.truth().car_from_base, TICK_S)
     done = False
     while not done:
@@ -106,6 +109,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--mixed-pixel-share", type=float, default=0.0, help="share of the beams at an edge")
     parser.add_argument("--rear", action="store_true", help="record the rear LiDAR too")
     parser.add_argument("--person", action="store_true", help="somebody walks to and fro beside the Car")
+    parser.add_argument("--kidnap", action="store_true", help="after the loop the robot is lifted 2 m aside")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder of the files")
     values = vars(parser.parse_args(arguments))
     folder = values.pop("out")
