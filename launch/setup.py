@@ -4,4 +4,5 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-setup(**generate_distutils_setup(packages=["mtr_bringup"], package_dir={"": "src"}))
+setup(**generate_distutils_setup(
+    packages=["mtr_bringup", "mtr_bringup.bench", "mtr_bringup.bench_localization"], package_dir={"": "src"}))

@@ -94,7 +94,7 @@ class OdometryMessage:
         message.header.stamp = stamp(time_ns)
         position, twist = message.pose.pose.position, message.twist.twist
         position.x, position.y = reading.x_m, reading.y_m
-        message.pose.pose.orientation = _yaw(reading.heading_rad)
+        message.pose.pose.orientation = yaw_quaternion(reading.heading_rad)
         twist.linear.x, twist.linear.y, twist.angular.z = reading.linear_mps, lateral_mps, reading.angular_radps
         return message
 
@@ -130,5 +130,5 @@ def _diagonal(values: tuple) -> list:
     return np.diag(values).reshape(-1).tolist()
 
 
-def _yaw(heading_rad: float) -> Quaternion:
+def yaw_quaternion(heading_rad: float) -> Quaternion:
     return Quaternion(0.0, 0.0, math.sin(heading_rad / 2.0), math.cos(heading_rad / 2.0))

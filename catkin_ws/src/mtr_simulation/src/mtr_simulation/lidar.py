@@ -1,8 +1,9 @@
 """A planar LiDAR that turns while the robot moves: each part of a sweep is seen from where the robot was then."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from dataclasses import dataclass
-from typing import Dict, Tuple
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Dict, NamedTuple, Optional, Tuple
 
 import mujoco
 import numpy as np
@@ -11,7 +12,9 @@ from mtr_core.parameters import ParameterSet, number
 
 from . import robot
 from .base_state import BaseState
+from .noise import stream
 from .readings import Scan
+from .scan_errors import ScanErrors, with_errors
 
 # Not the robot itself (group 2), nor what is far above the LiDARs' plane (group 3).
 SEEN_GROUPS = np.array([1, 1, 0, 0, 1, 1], dtype=np.uint8)
@@ -30,6 +33,9 @@ class LidarParameters(ParameterSet):
         rotation_s: one turn; the period of the scans.
         range_min_m, range_max_m: nearest and farthest that is seen.
         noise_m: 1 sigma of each range.
+        height_m: of its plane above the ground.
+        roll_rad, pitch_rad: of its mounting, which nobody knows of; positive pitch looks down ahead.
+        errors: beyond white noise.
     """
 
     beams: int = number(720, 2, 4000, "beams")
@@ -38,6 +44,10 @@ class LidarParameters(ParameterSet):
     range_min_m: float = number(0.1, 0.0, 1.0, "m")
     range_max_m: float = number(30.0, 1.0, 100.0, "m")
     noise_m: float = number(0.01, 0.0, 0.1, "m")
+    height_m: float = number(robot.LIDAR_HEIGHT_M, 0.1, 1.0, "m")
+    roll_rad: float = number(0.0, -0.1, 0.1, "rad")
+    pitch_rad: float = number(0.0, -0.1, 0.1, "rad")
+    errors: ScanErrors = field(default_factory=ScanErrors)
 
     @property
     def time_increment_s(self) -> float:
@@ -50,49 +60,83 @@ class LidarParameters(ParameterSet):
         return self.field_of_view_rad / (self.beams - 1)
 
 
+class Mount(NamedTuple):
+    """Where a LiDAR is in base_link: x in m, yaw in rad."""
+
+    x_m: float
+    yaw_rad: float
+
+
+class LidarFault(Enum):
+    """What a LiDAR may do instead of working; FROZEN gives the last ranges again and again, with new stamps."""
+
+    NONE = "none"
+    SILENT = "silent"
+    FROZEN = "frozen"
+
+
 class Lidar:
-    """One LiDAR, mounted upright at (x_m, 0) with a yaw.
+    """One LiDAR on the robot's middle line.
 
     A sweep is cast in slices; each is cast in the physics step that is nearest in time to its middle.
+
+    Attributes:
+        fault: what it does instead of working.
     """
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, mount: Tuple[float, float],
-                 parameters: LidarParameters, noise: np.random.Generator):
-        self._model, self._data, self._parameters, self._noise = model, data, parameters, noise
-        self._x_m, yaw = mount
-        self._z_m = robot.LIDAR_HEIGHT_M - robot.BASE_HEIGHT_M
-        angles = yaw + self._angle_min() + parameters.angle_increment_rad * np.arange(parameters.beams)
-        self._rays = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, mount: Mount, parameters: LidarParameters,
+                 noise: Tuple[int, str]):
+        self._model, self._data, self._parameters, self.fault = model, data, parameters, LidarFault.NONE
+        seed, name = noise
+        self._noise, self._error_noise = stream(seed, name), stream(seed, f"{name}_errors")
+        self._place = (mount.x_m, 0.0, parameters.height_m - robot.BASE_HEIGHT_M)
+        self._rays = _rays(parameters, mount.yaw_rad)
         self._slices, delays = _slices(parameters, model.opt.timestep)
         # How a ray turns by the time of its beam for each rad/s that the robot turns.
-        self._turns = delays[:, np.newaxis] * np.stack([-np.sin(angles), np.cos(angles)], axis=1)
+        self._turns = delays[:, np.newaxis] * np.stack(
+            [-self._rays[:, 1], self._rays[:, 0], np.zeros(parameters.beams)], axis=1)
         self._distances = np.zeros(parameters.beams)
         self._geoms = np.zeros(parameters.beams, dtype=np.int32)
         self._excluded = model.body("base_link").id
+        self._last: Optional[np.ndarray] = None
 
     def cast(self, base: BaseState, step: int) -> None:
         """Cast the beams of one physics step of the sweep; step counts from the sweep's start."""
         if step not in self._slices:
             return
         first, last = self._slices[step]
-        (r00, r01, _), (r10, r11, _), (r20, r21, _) = base.rotation
         rays = self._rays[first:last] + base.angular_velocity[2] * self._turns[first:last]
-        directions = (rays @ np.array(((r00, r10, r20), (r01, r11, r21)))).reshape(-1)
-        mujoco.mj_multiRay(self._model, self._data, base.point(self._x_m, 0.0, self._z_m), directions, SEEN_GROUPS, 1,
+        directions = (rays @ np.array(base.rotation).T).reshape(-1)
+        mujoco.mj_multiRay(self._model, self._data, base.point(*self._place), directions, SEEN_GROUPS, 1,
                            self._excluded, self._geoms[first:last], self._distances[first:last], last - first,
                            self._parameters.range_max_m)
 
-    def scan(self, stamp_ns: int) -> Scan:
-        """The completed sweep that began at stamp_ns."""
+    def scan(self, stamp_ns: int) -> Optional[Scan]:
+        """The completed sweep that began at stamp_ns; None from a silent LiDAR."""
         parameters, seen = self._parameters, self._distances
-        noisy = seen + parameters.noise_m * self._noise.standard_normal(parameters.beams)
+        noisy = np.where(seen < 0.0, math.inf, seen)
+        noisy = with_errors(noisy, parameters.errors, self._error_noise)
+        noisy = noisy + parameters.noise_m * self._noise.standard_normal(parameters.beams)
         noisy[noisy < parameters.range_min_m] = -math.inf
-        noisy[(seen < 0.0) | (noisy > parameters.range_max_m)] = math.inf
-        return Scan(stamp_ns, self._angle_min(), parameters.angle_increment_rad, parameters.time_increment_s,
-                    parameters.rotation_s, parameters.range_min_m, parameters.range_max_m, noisy.astype(np.float32))
+        noisy[noisy > parameters.range_max_m] = math.inf
+        if self.fault is LidarFault.SILENT:
+            return None
+        if self.fault is LidarFault.NONE or self._last is None:
+            self._last = noisy.astype(np.float32)
+        return Scan(stamp_ns, -parameters.field_of_view_rad / 2.0, parameters.angle_increment_rad,
+                    parameters.time_increment_s, parameters.rotation_s, parameters.range_min_m,
+                    parameters.range_max_m, self._last)
 
-    def _angle_min(self) -> float:
-        return -self._parameters.field_of_view_rad / 2.0
+
+def _rays(parameters: LidarParameters, yaw_rad: float) -> np.ndarray:
+    """Unit vectors of all beams in base_link; the mounting is turned by yaw, then pitch, then roll."""
+    angles = parameters.angle_increment_rad * np.arange(parameters.beams) - parameters.field_of_view_rad / 2.0
+    x, y = np.cos(angles), np.sin(angles)
+    roll, pitch = parameters.roll_rad, parameters.pitch_rad
+    y, z = y * math.cos(roll), y * math.sin(roll)
+    x, z = x * math.cos(pitch) + z * math.sin(pitch), z * math.cos(pitch) - x * math.sin(pitch)
+    cos, sin = math.cos(yaw_rad), math.sin(yaw_rad)
+    return np.stack([cos * x - sin * y, sin * x + cos * y, z], axis=1)
 
 
 def _slices(parameters: LidarParameters, step_s: float) -> Tuple[Dict[int, Tuple[int, int]], np.ndarray]:

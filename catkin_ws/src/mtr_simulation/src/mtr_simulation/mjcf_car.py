@@ -4,16 +4,9 @@ from typing import List, Tuple
 
 from mtr_core.se2 import Pose2
 
-from .scenario import CarShape
+from .car_shape import ARCH_HALF_LENGTH_M, SILL_INSET_M, TYRE_INSET_M, TYRE_WIDTH_M, UNDERCUT_TOP_M, CarShape, Point
 
-# Plan of the bumpers' right angle, as (x from the bumper's tip, y from the side), seen at the front left corner.
-FRONT_PLAN = ((0.0, 0.65), (0.07, 0.28), (0.23, 0.06), (0.53, 0.0))
-REAR_PLAN = ((0.0, 0.60), (0.05, 0.24), (0.20, 0.04), (0.55, 0.0))
 FRONT_TOP_M, REAR_TOP_M, SHOULDER_TOP_M, CABIN_FOOT_M = 0.78, 0.90, 0.80, 0.75
-ARCH_HALF_LENGTH_M = 0.40
-SILL_INSET_M = 0.02
-TYRE_WIDTH_M = 0.21
-TYRE_INSET_M = 0.025  # tyre's outer face from the Car's side
 TUNNEL_HALF_WIDTH_M = 0.55
 MIRROR_X_M, MIRROR_Z_M = 0.75, 1.0
 MIRROR_HALF = (0.06, 0.10, 0.07)
@@ -26,10 +19,7 @@ RUBBER = 'contype="1" conaffinity="1" group="1" rgba=".1 .1 .1 1"'
 
 def car_meshes(name: str, shape: CarShape) -> str:
     """Assets of the two bumpers."""
-    front = _bumper_plan(shape, FRONT_PLAN, 1.0)
-    rear = _bumper_plan(shape, REAR_PLAN, -1.0)
-    return (_prism(f"{name}_front", front, shape.clearance_m, FRONT_TOP_M)
-            + _prism(f"{name}_rear", rear, shape.clearance_m, REAR_TOP_M))
+    return _bumper(f"{name}_front", shape, 1.0, FRONT_TOP_M) + _bumper(f"{name}_rear", shape, -1.0, REAR_TOP_M)
 
 
 def car_body(name: str, shape: CarShape, world_from_car: Pose2) -> str:
@@ -48,14 +38,11 @@ def parked_car_body(name: str, shape: CarShape, world_from_car: Pose2) -> str:
     return f'<body name="{name}" pos="{pose.x:.6f} {pose.y:.6f} 0" euler="0 0 {pose.heading:.9f}">{geoms}</body>'
 
 
-def _bumper_plan(shape: CarShape, plan: Tuple[Tuple[float, float], ...], end: float) -> List[Tuple[float, float]]:
-    half_length, half_width = shape.length_m / 2.0, shape.width_m / 2.0
-    left = [(end * (half_length - x), half_width - y) for x, y in plan]
-    return left + [(x, -y) for x, y in reversed(left)]
-
-
-def _prism(name: str, plan: List[Tuple[float, float]], low: float, high: float) -> str:
-    vertices = " ".join(f"{x:.4f} {y:.4f} {z:.4f}" for z in (low, high) for x, y in plan)
+def _bumper(name: str, shape: CarShape, end: float, top_m: float) -> str:
+    """Convex hull of the bumper's plans at its lower edge, at the top of the undercut and at its upper edge."""
+    heights = sorted({shape.clearance_m, max(shape.clearance_m, UNDERCUT_TOP_M), top_m})
+    corners: List[Tuple[Point, float]] = [(corner, z) for z in heights for corner in shape.bumper_plan(end, z)]
+    vertices = " ".join(f"{x:.4f} {y:.4f} {z:.4f}" for (x, y), z in corners)
     return f'<mesh name="{name}" vertex="{vertices}"/>'
 
 
@@ -76,7 +63,7 @@ def _bumpers(name: str) -> List[str]:
 
 def _lower_body(shape: CarShape) -> List[str]:
     half_axles, half_width = shape.wheelbase_m / 2.0, shape.width_m / 2.0
-    middle, half = _between(shape.clearance_m, SHOULDER_TOP_M)
+    middle, half = _between(shape.clearance_m + shape.sill_rise_m, SHOULDER_TOP_M)
     sill_half = (half_axles - ARCH_HALF_LENGTH_M, half_width - SILL_INSET_M, half)
     parts = [_box((0.0, 0.0, middle), sill_half)]
     tunnel_middle, tunnel_half = _between(shape.clearance_m + 0.05, SHOULDER_TOP_M)

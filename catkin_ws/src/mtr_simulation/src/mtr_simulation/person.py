@@ -5,7 +5,7 @@ import math
 import mujoco
 
 from .mjcf import HIP_HEIGHT_M
-from .scenario import Walk
+from .surroundings import Walk
 
 STRIDE_M = 1.4
 LEG_SWING_RAD = 0.35

@@ -4,67 +4,13 @@ import math
 from dataclasses import dataclass, replace
 from typing import Dict, Optional, Tuple
 
-from mtr_core.errors import ConfigurationError, check_range
+from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import ParameterSet, number
 from mtr_core.se2 import Pose2
 
+from .car_shape import CAR_SHAPES, CarShape
 from .noise import stream
-
-
-@dataclass(frozen=True)
-class CarShape(ParameterSet):
-    """Body of a car; length and width without mirrors are those that the robot is to find.
-
-    Attributes:
-        wheelbase_m: distance of the axles, less than length_m - 1.
-        clearance_m: gap between ground and body; a LiDAR below it sees only the wheels.
-    """
-
-    length_m: float = number(4.5, 3.0, 6.0, "m")
-    width_m: float = number(1.8, 1.4, 2.2, "m")
-    height_m: float = number(1.45, 1.2, 2.2, "m")
-    wheelbase_m: float = number(2.65, 1.5, 5.0, "m")
-    wheel_radius_m: float = number(0.32, 0.25, 0.45, "m")
-    clearance_m: float = number(0.24, 0.1, 0.4, "m")
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        check_range("wheelbase_m", self.wheelbase_m, 1.5, self.length_m - 1.0, "m")
-
-
-@dataclass(frozen=True)
-class Pole:
-    """Upright cylinder, 1.2 m high; x, y in world."""
-
-    x_m: float
-    y_m: float
-    radius_m: float = 0.05
-
-
-@dataclass(frozen=True)
-class Wall:
-    """Upright box, 2 m high, along the x axis of its pose in world."""
-
-    pose: Pose2
-    length_m: float
-    thickness_m: float = 0.2
-
-
-@dataclass(frozen=True)
-class ParkedCar:
-    """Another car; pose of its centre in world."""
-
-    pose: Pose2
-    shape: CarShape = CarShape()
-
-
-@dataclass(frozen=True)
-class Walk:
-    """A person who walks to and fro between two points in world."""
-
-    start: Tuple[float, float]
-    end: Tuple[float, float]
-    speed_mps: float = 1.2
+from .surroundings import Cone, ParkedCar, Pole, Walk, Wall
 
 
 @dataclass(frozen=True)
@@ -78,6 +24,7 @@ class Scenario(ParameterSet):
         start_offset_m: the seed moves the start by up to this in x and y.
         start_offset_rad: and turns it by up to this.
         friction: of tyres on the ground; 0.5 as in the Jackal's description.
+        ground_tilt_rad: root mean square of the slope of uneven ground; 0: flat.
     """
 
     car: CarShape = CarShape()
@@ -86,7 +33,9 @@ class Scenario(ParameterSet):
     start_offset_m: float = number(0.3, 0.0, 0.5, "m")
     start_offset_rad: float = number(math.radians(5.0), 0.0, 0.3, "rad")
     friction: float = number(0.5, 0.1, 1.2, "(Coulomb)")
+    ground_tilt_rad: float = number(0.0, 0.0, 0.1, "rad")
     poles: Tuple[Pole, ...] = ()
+    cones: Tuple[Cone, ...] = ()
     walls: Tuple[Wall, ...] = ()
     parked_cars: Tuple[ParkedCar, ...] = ()
     person: Optional[Walk] = None
@@ -108,11 +57,24 @@ _LOT = Scenario(
            Wall(Pose2(14.0, 0.0, math.pi / 2.0), 18.0)),
     parked_cars=(ParkedCar(Pose2(-10.5, 2.5, math.pi / 2.0)), ParkedCar(Pose2(-10.6, -3.5, -math.pi / 2.0))),
 )
+# Nothing but the Car within 20 m of its centre, and a few things in the LiDAR's range of 30 m beyond.
+_FAR = Scenario(
+    poles=tuple(Pole(1.3 + 22.0 * math.cos(angle), -0.7 + 22.0 * math.sin(angle), 0.12)
+                for angle in (0.5, 2.2, 3.9, 5.2)),
+    walls=(Wall(Pose2(3.0, 23.5, 0.05), 24.0), Wall(Pose2(-23.0, -3.0, math.pi / 2.0 - 0.1), 14.0)),
+    parked_cars=(ParkedCar(Pose2(23.0, -9.0, 1.4)),),
+)
+# As an Operator would put them down: outside of the radials' 10 m, between the directions of sides and corners.
+_CONES = Scenario(cones=tuple(
+    Cone(*Scenario.world_from_car.apply(distance * math.cos(angle), distance * math.sin(angle)))
+    for distance, angle in ((12.5, 0.38), (11.8, 1.97), (12.2, 3.53), (12.0, 5.08))))
 SCENARIOS: Dict[str, Scenario] = {
     "lot": _LOT,
+    "far": _FAR,
+    "cones": _CONES,
     "open": Scenario(),
     "lot_person": replace(_LOT, person=Walk((-5.0, -7.5), (6.0, -8.0))),
-    "suv": replace(_LOT, car=CarShape(length_m=4.7, width_m=1.9, height_m=1.7, wheel_radius_m=0.36, clearance_m=0.34)),
+    "suv": replace(_LOT, car=CAR_SHAPES["suv"]),
 }
 
 

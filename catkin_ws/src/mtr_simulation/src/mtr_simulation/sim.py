@@ -1,5 +1,6 @@
 """Simulated robot in its world: physics and sensors, one tick of the schedule at a time."""
 # SPDX-License-Identifier: Apache-2.0
+import math
 from dataclasses import dataclass, field
 from typing import List, Optional, Set
 
@@ -7,24 +8,29 @@ import mujoco
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.schedule import CLOCK_STEP, LIDAR, SIMULATION_START_NS
+from mtr_core.se2 import Pose2
 
 from . import robot
 from .base_state import BaseState, base_state, mean_spin, rotate_back
 from .battery import battery
 from .imu import Imu, ImuParameters
-from .lidar import Lidar, LidarParameters
+from .lidar import Lidar, LidarFault, LidarParameters, Mount
 from .mjcf import model_xml
 from .mjcf_robot import LIFT_STIFFNESS_NPM
 from .noise import stream
 from .person import Person
 from .readings import Scan, Sensors
 from .scenario import Scenario
+from .surroundings import uneven_ground
 from .true_state import TrueState
 from .tyres import TyreParameters, Tyres
 from .wheels import BaseParameters, Wheels
 
 GRAVITY_MPS2 = 9.81
 TICK_S = CLOCK_STEP.period_ns * 1e-9
+# Mounting and stream of noise.
+LIDARS = ((Mount(robot.FRONT_LIDAR_X_M, robot.FRONT_LIDAR_YAW_RAD), "front_lidar"),
+          (Mount(robot.REAR_LIDAR_X_M, robot.REAR_LIDAR_YAW_RAD), "rear_lidar"))
 # The robot settles on its tyres before the clock starts.
 SETTLING_S = 0.5
 
@@ -72,11 +78,12 @@ class Sim:
         self._data = mujoco.MjData(self._model)
         self._steps = round(TICK_S / parameters.timestep_s)
         self._wheels = Wheels(self._model, self._data, parameters.base)
-        self._tyres = Tyres(self._model, self._data, scenario.friction, parameters.tyres)
+        ground = uneven_ground(seed, scenario.ground_tilt_rad) if scenario.ground_tilt_rad else None
+        self._tyres = Tyres(self._model, self._data, scenario.friction, parameters.tyres, ground)
         self._person = Person(self._model, self._data, scenario.person) if scenario.person else None
         self._imu = Imu(parameters.imu, TICK_S, stream(seed, "imu"))
-        self._front = self._lidar((robot.FRONT_LIDAR_X_M, robot.FRONT_LIDAR_YAW_RAD), parameters, seed, "front")
-        self._rear = self._lidar((robot.REAR_LIDAR_X_M, robot.REAR_LIDAR_YAW_RAD), parameters, seed, "rear")
+        self._front, self._rear = (
+            Lidar(self._model, self._data, mount, parameters.lidar, (seed, name)) for mount, name in LIDARS)
         self._lidars = [self._front, self._rear] if parameters.rear_lidar else [self._front]
         self._lift_joint = int(self._model.joint("lift").qposadr[0])
         self._lift_servo = self._model.actuator("lift").id
@@ -93,6 +100,20 @@ class Sim:
         # The servo is a spring: what the carriage weighs is added, so that it does not sag.
         weight = (robot.CARRIAGE_MASS_KG + robot.KEY_MASS_KG) * GRAVITY_MPS2
         self._data.ctrl[self._lift_servo] = height_m + weight / LIFT_STIFFNESS_NPM
+
+    def set_lidar_faults(self, front: LidarFault, rear: LidarFault = LidarFault.NONE) -> None:
+        """What the LiDARs do from now on instead of working."""
+        self._front.fault, self._rear.fault = front, rear
+
+    def kidnap(self, world_from_base: Pose2) -> None:
+        """Lift the robot and put it down elsewhere: no time passes and the wheels do not turn."""
+        pose, data = world_from_base, self._data
+        data.qpos[0:2] = pose.x, pose.y
+        data.qpos[2] = robot.BASE_HEIGHT_M
+        data.qpos[3:7] = math.cos(0.5 * pose.heading), 0.0, 0.0, math.sin(0.5 * pose.heading)
+        data.qvel[0:6] = 0.0
+        self._tyres.lift_off()
+        mujoco.mj_forward(self._model, data)
 
     def step(self) -> Sensors:
         """Advance one tick of 20 ms; what the sensors say at its end."""
@@ -166,9 +187,6 @@ class Sim:
         self._data.time = 0.0
         if self._person:
             self._person.move(0.0)
-
-    def _lidar(self, mount: tuple, parameters: SimParameters, seed: int, name: str) -> Lidar:
-        return Lidar(self._model, self._data, mount, parameters.lidar, stream(seed, f"{name}_lidar"))
 
     def _sense(self, quaternion: List[float], velocity: List[float]) -> Sensors:
         """Readings for the tick that began with this orientation and velocity."""

@@ -1,4 +1,4 @@
-"""Tyres on flat ground: spring and damper upwards, bristles inside the friction circle along the ground.
+"""Tyres on the ground: spring and damper upwards, bristles inside the friction circle along the ground.
 
 A physics engine's contact of a convex wheel with the ground is wrong for a skid-steered robot: the wheels hop, and the
 turning rate depends on the time step. With these forces the ratio of the wheels' to the true turning rate on the spot
@@ -7,7 +7,7 @@ is that of four sliding points, 1 + (half wheelbase / half track)^2 = 1.487, wha
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from math import sqrt
-from typing import List, NamedTuple, Tuple
+from typing import List, NamedTuple, Optional, Tuple
 
 import mujoco
 
@@ -15,6 +15,7 @@ from mtr_core.parameters import ParameterSet, number
 
 from . import robot
 from .base_state import BaseState, Vector
+from .surroundings import Ground
 
 # Below this spin the rolling resistance fades out, so that a wheel can stand still.
 ROLLING_FADE_RADPS = 0.05
@@ -57,13 +58,17 @@ def _wheel_plane(base: BaseState) -> _WheelPlane:
 
 
 class Tyres:
-    """Writes the ground's forces on the wheels into the physics before each of its steps."""
+    """Writes the ground's forces on the wheels into the physics before each of its steps.
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, friction: float, parameters: TyreParameters):
+    Uneven ground is so gentle that its forces act upwards and along the level plane all the same.
+    """
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, friction: float, parameters: TyreParameters,
+                 ground: Optional[Ground] = None):
         self._forces = data.xfrc_applied
         self._speeds = data.qvel
         self._step_s = model.opt.timestep
-        self._friction, self._parameters = friction, parameters
+        self._friction, self._parameters, self._ground = friction, parameters, ground
         self._bodies = [model.body(f"{name}_wheel").id for name in robot.WHEELS]
         self._dofs = [int(model.joint(name).dofadr[0]) for name in robot.WHEELS]
         self._bristles = [[0.0, 0.0] for _ in robot.WHEELS]
@@ -76,21 +81,28 @@ class Tyres:
         height = base.position[2] + dz
         for index, (x, y, z) in enumerate(robot.WHEEL_POSITIONS):
             lift = r20 * x + r21 * y + r22 * z
-            if height + lift < 0.0:
-                arm = (r00 * x + r01 * y + r02 * z + dx, r10 * x + r11 * y + r12 * z + dy, lift + dz)
-                self._forces[self._bodies[index]] = self._wrench(index, base, plane, arm)
+            arm = (r00 * x + r01 * y + r02 * z + dx, r10 * x + r11 * y + r12 * z + dy, lift + dz)
+            depth = self._ground_height(base, arm) - height - lift
+            if depth > 0.0:
+                self._forces[self._bodies[index]] = self._wrench(index, base, plane, arm, depth)
             else:
                 self._bristles[index][:] = (0.0, 0.0)
                 self._forces[self._bodies[index]] = 0.0
 
-    def _wrench(self, index: int, base: BaseState, plane: _WheelPlane, arm: Vector) -> tuple:
+    def lift_off(self) -> None:
+        """The robot has been lifted: nothing is bent any more."""
+        self._bristles = [[0.0, 0.0] for _ in robot.WHEELS]
+
+    def _ground_height(self, base: BaseState, arm: Vector) -> float:
+        return self._ground.height_m(base.position[0] + arm[0], base.position[1] + arm[1]) if self._ground else 0.0
+
+    def _wrench(self, index: int, base: BaseState, plane: _WheelPlane, arm: Vector, depth: float) -> tuple:
         """Force and torque at a wheel's centre, in world; arm is the way from base_link to its lowest point."""
         parameters = self._parameters
         (vx, vy, vz), (ox, oy, oz) = base.velocity, base.angular_velocity
         (ex, ey, ez), (ax, ay, az), (hx, hy, hz), (cos, sin) = (arm, *plane)
         spin = float(self._speeds[self._dofs[index]])
         vertical = vz + ox * ey - oy * ex + spin * (ax * hy - ay * hx)
-        depth = -(base.position[2] + ez)
         load = max(0.0, parameters.stiffness_npm * depth - parameters.damping_nspm * vertical)
         along_x = vx + oy * ez - oz * ey + spin * (ay * hz - az * hy)
         along_y = vy + oz * ex - ox * ez + spin * (az * hx - ax * hz)

@@ -4,9 +4,10 @@ import pytest
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import parameters_from
+from mtr_simulation.car_shape import CarShape
 from mtr_simulation.lidar import LidarParameters
 from mtr_simulation.parameters import SimulatorParameters
-from mtr_simulation.scenario import SCENARIOS, CarShape, Scenario, named_scenario
+from mtr_simulation.scenario import SCENARIOS, Scenario, named_scenario
 from mtr_simulation.sim import SimParameters
 from mtr_simulation.wheels import BaseParameters
 
@@ -26,7 +27,7 @@ def test_values_of_the_parameter_server_are_taken():
     ({"seed": "one"}, "seed is 'one'"),
     ({"seed": True}, "seed is True"),
     ({"seed": -1}, "seed is -1"),
-    ({"scenario": "moon"}, "scenario is 'moon'; allowed is lot, open"),
+    ({"scenario": "moon"}, "scenario is 'moon'; allowed is lot, far, cones, open"),
     ({"real_time_factor": -1.0}, "real_time_factor is -1"),
     ({"hold_for": "drive_control"}, "hold_for is 'drive_control'"),
 ])

@@ -1,0 +1,52 @@
+"""What a real LiDAR does wrong beyond white noise: constant offset, mixed pixels, dropouts, drops of rain."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+
+import numpy as np
+
+from mtr_core.parameters import ParameterSet, number
+
+# A step from one beam to the next beyond this is the edge of something.
+EDGE_M = 0.1
+# Rain and spray return a beam from near; farther drops are too faint.
+ECHO_NEAREST_M, ECHO_FARTHEST_M = 0.3, 6.0
+
+
+@dataclass(frozen=True)
+class ScanErrors(ParameterSet):
+    """Each is off by default.
+
+    Attributes:
+        range_bias_m: added to every range.
+        mixed_pixel_share: of the beams at an edge, that return a range between both sides.
+        dropout_share: of all beams, that see nothing (black paint, glass).
+        echo_share: of all beams, that return from a drop in the air: isolated points that are there for one sweep.
+    """
+
+    range_bias_m: float = number(0.0, -0.1, 0.1, "m")
+    mixed_pixel_share: float = number(0.0, 0.0, 1.0, "(share)")
+    dropout_share: float = number(0.0, 0.0, 0.5, "(share)")
+    echo_share: float = number(0.0, 0.0, 0.2, "(share)")
+
+
+def with_errors(ranges_m: np.ndarray, errors: ScanErrors, noise: np.random.Generator) -> np.ndarray:
+    """Ranges of one sweep with these errors; infinity is a beam that sees nothing."""
+    seen = ranges_m + errors.range_bias_m
+    if errors.mixed_pixel_share:
+        seen = _mixed(seen, errors.mixed_pixel_share, noise)
+    if errors.dropout_share:
+        seen = np.where(noise.random(len(seen)) < errors.dropout_share, np.inf, seen)
+    if errors.echo_share:
+        hit = noise.random(len(seen)) < errors.echo_share
+        drops = noise.uniform(ECHO_NEAREST_M, ECHO_FARTHEST_M, len(seen))
+        seen = np.where(hit & (drops < seen), drops, seen)
+    return seen
+
+
+def _mixed(ranges_m: np.ndarray, share: float, noise: np.random.Generator) -> np.ndarray:
+    """Some of the beams at an edge fall on both sides of it and return what is between."""
+    after = np.append(ranges_m[1:], ranges_m[-1])
+    both = np.isfinite(ranges_m) & np.isfinite(after)
+    step = np.where(both, after, 0.0) - np.where(both, ranges_m, 0.0)
+    mixed = both & (np.abs(step) > EDGE_M) & (noise.random(len(ranges_m)) < share)
+    return np.where(mixed, ranges_m + noise.random(len(ranges_m)) * step, ranges_m)

@@ -1,0 +1,84 @@
+"""What one recorded drive is made of, and the simulated robot and site for it."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass, replace
+from typing import Optional
+
+from mtr_core.errors import ConfigurationError
+from mtr_core.parameters import ParameterSet, number
+from mtr_simulation.car_shape import CAR_SHAPES, CarShape
+from mtr_simulation.imu import ImuParameters
+from mtr_simulation.lidar import LidarParameters
+from mtr_simulation.scan_errors import ScanErrors
+from mtr_simulation.scenario import Scenario, named_scenario
+from mtr_simulation.sim import Sim, SimParameters
+from mtr_simulation.surroundings import Walk
+
+# The person's way, beside the Car's right: beyond all axes, and no radial of the pattern leads there.
+PERSON_BESIDE_M, PERSON_REACH_M = 3.7, 5.0
+
+
+@dataclass(frozen=True)
+class DriveOptions(ParameterSet):
+    """One drive; a scene and a seed give the same drive on every machine.
+
+    Attributes:
+        scene: named scenario of the simulator.
+        car: named shape of the simulator.
+        lidar_height_m: of the LiDARs' plane above the ground.
+        range_bias_m: constant error of all ranges.
+        tilt_deg: root mean square of the ground's slope.
+        mount_tilt_deg: pitch of the LiDARs' mounting, which nobody knows of.
+        gyro_scale_error: relative.
+        friction: of the tyres.
+        echo_share: of the beams that hit a drop of rain.
+        mixed_pixel_share: of the beams at an edge.
+        rear: the rear LiDAR is recorded too.
+        person: somebody walks to and fro beside the Car.
+        kidnap: after the loop somebody lifts the robot and puts it down 2 m aside; no axes, no radials.
+    """
+
+    scene: str = "lot"
+    car: str = "hatchback"
+    lidar_height_m: float = number(0.3, 0.1, 0.6, "m")
+    seed: int = number(1, 0, 2**31 - 1)
+    range_bias_m: float = number(0.0, -0.1, 0.1, "m")
+    tilt_deg: float = number(0.0, 0.0, 5.0, "deg")
+    mount_tilt_deg: float = number(0.0, -5.0, 5.0, "deg")
+    gyro_scale_error: float = number(0.0, -0.05, 0.05, "(relative)")
+    friction: float = number(0.5, 0.1, 1.2, "(Coulomb)")
+    echo_share: float = number(0.0, 0.0, 0.2, "(share)")
+    mixed_pixel_share: float = number(0.0, 0.0, 1.0, "(share)")
+    rear: bool = False
+    person: bool = False
+    kidnap: bool = False
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        named_scenario(self.scene)
+        if self.car not in CAR_SHAPES:
+            raise ConfigurationError(f"Parameter car is '{self.car}'; allowed is {', '.join(CAR_SHAPES)}.")
+
+    @property
+    def shape(self) -> CarShape:
+        """The Car's body."""
+        return CAR_SHAPES[self.car]
+
+    def scenario(self) -> Scenario:
+        """The site with this Car, and with the person."""
+        site = named_scenario(self.scene)
+        return replace(site, car=self.shape, friction=self.friction, ground_tilt_rad=math.radians(self.tilt_deg),
+                       start_in_car=site.start_in_car, person=self._walk(site) if self.person else None)
+
+    def sim(self) -> Sim:
+        """The simulated robot at its start."""
+        errors = ScanErrors(range_bias_m=self.range_bias_m, echo_share=self.echo_share,
+                            mixed_pixel_share=self.mixed_pixel_share)
+        lidar = LidarParameters(height_m=self.lidar_height_m, pitch_rad=math.radians(self.mount_tilt_deg),
+                                errors=errors)
+        imu = ImuParameters(gyro_scale_error=self.gyro_scale_error)
+        return Sim(self.seed, self.scenario(), SimParameters(rear_lidar=self.rear, lidar=lidar, imu=imu))
+
+    def _walk(self, site: Scenario) -> Optional[Walk]:
+        y = -0.5 * self.shape.width_m - PERSON_BESIDE_M
+        return Walk(*(site.world_from_car.apply(x, y) for x in (-PERSON_REACH_M, PERSON_REACH_M)))

@@ -1,0 +1,66 @@
+"""The truth of one drive as read back from its files."""
+# SPDX-License-Identifier: Apache-2.0
+import json
+import math
+import pathlib
+from typing import Any, Dict, NamedTuple
+
+import numpy as np
+
+from mtr_core.se2 import Pose2
+
+from .pattern import AXIS, AXIS_SPEED_MPS
+from .recording import META, TRUTH
+from .trajectory import Trajectory, read_columns, trajectory
+
+# The new map takes effect some seconds after the end of the loop; the robot stands until then.
+EFFECT_S = 3.5
+MOVING_SHARE = 0.9
+
+
+class DriveTruth(NamedTuple):
+    """True poses of base_link in the true frame car, and what the robot did at each.
+
+    Attributes:
+        track: poses.
+        standing: (n) bool.
+        on_axis: (n) bool, driving along an axis at about its full speed.
+        beyond_m: (n) distance of base_link from the Car as a rectangle.
+        judged: (n) bool, after the loop.
+        meta: the drive's meta.json.
+    """
+
+    track: Trajectory
+    standing: np.ndarray
+    on_axis: np.ndarray
+    beyond_m: np.ndarray
+    judged: np.ndarray
+    meta: Dict[str, Any]
+
+    @property
+    def map_from_car(self) -> Pose2:
+        """The Car in the frame of the robot's start."""
+        return Pose2(*self.meta["map_from_car"].values())
+
+    def in_loop(self, stamps_s: np.ndarray) -> np.ndarray:
+        """True for stamps while the robot goes round the Car."""
+        loop = [each for each in self.meta["segments"] if each["kind"] == "loop"]
+        return (stamps_s > loop[0]["begin_s"]) & (stamps_s <= loop[-1]["end_s"])
+
+
+def read_truth(folder: pathlib.Path) -> DriveTruth:
+    """The truth in a drive's folder."""
+    meta = json.loads((folder / META).read_text(encoding="utf-8"))
+    columns = read_columns(folder / TRUTH)
+    poses = np.stack([columns["car_x_m"], columns["car_y_m"], columns["car_heading_rad"]], axis=1)
+    kinds = np.array([each["kind"] for each in meta["segments"]])[columns["segment"].astype(int)]
+    fast = np.abs(columns["linear_mps"]) > MOVING_SHARE * AXIS_SPEED_MPS
+    beyond = np.hypot(np.maximum(np.abs(poses[:, 0]) - 0.5 * meta["length_m"], 0.0),
+                      np.maximum(np.abs(poses[:, 1]) - 0.5 * meta["width_m"], 0.0))
+    return DriveTruth(trajectory(columns["stamp_s"], poses), columns["standing"] > 0.5, fast & (kinds == AXIS), beyond,
+                      columns["stamp_s"] > meta["loop_end_s"] + EFFECT_S, meta)
+
+
+def heading_difference_deg(first: Pose2, second: Pose2) -> float:
+    """How far two headings are apart."""
+    return math.degrees(abs(math.remainder(first.heading - second.heading, 2.0 * math.pi)))

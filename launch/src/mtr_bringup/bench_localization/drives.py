@@ -1,0 +1,45 @@
+"""Which drives the benchmark is made of."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
+from typing import List, NamedTuple
+
+from .drive_options import DriveOptions
+
+SCENES = ("lot", "far", "cones", "open")
+CARS = ("hatchback", "sedan", "van")
+PLAIN, RANGE_BIAS, TILT, KIDNAP = "plain", "range_bias", "tilt", "kidnap"
+SEEDS, VARIANT_SEEDS, KIDNAP_SEEDS, QUICK_SEEDS = 10, 5, 3, 2
+RANGE_BIAS_M, TILT_DEG = 0.02, 1.0
+KIDNAP_SCENES = ("lot", "open")
+
+
+class Drive(NamedTuple):
+    """One drive and what it is for; plain drives are also given to the other methods."""
+
+    options: DriveOptions
+    variant: str
+
+    @property
+    def name(self) -> str:
+        """Name of its folder."""
+        return f"{self.options.scene}_{self.variant}_{self.options.seed}"
+
+
+def all_drives(quick: bool = False) -> List[Drive]:
+    """Drives with other errors use the first of the plain drives' seeds, so that they differ in nothing else."""
+    seeds, variant_seeds, kidnap_seeds = ((QUICK_SEEDS,) * 3 if quick else (SEEDS, VARIANT_SEEDS, KIDNAP_SEEDS))
+    drives = [Drive(options(scene, seed), PLAIN) for scene in SCENES for seed in range(1, seeds + 1)]
+    for scene in SCENES:
+        for seed in range(1, variant_seeds + 1):
+            plain = options(scene, seed)
+            drives.append(Drive(replace(plain, range_bias_m=RANGE_BIAS_M), RANGE_BIAS))
+            drives.append(Drive(replace(plain, tilt_deg=TILT_DEG), TILT))
+    drives += [Drive(replace(options(scene, seed), kidnap=True), KIDNAP) for scene in KIDNAP_SCENES
+               for seed in range(1, kidnap_seeds + 1)]
+    return drives
+
+
+def options(scene: str, seed: int) -> DriveOptions:
+    """Seeds take turns in shape and height: six seeds have all pairs of them; every third has a person."""
+    return DriveOptions(scene=scene, seed=seed, car=CARS[seed % 3], lidar_height_m=0.3 if seed % 2 else 0.2,
+                        rear=True, person=seed % 3 == 2)

@@ -1,0 +1,87 @@
+"""Errors of one method in one drive: where it puts the key in the Car's frame, against the truth."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import NamedTuple, Optional
+
+import numpy as np
+
+from mtr_core.se2 import Pose2
+from mtr_simulation import robot
+
+from .drive_truth import DriveTruth
+from .trajectory import Trajectory, at, compose, wrapped
+
+NAN = math.nan
+
+
+class Errors(NamedTuple):
+    """One row for each 20 ms after the loop; angles in degrees.
+
+    Attributes:
+        key_m: distance of the key from where it is said to be; NaN where the method says that it does not know.
+        yaw_deg: error of the heading, signed.
+        nees: normalised error squared of the pose in frame car; NaN from a method without covariance.
+        standing, on_axis, beyond_m: see DriveTruth.
+    """
+
+    stamps_s: np.ndarray
+    key_m: np.ndarray
+    yaw_deg: np.ndarray
+    nees: np.ndarray
+    standing: np.ndarray
+    on_axis: np.ndarray
+    beyond_m: np.ndarray
+
+
+class CarPose(NamedTuple):
+    """The Car in a method's map: pose, and its covariance of x, y and heading in map."""
+
+    pose: Pose2
+    covariance: np.ndarray
+
+
+def errors_of(track: Trajectory, car: CarPose, truth: DriveTruth) -> Errors:
+    """Errors at each judged instant of the truth."""
+    judged = truth.judged & (truth.track.stamps_s >= track.stamps_s[0]) & (truth.track.stamps_s <= track.stamps_s[-1])
+    stamps = truth.track.stamps_s[judged]
+    measured = compose(car.pose.inverse(), at(track, stamps))
+    true = truth.track.poses[judged]
+    away = keys(measured) - keys(true)
+    key_m = np.hypot(away[:, 0], away[:, 1])
+    nees = np.full(len(stamps), NAN)
+    nearest = np.clip(np.searchsorted(track.stamps_s, stamps), 0, len(track.stamps_s) - 1)
+    if track.covariances is not None:
+        nees = normalised_squares(measured, true, joined(track.covariances[nearest], car, measured))
+    if track.valid is not None:
+        key_m = np.where(track.valid[nearest], key_m, NAN)
+    yaw = np.degrees(wrapped(measured[:, 2] - true[:, 2]))
+    return Errors(stamps, key_m, yaw, nees, truth.standing[judged], truth.on_axis[judged], truth.beyond_m[judged])
+
+
+def keys(poses: np.ndarray) -> np.ndarray:
+    """Positions (n, 2) of the key for poses of base_link."""
+    return poses[:, :2] + robot.KEY_X_M * np.stack([np.cos(poses[:, 2]), np.sin(poses[:, 2])], axis=1)
+
+
+def joined(covariances: np.ndarray, car: CarPose, poses_in_car: np.ndarray) -> np.ndarray:
+    """Covariances (n, 3, 3) of base_link in frame car from those of base_link and of the Car in map."""
+    cos, sin = math.cos(car.pose.heading), math.sin(car.pose.heading)
+    turn = np.array(((cos, sin, 0.0), (-sin, cos, 0.0), (0.0, 0.0, 1.0)))
+    own = turn @ covariances @ turn.T
+    # The Car's heading counts by the lever of the robot's distance.
+    lever = np.tile(-turn, (len(poses_in_car), 1, 1))
+    lever[:, 0, 2], lever[:, 1, 2] = poses_in_car[:, 1], -poses_in_car[:, 0]
+    return own + lever @ car.covariance @ lever.transpose(0, 2, 1)
+
+
+def normalised_squares(measured: np.ndarray, true: np.ndarray, covariances: np.ndarray) -> np.ndarray:
+    """e P^-1 e for each pose; its mean over many drives is 3 when the covariances are honest."""
+    difference = measured - true
+    difference[:, 2] = wrapped(difference[:, 2])
+    return np.einsum("ni,ni->n", difference, np.linalg.solve(covariances, difference[:, :, np.newaxis])[:, :, 0])
+
+
+def percentile(values: np.ndarray, share: float = 95.0) -> Optional[float]:
+    """Percentile of the known values; None when there are none."""
+    known = values[np.isfinite(values)]
+    return float(np.percentile(known, share)) if len(known) else None

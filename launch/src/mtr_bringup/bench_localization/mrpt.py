@@ -1,0 +1,87 @@
+"""MRPT's ICP SLAM on the same data: scans freed of the robot's motion by wheels and gyro, and the odometry of both."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+import pathlib
+import subprocess
+from typing import Iterator, List, NamedTuple, Tuple
+
+import numpy as np
+
+from .sensor_log import SensorLog, Sweep
+from .trajectory import Trajectory, at, read_columns, trajectory
+
+# Beams over the full circle, as dense as the LiDARs' own.
+BEAMS = 960
+# It is given every second sweep, 12.5 Hz: as accurate in a drive with all of them, in half of the time.
+EVERY = 2
+
+
+class MrptError(Exception):
+    """The program failed; the text says what it said."""
+
+
+class MrptRun(NamedTuple):
+    """Poses at the stamps of the scans, and the CPU time of each."""
+
+    track: Trajectory
+    cpu_ms_per_scan: float
+
+
+def run_mrpt(program: pathlib.Path, log: SensorLog, odometry: Trajectory, folder: pathlib.Path) -> MrptRun:
+    """Let the program work on the drive."""
+    source, result = folder / "mrpt_input.bin", folder / "mrpt.csv"
+    _write(source, log, odometry)
+    done = subprocess.run([str(program), str(source), str(result)], text=True, capture_output=True, check=False)
+    source.unlink()
+    if done.returncode:
+        raise MrptError(f"{program.name} ended with {done.returncode}: {done.stderr.strip()}")
+    columns = read_columns(result)
+    poses = np.stack([columns["x_m"], columns["y_m"], columns["heading_rad"]], axis=1)
+    return MrptRun(trajectory(columns["stamp_s"], poses), float(done.stdout))
+
+
+def _write(path: pathlib.Path, log: SensorLog, odometry: Trajectory) -> None:
+    """The program's input, see its head."""
+    turns = list(_turns(log.sweeps))[::EVERY]
+    with path.open("wb") as file:
+        file.write(np.array([len(turns), BEAMS], dtype="<i8").tobytes())
+        for sweeps in turns:
+            stamp = max(float(sweep.stamps_s[-1]) for sweep in sweeps)
+            pose = at(odometry, np.array([stamp]))[0]
+            file.write(np.array([stamp, *pose], dtype="<f8").tobytes())
+            file.write(rebinned([points(sweep, odometry, pose) for sweep in sweeps]).astype("<f4").tobytes())
+
+
+def _turns(sweeps: List[Sweep]) -> Iterator[List[Sweep]]:
+    """Sweeps of all LiDARs that begin at the same time."""
+    together: List[Sweep] = []
+    for sweep in sweeps:
+        if together and sweep.stamps_s[0] > together[0].stamps_s[0] + 1e-6:
+            yield together
+            together = []
+        together.append(sweep)
+    if together:
+        yield together
+
+
+def points(sweep: Sweep, odometry: Trajectory, pose: np.ndarray) -> np.ndarray:
+    """Returns (n, 2) in base_link at a pose, each seen from where the robot was at its beam's time."""
+    seen = sweep.ranges_m > 0.0
+    x, y, heading = at(odometry, sweep.stamps_s[seen]).T
+    local_x = sweep.x_m + sweep.ranges_m[seen] * np.cos(sweep.angles_rad[seen])
+    local_y = sweep.ranges_m[seen] * np.sin(sweep.angles_rad[seen])
+    cos, sin = np.cos(heading), np.sin(heading)
+    away_x, away_y = x + cos * local_x - sin * local_y - pose[0], y + sin * local_x + cos * local_y - pose[1]
+    cos, sin = math.cos(pose[2]), math.sin(pose[2])
+    return np.stack([cos * away_x + sin * away_y, cos * away_y - sin * away_x], axis=1)
+
+
+def rebinned(clouds: List[np.ndarray]) -> np.ndarray:
+    """Range of the nearest return in each of BEAMS directions from -pi on, 0 where there is none."""
+    cloud: Tuple[np.ndarray, ...] = tuple(np.concatenate(clouds).T)
+    distances = np.hypot(*cloud)
+    step = 2.0 * math.pi / (BEAMS - 1)
+    bins = np.rint((np.arctan2(cloud[1], cloud[0]) + math.pi) / step).astype(int)
+    nearest = np.full(BEAMS, np.inf)
+    np.minimum.at(nearest, bins, distances)
+    return np.where(np.isfinite(nearest), nearest, 0.0)

@@ -1,0 +1,129 @@
+"""The way of one drive round the Car: the loop that maps it, then axes and radials as the scenarios drive them."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import List, NamedTuple, Tuple
+
+from mtr_core.se2 import Pose2, wrap_angle
+from mtr_simulation import robot
+from mtr_simulation.car_shape import CarShape
+
+from .legs import Leg, Lift, Path, Point, Stand, Straight, Turn
+
+LOOP_DISTANCE_M, LOOP_SPEED_MPS = 1.6, 0.5
+TRANSFER_DISTANCE_M, TRANSFER_SPEED_MPS = 2.2, 0.8
+AXIS_SPEED_MPS, RADIAL_SPEED_MPS = 0.5, 0.5
+# Distances of the key from the Car.
+AXIS_FAR_M, AXIS_NEAR_M = 2.5, 0.4
+RADIAL_NEAR_M, RADIAL_STEP_M = 1.5, 1.0
+STAND_FIRST_S, STAND_S, STAND_AFTER_LOOP_S = 2.0, 1.5, 4.0
+LOOP, TRANSFER, AXIS, RADIAL, START, KIDNAP = "loop", "transfer", "axis", "radial", "start", "kidnap"
+# Lifted away from the Car, which is to the left on the way round it; then it stands as the fail-safes let it.
+LIFTED = Lift(-2.0, math.radians(20.0))
+STAND_AFTER_LIFT_S = 20.0
+
+
+class Piece(NamedTuple):
+    """One leg with what it belongs to; line is the direction of the axis or radial in frame car."""
+
+    leg: Leg
+    kind: str
+    line_rad: float = 0.0
+
+
+class Plan(NamedTuple):
+    """Which axes and radials, as directions in frame car, how far from the Car the radials go, and a kidnapping."""
+
+    axes_rad: Tuple[float, ...]
+    radials_rad: Tuple[float, ...]
+    reach_m: float
+    kidnap: bool = False
+
+
+def pieces(shape: CarShape, start: Pose2, plan: Plan) -> List[Piece]:
+    """All legs from the start, a pose in frame car."""
+    here = (start.x, start.y)
+    way = [Piece(Stand(STAND_FIRST_S), START), *_loop(shape, here)]
+    here = way[-2].leg.points[-1]
+    if plan.kidnap:
+        return [*way, Piece(LIFTED, KIDNAP), Piece(Stand(STAND_AFTER_LIFT_S), KIDNAP)]
+    for direction in plan.axes_rad:
+        legs, here = _axis(shape, here, direction)
+        way += legs
+    for direction in plan.radials_rad:
+        legs, here = _radial(shape, here, direction, plan.reach_m)
+        way += legs
+    return way
+
+
+def ring(shape: CarShape, distance_m: float) -> List[Point]:
+    """Two places at each corner, counterclockwise from the front's left, as the Car locator's ring."""
+    x, y, d = 0.5 * shape.length_m, 0.5 * shape.width_m, distance_m
+    return [(x + d, y), (x, y + d), (-x, y + d), (-x - d, y), (-x - d, -y), (-x, -y - d), (x, -y - d), (x + d, -y)]
+
+
+def edge(shape: CarShape, direction_rad: float) -> Point:
+    """Where an axis begins: the middle of the side that it leaves at a right angle, else the corner."""
+    cos, sin = math.cos(direction_rad), math.sin(direction_rad)
+    return (0.5 * shape.length_m * _sign(cos), 0.5 * shape.width_m * _sign(sin))
+
+
+def outline_distance(shape: CarShape, direction_rad: float) -> float:
+    """From the Car's centre to its outline as a rectangle, along a direction."""
+    cos, sin = abs(math.cos(direction_rad)), abs(math.sin(direction_rad))
+    return min(0.5 * shape.length_m / max(cos, 1e-9), 0.5 * shape.width_m / max(sin, 1e-9))
+
+
+def _loop(shape: CarShape, here: Point) -> List[Piece]:
+    places = ring(shape, LOOP_DISTANCE_M)
+    first = min(range(len(places)), key=lambda index: math.hypot(places[index][0] - here[0],
+                                                                 places[index][1] - here[1]))
+    way = tuple(places[(first + step) % len(places)] for step in range(len(places) + 1))
+    return [Piece(Turn(_bearing(here, way[0])), LOOP), Piece(Path(way, LOOP_SPEED_MPS), LOOP),
+            Piece(Stand(STAND_AFTER_LOOP_S), START)]
+
+
+def _axis(shape: CarShape, here: Point, direction: float) -> Tuple[List[Piece], Point]:
+    """Approach, stand, retreat backwards, stand."""
+    x, y = edge(shape, direction)
+    cos, sin = math.cos(direction), math.sin(direction)
+    far, near = ((x + (distance + robot.KEY_X_M) * cos, y + (distance + robot.KEY_X_M) * sin)
+                 for distance in (AXIS_FAR_M, AXIS_NEAR_M))
+    legs = [Straight(near, AXIS_SPEED_MPS), Stand(STAND_S), Straight(far, AXIS_SPEED_MPS, True), Stand(STAND_S)]
+    return [*_transfer(shape, here, far, wrap_angle(direction + math.pi)),
+            *(Piece(leg, AXIS, direction) for leg in legs)], far
+
+
+def _radial(shape: CarShape, here: Point, direction: float, reach_m: float) -> Tuple[List[Piece], Point]:
+    """Retreat backwards facing the Car's centre with a stop at each step, then return."""
+    begin = outline_distance(shape, direction)
+    cos, sin = math.cos(direction), math.sin(direction)
+    steps = math.ceil((reach_m - RADIAL_NEAR_M) / RADIAL_STEP_M)
+    distances = [*(begin + RADIAL_NEAR_M + step * RADIAL_STEP_M for step in range(steps)), begin + reach_m]
+    stops = [(distance * cos, distance * sin) for distance in distances]
+    legs: List[Leg] = [Stand(STAND_S)]
+    for stop in stops[1:]:
+        legs += [Straight(stop, RADIAL_SPEED_MPS, True), Stand(STAND_S)]
+    back = ((begin + TRANSFER_DISTANCE_M) * cos, (begin + TRANSFER_DISTANCE_M) * sin)
+    return [*_transfer(shape, here, stops[0], wrap_angle(direction + math.pi)),
+            *(Piece(leg, RADIAL, direction) for leg in legs), Piece(Straight(back, TRANSFER_SPEED_MPS), TRANSFER)], back
+
+
+def _transfer(shape: CarShape, here: Point, there: Point, heading: float) -> List[Piece]:
+    """Round the Car the shorter way, then turn towards it."""
+    places = ring(shape, TRANSFER_DISTANCE_M)
+    begin, end = (math.atan2(y, x) for x, y in (here, there))
+    turn = wrap_angle(end - begin)
+    turns = [(wrap_angle(math.atan2(y, x) - begin), (x, y)) for x, y in places]
+    between = [(abs(angle), place) for angle, place in turns if angle * turn > 0.0 and abs(angle) < abs(turn)]
+    way = (*(place for _, place in sorted(between)), there)
+    return [Piece(Turn(_bearing(here, way[0])), TRANSFER), Piece(Path(way, TRANSFER_SPEED_MPS), TRANSFER),
+            Piece(Turn(heading), TRANSFER)]
+
+
+def _bearing(here: Point, there: Point) -> float:
+    return math.atan2(there[1] - here[1], there[0] - here[0])
+
+
+def _sign(value: float) -> float:
+    """-1, 0 or 1; directions come from multiples of an eighth of a turn, so that a zero is only nearly one."""
+    return 0.0 if abs(value) < 1e-6 else math.copysign(1.0, value)

@@ -1,0 +1,126 @@
+"""Records one drive round the Car on the simulator's core: drive.bag, truth.csv and meta.json.
+
+Usage: python -m mtr_bringup.bench_localization.record --scene lot --car hatchback --lidar-height 0.3 --seed 1 --out DIR
+"""
+# SPDX-License-Identifier: Apache-2.0
+import argparse
+import math
+import pathlib
+import sys
+from dataclasses import asdict
+from typing import Any, Dict, List, Optional
+
+from mtr_core.errors import ConfigurationError
+from mtr_core.schedule import CAR_LOCATOR, SIMULATION_START_NS
+from mtr_core.se2 import Pose2
+from mtr_msgs.msg import MappingOrder
+from mtr_simulation.car_shape import size_at
+from mtr_simulation.sim import TICK_S, Sim
+
+from .drive_options import DriveOptions
+from .legs import LegFollower, Lift
+from .pattern import LOOP, Piece, Plan, pieces
+from .recording import Recording, pose_values
+
+MAP_CAR_ID = 1
+LEG_LIMIT_S = 120.0
+EIGHTH_RAD = math.pi / 4.0
+# Distance from the Car that leaves room before what stands in the lot.
+REACH_M = {"lot": 3.5}
+FULL_REACH_M = 10.0
+
+
+class DriveError(Exception):
+    """The robot did not get to the end of the drive."""
+
+
+def plan(options: DriveOptions) -> Plan:
+    """Axes and radials of a drive: seeds take turns so that all directions are seen."""
+    first = options.seed % 8
+    axes = tuple(EIGHTH_RAD * ((first + 3 * step) % 8) for step in range(4))
+    # None to the right, where a person may walk.
+    radials = tuple(EIGHTH_RAD * ((options.seed + step) % 5) for step in (0, 2))
+    return Plan(axes, radials, REACH_M.get(options.scene, FULL_REACH_M), options.kidnap)
+
+
+def record(options: DriveOptions, folder: pathlib.Path) -> Dict[str, Any]:
+    """Drive and write; returns what meta.json says."""
+    sim = options.sim()
+    way = pieces(options.shape, sim.truth().car_from_base, plan(options))
+    start = sim.truth()
+    with Recording(folder, options.lidar_height_m) as files:
+        files.mounts(SIMULATION_START_NS)
+        segments = [_drive(sim, files, index, piece, _phase(way, index)) for index, piece in enumerate(way)]
+        car_in_map = start.world_from_base.inverse() @ sim.scenario.world_from_car
+        loop_end_s = next(each["end_s"] for each in reversed(segments) if each["kind"] == LOOP)
+        meta = {"options": asdict(options), "map_from_car": pose_values(car_in_map),
+                "prior_car_from_start": pose_values(sim.scenario.start_in_car),
+                "world_from_car": pose_values(sim.scenario.world_from_car), "length_m": options.shape.length_m,
+                "width_m": options.shape.width_m, "at_lidar": size_at(options.shape, options.lidar_height_m)._asdict(),
+                "loop_end_s": loop_end_s, "end_s": sim.time_ns * 1e-9, "segments": segments}
+        files.meta(meta)
+    return meta
+
+
+def _phase(way: List[Piece], index: int) -> int:
+    last_of_loop = max(place for place, piece in enumerate(way) if piece.kind == LOOP)
+    if index <= last_of_loop:
+        return MappingOrder.COLLECT if way[index].kind == LOOP else MappingOrder.IDLE
+    return MappingOrder.FREEZE
+
+
+def _drive(sim: Sim, files: Recording, index: int, piece: Piece, phase: int) -> Dict[str, Any]:
+    """Follow one leg to its end; what it was, for meta.json."""
+    begin_ns = sim.time_ns
+    if isinstance(piece.leg, Lift):
+        sim.kidnap(sim.truth().world_from_base @ Pose2(0.0, piece.leg.aside_m, piece.leg.turn_rad))
+    follower = LegFollower(piece.leg, sim.truth().car_from_base, TICK_S)
+    done = False
+    while not done:
+        velocity, done = follower.update(sim.truth().car_from_base)
+        sim.command(*velocity)
+        sensors = sim.step()
+        if CAR_LOCATOR.last_at(sim.time_ns) == sim.time_ns:
+            files.order(sim.time_ns, MAP_CAR_ID if phase else 0, phase)
+        files.sensors(sensors)
+        files.truth(sim.truth(), index)
+        if (sim.time_ns - begin_ns) * 1e-9 > LEG_LIMIT_S:
+            raise DriveError(f"Leg {index}, {piece.leg}, is not finished after {LEG_LIMIT_S:.0f} s at "
+                             f"{sim.truth().car_from_base}.")
+        if sim.contacts():
+            raise DriveError(f"The robot touches {', '.join(sorted(sim.contacts()))} on leg {index}, {piece.leg}.")
+    return {"index": index, "kind": piece.kind, "leg": type(piece.leg).__name__.lower(), "line_rad": piece.line_rad,
+            "begin_s": begin_ns * 1e-9, "end_s": sim.time_ns * 1e-9}
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    """Record the drive that the command line describes."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--scene", default="lot", help="named scenario of the simulator")
+    parser.add_argument("--car", default="hatchback", help="named car shape of the simulator")
+    parser.add_argument("--lidar-height", type=float, default=0.3, dest="lidar_height_m", help="m above the ground")
+    parser.add_argument("--seed", type=int, default=1, help="of all random numbers and of the choice of lines")
+    parser.add_argument("--range-bias", type=float, default=0.0, dest="range_bias_m", help="m, added to all ranges")
+    parser.add_argument("--tilt-deg", type=float, default=0.0, help="rms slope of uneven ground")
+    parser.add_argument("--mount-tilt-deg", type=float, default=0.0, help="pitch of the LiDARs' mounting")
+    parser.add_argument("--gyro-scale-error", type=float, default=0.0, help="relative")
+    parser.add_argument("--friction", type=float, default=0.5, help="of the tyres")
+    parser.add_argument("--echo-share", type=float, default=0.0, help="share of beams that hit a drop of rain")
+    parser.add_argument("--mixed-pixel-share", type=float, default=0.0, help="share of the beams at an edge")
+    parser.add_argument("--rear", action="store_true", help="record the rear LiDAR too")
+    parser.add_argument("--person", action="store_true", help="somebody walks to and fro beside the Car")
+    parser.add_argument("--kidnap", action="store_true", help="after the loop the robot is lifted 2 m aside")
+    parser.add_argument("--out", type=pathlib.Path, required=True, help="folder of the files")
+    values = vars(parser.parse_args(arguments))
+    folder = values.pop("out")
+    try:
+        meta = record(DriveOptions(**values), folder)
+    except (ConfigurationError, DriveError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    print(f"{folder}: {meta['end_s'] - SIMULATION_START_NS * 1e-9:.0f} s, loop ends at {meta['loop_end_s']:.2f} s.")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

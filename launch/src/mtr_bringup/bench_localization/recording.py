@@ -1,0 +1,101 @@
+"""Writes one drive: a bag with what the robot's nodes would hear, and the truth in files of its own."""
+# SPDX-License-Identifier: Apache-2.0
+import csv
+import json
+import pathlib
+from types import TracebackType
+from typing import Any, Dict, Optional, Type
+
+import rosbag
+from geometry_msgs.msg import Transform, TransformStamped
+from tf2_msgs.msg import TFMessage
+
+from mtr_core import names
+from mtr_core.se2 import Pose2
+from mtr_msgs.msg import MappingOrder
+from mtr_simulation import conversions, robot
+from mtr_simulation.imu import ImuParameters
+from mtr_simulation.readings import Sensors
+from mtr_simulation.true_state import TrueState
+
+BAG, TRUTH, META = "drive.bag", "truth.csv", "meta.json"
+TRUTH_COLUMNS = ("stamp_s", "car_x_m", "car_y_m", "car_heading_rad", "world_x_m", "world_y_m", "world_heading_rad",
+                 "key_x_m", "key_y_m", "linear_mps", "angular_radps", "tilt_rad", "standing", "segment")
+# Slower than this the robot stands.
+STANDING_MPS, STANDING_RADPS = 0.002, 0.002
+
+
+class Recording:
+    """The files of one drive in a folder; use as a context manager."""
+
+    def __init__(self, folder: pathlib.Path, lidar_height_m: float):
+        self._folder, self._lidar_height_m = folder, lidar_height_m
+        self._imu = conversions.ImuMessage(ImuParameters())
+        self._odometry = conversions.OdometryMessage(names.ODOM)
+        self._bag: Optional[rosbag.Bag] = None
+        self._truth: Any = None
+        self._rows: Any = None
+
+    def __enter__(self) -> "Recording":
+        self._folder.mkdir(parents=True, exist_ok=True)
+        self._bag = rosbag.Bag(str(self._folder / BAG), "w")
+        self._truth = (self._folder / TRUTH).open("w", newline="", encoding="utf-8")
+        self._rows = csv.writer(self._truth)
+        self._rows.writerow(TRUTH_COLUMNS)
+        return self
+
+    def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException],
+                 trace: Optional[TracebackType]) -> None:
+        self._bag.close()
+        self._truth.close()
+
+    def mounts(self, time_ns: int) -> None:
+        """Where LiDARs and IMU are, as robot_state_publisher says it."""
+        z = self._lidar_height_m - robot.BASE_HEIGHT_M
+        frames = ((names.FRONT_LIDAR, robot.FRONT_LIDAR_X_M, z, robot.FRONT_LIDAR_YAW_RAD),
+                  (names.REAR_LIDAR, robot.REAR_LIDAR_X_M, z, robot.REAR_LIDAR_YAW_RAD), (names.IMU, 0.0, 0.0, 0.0))
+        transforms = []
+        for frame, x, height, yaw in frames:
+            each = TransformStamped(child_frame_id=frame, transform=Transform())
+            each.header.frame_id, each.header.stamp = names.BASE, conversions.stamp(time_ns)
+            each.transform.translation.x, each.transform.translation.z = x, height
+            each.transform.rotation = conversions.yaw_quaternion(yaw)
+            transforms.append(each)
+        self._write("/tf_static", TFMessage(transforms), time_ns)
+
+    def sensors(self, sensors: Sensors) -> None:
+        """Everything that is new at one tick."""
+        time_ns = sensors.time_ns
+        for topic, scan, frame in ((names.FRONT_SCAN, sensors.front_scan, names.FRONT_LIDAR),
+                                   (names.REAR_SCAN, sensors.rear_scan, names.REAR_LIDAR)):
+            if scan:
+                self._write(topic, conversions.scan_message(scan, frame), time_ns)
+        self._write(names.IMU_DATA, self._imu.fill(time_ns, sensors.imu), time_ns)
+        self._write(names.WHEEL_ODOMETRY, self._odometry.fill(time_ns, sensors.odometry), time_ns)
+
+    def order(self, time_ns: int, map_car_id: int, phase: int) -> None:
+        """What the Car locator orders of localization."""
+        message = MappingOrder(map_car_id=map_car_id, phase=phase)
+        message.header.stamp = conversions.stamp(time_ns)
+        self._write(names.MAPPING_ORDER, message, time_ns)
+
+    def truth(self, truth: TrueState, segment: int) -> None:
+        """Where the robot really is; the key as if the robot stood level."""
+        car, world = truth.car_from_base, truth.world_from_base
+        key_x, key_y = car.apply(robot.KEY_X_M, 0.0)
+        standing = abs(truth.linear_mps) < STANDING_MPS and abs(truth.angular_radps) < STANDING_RADPS
+        self._rows.writerow([f"{truth.time_ns * 1e-9:.3f}", *(f"{value:.6f}" for value in (
+            car.x, car.y, car.heading, world.x, world.y, world.heading, key_x, key_y, truth.linear_mps,
+            truth.angular_radps, truth.tilt_rad)), int(standing), segment])
+
+    def meta(self, values: Dict[str, Any]) -> None:
+        """What the drive was."""
+        (self._folder / META).write_text(json.dumps(values, indent=2) + "\n", encoding="utf-8")
+
+    def _write(self, topic: str, message: Any, time_ns: int) -> None:
+        self._bag.write(topic, message, conversions.stamp(time_ns))
+
+
+def pose_values(pose: Pose2) -> Dict[str, float]:
+    """A pose for meta.json."""
+    return {"x_m": pose.x, "y_m": pose.y, "heading_rad": pose.heading}

@@ -1,0 +1,54 @@
+"""What a recorded bag holds, as arrays."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+import pathlib
+from typing import List, NamedTuple
+
+import numpy as np
+import rosbag
+
+from mtr_core import names
+from mtr_simulation import robot
+
+MOUNTS = {names.FRONT_SCAN: (robot.FRONT_LIDAR_X_M, robot.FRONT_LIDAR_YAW_RAD),
+          names.REAR_SCAN: (robot.REAR_LIDAR_X_M, robot.REAR_LIDAR_YAW_RAD)}
+
+
+class Sweep(NamedTuple):
+    """One scan: stamps of its beams in s, their angles in base_link, the LiDAR's place and the ranges."""
+
+    stamps_s: np.ndarray
+    angles_rad: np.ndarray
+    x_m: float
+    ranges_m: np.ndarray
+
+
+class SensorLog(NamedTuple):
+    """One drive: rows (stamp, speed) of the wheels, rows (stamp, yaw rate) of the gyro, sweeps in order of stamps."""
+
+    wheels: np.ndarray
+    gyro: np.ndarray
+    sweeps: List[Sweep]
+
+
+def read_sensors(bag: pathlib.Path) -> SensorLog:
+    """Everything but the orders."""
+    wheels, gyro, sweeps = [], [], []
+    with rosbag.Bag(str(bag)) as file:
+        for topic, message, _ in file.read_messages(topics=[names.WHEEL_ODOMETRY, names.IMU_DATA, *MOUNTS]):
+            stamp = message.header.stamp.to_sec()
+            if topic == names.WHEEL_ODOMETRY:
+                wheels.append((stamp, message.twist.twist.linear.x))
+            elif topic == names.IMU_DATA:
+                gyro.append((stamp, message.angular_velocity.z))
+            else:
+                sweeps.append(_sweep(message, stamp, *MOUNTS[topic]))
+    return SensorLog(np.array(wheels), np.array(gyro), sorted(sweeps, key=lambda sweep: float(sweep.stamps_s[0])))
+
+
+def _sweep(message: object, stamp_s: float, x_m: float, yaw_rad: float) -> Sweep:
+    ranges = np.array(message.ranges, dtype=np.float32)
+    beams = np.arange(len(ranges))
+    usable = np.isfinite(ranges) & (ranges >= message.range_min) & (ranges <= message.range_max)
+    angles = np.mod(yaw_rad + message.angle_min + message.angle_increment * beams, 2.0 * math.pi)
+    return Sweep(stamp_s + message.time_increment * beams, angles, x_m, np.where(usable, ranges, 0.0))

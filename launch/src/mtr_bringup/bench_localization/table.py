@@ -1,0 +1,115 @@
+"""The rows of the table of goals: value, goal, must, and what is met."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import Any, Callable, Dict, List, NamedTuple, Optional
+
+import numpy as np
+
+from .drives import PLAIN, RANGE_BIAS, SCENES, TILT
+from .errors import percentile
+from .figures import FAR_OUT_M, NEAR_M, column, joined
+from .methods import Outcome
+
+CM = 0.01
+# Outcomes of this system by scene, variant and seed.
+Outcomes = Dict[str, Dict[str, Dict[int, Outcome]]]
+
+
+class Goal(NamedTuple):
+    """A figure of the table; source takes the outcomes of one scene's drives."""
+
+    name: str
+    unit: str
+    goal: float
+    must: float
+
+
+class Position(NamedTuple):
+    """A position row: which rows of which scene's errors count."""
+
+    goal: Goal
+    scene: str
+    rows: Callable[[Any], np.ndarray]
+
+
+POSITIONS = (
+    Position(Goal("lot, standing", "m", 0.5 * CM, 1.2 * CM), "lot", lambda e: e.standing),
+    Position(Goal("lot, moving 0.5 m/s", "m", 0.8 * CM, 2.0 * CM), "lot", lambda e: e.on_axis),
+    Position(Goal("far, standing", "m", 1.2 * CM, 2.5 * CM), "far", lambda e: e.standing),
+    Position(Goal("cones, standing", "m", 1.5 * CM, 3.0 * CM), "cones", lambda e: e.standing),
+    Position(Goal("open, standing within 5 m of the Car", "m", 2.0 * CM, 4.0 * CM), "open",
+             lambda e: e.standing & (e.beyond_m <= NEAR_M)),
+    Position(Goal("open, standing 10 m out", "m", 3.0 * CM, 6.0 * CM), "open",
+             lambda e: e.standing & (e.beyond_m >= FAR_OUT_M)),
+)
+YAW = Goal("yaw, all scenes, standing", "deg", 0.2, 0.5)
+SIZE = Goal("Car's length and width, in the LiDAR's plane", "m", 0.5 * CM, 2.0 * CM)
+SIZE_BODY = Goal("Car's length and width, widest parts", "m", 0.5 * CM, 2.0 * CM)
+BIAS = Goal("worse with 2 cm of range error, worst of the positions", "m", 0.5 * CM, 2.0 * CM)
+TILTED = Goal("factor with 1 deg of tilt, worst of the positions", "(ratio)", 1.5, 3.0)
+
+
+def rows(outcomes: Outcomes) -> List[Dict[str, Any]]:
+    """The whole table."""
+    table = [judged(row.goal, position(outcomes, row, PLAIN)) for row in POSITIONS]
+    plain = [each for scene in SCENES for each in outcomes[scene].get(PLAIN, {}).values()]
+    errors = joined([each.errors for each in plain])
+    table.append(judged(YAW, percentile(np.abs(errors.yaw_deg[errors.standing]))))
+    table.append(judged(SIZE, size_error(plain, "")))
+    table.append(judged(SIZE_BODY, size_error(plain, "_body")))
+    table.append(judged(BIAS, worst([compared(outcomes, row, RANGE_BIAS, lambda a, b: a - b) for row in POSITIONS])))
+    table.append(judged(TILTED, worst([compared(outcomes, row, TILT, lambda a, b: a / b) for row in POSITIONS])))
+    return table
+
+
+def variants(outcomes: Outcomes) -> List[Dict[str, Any]]:
+    """Each position without and with the further errors, on the same seeds."""
+    return [{"name": row.goal.name, **{f"{name}_m": position(outcomes, row, name, common(outcomes, row.scene, name))
+                                       for name in (RANGE_BIAS, TILT)},
+             **{f"plain_on_seeds_of_{name}_m": position(outcomes, row, PLAIN, common(outcomes, row.scene, name))
+                for name in (RANGE_BIAS, TILT)}} for row in POSITIONS]
+
+
+def position(outcomes: Outcomes, row: Position, variant: str, seeds: Optional[List[int]] = None) -> Optional[float]:
+    """95 % of the key's position errors."""
+    drives = outcomes[row.scene].get(variant, {})
+    errors = joined([each.errors for seed, each in drives.items() if seeds is None or seed in seeds])
+    return percentile(errors.key_m[row.rows(errors)])
+
+
+def common(outcomes: Outcomes, scene: str, variant: str) -> List[int]:
+    """Seeds that both the plain drives and a variant have."""
+    return sorted(outcomes[scene].get(PLAIN, {}).keys() & outcomes[scene].get(variant, {}).keys())
+
+
+def compared(outcomes: Outcomes, row: Position, variant: str,
+             by: Callable[[float, float], float]) -> Optional[float]:
+    """A variant's figure against the plain one on the same seeds."""
+    seeds = common(outcomes, row.scene, variant)
+    with_it, plain = position(outcomes, row, variant, seeds), position(outcomes, row, PLAIN, seeds)
+    return by(with_it, plain) if with_it is not None and plain else None
+
+
+def size_error(plain: List[Outcome], suffix: str) -> Optional[float]:
+    """95 % of the errors of length and width, of the Cars whose body is in the LiDAR's plane."""
+    cars = [each.car for each in plain if each.car and not each.car["only_wheels"]]
+    errors = np.concatenate([np.abs(column(cars, f"{name}_error{suffix}_m")) for name in ("length", "width")])
+    return percentile(errors)
+
+
+def worst(values: List[Optional[float]]) -> Optional[float]:
+    """The largest of those that are known."""
+    return max((value for value in values if value is not None), default=None)
+
+
+def judged(goal: Goal, value: Optional[float]) -> Dict[str, Any]:
+    """One row; a value that is not known meets nothing."""
+    return {"name": goal.name, "unit": goal.unit, "value": value, "goal": goal.goal, "must": goal.must,
+            "met": value is not None and value <= goal.must, "goal_met": value is not None and value <= goal.goal}
+
+
+def printed(row: Dict[str, Any]) -> str:
+    """One row for a person; lengths in cm."""
+    scale, unit = (100.0, "cm") if row["unit"] == "m" else (1.0, row["unit"].strip("()"))
+    value = "unknown" if row["value"] is None else f"{scale * row['value']:.2f}"
+    verdict = "goal met" if row["goal_met"] else "met" if row["met"] else "NOT MET"
+    return f"{row['name']:<55} {value:>8} {unit:<6} goal {scale * row['goal']:.2f}, must {scale * row['must']:.2f}: {verdict}"
