@@ -8,13 +8,15 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import Twist
+from scripted_sensors import BEAMS, open_ground
 from scripted_time import NS, Listener, ScriptedTime, Speaker
 
 from mtr_core import names, schedule
 from mtr_msgs.msg import DriveStatus, MotionLock, VelocityCommand
 
-PLANNER_SILENT_S = 0.2
-LOCK_SILENT_S = 0.35
+PLANNER_SILENT_S = 0.14
+LOCK_SILENT_S = 0.25
+SENSOR_SILENT_S = 0.14
 ONE_TICK_S = 0.1
 # From any permitted velocity, see mtr_drive_control/parameters.hpp.
 STANDSTILL_WITHIN_S = 0.5
@@ -31,7 +33,9 @@ class DriveControl(unittest.TestCase):
         cls.manual = Speaker(names.MANUAL_VELOCITY, VelocityCommand(), schedule.CONTROLLER_INPUT)
         cls.dispatcher = Speaker(names.MOTION_LOCK, MotionLock(owner="dispatcher"), schedule.DISPATCHER)
         cls.state_machine = Speaker(names.MOTION_LOCK, MotionLock(owner="state_machine"), schedule.STATE_MACHINE)
-        cls.speakers = (cls.planner, cls.manual, cls.dispatcher, cls.state_machine)
+        cls.front, cls.rear, cls.odometry, cls.peripherals = open_ground()
+        cls.speakers = (cls.planner, cls.manual, cls.dispatcher, cls.state_machine, cls.front, cls.rear, cls.odometry,
+                        cls.peripherals)
         cls.drive = Listener(names.DRIVE_STATUS, DriveStatus, schedule.DRIVE_CONTROL)
         cls.time = ScriptedTime(["/drive_control"], cls.speakers, [cls.drive])
         cls.wheels = []
@@ -48,6 +52,7 @@ class DriveControl(unittest.TestCase):
             speaker.is_silent = False
         self.planner.message = VelocityCommand(linear_mps=0.5, active=True)
         self.manual.message = VelocityCommand(active=False)
+        self.front.message.ranges = [math.inf] * BEAMS
         for lock in (self.dispatcher.message, self.state_machine.message):
             lock.engaged, lock.reason = False, ""
         self.time.advance_until(lambda: self.status().linear_mps == 0.5, within_s=3.0)
@@ -101,6 +106,33 @@ class DriveControl(unittest.TestCase):
         self.time.advance_until(self.is_standing, within_s=1.0)
         self.state_machine.message.engaged = False
         self.time.advance_until(lambda: self.status().source == "planner", within_s=0.2)
+
+    def test_silent_lidar_stops_the_robot_in_time(self):
+        since_s = self.silence(self.rear, 0.04)
+        self.assert_noticed(lambda: self.status().zone == DriveStatus.BLIND, since_s, SENSOR_SILENT_S)
+        self.assertEqual(self.status().message, "The rear LiDAR is silent.")
+
+    def test_silent_odometry_stops_the_robot_in_time(self):
+        since_s = self.silence(self.odometry, 0.02)
+        self.assert_noticed(lambda: self.status().zone == DriveStatus.BLIND, since_s, SENSOR_SILENT_S)
+
+    def test_lidar_that_speaks_of_another_frame_or_without_beams_stops_the_robot_and_the_node_lives(self):
+        for frame, ranges, sentence in (("map", [math.inf] * BEAMS, "frame 'map'"), (names.FRONT_LIDAR, [], "beams")):
+            self.front.message.header.frame_id, self.front.message.ranges = frame, ranges
+            self.time.advance_until(self.is_standing, within_s=ONE_TICK_S + STANDSTILL_WITHIN_S)
+            self.assertIn(sentence, self.status().message)
+            self.front.message.header.frame_id = names.FRONT_LIDAR
+            self.setUp()
+
+    def test_wall_ahead_stops_the_robot_with_its_distance_and_it_goes_on_when_the_wall_has_gone(self):
+        self.front.message.ranges = [0.19] * BEAMS
+        self.time.advance_until(self.is_standing, within_s=ONE_TICK_S + STANDSTILL_WITHIN_S)
+        self.assertEqual(self.status().zone, DriveStatus.BLOCKED)
+        self.assertAlmostEqual(self.status().obstacle_m, 0.04, delta=0.005)
+        self.assertIn("Blocked by an obstacle", self.status().message)
+        self.front.message.ranges = [math.inf] * BEAMS
+        gone_on_s = self.time.advance_until(lambda: not self.is_standing(), within_s=2.0)
+        self.assertGreater(gone_on_s, 0.9)
 
     def test_velocity_that_is_no_number_stops_the_robot_and_never_reaches_the_wheels(self):
         self.planner.message = VelocityCommand(linear_mps=math.nan, angular_radps=math.inf, active=True)

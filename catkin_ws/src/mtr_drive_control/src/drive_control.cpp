@@ -3,23 +3,66 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/drive_control.hpp"
 
+#include "mtr_drive_control/tip_over.hpp"
+
 namespace mtr_drive_control {
 
-DriveControl::DriveControl(const Parameters& parameters, double period_s)
-    : parameters_(parameters), limiter_(parameters, period_s) {
+DriveControl::DriveControl(const Parameters& parameters, const CollisionParameters& collision, bool has_rear_lidar,
+                           double period_s)
+    : parameters_(parameters),
+      limits_(parameters),
+      collision_stop_(collision, has_rear_lidar),
+      limiter_(parameters, period_s) {
   check(parameters);
 }
 
 Decision DriveControl::step(std::int64_t tick_ns, const Inputs& inputs) {
+  collision_stop_.look(tick_ns, inputs.sensors);
+  adapt_limits(tick_ns, inputs.key);
   const Wish wish = choose(tick_ns, inputs);
   Decision decision;
-  decision.velocity = wish.velocity ? limiter_.follow(*wish.velocity) : limiter_.stop();
   decision.source = wish.source;
   decision.message = wish.message;
   for (const EngagedLock& lock : inputs.locks) {
     decision.engaged_locks.push_back(lock.owner);
   }
+  decision.velocity = pursue(tick_ns, wish, decision);
+  limiter_.send(decision.velocity);
   return decision;
+}
+
+void DriveControl::adapt_limits(std::int64_t tick_ns, const std::optional<KeyHeight>& key) {
+  const bool is_known = key && is_fresh(key->stamp_ns, tick_ns, parameters_.peripherals_timeout_s);
+  limits_ = limits_at(parameters_, is_known ? key->height_m : parameters_.key_raised_m);
+  limiter_.set_limits(limits_);
+}
+
+Velocity DriveControl::pursue(std::int64_t tick_ns, const Wish& wish, Decision& decision) {
+  if (!wish.velocity || wish.source == "none") {
+    collision_stop_.rest();
+  }
+  const MotionWish wanted{limiter_.within_limits(wish.velocity.value_or(Velocity{})), wish.source == "manual"};
+  const Verdict verdict = collision_stop_.judge(tick_ns, wanted, normal_deceleration());
+  decision.zone = verdict.zone;
+  decision.hindrance = verdict.hindrance;
+  if (decision.message.empty()) {
+    decision.message = verdict.message;
+  }
+  if (!wish.velocity || verdict.zone == Zone::kBlind) {
+    return limiter_.braked();
+  }
+  const MotionWish next{limiter_.toward(verdict.velocity), wanted.by_hand};
+  const Deceleration emergency{limits_.emergency_linear_deceleration_mps2,
+                               limits_.emergency_angular_deceleration_radps2};
+  return collision_stop_.permits(next, emergency) ? next.velocity : limiter_.braked();
+}
+
+std::vector<PathPoint> DriveControl::stopping_path_of(const Velocity& velocity) const {
+  return collision_stop_.stopping_path_of(velocity, normal_deceleration());
+}
+
+Deceleration DriveControl::normal_deceleration() const {
+  return {limits_.linear_deceleration_mps2, limits_.angular_acceleration_radps2};
 }
 
 DriveControl::Wish DriveControl::choose(std::int64_t tick_ns, const Inputs& inputs) const {

@@ -12,7 +12,8 @@ using mtr_lockstep::Samples;
 using mtr_lockstep::Slot;
 
 const std::map<std::string, Slot> kOwnerSlots{{"dispatcher", mtr_lockstep::kDispatcher},
-                                              {"state_machine", mtr_lockstep::kStateMachine}};
+                                              {"state_machine", mtr_lockstep::kStateMachine},
+                                              {"controller_input", mtr_lockstep::kControllerInput}};
 
 }  // namespace
 

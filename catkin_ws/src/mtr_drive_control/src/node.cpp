@@ -3,52 +3,97 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/node.hpp"
 
+#include <geometry_msgs/Twist.h>
+
+#include "mtr_drive_control/tip_over.hpp"
 #include "mtr_lockstep/names.hpp"
 
 namespace mtr_drive_control {
 namespace {
 
 namespace names = mtr_lockstep::names;
-using mtr_msgs::VelocityCommand;
 
 constexpr double kPeriodS = static_cast<double>(mtr_lockstep::kDriveControl.period_ns) * 1e-9;
+// A scan bears its first beam's time and comes when the sweep has ended, before the clock.
+constexpr std::int64_t kScanLagNs = mtr_lockstep::kLidar.period_ns;
 
-std::optional<SourceCommand> command_of(const VelocityCommand::ConstPtr& message) {
-  if (!message) {
-    return std::nullopt;
+std::vector<std::string> owners_of(const NodeParameters& parameters) {
+  std::vector<std::string> owners = parameters.lock_owners;
+  owners.insert(owners.end(), parameters.e_stop_topics.begin(), parameters.e_stop_topics.end());
+  return owners;
+}
+
+void log_limits(const NodeParameters& parameters) {
+  for (const double key_m : {0.0, parameters.limits.key_raised_m}) {
+    const Parameters limits = limits_at(parameters.limits, key_m);
+    ROS_INFO("Limits with the key %s: %.2f m/s, %.2f rad/s, stops at %.2f m/s2 and in an emergency at %.2f m/s2.",
+             key_m > 0.0 ? "raised" : "low", limits.max_linear_mps, limits.max_angular_radps,
+             limits.linear_deceleration_mps2, limits.emergency_linear_deceleration_mps2);
   }
-  return SourceCommand{mtr_lockstep::to_ns(message->header.stamp),
-                       {message->linear_mps, message->angular_radps},
-                       static_cast<bool>(message->active)};
+  if (!parameters.rear_lidar) {
+    ROS_WARN(
+        "There is no rear LiDAR: nobody who walks in behind is seen. Backwards at %.2f m/s at most, and only into "
+        "ground seen free within the last %.0f s.",
+        parameters.collision.unwatched_reverse_mps, parameters.collision.ground_memory_s);
+  }
 }
 
 }  // namespace
 
+LidarInput::LidarInput(ros::NodeHandle& node, const std::string& topic, const std::string& frame)
+    : scans_(node, topic, mtr_lockstep::kLidar, kScanLagNs), reader_(frame) {}
+
 NodeParameters Node::read(mtr_lockstep::ParameterReader& reader) {
   NodeParameters parameters;
   reader.read_numbers(kRows, parameters.limits);
+  reader.read_numbers(kCollisionRows, parameters.collision);
   reader.read("lock_owners", parameters.lock_owners);
+  reader.read("e_stop_topics", parameters.e_stop_topics);
+  reader.read("rear_lidar", parameters.rear_lidar);
   reader.read("manual_expected", parameters.manual_expected);
   return parameters;
 }
 
 Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
-    : drive_control_(parameters.limits, kPeriodS),
-      locks_(parameters.lock_owners, parameters.limits.lock_timeout_s, mtr_lockstep::lockstep_waiting()),
+    : drive_control_(parameters.limits, parameters.collision, parameters.rear_lidar, kPeriodS),
+      locks_(owners_of(parameters), parameters.limits.lock_timeout_s, mtr_lockstep::lockstep_waiting()),
       ticker_(node, mtr_lockstep::kDriveControl),
       manual_(node, names::kManualVelocity, mtr_lockstep::kControllerInput, mtr_lockstep::kClockStep.period_ns,
               parameters.manual_expected),
       planner_(node, names::kPlannerVelocity, mtr_lockstep::kMotionPlanner),
-      lock_subscriber_(node.subscribe<mtr_msgs::MotionLock>(
-          names::kMotionLock, 50,
-          [this](const mtr_msgs::MotionLock::ConstPtr& message) {
-            const Lock lock{mtr_lockstep::to_ns(message->header.stamp), static_cast<bool>(message->engaged),
-                            message->reason};
-            locks_.take(message->owner, lock);
-          },
-          ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay())),
+      odometry_(node, names::kWheelOdometry, mtr_lockstep::kSensors, 0),
+      peripherals_(node, names::kPeripheralsState, mtr_lockstep::kPeripherals),
+      front_(node, names::kFrontScan, names::kFrontLidar),
+      markers_(node),
       wheels_(node.advertise<geometry_msgs::Twist>(names::kWheelCommand, 10)),
-      status_(node.advertise<mtr_msgs::DriveStatus>(names::kDriveStatus, 10)) {}
+      status_(node.advertise<mtr_msgs::DriveStatus>(names::kDriveStatus, 10)) {
+  if (parameters.rear_lidar) {
+    rear_.emplace(node, names::kRearScan, names::kRearLidar);
+  }
+  listen_to_locks(node, parameters.e_stop_topics);
+  log_limits(parameters);
+}
+
+void Node::listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>& e_stop_topics) {
+  const auto hints = ros::TransportHints().tcpNoDelay();
+  lock_subscribers_.push_back(node.subscribe<mtr_msgs::MotionLock>(
+      names::kMotionLock, 50,
+      [this](const mtr_msgs::MotionLock::ConstPtr& message) {
+        const Lock lock{mtr_lockstep::to_ns(message->header.stamp), static_cast<bool>(message->engaged),
+                        message->reason};
+        locks_.take(message->owner, lock);
+      },
+      ros::VoidConstPtr(), hints));
+  for (const std::string& topic : e_stop_topics) {
+    lock_subscribers_.push_back(node.subscribe<std_msgs::Bool>(
+        topic, 50,
+        [this, topic](const std_msgs::Bool::ConstPtr& message) {
+          const Lock lock{ticker_.now_ns(), static_cast<bool>(message->data), "The emergency stop is pressed."};
+          locks_.take(topic, lock);
+        },
+        ros::VoidConstPtr(), hints));
+  }
+}
 
 void Node::spin() {
   while (const auto tick_ns = ticker_.sleep()) {
@@ -58,6 +103,10 @@ void Node::spin() {
 
 void Node::tick(std::int64_t tick_ns) {
   Inputs inputs;
+  inputs.sensors.front = front_.at(tick_ns);
+  inputs.sensors.rear = rear_ ? rear_->at(tick_ns) : nullptr;
+  inputs.sensors.motion = motion_of(odometry_.at(tick_ns));
+  inputs.key = key_height_of(peripherals_.at(tick_ns));
   inputs.locks = locks_.engaged_at(tick_ns);
   inputs.manual = command_of(manual_.at(tick_ns));
   inputs.planner = command_of(planner_.at(tick_ns));
@@ -70,21 +119,19 @@ void Node::publish(std::int64_t tick_ns, const Decision& decision) {
   wheels.angular.z = decision.velocity.angular_radps;
   wheels_.publish(wheels);
   ticker_.count_message_sent();
+  status_.publish(status_message(tick_ns, decision));
+  markers_.publish(tick_ns, decision, drive_control_);
+  log(decision);
+}
 
-  mtr_msgs::DriveStatus status;
-  status.header.stamp = mtr_lockstep::stamp_of(tick_ns);
-  status.header.frame_id = names::kBase;
-  status.source = decision.source;
-  status.linear_mps = decision.velocity.linear_mps;
-  status.angular_radps = decision.velocity.angular_radps;
-  status.engaged_locks = decision.engaged_locks;
-  status.message = decision.message;
-  status_.publish(status);
-
-  if (decision.message != message_) {
-    message_ = decision.message;
-    ROS_INFO("%s", message_.empty() ? "Free to move." : message_.c_str());
+void Node::log(const Decision& decision) {
+  // While it is blocked the distance in the sentence changes all the time.
+  const bool is_news = decision.zone != zone_ || (decision.zone != Zone::kBlocked && decision.message != message_);
+  if (is_news && decision.message != message_) {
+    ROS_INFO("%s", decision.message.empty() ? "Free to move." : decision.message.c_str());
   }
+  message_ = decision.message;
+  zone_ = decision.zone;
 }
 
 }  // namespace mtr_drive_control

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/parameters.hpp"
 
+#include "mtr_drive_control/collision_parameters.hpp"
+
 namespace mtr_drive_control {
 
 void check(const Parameters& parameters) {
@@ -13,6 +15,12 @@ void check(const Parameters& parameters) {
                             parameters.max_linear_mps / kStandstillWithinS, 10.0, "m/s2");
   mtr_lockstep::check_range("emergency_angular_deceleration_radps2", parameters.emergency_angular_deceleration_radps2,
                             parameters.max_angular_radps / kStandstillWithinS, 20.0, "rad/s2");
+}
+
+void check(const CollisionParameters& parameters) {
+  for (const CollisionRow& row : kCollisionRows) {
+    mtr_lockstep::check_range(row.name, parameters.*(row.member), row.low, row.high, row.unit);
+  }
 }
 
 }  // namespace mtr_drive_control

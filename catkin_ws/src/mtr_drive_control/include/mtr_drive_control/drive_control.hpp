@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mtr_drive_control/collision_stop.hpp"
 #include "mtr_drive_control/motion_locks.hpp"
 #include "mtr_drive_control/parameters.hpp"
 #include "mtr_drive_control/velocity_limiter.hpp"
@@ -22,11 +23,19 @@ struct SourceCommand {
   bool active;
 };
 
+/// Height of the key above ground as the peripherals measured it.
+struct KeyHeight {
+  std::int64_t stamp_ns;
+  double height_m;
+};
+
 /// Everything that is known at a tick.
 struct Inputs {
   std::vector<EngagedLock> locks;
   std::optional<SourceCommand> manual;
   std::optional<SourceCommand> planner;
+  Sensors sensors;
+  std::optional<KeyHeight> key;
 };
 
 /// Velocity to send, and why.
@@ -37,17 +46,25 @@ struct Decision {
   std::vector<std::string> engaged_locks;
   /// One sentence, empty when all is well.
   std::string message;
+  Zone zone = Zone::kClear;
+  std::optional<Hindrance> hindrance;
 };
 
-/// Two stages: choose a source (locks, manual, planner), then limit what it wants.
+/// Three stages: choose a source (locks, manual, planner), reduce what it wants to what is safe, limit its change.
 ///
-/// A lock or a dead source is an emergency stop; a source that ends its wish is braked for at the normal limit.
+/// A lock, a dead source, blindness or a sudden obstacle is an emergency stop; a source that ends its wish is braked
+/// for at the normal limit. Every velocity that is sent is one from which an emergency stop ends before a collision.
 class DriveControl {
  public:
-  DriveControl(const Parameters& parameters, double period_s);
+  DriveControl(const Parameters& parameters, const CollisionParameters& collision, bool has_rear_lidar,
+               double period_s);
 
   /// Decision of this tick, ns of the ROS clock; to be called once per period.
   Decision step(std::int64_t tick_ns, const Inputs& inputs);
+
+  /// For display: the outline, and where it would get when stopped now at the normal limit.
+  const Footprint& footprint() const { return collision_stop_.footprint(); }
+  std::vector<PathPoint> stopping_path_of(const Velocity& velocity) const;
 
  private:
   struct Wish {
@@ -59,8 +76,13 @@ class DriveControl {
 
   Wish choose(std::int64_t tick_ns, const Inputs& inputs) const;
   Wish wish_of(const std::string& source, const std::optional<SourceCommand>& command, std::int64_t tick_ns) const;
+  void adapt_limits(std::int64_t tick_ns, const std::optional<KeyHeight>& key);
+  Deceleration normal_deceleration() const;
+  Velocity pursue(std::int64_t tick_ns, const Wish& wish, Decision& decision);
 
   Parameters parameters_;
+  Parameters limits_;
+  CollisionStop collision_stop_;
   VelocityLimiter limiter_;
 };
 

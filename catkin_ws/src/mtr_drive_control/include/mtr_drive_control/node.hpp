@@ -3,17 +3,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <geometry_msgs/Twist.h>
-#include <mtr_msgs/DriveStatus.h>
 #include <mtr_msgs/MotionLock.h>
-#include <mtr_msgs/VelocityCommand.h>
 #include <ros/ros.h>
+#include <std_msgs/Bool.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "mtr_drive_control/conversions.hpp"
 #include "mtr_drive_control/drive_control.hpp"
+#include "mtr_drive_control/zone_markers.hpp"
 #include "mtr_lockstep/parameter_reader.hpp"
 #include "mtr_lockstep/tick_input.hpp"
 #include "mtr_lockstep/ticker.hpp"
@@ -23,10 +24,26 @@ namespace mtr_drive_control {
 /// Parameters from the parameter server and wishes about the inputs.
 struct NodeParameters {
   Parameters limits;
+  CollisionParameters collision;
   /// Owners whose silence forbids motion.
   std::vector<std::string> lock_owners{"dispatcher", "state_machine"};
+  /// std_msgs/Bool topics, true: stand still; their silence forbids motion too.
+  std::vector<std::string> e_stop_topics;
+  bool rear_lidar = true;
   /// In simulation: a manual controller takes part, so each tick waits for its command.
   bool manual_expected = false;
+};
+
+/// The newest sweep of a LiDAR at a tick.
+class LidarInput {
+ public:
+  LidarInput(ros::NodeHandle& node, const std::string& topic, const std::string& frame);
+
+  std::shared_ptr<const Sweep> at(std::int64_t tick_ns) { return reader_.read(scans_.at(tick_ns)); }
+
+ private:
+  mtr_lockstep::TickInput<sensor_msgs::LaserScan> scans_;
+  SweepReader reader_;
 };
 
 /// Publishes the wheel command and the status at each tick.
@@ -41,18 +58,26 @@ class Node {
   void spin();
 
  private:
+  void listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>& e_stop_topics);
   void tick(std::int64_t tick_ns);
   void publish(std::int64_t tick_ns, const Decision& decision);
+  void log(const Decision& decision);
 
   DriveControl drive_control_;
   MotionLocks locks_;
   mtr_lockstep::Ticker ticker_;
   mtr_lockstep::TickInput<mtr_msgs::VelocityCommand> manual_;
   mtr_lockstep::TickInput<mtr_msgs::VelocityCommand> planner_;
-  ros::Subscriber lock_subscriber_;
+  mtr_lockstep::TickInput<nav_msgs::Odometry> odometry_;
+  mtr_lockstep::TickInput<mtr_msgs::PeripheralsState> peripherals_;
+  LidarInput front_;
+  std::optional<LidarInput> rear_;
+  ZoneMarkers markers_;
+  std::vector<ros::Subscriber> lock_subscribers_;
   ros::Publisher wheels_;
   ros::Publisher status_;
   std::string message_;
+  Zone zone_ = Zone::kClear;
 };
 
 }  // namespace mtr_drive_control

@@ -12,7 +12,7 @@ namespace mtr_drive_control {
 /// A stop ordered by a lock must bring any permitted velocity to zero within this time, in s.
 inline constexpr double kStandstillWithinS = 0.5;
 
-/// Limits of what is sent to the wheels; acceleration limits keep the mast upright.
+/// Limits of what is sent to the wheels; those of acceleration are lowered further by tip_over.hpp.
 struct Parameters {
   double max_linear_mps = 1.5;
   double max_angular_radps = 1.5;
@@ -21,20 +21,32 @@ struct Parameters {
   double angular_acceleration_radps2 = 2.0;
   /// Bound of |linear * angular|.
   double lateral_acceleration_mps2 = 1.0;
-  /// Of stops by a lock or a dead source. 3.0: with the mast raised the wheels lift at 3.2 m/s2 and more (static
-  /// limit g * wheel distance / height of the centre of mass, measured in simulation).
+  /// Of stops by a lock, a dead source or a sudden obstacle.
   double emergency_linear_deceleration_mps2 = 3.0;
   double emergency_angular_deceleration_radps2 = 4.0;
   /// An owner of a motion lock silent for longer counts as engaged; it speaks every 0.1 s.
-  double lock_timeout_s = 0.35;
+  double lock_timeout_s = 0.25;
   /// A source of velocity commands silent for longer is dead; it speaks every 0.04 s.
-  double command_timeout_s = 0.2;
+  double command_timeout_s = 0.14;
+  /// Share of the static tip-over limit that is used. The wheels' springs, the ground and the mast need the rest.
+  double tip_margin = 0.7;
+  /// Height of the centre of mass above ground: this plus the rise times the height of the key. From the masses and
+  /// places of mtr_description's URDF; a unit test compares them.
+  double centre_of_mass_m = 0.2665;
+  double centre_of_mass_rise = 0.0345;
+  /// Horizontal distance of the centre of mass from the line through the wheels' feet, ahead or behind and aside.
+  double tip_lever_along_m = 0.13;
+  double tip_lever_across_m = 0.187;
+  /// Key at the upper stop; taken for true while the peripherals are silent.
+  double key_raised_m = 1.55;
+  /// Age at which the height of the key is unknown; the peripherals speak every 0.1 s.
+  double peripherals_timeout_s = 0.5;
 };
 
 using Row = mtr_lockstep::ParameterRow<Parameters>;
 
 /// Range and unit of each parameter.
-inline constexpr std::array<Row, 10> kRows{{
+inline constexpr std::array<Row, 17> kRows{{
     {"max_linear_mps", &Parameters::max_linear_mps, 0.05, 2.0, "m/s"},
     {"max_angular_radps", &Parameters::max_angular_radps, 0.1, 4.0, "rad/s"},
     {"linear_acceleration_mps2", &Parameters::linear_acceleration_mps2, 0.1, 3.0, "m/s2"},
@@ -45,6 +57,13 @@ inline constexpr std::array<Row, 10> kRows{{
     {"emergency_angular_deceleration_radps2", &Parameters::emergency_angular_deceleration_radps2, 0.2, 20.0, "rad/s2"},
     {"lock_timeout_s", &Parameters::lock_timeout_s, 0.12, 2.0, "s"},
     {"command_timeout_s", &Parameters::command_timeout_s, 0.08, 1.0, "s"},
+    {"tip_margin", &Parameters::tip_margin, 0.1, 0.95, "(ratio)"},
+    {"centre_of_mass_m", &Parameters::centre_of_mass_m, 0.05, 1.5, "m"},
+    {"centre_of_mass_rise", &Parameters::centre_of_mass_rise, 0.0, 0.5, "(ratio)"},
+    {"tip_lever_along_m", &Parameters::tip_lever_along_m, 0.05, 0.5, "m"},
+    {"tip_lever_across_m", &Parameters::tip_lever_across_m, 0.05, 0.5, "m"},
+    {"key_raised_m", &Parameters::key_raised_m, 0.1, 3.0, "m"},
+    {"peripherals_timeout_s", &Parameters::peripherals_timeout_s, 0.2, 5.0, "s"},
 }};
 
 /// Throws ConfigurationError unless each value is in its range and an emergency stop ends within kStandstillWithinS.

@@ -3,34 +3,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "mtr_drive_control/geometry.hpp"
 #include "mtr_drive_control/parameters.hpp"
 
 namespace mtr_drive_control {
 
-/// Velocity of base_link: linear along its x axis, angular about z, counterclockwise.
-struct Velocity {
-  double linear_mps = 0.0;
-  double angular_radps = 0.0;
-
-  bool is_finite() const;
-};
-
-/// Remembers the velocity sent last and moves it towards the wanted one, one period per call.
+/// Remembers the velocity sent last and tells the next one, one period later.
 class VelocityLimiter {
  public:
-  VelocityLimiter(const Parameters& parameters, double period_s) : parameters_(parameters), period_s_(period_s) {}
+  VelocityLimiter(const Parameters& parameters, double period_s) : limits_(parameters), period_s_(period_s) {}
 
-  /// Next velocity on the way to the wanted one, which must be finite. Keeps the curvature of what is too fast.
-  Velocity follow(const Velocity& wanted);
+  /// Limits from now on.
+  void set_limits(const Parameters& limits) { limits_ = limits; }
 
-  /// Next velocity of an emergency stop along the present curve.
-  Velocity stop();
+  /// The wanted velocity, which must be finite, when it is not too fast; else the like on the same circle.
+  Velocity within_limits(const Velocity& wanted) const;
+
+  /// Next velocity on the way to the wanted one, which must be finite.
+  Velocity toward(const Velocity& wanted) const;
+
+  /// Next velocity of an emergency stop along the present circle.
+  Velocity braked() const;
+
+  /// This velocity is sent.
+  void send(const Velocity& velocity) { sent_ = velocity; }
+  const Velocity& sent() const { return sent_; }
 
  private:
-  Velocity within_limits(const Velocity& wanted) const;
   double next_linear(double wanted_mps) const;
 
-  Parameters parameters_;
+  Parameters limits_;
   double period_s_;
   Velocity sent_;
 };

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mtr_drive_control/drive_control.hpp"
+#include "scene.hpp"
 
 namespace mtr_drive_control {
 namespace {
@@ -20,44 +20,51 @@ class DriveControlTest : public ::testing::Test {
     return {stamp_ns, {linear_mps, 0.0}, active};
   }
 
+  /// Step on open ground with a live front LiDAR and a low key.
+  Decision step(const std::vector<EngagedLock>& locks, const std::optional<SourceCommand>& manual,
+                const std::optional<SourceCommand>& planner) {
+    const auto sweep = Scene().sweep(Pose(), kTickNs - 40 * kMs);
+    return control.step(
+        kTickNs, {locks, manual, planner, {sweep, nullptr, Motion{kTickNs, Pose(), {}}}, KeyHeight{kTickNs, 0.35}});
+  }
+
   Decision drive_at_full_speed() {
     Decision decision;
     for (int tick = 0; tick < 100; ++tick) {
-      decision = control.step(kTickNs, {{}, std::nullopt, command(1.5)});
+      decision = step({}, std::nullopt, command(1.5));
     }
     return decision;
   }
 
-  DriveControl control{Parameters{}, 0.02};
+  DriveControl control{Parameters{}, CollisionParameters{}, false, 0.02};
 };
 
 TEST_F(DriveControlTest, PlannerDrivesWhenNothingElseWantsTo) {
-  const Decision decision = control.step(kTickNs, {{}, std::nullopt, command(0.5)});
+  const Decision decision = step({}, std::nullopt, command(0.5));
   EXPECT_EQ(decision.source, "planner");
   EXPECT_GT(decision.velocity.linear_mps, 0.0);
   EXPECT_EQ(decision.message, "");
 }
 
 TEST_F(DriveControlTest, ManualControllerTakesPrecedenceOverThePlanner) {
-  const Decision decision = control.step(kTickNs, {{}, command(-0.5), command(0.5)});
+  const Decision decision = step({}, command(-0.5), command(0.5));
   EXPECT_EQ(decision.source, "manual");
   EXPECT_LT(decision.velocity.linear_mps, 0.0);
 }
 
 TEST_F(DriveControlTest, InactiveManualControllerLeavesTheFloorToThePlanner) {
-  EXPECT_EQ(control.step(kTickNs, {{}, command(-0.5, false), command(0.5)}).source, "planner");
+  EXPECT_EQ(step({}, command(-0.5, false), command(0.5)).source, "planner");
 }
 
 TEST_F(DriveControlTest, ManualControllerSilentWhileDrivingStopsTheRobotAndKeepsThePlannerOut) {
-  const Decision decision = control.step(kTickNs, {{}, command(0.5, true, kTickNs - 220 * kMs), command(0.5)});
+  const Decision decision = step({}, command(0.5, true, kTickNs - 160 * kMs), command(0.5));
   EXPECT_EQ(decision.source, "none");
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
   EXPECT_EQ(decision.message, "The manual controller is silent.");
 }
 
 TEST_F(DriveControlTest, LockStopsEverySourceAndIsNamed) {
-  const Inputs inputs{{{"dispatcher", "The link is silent."}}, command(0.5), command(0.5)};
-  const Decision decision = control.step(kTickNs, inputs);
+  const Decision decision = step({{"dispatcher", "The link is silent."}}, command(0.5), command(0.5));
   EXPECT_EQ(decision.source, "locked");
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
   EXPECT_EQ(decision.engaged_locks, std::vector<std::string>{"dispatcher"});
@@ -68,14 +75,14 @@ TEST_F(DriveControlTest, LockAtFullSpeedIsZeroAfterHalfASecond) {
   ASSERT_DOUBLE_EQ(drive_at_full_speed().velocity.linear_mps, 1.5);
   Decision decision;
   for (int tick = 0; tick < 25; ++tick) {
-    decision = control.step(kTickNs, {{{"dispatcher", "Stop."}}, std::nullopt, command(1.5)});
+    decision = step({{"dispatcher", "Stop."}}, std::nullopt, command(1.5));
   }
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
 }
 
 TEST_F(DriveControlTest, SilentPlannerIsAnEmergencyStop) {
   drive_at_full_speed();
-  const Decision decision = control.step(kTickNs, {{}, std::nullopt, command(1.5, true, kTickNs - 220 * kMs)});
+  const Decision decision = step({}, std::nullopt, command(1.5, true, kTickNs - 160 * kMs));
   EXPECT_EQ(decision.source, "none");
   EXPECT_NEAR(decision.velocity.linear_mps, 1.5 - 3.0 * 0.02, 1e-9);
   EXPECT_EQ(decision.message, "The motion planner is silent.");
@@ -83,30 +90,41 @@ TEST_F(DriveControlTest, SilentPlannerIsAnEmergencyStop) {
 
 TEST_F(DriveControlTest, PlannerWithoutAWishIsBrakedForAtTheNormalLimit) {
   drive_at_full_speed();
-  const Decision decision = control.step(kTickNs, {{}, std::nullopt, command(1.5, false)});
+  const Decision decision = step({}, std::nullopt, command(1.5, false));
   EXPECT_EQ(decision.source, "none");
   EXPECT_NEAR(decision.velocity.linear_mps, 1.5 - 1.5 * 0.02, 1e-9);
   EXPECT_EQ(decision.message, "");
 }
 
 TEST_F(DriveControlTest, NoPlannerYetStandsStillAndSaysSo) {
-  const Decision decision = control.step(kTickNs, {{}, std::nullopt, std::nullopt});
+  const Decision decision = step({}, std::nullopt, std::nullopt);
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
   EXPECT_EQ(decision.message, "Waiting for the motion planner.");
 }
 
 TEST_F(DriveControlTest, WishThatIsNotAFiniteNumberStopsTheRobotWithAMessage) {
   for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    const Decision decision = control.step(kTickNs, {{}, std::nullopt, command(wrong)});
+    const Decision decision = step({}, std::nullopt, command(wrong));
     EXPECT_EQ(decision.velocity.linear_mps, 0.0);
     EXPECT_NE(decision.message, "");
   }
 }
 
+TEST_F(DriveControlTest, UnknownKeyHeightLowersTheSpeedToThatOfTheRaisedKey) {
+  Decision decision;
+  for (int tick = 0; tick < 100; ++tick) {
+    const auto sweep = Scene().sweep(Pose(), kTickNs - 40 * kMs);
+    decision = control.step(
+        kTickNs, {{}, std::nullopt, command(1.5), {sweep, nullptr, Motion{kTickNs, Pose(), {}}}, std::nullopt});
+  }
+  EXPECT_LT(decision.velocity.linear_mps, 1.45);
+  EXPECT_GT(decision.velocity.linear_mps, 1.0);
+}
+
 TEST_F(DriveControlTest, WrongParameterIsRefusedAtConstruction) {
   Parameters parameters;
   parameters.max_linear_mps = -1.0;
-  EXPECT_THROW(DriveControl(parameters, 0.02), mtr_lockstep::ConfigurationError);
+  EXPECT_THROW(DriveControl(parameters, CollisionParameters{}, false, 0.02), mtr_lockstep::ConfigurationError);
 }
 
 }  // namespace

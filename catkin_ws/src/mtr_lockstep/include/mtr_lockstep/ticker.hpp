@@ -36,6 +36,9 @@ class Ticker {
     return clock_.wait_until(tick_ns) ? std::optional<std::int64_t>(tick_ns) : std::nullopt;
   }
 
+  /// Present time in ns of the ROS clock.
+  std::int64_t now_ns() const { return clock_.now_ns(); }
+
   /// The owner calls this with each message that it sends to the simulator.
   void count_message_sent() { ++messages_sent_; }
 

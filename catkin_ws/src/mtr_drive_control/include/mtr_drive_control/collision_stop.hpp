@@ -1,0 +1,97 @@
+/// @file
+/// How much of a wanted velocity is safe: the robot must stop before it touches anything, or anybody touches it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mtr_drive_control/stopping_path.hpp"
+#include "mtr_drive_control/surroundings.hpp"
+
+namespace mtr_drive_control {
+
+/// Numbers of mtr_msgs/DriveStatus.
+enum class Zone : std::uint8_t { kClear = 0, kSlowed = 1, kBlocked = 2, kBlind = 3 };
+
+/// What is in the way.
+struct Hindrance {
+  /// From the footprint to it, now.
+  double distance_m = std::numeric_limits<double>::quiet_NaN();
+  /// In base_link.
+  double bearing_rad = std::numeric_limits<double>::quiet_NaN();
+  bool is_unseen_ground = false;
+};
+
+/// What the collision stop makes of a wish.
+struct Verdict {
+  Velocity velocity;
+  Zone zone = Zone::kClear;
+  std::optional<Hindrance> hindrance;
+  /// One sentence when it forbids motion, else empty.
+  std::string message;
+};
+
+/// What is wanted at a tick.
+struct MotionWish {
+  Velocity velocity;
+  /// By a person who holds the manual controller and sees what no LiDAR sees.
+  bool by_hand = false;
+};
+
+/// Second stage of drive control.
+///
+/// A velocity is safe when the stop from it, along its own circle, ends before the footprint comes nearer to a wide
+/// thing than the gap, and before anything that may be a person could have walked up to the footprint. It is reduced
+/// by the normal deceleration; the emergency one is left for what appears suddenly. After a stop the way must be free
+/// for a pause.
+class CollisionStop {
+ public:
+  CollisionStop(const CollisionParameters& parameters, bool has_rear_lidar);
+
+  /// Takes the readings of a tick; to be called once per tick, first.
+  void look(std::int64_t tick_ns, const Sensors& sensors) { surroundings_.take(tick_ns, sensors); }
+
+  /// Largest part of the wish that is safe when stopped at this deceleration.
+  Verdict judge(std::int64_t tick_ns, const MotionWish& wish, const Deceleration& normal);
+
+  /// True when the velocity is safe when stopped at this deceleration.
+  bool permits(const MotionWish& wish, const Deceleration& deceleration) const {
+    return !hindrance_of(wish, deceleration);
+  }
+
+  /// Nobody wants to move any more.
+  void rest() { blocked_wish_.reset(); }
+
+  const std::string& blindness() const { return surroundings_.blindness(); }
+  const Footprint& footprint() const { return footprint_; }
+  std::vector<PathPoint> stopping_path_of(const Velocity& velocity, const Deceleration& deceleration) const {
+    return stopping_path(velocity, deceleration, parameters_.reaction_s, footprint_.radius_m());
+  }
+
+ private:
+  std::optional<Hindrance> hindrance_of(const MotionWish& wish, const Deceleration& deceleration) const;
+  bool is_in_reach(const Obstacle& obstacle, const MotionWish& wish, const std::vector<PathPoint>& path) const;
+  bool gets_nearer_than(double limit_m, const Point& point, const std::vector<PathPoint>& path) const;
+  bool is_approached_by_person(const Obstacle& obstacle, const std::vector<PathPoint>& path) const;
+  std::optional<Hindrance> unseen_ground(const std::vector<PathPoint>& path) const;
+  Hindrance hindrance_at(const Point& point) const;
+  MotionWish within_sight(const MotionWish& wish) const;
+  double safe_share(const MotionWish& wish, const Deceleration& normal) const;
+  Verdict blocked(std::int64_t tick_ns, const MotionWish& wish, const std::optional<Hindrance>& hindrance);
+  bool is_pausing(std::int64_t tick_ns) const;
+
+  CollisionParameters parameters_;
+  Footprint footprint_;
+  Surroundings surroundings_;
+  /// Direction of the wish that was stopped for an obstacle, until the way has been free for the pause.
+  std::optional<MotionWish> blocked_wish_;
+  std::int64_t last_blocked_ns_ = 0;
+};
+
+/// "Blocked by an obstacle 0.6 m ahead." and the like.
+std::string sentence_about(const Hindrance& hindrance);
+
+}  // namespace mtr_drive_control

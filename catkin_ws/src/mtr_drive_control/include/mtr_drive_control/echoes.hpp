@@ -1,0 +1,76 @@
+/// @file
+/// From a sweep to the echoes that count: neither the robot itself nor rain, and whether they may be a person.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "mtr_drive_control/geometry.hpp"
+#include "mtr_drive_control/sweep.hpp"
+
+namespace mtr_drive_control {
+
+/// Where a LiDAR is mounted, upright, in base_link.
+struct LidarMount {
+  double x_m;
+  double y_m;
+  double yaw_rad;
+
+  Point in_base(double range_m, double angle_rad) const {
+    return {x_m + range_m * std::cos(yaw_rad + angle_rad), y_m + range_m * std::sin(yaw_rad + angle_rad)};
+  }
+};
+
+/// One echo in odom.
+struct Echo {
+  Point point;
+  std::int64_t stamp_ns;
+  /// Part of a surface wider than a person, which does not walk: Car, wall.
+  bool is_wide;
+};
+
+/// Motion of the base about a moment, from the wheels' odometry.
+struct Motion {
+  std::int64_t stamp_ns;
+  Pose odom_from_base;
+  Velocity velocity;
+
+  Pose at(std::int64_t time_ns) const {
+    return odom_from_base.after(velocity, static_cast<double>(time_ns - stamp_ns) * 1e-9);
+  }
+};
+
+/// Turns the sweeps of one LiDAR into echoes.
+///
+/// Neighbouring echoes form a cluster. One of few beams counts only when it stays in its place for some sweeps: a
+/// raindrop does not, a thin post does; a leg has more beams and counts at once.
+class EchoFinder {
+ public:
+  EchoFinder(const LidarMount& mount, const Footprint& footprint) : mount_(mount), footprint_(footprint) {}
+
+  /// Echoes of the next sweep nearer than max_range_m.
+  std::vector<Echo> find(const Sweep& sweep, const Motion& motion, double max_range_m);
+
+  const LidarMount& mount() const { return mount_; }
+
+ private:
+  struct Hit {
+    std::size_t beam;
+    Point in_base;
+    double range_m;
+    int cluster;
+  };
+  struct Small {
+    Point point;
+    int sweeps_seen;
+  };
+
+  std::vector<Hit> hits_of(const Sweep& sweep, double max_range_m) const;
+  int sweeps_seen(const Point& point) const;
+
+  LidarMount mount_;
+  Footprint footprint_;
+  std::vector<Small> small_;
+};
+
+}  // namespace mtr_drive_control

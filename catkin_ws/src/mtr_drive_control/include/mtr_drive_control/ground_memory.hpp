@@ -1,0 +1,65 @@
+/// @file
+/// What was seen of the ground near the robot, and when: a grid in odom that travels with the robot.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mtr_drive_control/echoes.hpp"
+
+namespace mtr_drive_control {
+
+/// A thing that was seen and has been neither seen again nor seen gone.
+struct LostThing {
+  /// In odom.
+  Point point;
+  std::int64_t seen_ns;
+  /// It had not been in its place for long: a person who walks.
+  bool was_moving;
+};
+
+/// Remembers per cell when it was last seen free and when something was last seen there.
+class GroundMemory {
+ public:
+  GroundMemory();
+
+  /// The ground under the footprint is free.
+  void stand(const Footprint& footprint, const Motion& motion);
+
+  /// Beams of a sweep: free up to their echo.
+  void look(const Sweep& sweep, const LidarMount& mount, const Motion& motion);
+
+  /// Echoes that count, of the same sweep.
+  void remember(const std::vector<Echo>& echoes, const Motion& motion);
+
+  /// True when something wide was seen in this place and has not gone since.
+  bool was_wide(const Point& point) const;
+
+  /// True when something has been in this place for so long that it stands.
+  bool has_stood(const Point& point) const;
+
+  /// True when this ground was seen free not longer ago, and nothing was seen there since.
+  bool was_free(const Point& point, std::int64_t now_ns, double max_age_s) const;
+
+  /// Things that went out of view not longer ago.
+  std::vector<LostThing> lost_things(std::int64_t now_ns, double max_age_s) const;
+
+ private:
+  struct Cell {
+    int column = 0;
+    int row = 0;
+    std::int64_t free_ns = 0;
+    std::int64_t hit_ns = 0;
+    std::int64_t since_ns = 0;
+    bool is_wide = false;
+  };
+
+  Cell& cell_at(const Point& point);
+  const Cell* find(int column, int row) const;
+  void see_free(const Point& point, std::int64_t stamp_ns);
+
+  std::vector<Cell> cells_;
+};
+
+}  // namespace mtr_drive_control

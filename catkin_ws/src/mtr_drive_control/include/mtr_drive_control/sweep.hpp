@@ -1,0 +1,59 @@
+/// @file
+/// One turn of a LiDAR, and what a look at it alone tells.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mtr_drive_control/geometry.hpp"
+
+namespace mtr_drive_control {
+
+/// Ranges in m by angle in the LiDAR's frame; REP-117: +inf nothing in reach, -inf too near, NaN no measurement.
+struct Sweep {
+  /// Time of the first beam.
+  std::int64_t stamp_ns;
+  double angle_min_rad;
+  double angle_increment_rad;
+  double time_increment_s;
+  double range_min_m;
+  double range_max_m;
+  std::vector<float> ranges_m;
+  /// Frame that the LiDAR names, and the one that it should.
+  std::string frame_id;
+  std::string expected_frame_id;
+
+  double angle_of(std::size_t beam) const { return angle_min_rad + angle_increment_rad * static_cast<double>(beam); }
+  bool is_echo(std::size_t beam) const { return ranges_m[beam] >= range_min_m && ranges_m[beam] <= range_max_m; }
+  /// Nothing in reach: the way of the beam is free.
+  bool is_far(std::size_t beam) const { return ranges_m[beam] > range_max_m; }
+};
+
+/// Why the sweep cannot be used, as the end of a sentence about the LiDAR; empty when it can.
+std::string defect_of(const Sweep& sweep);
+
+/// Notices a LiDAR that is silent, frozen or covered.
+class LidarWatch {
+ public:
+  LidarWatch(std::string name, double timeout_s) : name_(std::move(name)), timeout_s_(timeout_s) {}
+
+  /// Newest sweep at a tick, null before the first; true when it is new and fit for use.
+  bool take(const std::shared_ptr<const Sweep>& sweep);
+
+  /// One sentence when it sees nothing now, else empty.
+  std::string problem_at(std::int64_t tick_ns) const;
+
+ private:
+  bool repeats(const Sweep& sweep) const;
+
+  std::string name_;
+  double timeout_s_;
+  std::shared_ptr<const Sweep> newest_;
+  std::string defect_;
+  int repetitions_ = 0;
+};
+
+}  // namespace mtr_drive_control

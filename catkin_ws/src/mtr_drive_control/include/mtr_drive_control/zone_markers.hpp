@@ -1,0 +1,26 @@
+/// @file
+/// The stopping zone as a marker for rviz.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/ros.h>
+
+#include <cstdint>
+
+#include "mtr_drive_control/drive_control.hpp"
+
+namespace mtr_drive_control {
+
+/// Draws the footprint's outlines on the way to a stop, coloured by the zone's state, five times a second while
+/// anybody looks.
+class ZoneMarkers {
+ public:
+  explicit ZoneMarkers(ros::NodeHandle& node);
+
+  void publish(std::int64_t tick_ns, const Decision& decision, const DriveControl& drive_control);
+
+ private:
+  ros::Publisher publisher_;
+};
+
+}  // namespace mtr_drive_control

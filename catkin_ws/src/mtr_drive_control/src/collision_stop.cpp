@@ -1,0 +1,177 @@
+/// @file
+/// The zone that must be free, and what happens when it is not.
+// SPDX-License-Identifier: Apache-2.0
+#include "mtr_drive_control/collision_stop.hpp"
+
+#include <cstdio>
+
+namespace mtr_drive_control {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kHalvings = 8;
+// A smaller share of a wish is a stop, and not a motion that anybody wants.
+constexpr double kLeastShare = 0.05;
+// Rounding is no approach; anything more would let the robot creep nearer tick by tick.
+constexpr double kRoundingM = 1e-9;
+constexpr double kRearStepM = 0.05;
+
+}  // namespace
+
+CollisionStop::CollisionStop(const CollisionParameters& parameters, bool has_rear_lidar)
+    : parameters_(parameters),
+      footprint_{parameters.front_m, parameters.rear_m, parameters.half_width_m},
+      surroundings_(parameters, has_rear_lidar) {
+  check(parameters);
+}
+
+Verdict CollisionStop::judge(std::int64_t tick_ns, const MotionWish& wish, const Deceleration& normal) {
+  if (!blindness().empty()) {
+    if (!wish.velocity.is_zero()) {
+      blocked_wish_ = wish;
+      last_blocked_ns_ = tick_ns;
+    }
+    return {{}, Zone::kBlind, std::nullopt, blindness()};
+  }
+  // A planner that stops for the obstacle must not thereby make the way free.
+  const MotionWish tried = within_sight(wish.velocity.is_zero() && blocked_wish_ ? *blocked_wish_ : wish);
+  const std::optional<Hindrance> hindrance = hindrance_of(tried, normal);
+  const double share = hindrance ? safe_share(tried, normal) : 1.0;
+  if (share < kLeastShare) {
+    return blocked(tick_ns, tried, hindrance);
+  }
+  if (is_pausing(tick_ns)) {
+    return {
+        {}, Zone::kBlocked, hindrance, hindrance ? sentence_about(*hindrance) : "Waits a moment before it goes on."};
+  }
+  blocked_wish_.reset();
+  if (wish.velocity.is_zero()) {
+    return {};
+  }
+  return {tried.velocity.scaled(share), hindrance ? Zone::kSlowed : Zone::kClear, hindrance, ""};
+}
+
+Verdict CollisionStop::blocked(std::int64_t tick_ns, const MotionWish& wish,
+                               const std::optional<Hindrance>& hindrance) {
+  blocked_wish_ = wish;
+  last_blocked_ns_ = tick_ns;
+  return {{}, Zone::kBlocked, hindrance, sentence_about(*hindrance)};
+}
+
+bool CollisionStop::is_pausing(std::int64_t tick_ns) const {
+  return blocked_wish_ && static_cast<double>(tick_ns - last_blocked_ns_) * 1e-9 < parameters_.resume_pause_s;
+}
+
+MotionWish CollisionStop::within_sight(const MotionWish& wish) const {
+  const double speed_mps = -wish.velocity.linear_mps;
+  if (surroundings_.watches_rear() || speed_mps <= parameters_.unwatched_reverse_mps) {
+    return wish;
+  }
+  return {wish.velocity.scaled(parameters_.unwatched_reverse_mps / speed_mps), wish.by_hand};
+}
+
+double CollisionStop::safe_share(const MotionWish& wish, const Deceleration& normal) const {
+  double safe = 0.0;
+  double unsafe = 1.0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double share = 0.5 * (safe + unsafe);
+    (permits({wish.velocity.scaled(share), wish.by_hand}, normal) ? safe : unsafe) = share;
+  }
+  return safe;
+}
+
+std::optional<Hindrance> CollisionStop::hindrance_of(const MotionWish& wish, const Deceleration& deceleration) const {
+  if (wish.velocity.is_zero()) {
+    return std::nullopt;
+  }
+  const std::vector<PathPoint> path = stopping_path_of(wish.velocity, deceleration);
+  const Obstacle* nearest = nullptr;
+  double nearest_m = 0.0;
+  for (const Obstacle& obstacle : surroundings_.obstacles()) {
+    const double now_m = footprint_.distance_to(obstacle.point);
+    if ((nearest == nullptr || now_m < nearest_m) && is_in_reach(obstacle, wish, path)) {
+      nearest = &obstacle;
+      nearest_m = now_m;
+    }
+  }
+  if (nearest != nullptr) {
+    return hindrance_at(nearest->point);
+  }
+  const bool unwatched = !surroundings_.watches_rear() && !wish.by_hand && wish.velocity.linear_mps < 0.0;
+  return unwatched ? unseen_ground(path) : std::nullopt;
+}
+
+bool CollisionStop::is_in_reach(const Obstacle& obstacle, const MotionWish& wish,
+                                const std::vector<PathPoint>& path) const {
+  switch (obstacle.kind) {
+    case Kind::kWide:
+      return gets_nearer_than(parameters_.gap_m, obstacle.point, path);
+    case Kind::kThing:
+      return is_approached_by_person(obstacle, path);
+    case Kind::kLost:
+      return wish.velocity.linear_mps < 0.0 && !wish.by_hand && is_approached_by_person(obstacle, path);
+    case Kind::kStanding: {
+      const double corner_mps =
+          std::abs(wish.velocity.linear_mps) + std::abs(wish.velocity.angular_radps) * footprint_.radius_m();
+      const bool creeps = corner_mps <= parameters_.creep_mps + 1e-9;
+      return is_approached_by_person(obstacle, path) &&
+             !(creeps && !gets_nearer_than(parameters_.person_reach_m, obstacle.point, path));
+    }
+  }
+  return true;
+}
+
+bool CollisionStop::gets_nearer_than(double limit_m, const Point& point, const std::vector<PathPoint>& path) const {
+  // What is nearer already may be left, not approached.
+  const double allowed_m = std::min(limit_m, footprint_.distance_to(point) - kRoundingM);
+  for (const PathPoint& then : path) {
+    if (footprint_.distance_to(then.pose.undo(point)) < allowed_m) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool CollisionStop::is_approached_by_person(const Obstacle& obstacle, const std::vector<PathPoint>& path) const {
+  for (const PathPoint& then : path) {
+    const double walked_m = parameters_.person_speed_mps * (obstacle.age_s + then.time_s);
+    if (footprint_.distance_to(then.pose.undo(obstacle.point)) < parameters_.person_reach_m + walked_m) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<Hindrance> CollisionStop::unseen_ground(const std::vector<PathPoint>& path) const {
+  for (const PathPoint& then : path) {
+    for (double y = -footprint_.half_width_m; y <= footprint_.half_width_m; y += kRearStepM) {
+      const Point rear = then.pose.apply({-footprint_.rear_m, y});
+      if (footprint_.distance_to(rear) > kRoundingM && !surroundings_.was_free(rear)) {
+        Hindrance hindrance = hindrance_at(rear);
+        hindrance.is_unseen_ground = true;
+        return hindrance;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+Hindrance CollisionStop::hindrance_at(const Point& point) const {
+  return {footprint_.distance_to(point), std::atan2(point.y_m, point.x_m), false};
+}
+
+std::string sentence_about(const Hindrance& hindrance) {
+  if (hindrance.is_unseen_ground) {
+    return "Blocked by ground behind that has not been seen free for some time.";
+  }
+  const double bearing = std::abs(hindrance.bearing_rad);
+  const char* side = bearing < kPi / 4.0           ? "ahead"
+                     : bearing > 3.0 * kPi / 4.0   ? "behind"
+                     : hindrance.bearing_rad > 0.0 ? "on the left"
+                                                   : "on the right";
+  char text[64];
+  std::snprintf(text, sizeof(text), "Blocked by an obstacle %.1f m %s.", hindrance.distance_m, side);
+  return text;
+}
+
+}  // namespace mtr_drive_control

@@ -1,0 +1,74 @@
+/// @file
+/// ROS messages to plain types and back.
+// SPDX-License-Identifier: Apache-2.0
+#include "mtr_drive_control/conversions.hpp"
+
+#include <cmath>
+
+#include "mtr_lockstep/clock.hpp"
+#include "mtr_lockstep/names.hpp"
+
+namespace mtr_drive_control {
+namespace {
+
+using mtr_lockstep::to_ns;
+
+}  // namespace
+
+std::optional<SourceCommand> command_of(const mtr_msgs::VelocityCommand::ConstPtr& message) {
+  if (!message) {
+    return std::nullopt;
+  }
+  return SourceCommand{
+      to_ns(message->header.stamp), {message->linear_mps, message->angular_radps}, static_cast<bool>(message->active)};
+}
+
+std::optional<Motion> motion_of(const nav_msgs::Odometry::ConstPtr& message) {
+  if (!message) {
+    return std::nullopt;
+  }
+  const auto& position = message->pose.pose.position;
+  const auto& turn = message->pose.pose.orientation;
+  const double heading =
+      std::atan2(2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y * turn.y + turn.z * turn.z));
+  const Velocity velocity{message->twist.twist.linear.x, message->twist.twist.angular.z};
+  if (!std::isfinite(position.x + position.y + heading) || !velocity.is_finite()) {
+    return std::nullopt;
+  }
+  return Motion{to_ns(message->header.stamp), Pose(position.x, position.y, heading), velocity};
+}
+
+std::optional<KeyHeight> key_height_of(const mtr_msgs::PeripheralsState::ConstPtr& message) {
+  if (!message || !message->alive) {
+    return std::nullopt;
+  }
+  return KeyHeight{to_ns(message->header.stamp), message->key_height_m};
+}
+
+mtr_msgs::DriveStatus status_message(std::int64_t tick_ns, const Decision& decision) {
+  mtr_msgs::DriveStatus status;
+  status.header.stamp = mtr_lockstep::stamp_of(tick_ns);
+  status.header.frame_id = mtr_lockstep::names::kBase;
+  status.source = decision.source;
+  status.linear_mps = decision.velocity.linear_mps;
+  status.angular_radps = decision.velocity.angular_radps;
+  status.engaged_locks = decision.engaged_locks;
+  status.message = decision.message;
+  status.zone = static_cast<std::uint8_t>(decision.zone);
+  const Hindrance hindrance = decision.hindrance.value_or(Hindrance{});
+  status.obstacle_m = hindrance.distance_m;
+  status.obstacle_bearing = hindrance.bearing_rad;
+  return status;
+}
+
+std::shared_ptr<const Sweep> SweepReader::read(const sensor_msgs::LaserScan::ConstPtr& message) {
+  if (message && message != message_) {
+    message_ = message;
+    sweep_ = std::make_shared<const Sweep>(
+        Sweep{to_ns(message->header.stamp), message->angle_min, message->angle_increment, message->time_increment,
+              message->range_min, message->range_max, message->ranges, message->header.frame_id, frame_});
+  }
+  return sweep_;
+}
+
+}  // namespace mtr_drive_control

@@ -1,0 +1,91 @@
+/// @file
+/// Sweeps and odometry to obstacles in base_link.
+// SPDX-License-Identifier: Apache-2.0
+#include "mtr_drive_control/surroundings.hpp"
+
+namespace mtr_drive_control {
+namespace {
+
+// Farther than any stop and any person's way during it.
+constexpr double kRangeOfInterestM = 4.0;
+// A person out of view for longer may be anywhere; then only the memory of the ground counts.
+constexpr double kLostPersonS = 3.0;
+
+double age_s(std::int64_t now_ns, std::int64_t stamp_ns) { return static_cast<double>(now_ns - stamp_ns) * 1e-9; }
+
+}  // namespace
+
+Surroundings::Surroundings(const CollisionParameters& parameters, bool has_rear_lidar)
+    : parameters_(parameters),
+      footprint_{parameters.front_m, parameters.rear_m, parameters.half_width_m},
+      watches_rear_(has_rear_lidar) {
+  const LidarMount front{parameters.front_lidar_x_m, 0.0, parameters.front_lidar_yaw_rad};
+  lidars_.push_back({LidarWatch("front LiDAR", parameters.lidar_timeout_s), EchoFinder(front, footprint_), {}});
+  if (has_rear_lidar) {
+    const LidarMount rear{parameters.rear_lidar_x_m, 0.0, parameters.rear_lidar_yaw_rad};
+    lidars_.push_back({LidarWatch("rear LiDAR", parameters.lidar_timeout_s), EchoFinder(rear, footprint_), {}});
+  }
+}
+
+void Surroundings::take(std::int64_t tick_ns, const Sensors& sensors) {
+  tick_ns_ = tick_ns;
+  motion_ = sensors.motion;
+  look(lidars_.front(), sensors.front);
+  if (watches_rear_) {
+    look(lidars_.back(), sensors.rear);
+  }
+  blindness_ = blindness_at(tick_ns);
+  obstacles_.clear();
+  if (motion_) {
+    odom_from_base_ = motion_->at(tick_ns);
+    ground_.stand(footprint_, *motion_);
+    find_obstacles();
+  }
+}
+
+bool Surroundings::was_free(const Point& point) const {
+  return ground_.was_free(odom_from_base_.apply(point), tick_ns_, parameters_.ground_memory_s);
+}
+
+void Surroundings::look(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep) {
+  if (lidar.watch.take(sweep) && motion_) {
+    lidar.echoes = lidar.finder.find(*sweep, *motion_, kRangeOfInterestM);
+    ground_.look(*sweep, lidar.finder.mount(), *motion_);
+    ground_.remember(lidar.echoes, *motion_);
+  }
+}
+
+std::string Surroundings::blindness_at(std::int64_t tick_ns) const {
+  for (const Lidar& lidar : lidars_) {
+    const std::string problem = lidar.watch.problem_at(tick_ns);
+    if (!problem.empty()) {
+      return problem;
+    }
+  }
+  if (!motion_) {
+    return "Waiting for the wheels' odometry.";
+  }
+  return std::abs(age_s(tick_ns, motion_->stamp_ns)) > parameters_.odometry_timeout_s
+             ? "The wheels' odometry is silent."
+             : "";
+}
+
+void Surroundings::find_obstacles() {
+  for (const Lidar& lidar : lidars_) {
+    for (const Echo& echo : lidar.echoes) {
+      const Kind kind = echo.is_wide || ground_.was_wide(echo.point) ? Kind::kWide
+                        : ground_.has_stood(echo.point)              ? Kind::kStanding
+                                                                     : Kind::kThing;
+      obstacles_.push_back({odom_from_base_.undo(echo.point), age_s(tick_ns_, echo.stamp_ns), kind});
+    }
+  }
+  if (!watches_rear_) {
+    for (const LostThing& thing : ground_.lost_things(tick_ns_, kLostPersonS)) {
+      if (thing.was_moving) {
+        obstacles_.push_back({odom_from_base_.undo(thing.point), age_s(tick_ns_, thing.seen_ns), Kind::kLost});
+      }
+    }
+  }
+}
+
+}  // namespace mtr_drive_control

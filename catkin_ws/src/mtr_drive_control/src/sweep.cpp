@@ -1,0 +1,78 @@
+/// @file
+/// Faults of a LiDAR that show in its sweeps.
+// SPDX-License-Identifier: Apache-2.0
+#include "mtr_drive_control/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mtr_drive_control {
+namespace {
+
+// Noise changes some range of a live LiDAR with every sweep, unless hardly anything is in reach.
+constexpr int kFrozenAfterRepetitions = 2;
+constexpr std::ptrdiff_t kFewestEchoesToTell = 10;
+// A hand, mud or a wrong driver on so much of the view is no view.
+constexpr double kCoveredShare = 0.5;
+
+}  // namespace
+
+std::string defect_of(const Sweep& sweep) {
+  if (sweep.frame_id != sweep.expected_frame_id) {
+    return "speaks of frame '" + sweep.frame_id + "' and not of '" + sweep.expected_frame_id + "'";
+  }
+  if (sweep.ranges_m.size() < 2) {
+    return "sends sweeps without beams";
+  }
+  if (!std::isfinite(sweep.angle_min_rad) || !(std::abs(sweep.angle_increment_rad) > 0.0) ||
+      !std::isfinite(sweep.angle_increment_rad) || !std::isfinite(sweep.time_increment_s)) {
+    return "sends sweeps whose angles or times are not numbers";
+  }
+  if (!(sweep.range_min_m >= 0.0) || !(sweep.range_max_m > sweep.range_min_m)) {
+    return "sends sweeps without a range of measurement";
+  }
+  std::size_t seeing = 0;
+  for (std::size_t beam = 0; beam < sweep.ranges_m.size(); ++beam) {
+    seeing += sweep.is_echo(beam) || sweep.is_far(beam) ? 1 : 0;
+  }
+  const double covered = 1.0 - static_cast<double>(seeing) / static_cast<double>(sweep.ranges_m.size());
+  return covered > kCoveredShare ? "is covered" : "";
+}
+
+bool LidarWatch::take(const std::shared_ptr<const Sweep>& sweep) {
+  if (!sweep || (newest_ && sweep->stamp_ns == newest_->stamp_ns)) {
+    return false;
+  }
+  repetitions_ = newest_ && repeats(*sweep) ? repetitions_ + 1 : 0;
+  newest_ = sweep;
+  defect_ = defect_of(*sweep);
+  if (defect_.empty() && repetitions_ >= kFrozenAfterRepetitions) {
+    defect_ = "is frozen: it repeats the same sweep";
+  }
+  return defect_.empty();
+}
+
+std::string LidarWatch::problem_at(std::int64_t tick_ns) const {
+  if (!newest_) {
+    return "Waiting for the " + name_ + ".";
+  }
+  const double age_s = static_cast<double>(tick_ns - newest_->stamp_ns) * 1e-9;
+  if (age_s > timeout_s_) {
+    return "The " + name_ + " is silent.";
+  }
+  if (age_s < -timeout_s_) {
+    return "The " + name_ + " sends sweeps from the future.";
+  }
+  return defect_.empty() ? "" : "The " + name_ + " " + defect_ + ".";
+}
+
+bool LidarWatch::repeats(const Sweep& sweep) const {
+  const auto& ranges = sweep.ranges_m;
+  const auto echoes = std::count_if(ranges.begin(), ranges.end(), [](float range) { return std::isfinite(range); });
+  // NaN is equal to nothing, so a repeated sweep may hold it at the same beams.
+  return echoes >= kFewestEchoesToTell &&
+         std::equal(ranges.begin(), ranges.end(), newest_->ranges_m.begin(), newest_->ranges_m.end(),
+                    [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); });
+}
+
+}  // namespace mtr_drive_control

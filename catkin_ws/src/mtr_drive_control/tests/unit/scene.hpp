@@ -1,0 +1,167 @@
+/// @file
+/// A flat world for tests: round things and walls, seen by the robot's LiDARs, and a robot that obeys exactly.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "mtr_drive_control/drive_control.hpp"
+
+namespace mtr_drive_control {
+
+constexpr std::int64_t kTestMs = 1'000'000;
+constexpr std::int64_t kTestPeriodNs = 20 * kTestMs;
+constexpr std::int64_t kTestSweepNs = 40 * kTestMs;
+constexpr double kTestPi = 3.14159265358979323846;
+
+/// Upright cylinder in world.
+struct Disc {
+  Point centre;
+  double radius_m;
+};
+
+/// Thin wall in world.
+struct Wall {
+  Point start;
+  Point end;
+};
+
+class Scene {
+ public:
+  std::vector<Disc> discs;
+  std::vector<Wall> walls;
+  /// Single echoes in front of whatever is there: range by beam.
+  std::vector<std::pair<std::size_t, double>> raindrops;
+  std::size_t beams = 720;
+  double noise_m = 0.005;
+
+  /// What a LiDAR at this pose in world sees.
+  std::shared_ptr<Sweep> sweep(const Pose& world_from_lidar, std::int64_t stamp_ns) const {
+    auto seen = std::make_shared<Sweep>(
+        Sweep{stamp_ns, -0.75 * kTestPi, 1.5 * kTestPi / static_cast<double>(beams - 1), 0.0, 0.1, 30.0, {}, "", ""});
+    for (std::size_t beam = 0; beam < beams; ++beam) {
+      const Point start = world_from_lidar.position();
+      const double angle = seen->angle_of(beam);
+      const Point ahead = world_from_lidar.apply({std::cos(angle), std::sin(angle)});
+      const double range = nearest(start, {ahead.x_m - start.x_m, ahead.y_m - start.y_m});
+      // A different sweep each time, as a live LiDAR's.
+      const double noise = noise_m * std::sin(static_cast<double>(beam * 7919 + (stamp_ns / kTestMs) * 104729));
+      seen->ranges_m.push_back(static_cast<float>(range + noise));
+    }
+    for (const auto& [beam, range] : raindrops) {
+      seen->ranges_m[beam] = static_cast<float>(range);
+    }
+    return seen;
+  }
+
+  /// Distance of the footprint at this pose from what is nearest.
+  double clearance(const Footprint& footprint, const Pose& world_from_base) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Disc& disc : discs) {
+      least = std::min(least, footprint.distance_to(world_from_base.undo(disc.centre)) - disc.radius_m);
+    }
+    for (const Wall& wall : walls) {
+      for (int i = 0; i <= 200; ++i) {
+        const double share = i / 200.0;
+        const Point point{wall.start.x_m + share * (wall.end.x_m - wall.start.x_m),
+                          wall.start.y_m + share * (wall.end.y_m - wall.start.y_m)};
+        least = std::min(least, footprint.distance_to(world_from_base.undo(point)));
+      }
+    }
+    return least;
+  }
+
+ private:
+  double nearest(const Point& start, const Point& way) const {
+    double range = std::numeric_limits<double>::infinity();
+    for (const Disc& disc : discs) {
+      const double dx = disc.centre.x_m - start.x_m;
+      const double dy = disc.centre.y_m - start.y_m;
+      const double along = dx * way.x_m + dy * way.y_m;
+      const double aside = dx * way.y_m - dy * way.x_m;
+      if (along > 0.0 && std::abs(aside) < disc.radius_m) {
+        range = std::min(range, along - std::sqrt(disc.radius_m * disc.radius_m - aside * aside));
+      }
+    }
+    for (const Wall& wall : walls) {
+      const Point side{wall.end.x_m - wall.start.x_m, wall.end.y_m - wall.start.y_m};
+      const double cross = way.x_m * side.y_m - way.y_m * side.x_m;
+      const double dx = wall.start.x_m - start.x_m;
+      const double dy = wall.start.y_m - start.y_m;
+      const double along = (dx * side.y_m - dy * side.x_m) / cross;
+      const double share = (dx * way.y_m - dy * way.x_m) / cross;
+      if (along > 0.0 && share >= 0.0 && share <= 1.0) {
+        range = std::min(range, along);
+      }
+    }
+    return range;
+  }
+};
+
+/// Drive control in a scene, with a planner that wants one velocity.
+class TestRobot {
+ public:
+  explicit TestRobot(bool has_rear_lidar = true, const Parameters& parameters = Parameters{})
+      : control(parameters, collision, has_rear_lidar, 0.02), has_rear_lidar_(has_rear_lidar) {}
+
+  /// One tick with this wish.
+  Decision step(const Velocity& wish, bool by_hand = false) {
+    world_from_base = world_from_base.after(velocity, 0.02);
+    now_ns += kTestPeriodNs;
+    if (now_ns % kTestSweepNs == 0 && !lidars_are_silent) {
+      look();
+    }
+    Inputs inputs;
+    const SourceCommand command{now_ns - kTestPeriodNs, wish, true};
+    (by_hand ? inputs.manual : inputs.planner) = command;
+    inputs.sensors = {front_, rear_, Motion{now_ns, world_from_base, velocity}};
+    inputs.key = KeyHeight{now_ns, 0.35};
+    const Decision decision = control.step(now_ns, inputs);
+    velocity = decision.velocity;
+    return decision;
+  }
+
+  /// Lets it look around once before it drives.
+  void settle() { drive({}, 0.1); }
+
+  /// Ticks with the same wish; the last decision.
+  Decision drive(const Velocity& wish, double duration_s, bool by_hand = false) {
+    Decision decision;
+    for (int tick = 0; tick < std::lround(duration_s / 0.02); ++tick) {
+      decision = step(wish, by_hand);
+    }
+    return decision;
+  }
+
+  double clearance() const { return scene.clearance(control.footprint(), world_from_base); }
+
+  CollisionParameters collision;
+  Scene scene;
+  DriveControl control;
+  Pose world_from_base;
+  Velocity velocity;
+  bool lidars_are_silent = false;
+  std::int64_t now_ns = 5'000'000'000;
+
+ private:
+  // The sweep that has just ended, as seen when it ended.
+  void look() {
+    front_ = scene.sweep(lidar_pose(collision.front_lidar_x_m, 0.0), now_ns - kTestSweepNs);
+    rear_ =
+        has_rear_lidar_ ? scene.sweep(lidar_pose(collision.rear_lidar_x_m, kTestPi), now_ns - kTestSweepNs) : nullptr;
+  }
+
+  Pose lidar_pose(double x_m, double yaw_rad) const {
+    const Point at = world_from_base.apply({x_m, 0.0});
+    return {at.x_m, at.y_m, world_from_base.heading_rad() + yaw_rad};
+  }
+
+  bool has_rear_lidar_;
+  std::shared_ptr<const Sweep> front_;
+  std::shared_ptr<const Sweep> rear_;
+};
+
+}  // namespace mtr_drive_control

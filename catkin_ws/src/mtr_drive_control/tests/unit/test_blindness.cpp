@@ -1,0 +1,163 @@
+/// @file
+/// LiDARs that see nothing, odometry that is silent, and ground that nobody watches.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "scene.hpp"
+
+namespace mtr_drive_control {
+namespace {
+
+Scene lot() {
+  Scene scene;
+  scene.noise_m = 0.01;
+  scene.walls = {{{-9.0, -9.0}, {9.0, -9.0}}, {{-9.0, 9.0}, {9.0, 9.0}}};
+  return scene;
+}
+
+LidarWatch watch() { return {"front LiDAR", 0.14}; }
+
+std::shared_ptr<Sweep> sweep_at(std::int64_t stamp_ns) { return lot().sweep(Pose(), stamp_ns); }
+
+TEST(LidarWatch, LiveLidarHasNoProblem) {
+  LidarWatch lidar = watch();
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_TRUE(lidar.take(sweep_at(i * kTestSweepNs)));
+  }
+  EXPECT_EQ(lidar.problem_at(4 * kTestSweepNs + 60 * kTestMs), "");
+}
+
+TEST(LidarWatch, LidarNeverHeardIsWaitedFor) { EXPECT_EQ(watch().problem_at(0), "Waiting for the front LiDAR."); }
+
+TEST(LidarWatch, SilentLidarIsNamedAfterTheTimeout) {
+  LidarWatch lidar = watch();
+  lidar.take(sweep_at(0));
+  EXPECT_EQ(lidar.problem_at(140 * kTestMs), "");
+  EXPECT_EQ(lidar.problem_at(160 * kTestMs), "The front LiDAR is silent.");
+}
+
+TEST(LidarWatch, SameSweepTwiceIsNoNews) {
+  LidarWatch lidar = watch();
+  const auto sweep = sweep_at(0);
+  EXPECT_TRUE(lidar.take(sweep));
+  EXPECT_FALSE(lidar.take(sweep));
+}
+
+TEST(LidarWatch, FrozenLidarIsFoundByItsThirdEqualSweep) {
+  LidarWatch lidar = watch();
+  for (int i = 0; i < 3; ++i) {
+    auto frozen = std::make_shared<Sweep>(*sweep_at(0));
+    frozen->stamp_ns = i * kTestSweepNs;
+    EXPECT_EQ(lidar.take(frozen), i < 2);
+  }
+  EXPECT_EQ(lidar.problem_at(2 * kTestSweepNs), "The front LiDAR is frozen: it repeats the same sweep.");
+}
+
+TEST(LidarWatch, OpenFieldWithoutEchoesIsNotFrozen) {
+  LidarWatch lidar = watch();
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_TRUE(lidar.take(Scene().sweep(Pose(), i * kTestSweepNs)));
+  }
+  EXPECT_EQ(lidar.problem_at(9 * kTestSweepNs), "");
+}
+
+TEST(LidarWatch, BrokenSweepsAreRefusedWithASentence) {
+  const auto broken = [](auto change) {
+    Sweep sweep = *sweep_at(0);
+    change(sweep);
+    return defect_of(sweep);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(defect_of(*sweep_at(0)), "");
+  EXPECT_NE(broken([](Sweep& sweep) { sweep.ranges_m.clear(); }), "");
+  EXPECT_NE(broken([nan](Sweep& sweep) { sweep.angle_min_rad = nan; }), "");
+  EXPECT_NE(broken([](Sweep& sweep) { sweep.angle_increment_rad = 0.0; }), "");
+  EXPECT_NE(broken([nan](Sweep& sweep) { sweep.range_max_m = nan; }), "");
+  EXPECT_EQ(broken([](Sweep& sweep) { sweep.frame_id = "map"; }), "speaks of frame 'map' and not of ''");
+  EXPECT_EQ(broken([nan](Sweep& sweep) { sweep.ranges_m.assign(720, static_cast<float>(nan)); }), "is covered");
+}
+
+TEST(LidarWatch, SweepFromTheFutureIsRefused) {
+  LidarWatch lidar = watch();
+  lidar.take(sweep_at(1000 * kTestMs));
+  EXPECT_EQ(lidar.problem_at(500 * kTestMs), "The front LiDAR sends sweeps from the future.");
+}
+
+TEST(Blindness, SilentLidarStopsTheMovingRobotWithinHalfASecond) {
+  TestRobot robot;
+  robot.scene = lot();
+  robot.settle();
+  ASSERT_DOUBLE_EQ(robot.drive({1.0, 0.0}, 3.0).velocity.linear_mps, 1.0);
+  robot.lidars_are_silent = true;
+  const Decision decision = robot.drive({1.0, 0.0}, 0.5);
+  EXPECT_EQ(decision.zone, Zone::kBlind);
+  EXPECT_EQ(decision.velocity.linear_mps, 0.0);
+  EXPECT_EQ(decision.message, "The front LiDAR is silent.");
+}
+
+TEST(Blindness, MissingRearLidarKeepsARobotThatShouldHaveOneStanding) {
+  DriveControl control(Parameters{}, CollisionParameters{}, true, 0.02);
+  Inputs inputs;
+  inputs.planner = SourceCommand{1000 * kTestMs, {0.5, 0.0}, true};
+  inputs.sensors = {sweep_at(960 * kTestMs), nullptr, Motion{1000 * kTestMs, Pose(), {}}};
+  EXPECT_EQ(control.step(1000 * kTestMs, inputs).message, "Waiting for the rear LiDAR.");
+}
+
+TEST(Blindness, SilentOdometryStopsTheRobot) {
+  DriveControl control(Parameters{}, CollisionParameters{}, false, 0.02);
+  Inputs inputs;
+  inputs.planner = SourceCommand{1000 * kTestMs, {0.5, 0.0}, true};
+  inputs.sensors = {sweep_at(960 * kTestMs), nullptr, Motion{880 * kTestMs, Pose(), {}}};
+  const Decision decision = control.step(1000 * kTestMs, inputs);
+  EXPECT_EQ(decision.zone, Zone::kBlind);
+  EXPECT_EQ(decision.message, "The wheels' odometry is silent.");
+}
+
+TEST(UnwatchedRear, GroundNeverSeenIsNotBackedInto) {
+  TestRobot robot(false);
+  robot.settle();
+  const Decision decision = robot.drive({-0.5, 0.0}, 1.0);
+  EXPECT_EQ(decision.velocity.linear_mps, 0.0);
+  EXPECT_EQ(decision.message, "Blocked by ground behind that has not been seen free for some time.");
+}
+
+TEST(UnwatchedRear, OwnTrackIsBackedIntoSlowlyUntilItEnds) {
+  TestRobot robot(false);
+  robot.settle();
+  robot.drive({0.5, 0.0}, 5.0);
+  robot.drive({0.0, 0.0}, 1.0);
+  EXPECT_NEAR(robot.drive({-0.8, 0.0}, 2.0).velocity.linear_mps, -0.3, 1e-9);
+  EXPECT_EQ(robot.drive({-0.8, 0.0}, 12.0).velocity.linear_mps, 0.0);
+  EXPECT_NEAR(robot.world_from_base.position().x_m, 0.0, 0.15);
+}
+
+TEST(UnwatchedRear, GroundSeenTooLongAgoIsNotBackedInto) {
+  TestRobot robot(false);
+  robot.settle();
+  robot.drive({0.5, 0.0}, 4.0);
+  robot.drive({0.0, 0.0}, 25.0);
+  EXPECT_EQ(robot.drive({-0.5, 0.0}, 1.0).velocity.linear_mps, 0.0);
+}
+
+TEST(UnwatchedRear, PersonWhoWalkedOutOfViewBehindStopsBacking) {
+  TestRobot robot(false);
+  robot.settle();
+  robot.drive({0.5, 0.0}, 4.0);
+  const double behind_x = robot.world_from_base.position().x_m - 1.0;
+  for (double y = 3.0; y > 0.8; y -= 0.03) {
+    robot.scene.discs = {{{behind_x, y}, 0.1}};
+    robot.step({0.0, 0.0});
+  }
+  robot.scene.discs.clear();
+  robot.scene.discs = {{{behind_x, 0.0}, 0.1}};
+  EXPECT_EQ(robot.drive({-0.3, 0.0}, 1.0).velocity.linear_mps, 0.0);
+}
+
+TEST(UnwatchedRear, PersonAtTheManualControllerMayBackSlowly) {
+  TestRobot robot(false);
+  robot.settle();
+  EXPECT_NEAR(robot.drive({-0.5, 0.0}, 1.0, true).velocity.linear_mps, -0.3, 1e-9);
+}
+
+}  // namespace
+}  // namespace mtr_drive_control

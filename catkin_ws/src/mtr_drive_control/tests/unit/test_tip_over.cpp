@@ -1,0 +1,50 @@
+/// @file
+/// Limits by the height of the key.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mtr_drive_control/tip_over.hpp"
+
+namespace mtr_drive_control {
+namespace {
+
+TEST(TipOver, RaisedKeyLowersTheEmergencyDecelerationToItsShareOfTheStaticLimit) {
+  const Parameters parameters;
+  const double centre_m = parameters.centre_of_mass_m + parameters.centre_of_mass_rise * 1.55;
+  const double static_limit = 9.81 * parameters.tip_lever_along_m / centre_m;
+  EXPECT_NEAR(limits_at(parameters, 1.55).emergency_linear_deceleration_mps2, parameters.tip_margin * static_limit,
+              1e-9);
+}
+
+TEST(TipOver, LowKeyLeavesTheParametersAsTheyAre) {
+  EXPECT_DOUBLE_EQ(limits_at(Parameters{}, 0.35).emergency_linear_deceleration_mps2, 3.0);
+  EXPECT_DOUBLE_EQ(limits_at(Parameters{}, 0.35).max_linear_mps, 1.5);
+}
+
+TEST(TipOver, UnknownOrImpossibleHeightCountsAsRaised) {
+  const double raised = limits_at(Parameters{}, 1.55).emergency_linear_deceleration_mps2;
+  for (const double height_m : {std::nan(""), -1.0, 7.0}) {
+    EXPECT_DOUBLE_EQ(limits_at(Parameters{}, height_m).emergency_linear_deceleration_mps2, raised);
+  }
+}
+
+TEST(TipOver, StopFromTheHighestPermittedSpeedEndsInTimeAtEveryHeight) {
+  for (double height_m = 0.0; height_m < 1.6; height_m += 0.1) {
+    const Parameters limits = limits_at(Parameters{}, height_m);
+    EXPECT_LE(limits.max_linear_mps / limits.emergency_linear_deceleration_mps2, kStandstillWithinS + 1e-9);
+  }
+}
+
+TEST(TipOver, TopHeavyRobotIsLimitedInEveryAcceleration) {
+  Parameters parameters;
+  parameters.centre_of_mass_m = 1.5;
+  const Parameters limits = limits_at(parameters, 0.35);
+  EXPECT_LT(limits.linear_acceleration_mps2, 0.65);
+  EXPECT_DOUBLE_EQ(limits.linear_deceleration_mps2, limits.linear_acceleration_mps2);
+  EXPECT_LT(limits.lateral_acceleration_mps2, 0.9);
+}
+
+}  // namespace
+}  // namespace mtr_drive_control
