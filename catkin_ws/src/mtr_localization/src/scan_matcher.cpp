@@ -114,6 +114,10 @@ ScanMatch ScanMatcher::match(const ScanPoints& scan, const ReferenceMap& map, co
 
 void ScanMatcher::add_error_pulls(const PoseVector& pose, const ScanPoints& scan, const ReferenceMap& map,
                                   const PosePrior& prior, PoseCorrection& correction) const {
+  if (map.sources.of_surfel.empty()) {
+    correction.error_pull.resize(3, 0);
+    return;
+  }
   correction.error_pull.setZero(3, map.sources.count + 1);
   const Surfel* first = map.surfaces.surfels().data();
   for_each_match(pose, scan, map, prior,

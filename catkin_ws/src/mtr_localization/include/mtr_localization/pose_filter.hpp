@@ -26,7 +26,7 @@ struct PoseCorrection {
   Eigen::Vector3d pull = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   /// Pull by an error of 1 sigma of each lasting error source; one column per source.
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxErrorSources> error_pull;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxErrorSources> error_pull{3, 0};
 };
 
 /// Pose of base_link in map with the errors of its sensors.
