@@ -89,8 +89,8 @@ class Collector {
 
 }  // namespace
 
-std::vector<SeenPoint> points_in_map(const std::vector<KeyFrame>& key_frames, double range_bias_m) {
-  std::vector<SeenPoint> points;
+SeenPoints points_in_map(const std::vector<KeyFrame>& key_frames, double range_bias_m) {
+  SeenPoints points;
   for (std::size_t i = 0; i < key_frames.size(); ++i) {
     const KeyFrame& frame = key_frames[i];
     const Eigen::Matrix2d turn = rotation(frame.pose[2]);

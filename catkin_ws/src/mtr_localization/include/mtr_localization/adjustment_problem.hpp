@@ -7,19 +7,10 @@
 #include <vector>
 
 #include "mtr_localization/adjustment_parameters.hpp"
-#include "mtr_localization/map_types.hpp"
+#include "mtr_localization/adjustment_residuals.hpp"
 #include "mtr_localization/observations.hpp"
 
 namespace mtr_localization {
-
-/// Everything that is adjusted together.
-struct Adjustment {
-  std::vector<KeyFrame> key_frames;
-  std::vector<Surfel> surfels;
-  double range_bias_m = 0.0;
-  /// True distance over the wheels' distance, less 1.
-  double wheel_scale = 0.0;
-};
 
 /// How well the measurements agree after the adjustment.
 struct Agreement {

@@ -8,7 +8,7 @@
 
 #include "mtr_localization/adjustment_parameters.hpp"
 #include "mtr_localization/map_types.hpp"
-#include "mtr_localization/surfel_builder.hpp"
+#include "mtr_localization/line_fit.hpp"
 #include "mtr_localization/surfel_map.hpp"
 
 namespace mtr_localization {
@@ -26,7 +26,7 @@ struct Observation {
 };
 
 /// All returns in map, free of a range bias.
-std::vector<SeenPoint> points_in_map(const std::vector<KeyFrame>& key_frames, double range_bias_m);
+SeenPoints points_in_map(const std::vector<KeyFrame>& key_frames, double range_bias_m);
 
 /// Views of the surfels by returns that lie within the gate of them.
 std::vector<Observation> observe(const std::vector<KeyFrame>& key_frames, double range_bias_m, const SurfelMap& map,
