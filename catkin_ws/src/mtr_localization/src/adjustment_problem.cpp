@@ -99,7 +99,7 @@ Agreement agreement_of(const Adjustment& state, const std::vector<Observation>& 
     sum += motion_residual(state, i).value.squaredNorm() / 3.0;
   }
   if (state.key_frames.size() > 1) {
-    agreement.motion_ratio = std::sqrt(sum / static_cast<double>(state.key_frames.size() - 1));
+    agreement.motion_ratio = state.motion_factor * std::sqrt(sum / static_cast<double>(state.key_frames.size() - 1));
   }
   return agreement;
 }

@@ -20,9 +20,9 @@ constexpr double kMotionKernel = 3.0;
 constexpr double kLeastMotionSigmaM = 0.0005;
 constexpr double kLeastMotionSigmaRad = 0.0002;
 
-Eigen::Matrix3d motion_covariance_of(const KeyFrame& frame) {
+Eigen::Matrix3d motion_covariance_of(const KeyFrame& frame, double factor) {
   const Eigen::Vector3d least(kLeastMotionSigmaM, kLeastMotionSigmaM, kLeastMotionSigmaRad);
-  return frame.motion_covariance + Eigen::Matrix3d(least.cwiseAbs2().asDiagonal());
+  return factor * factor * (frame.motion_covariance + Eigen::Matrix3d(least.cwiseAbs2().asDiagonal()));
 }
 
 }  // namespace
@@ -36,8 +36,7 @@ Residual<1, 4> surface_residual(const Adjustment& state, const Observation& seen
   const Eigen::Vector2d& normal = surfel.normal;
   Residual<1, 4> residual;
   residual.value[0] = normal.dot(lever + pose.head<2>() - surfel.position) / seen.sigma_m;
-  residual.jacobian << normal.x(), normal.y(), normal.y() * lever.x() - normal.x() * lever.y(),
-      -normal.dot(seen_along);
+  residual.jacobian << normal.x(), normal.y(), normal.y() * lever.x() - normal.x() * lever.y(), -normal.dot(seen_along);
   residual.jacobian /= seen.sigma_m;
   const Eigen::Index place = Layout::pose(seen.key_frame);
   residual.places = {place, place + 1, place + 2, layout_of(state).range_bias()};
@@ -61,7 +60,7 @@ Residual<3, 7> motion_residual(const Adjustment& state, std::size_t key_frame) {
   residual.jacobian.block<2, 2>(0, 3) = back;
   residual.jacobian(2, 5) = 1.0;
   residual.jacobian.block<2, 1>(0, 6) = -shown;
-  const Eigen::LLT<Eigen::Matrix3d> root(motion_covariance_of(frame));
+  const Eigen::LLT<Eigen::Matrix3d> root(motion_covariance_of(frame, state.motion_factor));
   root.matrixL().solveInPlace(residual.value);
   root.matrixL().solveInPlace(residual.jacobian);
   const Eigen::Index place = Layout::pose(static_cast<Eigen::Index>(key_frame));

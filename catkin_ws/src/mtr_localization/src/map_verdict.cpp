@@ -20,6 +20,7 @@ constexpr int kFewestSharedSurfels = 8;
 constexpr double kLeastLoop = 4.0;
 // Sizes of differences in sigmas, and share of outliers, that no scene with right sensors has shown.
 constexpr double kLargestRatio = 3.0;
+constexpr double kLargestMotionRatio = 20.0;
 constexpr double kLargestOutlierShare = 0.3;
 
 template <typename... Numbers>
@@ -97,7 +98,7 @@ std::string verdict(const Adjustment& state, const std::vector<Observation>& obs
     return text("%.0f %% of what the LiDARs saw does not fit the map: did something large move?",
                 100.0 * agreement.outlier_share);
   }
-  if (agreement.motion_ratio > kLargestRatio) {
+  if (agreement.motion_ratio > kLargestMotionRatio) {
     return text("Wheels and gyro disagree with the LiDARs by %.1f times their uncertainty.", agreement.motion_ratio);
   }
   return "";

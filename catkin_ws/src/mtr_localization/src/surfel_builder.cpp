@@ -14,23 +14,26 @@ namespace {
 
 // Cosine of the angle up to which two surfels may be one surface: 30 degrees.
 constexpr double kSameDirection = 0.87;
-// Distance of a surface's points from it, in root mean squares.
+// Distance of a surface's points from it, in largest root mean squares.
 constexpr double kReach = 2.5;
+// Distance between the two parts of a surface along which a border runs, in the same unit: what the border cuts off of
+// a normal distribution has its mean within 4 sigma of the rest's, and a surface is 2 sigma thick at most.
+constexpr double kApart = 2.0;
 
-bool is_double_of(const Surfel& surfel, const Surfel& other, double thickness_m) {
+bool is_double_of(const Surfel& surfel, const Surfel& other, double apart_m) {
   const Eigen::Vector2d offset = surfel.position - other.position;
   const Eigen::Vector2d along(-other.normal.y(), other.normal.x());
-  return surfel.normal.dot(other.normal) > kSameDirection && std::abs(other.normal.dot(offset)) < thickness_m &&
+  return surfel.normal.dot(other.normal) > kSameDirection && std::abs(other.normal.dot(offset)) < apart_m &&
          std::abs(along.dot(offset)) < other.length_m / 2.0;
 }
 
 /// Of surfels that lie on each other, as where a square's border runs along a surface, the one with the most points.
-std::vector<Surfel> without_doubles(std::vector<Surfel> surfels, double thickness_m) {
+std::vector<Surfel> without_doubles(std::vector<Surfel> surfels, double apart_m) {
   std::stable_sort(surfels.begin(), surfels.end(), [](const Surfel& a, const Surfel& b) { return a.hits > b.hits; });
   std::vector<Surfel> kept;
   for (const Surfel& surfel : surfels) {
     if (std::none_of(kept.begin(), kept.end(),
-                     [&](const Surfel& other) { return is_double_of(surfel, other, thickness_m); })) {
+                     [&](const Surfel& other) { return is_double_of(surfel, other, apart_m); })) {
       kept.push_back(surfel);
     }
   }
@@ -63,7 +66,7 @@ std::vector<Surfel> refitted(const std::vector<Surfel>& surfels, const SeenPoint
 }  // namespace
 
 std::vector<Surfel> build_surfels(const SeenPoints& points, const SurfelShape& shape) {
-  const std::vector<Surfel> found = without_doubles(search_surfels(points, shape), shape.thickness_m);
+  const std::vector<Surfel> found = without_doubles(search_surfels(points, shape), kApart * shape.thickness_m);
   return refitted(found, points, kReach * shape.thickness_m);
 }
 

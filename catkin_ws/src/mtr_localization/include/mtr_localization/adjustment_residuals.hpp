@@ -19,6 +19,8 @@ struct Adjustment {
   double range_bias_m = 0.0;
   /// True distance over the wheels' distance, less 1.
   double wheel_scale = 0.0;
+  /// By how much the sigmas of wheels and gyro are larger than the key-frames say.
+  double motion_factor = 1.0;
 };
 
 /// Where each unknown stands among the joint ones.

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mtr_localization/adjustment_parameters.hpp"
-#include "mtr_localization/map_types.hpp"
 #include "mtr_localization/line_fit.hpp"
+#include "mtr_localization/map_types.hpp"
 #include "mtr_localization/surfel_map.hpp"
 
 namespace mtr_localization {
