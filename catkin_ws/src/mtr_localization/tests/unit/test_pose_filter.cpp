@@ -36,8 +36,8 @@ class NoisyDrive {
   std::array<double, 3> normalised_squares() const {
     const auto covariance = reckoning_.pose_covariance();
     const double turn = std::remainder(reckoning_.heading_rad() - heading_, 2.0 * M_PI);
-    return {std::pow(reckoning_.x_m() - x_, 2) / covariance[0], std::pow(reckoning_.y_m() - y_, 2) / covariance[4],
-            turn * turn / covariance[8]};
+    return {std::pow(reckoning_.x_m() - x_, 2) / covariance(0, 0), std::pow(reckoning_.y_m() - y_, 2) / covariance(1, 1),
+            turn * turn / covariance(2, 2)};
   }
 
   const PoseFilter& reckoning() const { return reckoning_; }
@@ -98,8 +98,8 @@ TEST(PoseFilter, CovarianceGrowsWithTheDistance) {
   double last = 0.0;
   for (int metre = 0; metre < 5; ++metre) {
     reckoning.move({2.0, 1.0, 0.0});
-    EXPECT_GT(reckoning.pose_covariance()[0], last);
-    last = reckoning.pose_covariance()[0];
+    EXPECT_GT(reckoning.pose_covariance()(0, 0), last);
+    last = reckoning.pose_covariance()(0, 0);
   }
 }
 
@@ -136,9 +136,9 @@ TEST(PoseFilter, CovarianceIsSymmetric) {
   NoisyDrive drive(7);
   drive.run();
   const auto covariance = drive.reckoning().pose_covariance();
-  EXPECT_NEAR(covariance[1], covariance[3], 1e-12);
-  EXPECT_NEAR(covariance[2], covariance[6], 1e-12);
-  EXPECT_NEAR(covariance[5], covariance[7], 1e-12);
+  EXPECT_NEAR(covariance(0, 1), covariance(1, 0), 1e-12);
+  EXPECT_NEAR(covariance(0, 2), covariance(2, 0), 1e-12);
+  EXPECT_NEAR(covariance(1, 2), covariance(2, 1), 1e-12);
 }
 
 }  // namespace
