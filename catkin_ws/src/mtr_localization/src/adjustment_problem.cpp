@@ -83,25 +83,25 @@ double solve(Adjustment& state, const std::vector<Observation>& observations, co
   return largest_m;
 }
 
-Agreement agreement_of(const Adjustment& state, const std::vector<Observation>& observations) {
-  Agreement agreement;
+Fit fit_of(const Adjustment& state, const std::vector<Observation>& observations) {
+  Fit fit;
   std::vector<double> sizes;
   for (const Observation& seen : observations) {
     sizes.push_back(std::abs(surface_residual(state, seen).value[0]));
   }
   if (!sizes.empty()) {
     const auto outliers = std::count_if(sizes.begin(), sizes.end(), [](double size) { return size > kOutlierSigmas; });
-    agreement.outlier_share = static_cast<double>(outliers) / static_cast<double>(sizes.size());
-    agreement.surface_ratio = median(sizes) / kMedianOfNormal;
+    fit.outlier_share = static_cast<double>(outliers) / static_cast<double>(sizes.size());
+    fit.surface_ratio = median(sizes) / kMedianOfNormal;
   }
   double sum = 0.0;
   for (std::size_t i = 1; i < state.key_frames.size(); ++i) {
     sum += motion_residual(state, i).value.squaredNorm() / 3.0;
   }
   if (state.key_frames.size() > 1) {
-    agreement.motion_ratio = state.motion_factor * std::sqrt(sum / static_cast<double>(state.key_frames.size() - 1));
+    fit.motion_ratio = state.motion_factor * std::sqrt(sum / static_cast<double>(state.key_frames.size() - 1));
   }
-  return agreement;
+  return fit;
 }
 
 Uncertainty uncertainty_of(const Adjustment& state, const std::vector<Observation>& observations,

@@ -211,8 +211,7 @@ std::string Localizer::why_not_valid(std::int64_t stamp_ns) const {
     return message_;
   }
   if (parameters_.external) {
-    const bool is_fresh =
-        external_ns_ && seconds(stamp_ns - *external_ns_) <= parameters_.tracking.external_timeout_s;
+    const bool is_fresh = external_ns_ && seconds(stamp_ns - *external_ns_) <= parameters_.tracking.external_timeout_s;
     return is_fresh ? "" : "Waiting for map to odom from the other localization.";
   }
   return keeper_.tracker().lost_reason();

@@ -70,7 +70,7 @@ double do_round(Adjustment& state, const Round& round, int number, const Adjustm
   const std::vector<Observation> observations = observe(state, round.gate_m, parameters);
   const double moved_m = solve(state, observations, parameters);
   // Wheels that slip more than their parameters say must not bend the map.
-  state.motion_factor = std::max(1.0, agreement_of(state, observations).motion_ratio);
+  state.motion_factor = std::max(1.0, fit_of(state, observations).motion_ratio);
   return moved_m;
 }
 
@@ -85,9 +85,9 @@ std::vector<Observation> finish(Adjustment& state, const AdjustmentParameters& p
 AdjustedMap result_of(const Adjustment& state, const std::vector<Observation>& observations,
                       const AdjustmentParameters& parameters) {
   const Uncertainty uncertainty = uncertainty_of(state, observations, parameters);
-  const Agreement agreement = agreement_of(state, observations);
+  const Fit fit = fit_of(state, observations);
   // Views that differ by more than their sigmas say that the sigmas are too small.
-  const double factor = std::max(1.0, agreement.surface_ratio);
+  const double factor = std::max(1.0, fit.surface_ratio);
   AdjustedMap map;
   map.key_frames = state.key_frames;
   for (const Eigen::Matrix3d& covariance : uncertainty.poses) {
@@ -107,7 +107,7 @@ AdjustedMap result_of(const Adjustment& state, const std::vector<Observation>& o
   }
   map.range_bias_m = state.range_bias_m;
   map.range_bias_sigma_m = std::hypot(factor * uncertainty.range_bias_m, kLeastBiasSigmaM);
-  map.message = verdict(state, observations, agreement, parameters);
+  map.message = verdict(state, observations, fit, parameters);
   map.valid = map.message.empty();
   return map;
 }

@@ -111,7 +111,7 @@ void MapKeeper::collect(const Look& look, const FilterHistory& history, bool sta
   const PoseVector pose = external_ ? compose(*external_, step.odom) : PoseVector(step.filter.pose());
   if (builder_.add({look.scan, pose, step.odom, standing, step.filter.gyro_bias_sigma_radps()}) &&
       !parameters_.external) {
-    tracker_.extend(pose, look.scan);
+    tracker_.extend(pose, builder_.key_frames().back().scan);
   }
 }
 

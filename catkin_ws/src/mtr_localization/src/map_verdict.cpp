@@ -80,7 +80,7 @@ std::string problem_with(const std::vector<KeyFrame>& key_frames) {
   return "";
 }
 
-std::string verdict(const Adjustment& state, const std::vector<Observation>& observations, const Agreement& agreement,
+std::string verdict(const Adjustment& state, const std::vector<Observation>& observations, const Fit& fit,
                     const AdjustmentParameters& parameters) {
   if (state.surfels.size() < kFewestSurfels) {
     return text("The LiDARs saw only %zu pieces of surface, %zu are needed: is the Car in view?", state.surfels.size(),
@@ -90,16 +90,16 @@ std::string verdict(const Adjustment& state, const std::vector<Observation>& obs
     return text("The way round the Car was not closed: it must end within %.1f m of where it passed before.",
                 parameters.closing_distance_m);
   }
-  if (agreement.surface_ratio > kLargestRatio) {
+  if (fit.surface_ratio > kLargestRatio) {
     return text("What the LiDARs saw from different places disagrees by %.1f times its uncertainty.",
-                agreement.surface_ratio);
+                fit.surface_ratio);
   }
-  if (agreement.outlier_share > kLargestOutlierShare) {
+  if (fit.outlier_share > kLargestOutlierShare) {
     return text("%.0f %% of what the LiDARs saw does not fit the map: did something large move?",
-                100.0 * agreement.outlier_share);
+                100.0 * fit.outlier_share);
   }
-  if (agreement.motion_ratio > kLargestMotionRatio) {
-    return text("Wheels and gyro disagree with the LiDARs by %.1f times their uncertainty.", agreement.motion_ratio);
+  if (fit.motion_ratio > kLargestMotionRatio) {
+    return text("Wheels and gyro disagree with the LiDARs by %.1f times their uncertainty.", fit.motion_ratio);
   }
   return "";
 }

@@ -86,8 +86,7 @@ void PoseFilter::correct(const PoseCorrection& correction) {
   // With P the pose's covariance and H the information, (inv(P) + H) in forms that need neither inverse: P is singular
   // at the start, H when the scan leaves a direction free.
   const Eigen::Matrix3d pose_covariance = prior_covariance();
-  const Eigen::Matrix3d held =
-      (Eigen::Matrix3d::Identity() + correction.information * pose_covariance).inverse();
+  const Eigen::Matrix3d held = (Eigen::Matrix3d::Identity() + correction.information * pose_covariance).inverse();
   const Eigen::Matrix<double, kStates, 3> reach = covariance_.leftCols<3>() * held;
   state_ += reach * correction.pull;
   state_[kHeading] = std::remainder(state_[kHeading], 2.0 * M_PI);

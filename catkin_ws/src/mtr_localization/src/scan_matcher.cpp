@@ -44,14 +44,14 @@ void ScanMatcher::for_each_match(const PoseVector& pose, const ScanPoints& scan,
                     .eigenvalues()
                     .maxCoeff());
   const double heading_sigma = std::sqrt(prior.full_covariance(2, 2));
-  const auto stride = static_cast<std::size_t>(std::ceil(static_cast<double>(scan.points.size()) /
-                                                         parameters_.max_points));
+  const auto stride =
+      static_cast<std::size_t>(std::ceil(static_cast<double>(scan.points.size()) / parameters_.max_points));
   for (std::size_t i = 0; i < scan.points.size(); i += std::max<std::size_t>(stride, 1)) {
     const ScanPoint& point = scan.points[i];
     const Eigen::Vector2d direction = turn * point.direction;
     const Eigen::Vector2d lever = turn * point.position - map.range_bias_m * direction;
-    const double gate = std::min(parameters_.max_match_m,
-                                 kLeastGateM + 3.0 * (position_sigma + heading_sigma * point.range_m));
+    const double gate =
+        std::min(parameters_.max_match_m, kLeastGateM + 3.0 * (position_sigma + heading_sigma * point.range_m));
     const auto match = map.surfaces.match(pose.head<2>() + lever, gate, direction);
     if (!match) {
       visit(nullptr, Eigen::Vector3d::Zero(), 0.0, 0.0, 0.0);
@@ -97,9 +97,9 @@ ScanMatch ScanMatcher::match(const ScanPoints& scan, const ReferenceMap& map, co
     match.residual_rms = sums.matched > 0 ? std::sqrt(sums.squares / sums.matched) : 0.0;
     match.correction.information = sums.information;
     match.correction.pull = sums.information * offset - sums.gradient;
-    const Eigen::Vector3d next =
-        prior.covariance *
-        (Eigen::Matrix3d::Identity() + sums.information * prior.covariance).inverse() * match.correction.pull;
+    const Eigen::Vector3d next = prior.covariance *
+                                 (Eigen::Matrix3d::Identity() + sums.information * prior.covariance).inverse() *
+                                 match.correction.pull;
     const Eigen::Vector3d step = next - offset;
     offset = next;
     match.pose = prior.pose + offset;
@@ -120,17 +120,17 @@ void ScanMatcher::add_error_pulls(const PoseVector& pose, const ScanPoints& scan
   }
   correction.error_pull.setZero(3, map.sources.count + 1);
   const Surfel* first = map.surfaces.surfels().data();
-  for_each_match(pose, scan, map, prior,
-                 [&](const Surfel* surfel, const Eigen::Vector3d& slope, double distance, double variance,
-                     double along) {
-                   if (surfel) {
-                     const Eigen::Vector3d pull = parameters_.independent_share / variance /
-                                                  (1.0 + square(distance) / variance / square(kCauchy)) * slope;
-                     const auto source = map.sources.of_surfel[static_cast<std::size_t>(surfel - first)];
-                     correction.error_pull.col(source) += surfel->sigma_m * pull;
-                     correction.error_pull.col(map.sources.count) -= map.range_bias_sigma_m * along * pull;
-                   }
-                 });
+  for_each_match(
+      pose, scan, map, prior,
+      [&](const Surfel* surfel, const Eigen::Vector3d& slope, double distance, double variance, double along) {
+        if (surfel) {
+          const Eigen::Vector3d pull =
+              parameters_.independent_share / variance / (1.0 + square(distance) / variance / square(kCauchy)) * slope;
+          const auto source = map.sources.of_surfel[static_cast<std::size_t>(surfel - first)];
+          correction.error_pull.col(source) += surfel->sigma_m * pull;
+          correction.error_pull.col(map.sources.count) -= map.range_bias_sigma_m * along * pull;
+        }
+      });
 }
 
 }  // namespace mtr_localization

@@ -39,8 +39,8 @@ Eigen::Vector3d shift_of(const PoseCorrection& correction) {
 
 double contradiction(const PoseCorrection& correction, const Eigen::Matrix3d& prior) {
   const Eigen::Matrix3d& information = correction.information;
-  const Eigen::Matrix3d spread = information + information * prior * information +
-                                 kLeastInformation * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d spread =
+      information + information * prior * information + kLeastInformation * Eigen::Matrix3d::Identity();
   return correction.pull.dot(spread.inverse() * correction.pull);
 }
 

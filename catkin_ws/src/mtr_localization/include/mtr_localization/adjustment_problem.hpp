@@ -13,7 +13,7 @@
 namespace mtr_localization {
 
 /// How well the measurements agree after the adjustment.
-struct Agreement {
+struct Fit {
   /// Size of the differences between surfaces and views in their sigmas: 1 when the sigmas are right. From the median,
   /// which persons and parked cars that left do not touch.
   double surface_ratio = 0.0;
@@ -35,8 +35,8 @@ struct Uncertainty {
 /// Moves poses and surfels to where all views agree best; the first pose stays. Returns the largest motion of a place.
 double solve(Adjustment& state, const std::vector<Observation>& observations, const AdjustmentParameters& parameters);
 
-/// Agreement at the solution.
-Agreement agreement_of(const Adjustment& state, const std::vector<Observation>& observations);
+/// How well they agree at the solution.
+Fit fit_of(const Adjustment& state, const std::vector<Observation>& observations);
 
 /// Uncertainty at the solution, when the sigmas of the measurements are right.
 Uncertainty uncertainty_of(const Adjustment& state, const std::vector<Observation>& observations,

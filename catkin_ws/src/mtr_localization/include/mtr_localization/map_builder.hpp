@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "mtr_localization/key_frame_selector.hpp"
 #include "mtr_localization/map_types.hpp"
 #include "mtr_localization/parameters.hpp"
 
@@ -20,16 +21,6 @@ struct MapOrder {
   std::int64_t stamp_ns = 0;
   std::uint64_t map_car_id = 0;
   Phase phase = Phase::kIdle;
-};
-
-/// A scan that may become a key-frame.
-struct View {
-  ScanPoints scan;
-  PoseVector pose = PoseVector::Zero();
-  /// Base_link in odom.
-  PoseVector odom = PoseVector::Zero();
-  bool standing = false;
-  double gyro_bias_sigma_radps = 0.0;
 };
 
 /// Key-frames of one mapping order, and their adjustment in a thread of its own.
@@ -48,26 +39,20 @@ class MapBuilder {
   bool order(const MapOrder& order, std::int64_t effect_delay_ns);
 
   /// The robot moved so far along its path and turned so much.
-  void travel(double distance_m, double angle_rad);
+  void travel(double distance_m, double angle_rad) { selector_.travel(distance_m, angle_rad); }
 
-  /// Takes the view as a key-frame if it is far enough from the last one; false when it does not.
+  /// Takes the view; false when it completes no key-frame.
   bool add(const View& view);
 
   /// The adjusted map from the instant on at which poses are to be in it; once. In lock-step it waits for the thread.
   std::optional<AdjustedMap> result(std::int64_t now_ns, bool waits);
 
  private:
-  bool is_due(const View& view) const;
-  Eigen::Matrix3d motion_covariance(double duration_s, double gyro_bias_sigma_radps) const;
-
-  Parameters parameters_;
+  KeyFrameSelector selector_;
   Adjust adjust_;
   State state_ = State::kNone;
   std::uint64_t map_car_id_ = 0;
   std::vector<KeyFrame> key_frames_;
-  PoseVector last_odom_ = PoseVector::Zero();
-  double distance_m_ = 0.0;
-  double turned_rad_ = 0.0;
   std::future<AdjustedMap> adjusting_;
   std::int64_t effect_ns_ = 0;
 };

@@ -49,7 +49,8 @@ struct Estimate {
   std::array<double, 9> covariance{};
   double speed_mps = 0.0;
   double yaw_rate_radps = 0.0;
-  /// Base_link in odom, which never jumps: by wheels and gyro, and by the wheels' own odometry. x, y (m), heading (rad).
+  /// Base_link in odom, which never jumps: by wheels and gyro, and by the wheels' own odometry. x, y (m), heading
+  /// (rad).
   std::array<double, 3> odom{};
   std::array<double, 3> wheel_odom{};
   /// One sentence when not valid.
