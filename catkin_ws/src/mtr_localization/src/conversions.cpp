@@ -6,25 +6,87 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mtr_localization/se2.hpp"
 #include "mtr_lockstep/clock.hpp"
 #include "mtr_lockstep/names.hpp"
 
 namespace mtr_localization {
+namespace {
+
+// Cosine of 5 degrees.
+constexpr double kLevel = 0.996;
+
+/// Direction of the rotated x axis in the plane.
+double heading_of(const geometry_msgs::Quaternion& rotation) {
+  return std::atan2(2.0 * (rotation.w * rotation.z + rotation.x * rotation.y),
+                    1.0 - 2.0 * (rotation.y * rotation.y + rotation.z * rotation.z));
+}
+
+std::uint8_t mode_of(PoseMode mode) {
+  switch (mode) {
+    case PoseMode::kMapping:
+      return mtr_msgs::LocalizedPose::MAPPING;
+    case PoseMode::kLocalized:
+      return mtr_msgs::LocalizedPose::LOCALIZED;
+    case PoseMode::kLost:
+      return mtr_msgs::LocalizedPose::LOST;
+    default:
+      return mtr_msgs::LocalizedPose::DEAD_RECKONING;
+  }
+}
+
+}  // namespace
 
 ImuSample imu_sample_of(const sensor_msgs::Imu& message) {
   return {mtr_lockstep::to_ns(message.header.stamp), message.angular_velocity.z};
 }
 
 WheelSample wheel_sample_of(const nav_msgs::Odometry& message) {
-  const auto& rotation = message.pose.pose.orientation;
-  const double heading = std::atan2(2.0 * (rotation.w * rotation.z + rotation.x * rotation.y),
-                                    1.0 - 2.0 * (rotation.y * rotation.y + rotation.z * rotation.z));
   return {mtr_lockstep::to_ns(message.header.stamp),
           message.pose.pose.position.x,
           message.pose.pose.position.y,
-          heading,
+          heading_of(message.pose.pose.orientation),
           message.twist.twist.linear.x,
           message.twist.twist.angular.z};
+}
+
+MapOrder order_of(const mtr_msgs::MappingOrder& message) {
+  MapOrder order{mtr_lockstep::to_ns(message.header.stamp), message.map_car_id, MapOrder::Phase::kIdle};
+  if (message.phase == mtr_msgs::MappingOrder::COLLECT) {
+    order.phase = MapOrder::Phase::kCollect;
+  } else if (message.phase == mtr_msgs::MappingOrder::FREEZE) {
+    order.phase = MapOrder::Phase::kFreeze;
+  }
+  return order;
+}
+
+Sweep sweep_of(const sensor_msgs::LaserScan& message, Lidar lidar, const PoseVector& mount, bool upside_down) {
+  const double sense = upside_down ? -1.0 : 1.0;
+  Sweep sweep;
+  sweep.lidar = lidar;
+  sweep.stamp_ns = mtr_lockstep::to_ns(message.header.stamp);
+  sweep.mount = mount;
+  sweep.angle_min_rad = sense * message.angle_min;
+  sweep.angle_max_rad = sense * message.angle_max;
+  sweep.angle_increment_rad = sense * message.angle_increment;
+  sweep.time_increment_s = message.time_increment;
+  sweep.scan_time_s = message.scan_time;
+  sweep.range_min_m = message.range_min;
+  sweep.range_max_m = message.range_max;
+  sweep.ranges_m.assign(message.ranges.begin(), message.ranges.end());
+  return sweep;
+}
+
+bool mount_from(const geometry_msgs::TransformStamped& base_from_lidar, PoseVector& pose, bool& upside_down) {
+  const auto& q = base_from_lidar.transform.rotation;
+  const double upright = 1.0 - 2.0 * (q.x * q.x + q.y * q.y);
+  pose = pose_of(base_from_lidar.transform);
+  upside_down = upright < 0.0;
+  return std::abs(upright) > kLevel;
+}
+
+PoseVector pose_of(const geometry_msgs::Transform& transform) {
+  return {transform.translation.x, transform.translation.y, heading_of(transform.rotation)};
 }
 
 mtr_msgs::LocalizedPose message_of(const Estimate& estimate) {
@@ -39,7 +101,18 @@ mtr_msgs::LocalizedPose message_of(const Estimate& estimate) {
   message.speed_mps = estimate.speed_mps;
   message.yaw_rate_radps = estimate.yaw_rate_radps;
   message.message = estimate.message;
+  message.mode = mode_of(estimate.mode);
+  message.degenerate = estimate.degenerate;
+  message.map_revision = estimate.map_revision;
   return message;
+}
+
+geometry_msgs::TransformStamped map_from_odom_message(const Estimate& estimate, const std::array<double, 3>& odom) {
+  const PoseVector pose(estimate.x_m, estimate.y_m, estimate.heading_rad);
+  const PoseVector base(odom[0], odom[1], odom[2]);
+  const PoseVector map_from_odom = compose(pose, relative(base, PoseVector::Zero()));
+  return transform_message(estimate.stamp_ns, {mtr_lockstep::names::kMap, mtr_lockstep::names::kOdom,
+                                               map_from_odom.x(), map_from_odom.y(), map_from_odom.z()});
 }
 
 geometry_msgs::TransformStamped transform_message(std::int64_t stamp_ns, const Transform2& parent_from_child) {

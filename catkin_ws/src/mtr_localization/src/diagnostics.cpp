@@ -22,20 +22,46 @@ diagnostic_msgs::KeyValue key_value(const std::string& key, double value) {
   return pair;
 }
 
+const char* text_of(PoseMode mode) {
+  switch (mode) {
+    case PoseMode::kMapping:
+      return "mapping";
+    case PoseMode::kLocalized:
+      return "localized in the frozen map";
+    case PoseMode::kLost:
+      return "lost";
+    default:
+      return "dead reckoning";
+  }
+}
+
 }  // namespace
 
-diagnostic_msgs::DiagnosticArray diagnostics_of(const Localizer& localizer, const Estimate& estimate) {
+diagnostic_msgs::DiagnosticArray diagnostics_of(const Localizer& localizer, const Estimate& estimate,
+                                                const WorkLoad& load) {
   DiagnosticStatus status;
   status.name = ros::this_node::getName() + ": pose";
-  status.hardware_id = "imu and wheels";
-  const bool lost = localizer.mode() == Mode::kLost;
-  status.level = estimate.valid ? DiagnosticStatus::OK : (lost ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN);
-  status.message = estimate.valid ? "tracking" : estimate.message;
+  status.hardware_id = "imu, wheels and LiDARs";
+  const bool lost = estimate.mode == PoseMode::kLost;
+  const bool warns = !estimate.valid || estimate.degenerate;
+  status.level = lost ? DiagnosticStatus::ERROR : warns ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
+  status.message = estimate.valid ? text_of(estimate.mode) : estimate.message;
   const auto& covariance = estimate.covariance;
+  const TrackingFigures& figures = localizer.keeper().tracker().figures();
   status.values = {key_value("position_sigma_m", std::sqrt(covariance[0] + covariance[4])),
                    key_value("heading_sigma_rad", std::sqrt(covariance[8])),
-                   key_value("gyro_bias_radps", localizer.reckoning().gyro_bias_radps()),
-                   key_value("gyro_bias_sigma_radps", localizer.reckoning().gyro_bias_sigma_radps())};
+                   key_value("gyro_bias_radps", localizer.filter().gyro_bias_radps()),
+                   key_value("gyro_bias_sigma_radps", localizer.filter().gyro_bias_sigma_radps()),
+                   key_value("wheel_scale", localizer.filter().wheel_scale()),
+                   key_value("beams_compared", figures.points),
+                   key_value("beams_matched", figures.matched),
+                   key_value("share_of_expected_view_seen", figures.agreement),
+                   key_value("weakest_direction_sigma_m", figures.weakest_sigma_m),
+                   key_value("scans_used", localizer.keeper().sweeps().used()),
+                   key_value("scans_refused", localizer.keeper().sweeps().refused()),
+                   key_value("ms_per_scan", load.mean_ms_per_scan()),
+                   key_value("longest_answer_ms", load.longest_ms()),
+                   key_value("map_revision", estimate.map_revision)};
   diagnostic_msgs::DiagnosticArray array;
   array.header.stamp = mtr_lockstep::stamp_of(estimate.stamp_ns);
   array.status = {status};

@@ -1,11 +1,13 @@
 /// @file
-/// Dead reckoning with an answer to every fault of the sensors' data.
+/// The filter's steps, with an answer to every fault of the sensors' data.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_localization/localizer.hpp"
 
 #include <cmath>
 #include <cstdio>
 #include <utility>
+
+#include "mtr_localization/se2.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -28,9 +30,14 @@ std::string with_number(const char* format, double number) {
 
 }  // namespace
 
-Localizer::Localizer(const Parameters& parameters)
-    : parameters_(parameters), reckoning_(parameters), standstill_(parameters) {
-  check(parameters);
+Localizer::Localizer(const LocalizerParameters& parameters)
+    : parameters_(parameters),
+      history_(PoseFilter(parameters.motion), 0),
+      keeper_(parameters),
+      standstill_(parameters.motion) {
+  check(parameters.motion);
+  check(parameters.tracking);
+  check(parameters.adjustment);
   message_ = "Stand still: measuring the gyro's bias.";
 }
 
@@ -93,40 +100,53 @@ Estimate Localizer::process(const WheelSample& wheels) {
   if (last_ && interruption.empty()) {
     interruption = interruption_between(*last_, wheels);
   }
-  if (last_ && !interruption.empty()) {
-    interrupt(interruption, wheels);
-  } else if (last_) {
-    advance(wheels);
+  if (last_ && interruption.empty()) {
+    history_.advance(wheels.stamp_ns, input_since_last(wheels));
+  } else {
+    if (last_) {
+      interrupt(interruption, wheels);
+    }
+    history_.restart(filter(), wheels.stamp_ns, history_.newest().odom);
   }
   last_ = wheels;
   gyro_.forget_before(wheels.stamp_ns);
+  if (keeper_.advance(history_, standstill_.standing()) && state_ == MotionState::kLost) {
+    state_ = MotionState::kTracking;
+    message_.clear();
+  }
   return estimate_at(wheels.stamp_ns);
 }
 
-void Localizer::advance(const WheelSample& wheels) {
-  const double duration_s = seconds(wheels.stamp_ns - last_->stamp_ns);
+FilterInput Localizer::input_since_last(const WheelSample& wheels) {
+  FilterInput input;
+  input.motion.duration_s = seconds(wheels.stamp_ns - last_->stamp_ns);
   const double gyro_rate = gyro_.rate_at(wheels.stamp_ns);
   standstill_.update(wheels, rate_for_standstill(gyro_rate));
-  if (mode_ == Mode::kLost) {
-    return;
-  }
-  if (mode_ == Mode::kInterrupted && !standstill_.resting()) {
+  if (state_ == MotionState::kInterrupted && !standstill_.resting()) {
     lose(message_);
-  } else if (standstill_.standing()) {
-    reckoning_.stand(duration_s, gyro_rate);
-  } else if (mode_ == Mode::kTracking) {
-    reckoning_.move({duration_s, wheels.distance_since(*last_), gyro_.integral(last_->stamp_ns, wheels.stamp_ns)});
   }
-  if (mode_ != Mode::kLost && standstill_.standing_s() >= parameters_.bias_time_s) {
-    mode_ = Mode::kTracking;
+  if (state_ == MotionState::kLost) {
+    return input;
+  }
+  if (standstill_.standing()) {
+    input.kind = FilterInput::Kind::kStand;
+    input.motion.gyro_angle_rad = gyro_rate * input.motion.duration_s;
+  } else if (state_ == MotionState::kTracking) {
+    input.kind = FilterInput::Kind::kMove;
+    input.motion.distance_m = wheels.distance_since(*last_);
+    input.motion.gyro_angle_rad = gyro_.integral(last_->stamp_ns, wheels.stamp_ns);
+  }
+  if (standstill_.standing_s() >= parameters_.motion.bias_time_s) {
+    state_ = MotionState::kTracking;
     message_.clear();
   }
+  return input;
 }
 
 double Localizer::rate_for_standstill(double gyro_rate_radps) const {
   // As long as the bias is unknown, only a rate beyond any bias betrays a turn.
-  const bool bias_unknown = mode_ == Mode::kStarting && std::abs(gyro_rate_radps) <= kLargestBiasRadps;
-  return bias_unknown ? 0.0 : reckoning_.corrected_rate(gyro_rate_radps);
+  const bool bias_unknown = state_ == MotionState::kStarting && std::abs(gyro_rate_radps) <= kLargestBiasRadps;
+  return bias_unknown ? 0.0 : filter().corrected_rate(gyro_rate_radps);
 }
 
 std::string Localizer::interruption_between(const WheelSample& last, const WheelSample& wheels) const {
@@ -149,35 +169,98 @@ void Localizer::interrupt(const std::string& reason, const WheelSample& wheels) 
   const double moved_m = std::hypot(wheels.x_m - last_->x_m, wheels.y_m - last_->y_m);
   const double turned_rad = std::remainder(wheels.heading_rad - last_->heading_rad, 2.0 * M_PI);
   const bool unmoved = moved_m <= kUnmovedM && std::abs(turned_rad) <= kUnmovedRad;
-  if (mode_ == Mode::kTracking && standstill_.standing() && unmoved) {
-    mode_ = Mode::kInterrupted;
+  if (state_ == MotionState::kTracking && standstill_.standing() && unmoved) {
+    state_ = MotionState::kInterrupted;
     message_ = reason;
-  } else if (mode_ == Mode::kTracking || (mode_ == Mode::kInterrupted && !unmoved)) {
+  } else if (state_ == MotionState::kTracking || (state_ == MotionState::kInterrupted && !unmoved)) {
     lose(reason);
   }
   standstill_.reset();
 }
 
 void Localizer::lose(const std::string& reason) {
-  mode_ = Mode::kLost;
-  message_ = "Position lost: " + reason + " Restart the robot's software and map the Car again.";
+  if (keeper_.tracker().state() == ScanTracker::State::kNoMap) {
+    state_ = MotionState::kLost;
+    message_ = "Position lost: " + reason + " Map the Car again.";
+  } else {
+    state_ = MotionState::kTracking;
+    message_.clear();
+    keeper_.lose("Position lost: " + reason + " Searching near the last position.");
+  }
+}
+
+bool Localizer::use_scans() {
+  return !parameters_.lockstep && last_ && keeper_.use_sweeps(history_, standstill_.standing());
+}
+
+void Localizer::set_external(std::int64_t stamp_ns, const PoseVector& map_from_odom) {
+  external_ns_ = stamp_ns;
+  external_ = map_from_odom;
+  keeper_.set_external(map_from_odom);
+}
+
+PoseVector Localizer::map_from_odom() const {
+  if (parameters_.external) {
+    return external_;
+  }
+  return compose(filter().pose(), relative(history_.newest().odom, PoseVector::Zero()));
+}
+
+std::string Localizer::why_not_valid(std::int64_t stamp_ns) const {
+  if (state_ != MotionState::kTracking) {
+    return message_;
+  }
+  if (parameters_.external) {
+    const bool is_fresh = external_ns_ && seconds(stamp_ns - *external_ns_) <= parameters_.tracking.external_timeout_s;
+    return is_fresh ? "" : "Waiting for map to odom from the other localization.";
+  }
+  return keeper_.tracker().lost_reason();
+}
+
+PoseMode Localizer::mode() const {
+  if (state_ == MotionState::kLost || keeper_.tracker().lost()) {
+    return PoseMode::kLost;
+  }
+  switch (keeper_.tracker().state()) {
+    case ScanTracker::State::kMapping:
+      return PoseMode::kMapping;
+    case ScanTracker::State::kLocalized:
+      return PoseMode::kLocalized;
+    default:
+      return parameters_.external && external_ns_ ? PoseMode::kLocalized : PoseMode::kDeadReckoning;
+  }
 }
 
 Estimate Localizer::estimate_at(std::int64_t stamp_ns) const {
-  Estimate estimate = refused(stamp_ns, message_);
-  estimate.valid = mode_ == Mode::kTracking;
-  estimate.speed_mps = reckoning_.corrected_speed(last_->linear_mps);
-  estimate.yaw_rate_radps = reckoning_.corrected_rate(gyro_.rate_at(stamp_ns));
+  Estimate estimate = refused(stamp_ns, why_not_valid(stamp_ns));
+  estimate.valid = estimate.message.empty();
+  estimate.degenerate = keeper_.tracker().degenerate();
+  estimate.speed_mps = filter().corrected_speed(last_->linear_mps);
+  estimate.yaw_rate_radps = filter().corrected_rate(gyro_.rate_at(stamp_ns));
   return estimate;
 }
 
 Estimate Localizer::refused(std::int64_t stamp_ns, const std::string& message) const {
   Estimate estimate;
   estimate.stamp_ns = stamp_ns;
-  estimate.x_m = reckoning_.x_m();
-  estimate.y_m = reckoning_.y_m();
-  estimate.heading_rad = reckoning_.heading_rad();
-  estimate.covariance = reckoning_.pose_covariance();
+  estimate.mode = mode();
+  estimate.map_revision = keeper_.revision();
+  PoseVector pose = filter().pose();
+  Eigen::Matrix3d covariance = filter().pose_covariance() + keeper_.map_covariance();
+  if (parameters_.external) {
+    pose = compose(external_, history_.newest().odom);
+    const double position = parameters_.tracking.external_position_sigma_m;
+    const double heading = parameters_.tracking.external_heading_sigma_rad;
+    covariance = Eigen::Vector3d(position * position, position * position, heading * heading).asDiagonal();
+  }
+  estimate.x_m = pose.x();
+  estimate.y_m = pose.y();
+  estimate.heading_rad = pose.z();
+  Eigen::Map<Eigen::Matrix3d>(estimate.covariance.data()) = covariance;
+  Eigen::Map<Eigen::Vector3d>(estimate.odom.data()) = history_.newest().odom;
+  if (last_) {
+    estimate.wheel_odom = {last_->x_m, last_->y_m, last_->heading_rad};
+  }
   estimate.message = message;
   return estimate;
 }
@@ -194,6 +277,6 @@ std::vector<Estimate> Localizer::not_older_than_emitted(std::vector<Estimate> es
   return newer;
 }
 
-std::int64_t Localizer::gap_limit_ns() const { return std::llround(parameters_.gap_limit_s * 1e9); }
+std::int64_t Localizer::gap_limit_ns() const { return std::llround(parameters_.motion.gap_limit_s * 1e9); }
 
 }  // namespace mtr_localization

@@ -3,12 +3,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_localization/parameters.hpp"
 
-namespace mtr_localization {
+#include "mtr_localization/tracking_parameters.hpp"
 
-void check(const Parameters& parameters) {
-  for (const Row& row : kRows) {
+namespace mtr_localization {
+namespace {
+
+template <typename Rows, typename P>
+void check_rows(const Rows& rows, const P& parameters) {
+  for (const auto& row : rows) {
     mtr_lockstep::check_range(row.name, parameters.*(row.member), row.low, row.high, row.unit);
   }
 }
+
+}  // namespace
+
+void check(const Parameters& parameters) { check_rows(kRows, parameters); }
+
+void check(const TrackingParameters& parameters) { check_rows(kTrackingRows, parameters); }
 
 }  // namespace mtr_localization

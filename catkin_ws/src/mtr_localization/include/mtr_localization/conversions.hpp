@@ -5,17 +5,29 @@
 
 #include <geometry_msgs/TransformStamped.h>
 #include <mtr_msgs/LocalizedPose.h>
+#include <mtr_msgs/MappingOrder.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
+#include <sensor_msgs/LaserScan.h>
 
+#include <array>
 #include <string>
 
+#include "mtr_localization/map_builder.hpp"
 #include "mtr_localization/samples.hpp"
+#include "mtr_localization/sweep.hpp"
 
 namespace mtr_localization {
 
 ImuSample imu_sample_of(const sensor_msgs::Imu& message);
 WheelSample wheel_sample_of(const nav_msgs::Odometry& message);
+
+MapOrder order_of(const mtr_msgs::MappingOrder& message);
+Sweep sweep_of(const sensor_msgs::LaserScan& message, Lidar lidar, const PoseVector& mount, bool upside_down);
+
+/// Where a LiDAR sits, of base_link's transform to its frame; false when it is not level.
+bool mount_from(const geometry_msgs::TransformStamped& base_from_lidar, PoseVector& pose, bool& upside_down);
+PoseVector pose_of(const geometry_msgs::Transform& transform);
 
 mtr_msgs::LocalizedPose message_of(const Estimate& estimate);
 
@@ -28,6 +40,8 @@ struct Transform2 {
   double heading_rad = 0.0;
 };
 
+/// @param odom base_link in the frame odom that is published: x, y (m), heading (rad)
+geometry_msgs::TransformStamped map_from_odom_message(const Estimate& estimate, const std::array<double, 3>& odom);
 geometry_msgs::TransformStamped transform_message(std::int64_t stamp_ns, const Transform2& parent_from_child);
 
 }  // namespace mtr_localization

@@ -37,6 +37,8 @@ struct KeyFrame {
   Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Identity();
   /// The robot stood still; the scan may be the mean of several.
   bool standing = false;
+  /// Number of sweeps that the scan is the mean of.
+  int sweeps = 1;
 };
 
 /// A short straight piece of surface in map.

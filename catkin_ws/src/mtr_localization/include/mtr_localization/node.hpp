@@ -3,22 +3,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <mtr_msgs/MappingOrder.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
+#include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
 
+#include <deque>
 #include <string>
 #include <vector>
 
 #include "mtr_localization/localizer.hpp"
+#include "mtr_localization/scan_input.hpp"
+#include "mtr_localization/work_load.hpp"
 #include "mtr_lockstep/parameter_reader.hpp"
 
 namespace mtr_localization {
 
 /// Parameters from the parameter server.
 struct NodeParameters {
-  Parameters sensors;
+  LocalizerParameters localizer;
   /// Publish odom -> base_link; false when the base does so itself.
   bool publish_odom_tf = true;
 };
@@ -36,22 +42,38 @@ class Node {
 
  private:
   void watch_silence(ros::NodeHandle& node);
+  void receive_sweep(Sweep sweep);
+  void receive_order(const mtr_msgs::MappingOrder& message);
+  void answer(const WheelSample& wheels);
+  void hear_other_localization();
   void publish(const std::vector<Estimate>& estimates);
+  void publish_map(const MapResult& result);
   void publish_transforms(const Estimate& estimate);
-  void publish_diagnostics(const Estimate& estimate);
+  void publish_each_second(const Estimate& estimate);
   void log(const Estimate& estimate);
 
+  NodeParameters parameters_;
   Localizer localizer_;
-  bool publish_odom_tf_;
+  WorkLoad load_;
   ros::Publisher poses_;
+  ros::Publisher surfaces_;
+  ros::Publisher markers_;
   ros::Publisher diagnostics_;
   tf2_ros::TransformBroadcaster transforms_;
+  tf2_ros::Buffer frames_;
+  tf2_ros::TransformListener listener_;
+  ScanInput front_;
+  ScanInput rear_;
+  mtr_lockstep::Samples<std::int64_t> orders_heard_;
+  ros::Subscriber orders_;
   ros::Subscriber imu_;
   ros::Subscriber wheels_;
   ros::Subscriber clock_;
   ros::WallTimer timer_;
-  std::int64_t diagnosed_second_ = -1;
+  std::deque<WheelSample> waiting_;
+  std::int64_t told_second_ = -1;
   std::string message_;
+  std::string scan_problem_;
 };
 
 }  // namespace mtr_localization

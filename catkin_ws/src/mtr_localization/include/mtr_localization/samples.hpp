@@ -30,10 +30,18 @@ struct WheelSample {
   double distance_since(const WheelSample& earlier) const;
 };
 
+/// What the pose rests on.
+enum class PoseMode { kDeadReckoning, kMapping, kLocalized, kLost };
+
 /// Pose of base_link in map at the stamp, and its velocity.
 struct Estimate {
   std::int64_t stamp_ns = 0;
   bool valid = false;
+  PoseMode mode = PoseMode::kDeadReckoning;
+  /// The surfaces in view do not hold the pose in every direction.
+  bool degenerate = false;
+  /// Map that the pose is in, 0: none.
+  std::uint32_t map_revision = 0;
   double x_m = 0.0;
   double y_m = 0.0;
   double heading_rad = 0.0;
@@ -41,6 +49,10 @@ struct Estimate {
   std::array<double, 9> covariance{};
   double speed_mps = 0.0;
   double yaw_rate_radps = 0.0;
+  /// Base_link in odom, which never jumps: by wheels and gyro, and by the wheels' own odometry. x, y (m), heading
+  /// (rad).
+  std::array<double, 3> odom{};
+  std::array<double, 3> wheel_odom{};
   /// One sentence when not valid.
   std::string message;
 };

@@ -52,7 +52,7 @@ class LocalizerFixture : public ::testing::Test {
     }
   }
 
-  Localizer localizer{Parameters{}};
+  Localizer localizer{LocalizerParameters{}};
   WheelSample wheels{1'000'000'000, 0.0, 0.0, 0.0, 0.0, 0.0};
   double gyro_bias_radps = 0.01;
   Estimate newest;

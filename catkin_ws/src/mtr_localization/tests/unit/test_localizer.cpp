@@ -25,7 +25,7 @@ TEST_F(LocalizerTest, OneSecondOfStandstillAfterSettlingMakesThePoseValidAtTheOr
 TEST_F(LocalizerTest, GyroBiasLargerThanTheStandstillRateIsLearntAtTheStart) {
   gyro_bias_radps = -0.08;
   EXPECT_TRUE(drive(0.0, 0.0, 2.0).valid);
-  EXPECT_NEAR(localizer.reckoning().gyro_bias_radps(), -0.08, 1e-3);
+  EXPECT_NEAR(localizer.filter().gyro_bias_radps(), -0.08, 1e-3);
 }
 
 TEST_F(LocalizerTest, RobotThatIsPushedAtTheStartBecomesValidAfterItRests) {
@@ -64,7 +64,7 @@ TEST_F(LocalizerTest, HeadingFollowsTheGyroAndNotTheSlippingWheels) {
 
 TEST_F(LocalizerTest, OrderOfArrivalDoesNotMatter) {
   drive(0.0, 0.0, 2.0);
-  Localizer other{Parameters{}};
+  Localizer other{LocalizerParameters{}};
   WheelSample still{1'000'000'000, 0.0, 0.0, 0.0, 0.0, 0.0};
   Estimate other_newest;
   for (int step = 0; step < 100; ++step) {
@@ -78,7 +78,7 @@ TEST_F(LocalizerTest, OrderOfArrivalDoesNotMatter) {
 }
 
 TEST_F(LocalizerTest, ImuAheadOfTheWheelsDoesNotChangeTheEstimate) {
-  Localizer other{Parameters{}};
+  Localizer other{LocalizerParameters{}};
   std::vector<WheelSample> sent;
   for (int step = 0; step < 120; ++step) {
     step_once(0.0, 0.0);
@@ -114,7 +114,7 @@ TEST_F(LocalizerTest, BiasThatDriftsIsFollowedAtStandstill) {
     gyro_bias_radps += 1e-7;
     step_once(0.0, 0.0);
   }
-  EXPECT_NEAR(localizer.reckoning().gyro_bias_radps(), gyro_bias_radps, 1.5e-4);
+  EXPECT_NEAR(localizer.filter().gyro_bias_radps(), gyro_bias_radps, 1.5e-4);
   EXPECT_EQ(newest.heading_rad, 0.0);
 }
 

@@ -42,6 +42,21 @@ class ParameterReader {
     tell(name, value ? "true" : "false");
   }
 
+  /// Overwrites a text that must be one of the choices; throws ConfigurationError for anything else.
+  void read(const std::string& name, std::string& value, const std::set<std::string>& choices) {
+    if (has(name)) {
+      const bool is_text = values_[name].getType() == XmlRpc::XmlRpcValue::TypeString;
+      const std::string given = is_text ? static_cast<std::string&>(values_[name]) : "";
+      std::string allowed;
+      for (const std::string& choice : choices) {
+        allowed += (allowed.empty() ? "" : " or ") + choice;
+      }
+      require(choices.count(given) > 0, name, allowed);
+      value = given;
+    }
+    tell(name, value);
+  }
+
   /// Overwrites a list of texts; throws ConfigurationError for anything else.
   void read(const std::string& name, std::vector<std::string>& value) {
     if (has(name)) {

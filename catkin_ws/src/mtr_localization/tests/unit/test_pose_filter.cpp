@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "mtr_localization/dead_reckoning.hpp"
+#include "mtr_localization/pose_filter.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -36,11 +36,11 @@ class NoisyDrive {
   std::array<double, 3> normalised_squares() const {
     const auto covariance = reckoning_.pose_covariance();
     const double turn = std::remainder(reckoning_.heading_rad() - heading_, 2.0 * M_PI);
-    return {std::pow(reckoning_.x_m() - x_, 2) / covariance[0], std::pow(reckoning_.y_m() - y_, 2) / covariance[4],
-            turn * turn / covariance[8]};
+    return {std::pow(reckoning_.x_m() - x_, 2) / covariance(0, 0), std::pow(reckoning_.y_m() - y_, 2) / covariance(1, 1),
+            turn * turn / covariance(2, 2)};
   }
 
-  const DeadReckoning& reckoning() const { return reckoning_; }
+  const PoseFilter& reckoning() const { return reckoning_; }
 
  private:
   double draw(double sigma) { return sigma * normal_(random_); }
@@ -69,14 +69,14 @@ class NoisyDrive {
   }
 
   Parameters parameters_;
-  DeadReckoning reckoning_{parameters_};
+  PoseFilter reckoning_{parameters_};
   std::mt19937 random_;
   std::normal_distribution<double> normal_{0.0, 1.0};
   double x_ = 0.0, y_ = 0.0, heading_ = 0.0;
   double wheel_scale_ = 0.0, gyro_scale_ = 0.0, bias_ = 0.0;
 };
 
-TEST(DeadReckoning, ErrorsOfManyNoisyDrivesAgreeWithTheCovariance) {
+TEST(PoseFilter, ErrorsOfManyNoisyDrivesAgreeWithTheCovariance) {
   constexpr int kDrives = 300;
   std::array<double, 3> sums{};
   for (unsigned seed = 1; seed <= kDrives; ++seed) {
@@ -93,18 +93,18 @@ TEST(DeadReckoning, ErrorsOfManyNoisyDrivesAgreeWithTheCovariance) {
   }
 }
 
-TEST(DeadReckoning, CovarianceGrowsWithTheDistance) {
-  DeadReckoning reckoning{Parameters{}};
+TEST(PoseFilter, CovarianceGrowsWithTheDistance) {
+  PoseFilter reckoning{Parameters{}};
   double last = 0.0;
   for (int metre = 0; metre < 5; ++metre) {
     reckoning.move({2.0, 1.0, 0.0});
-    EXPECT_GT(reckoning.pose_covariance()[0], last);
-    last = reckoning.pose_covariance()[0];
+    EXPECT_GT(reckoning.pose_covariance()(0, 0), last);
+    last = reckoning.pose_covariance()(0, 0);
   }
 }
 
-TEST(DeadReckoning, StandingStillDoesNotMoveThePoseAndMeasuresTheBias) {
-  DeadReckoning reckoning{Parameters{}};
+TEST(PoseFilter, StandingStillDoesNotMoveThePoseAndMeasuresTheBias) {
+  PoseFilter reckoning{Parameters{}};
   for (int step = 0; step < 50; ++step) {
     reckoning.stand(kStepS, 0.013);
   }
@@ -114,8 +114,8 @@ TEST(DeadReckoning, StandingStillDoesNotMoveThePoseAndMeasuresTheBias) {
   EXPECT_NEAR(reckoning.gyro_bias_sigma_radps(), Parameters{}.gyro_noise_radps_per_sqrt_hz, 1e-4);
 }
 
-TEST(DeadReckoning, ArcOfAQuarterCircleEndsAtItsRadius) {
-  DeadReckoning reckoning{Parameters{}};
+TEST(PoseFilter, ArcOfAQuarterCircleEndsAtItsRadius) {
+  PoseFilter reckoning{Parameters{}};
   constexpr int kSteps = 500;
   for (int step = 0; step < kSteps; ++step) {
     reckoning.move({kStepS, 2.0 * M_PI_2 / kSteps, M_PI_2 / kSteps});
@@ -125,20 +125,20 @@ TEST(DeadReckoning, ArcOfAQuarterCircleEndsAtItsRadius) {
   EXPECT_NEAR(reckoning.heading_rad(), M_PI_2, 1e-9);
 }
 
-TEST(DeadReckoning, HeadingStaysWithinHalfATurn) {
-  DeadReckoning reckoning{Parameters{}};
+TEST(PoseFilter, HeadingStaysWithinHalfATurn) {
+  PoseFilter reckoning{Parameters{}};
   reckoning.move({1.0, 0.0, 3.0});
   reckoning.move({1.0, 0.0, 1.0});
   EXPECT_NEAR(reckoning.heading_rad(), 4.0 - 2.0 * M_PI, 1e-12);
 }
 
-TEST(DeadReckoning, CovarianceIsSymmetric) {
+TEST(PoseFilter, CovarianceIsSymmetric) {
   NoisyDrive drive(7);
   drive.run();
   const auto covariance = drive.reckoning().pose_covariance();
-  EXPECT_NEAR(covariance[1], covariance[3], 1e-12);
-  EXPECT_NEAR(covariance[2], covariance[6], 1e-12);
-  EXPECT_NEAR(covariance[5], covariance[7], 1e-12);
+  EXPECT_NEAR(covariance(0, 1), covariance(1, 0), 1e-12);
+  EXPECT_NEAR(covariance(0, 2), covariance(2, 0), 1e-12);
+  EXPECT_NEAR(covariance(1, 2), covariance(2, 1), 1e-12);
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 /// @file
-/// Prediction by wheels and gyro, correction by standing still.
+/// Prediction by wheels and gyro, correction by standing still and by scans.
 // SPDX-License-Identifier: Apache-2.0
-#include "mtr_localization/dead_reckoning.hpp"
+#include "mtr_localization/pose_filter.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 
 namespace mtr_localization {
@@ -15,13 +16,19 @@ double square(double value) { return value * value; }
 
 }  // namespace
 
-DeadReckoning::DeadReckoning(const Parameters& parameters) : parameters_(parameters) {
+PoseFilter::PoseFilter(const Parameters& parameters) : parameters_(parameters) {
   covariance_(kBias, kBias) = square(kFirstBiasSigmaRadps);
   covariance_(kWheelScale, kWheelScale) = square(parameters.wheel_scale_sigma);
   covariance_(kGyroScale, kGyroScale) = square(parameters.gyro_scale_sigma);
 }
 
-void DeadReckoning::move(const Motion& motion) {
+Eigen::Vector3d PoseFilter::step_of(const Motion& motion) const {
+  const double angle = (1.0 + state_[kGyroScale]) * (motion.gyro_angle_rad - state_[kBias] * motion.duration_s);
+  const double distance = (1.0 + state_[kWheelScale]) * motion.distance_m;
+  return {distance * std::cos(0.5 * angle), distance * std::sin(0.5 * angle), angle};
+}
+
+void PoseFilter::move(const Motion& motion) {
   const double wheel_scale = 1.0 + state_[kWheelScale];
   const double gyro_scale = 1.0 + state_[kGyroScale];
   const double shown_angle = motion.gyro_angle_rad - state_[kBias] * motion.duration_s;
@@ -49,10 +56,11 @@ void DeadReckoning::move(const Motion& motion) {
   covariance_ = (next_by_state * covariance_ * next_by_state.transpose()).eval();
   covariance_(kHeading, kHeading) += square(parameters_.gyro_noise_radps_per_sqrt_hz) * motion.duration_s;
   covariance_(kBias, kBias) += square(parameters_.gyro_bias_walk_radps_per_sqrt_s) * motion.duration_s;
+  by_source_ = (next_by_state * by_source_).eval();
   add_motion_noise(distance, angle, direction);
 }
 
-void DeadReckoning::add_motion_noise(double distance_m, double angle_rad, double direction_rad) {
+void PoseFilter::add_motion_noise(double distance_m, double angle_rad, double direction_rad) {
   const double along = square(parameters_.slip_m_per_sqrt_m) * std::abs(distance_m);
   const double turning = square(parameters_.turn_slip_m_per_sqrt_rad) * std::abs(angle_rad);
   const double cos = std::cos(direction_rad);
@@ -63,36 +71,59 @@ void DeadReckoning::add_motion_noise(double distance_m, double angle_rad, double
   covariance_(kY, kX) += along * cos * sin;
 }
 
-void DeadReckoning::stand(double duration_s, double gyro_rate_radps) {
+void PoseFilter::stand(double duration_s, double gyro_rate_radps) {
   covariance_(kBias, kBias) += square(parameters_.gyro_bias_walk_radps_per_sqrt_s) * duration_s;
   const double noise = square(parameters_.gyro_noise_radps_per_sqrt_hz) / duration_s;
   const State column = covariance_.col(kBias);
-  const double innovation_variance = column[kBias] + noise;
-  state_ += column * ((gyro_rate_radps - state_[kBias]) / innovation_variance);
-  covariance_ -= column * column.transpose() / innovation_variance;
+  const State gain = column / (column[kBias] + noise);
+  state_ += gain * (gyro_rate_radps - state_[kBias]);
+  covariance_ -= gain * column.transpose();
+  by_source_ -= (gain * by_source_.row(kBias)).eval();
   state_[kHeading] = std::remainder(state_[kHeading], 2.0 * M_PI);
 }
 
-double DeadReckoning::heading_rad() const { return state_[kHeading] == -M_PI ? M_PI : state_[kHeading]; }
+void PoseFilter::correct(const PoseCorrection& correction) {
+  // With P the pose's covariance and H the information, (inv(P) + H) in forms that need neither inverse: P is singular
+  // at the start, H when the scan leaves a direction free.
+  const Eigen::Matrix3d pose_covariance = prior_covariance();
+  const Eigen::Matrix3d held = (Eigen::Matrix3d::Identity() + correction.information * pose_covariance).inverse();
+  const Eigen::Matrix<double, kStates, 3> reach = covariance_.leftCols<3>() * held;
+  state_ += reach * correction.pull;
+  state_[kHeading] = std::remainder(state_[kHeading], 2.0 * M_PI);
+  if (by_source_.cols() > 0) {
+    by_source_ += reach * (correction.error_pull - correction.information * by_source_.topRows<3>());
+  }
+  covariance_ -= (reach * correction.information * covariance_.topRows<3>()).eval();
+  covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();
+}
 
-double DeadReckoning::gyro_bias_sigma_radps() const { return std::sqrt(covariance_(kBias, kBias)); }
+void PoseFilter::set_pose(const Eigen::Vector3d& pose, const Eigen::Matrix3d& covariance) {
+  state_.head<3>() = pose;
+  covariance_.topRows<3>().setZero();
+  covariance_.leftCols<3>().setZero();
+  covariance_.topLeftCorner<3, 3>() = covariance;
+  by_source_.setZero();
+}
 
-double DeadReckoning::corrected_rate(double gyro_rate_radps) const {
+void PoseFilter::consider_sources(int count) { by_source_ = decltype(by_source_)::Zero(kStates, count); }
+
+Eigen::Vector3d PoseFilter::pose() const { return {x_m(), y_m(), heading_rad()}; }
+
+double PoseFilter::heading_rad() const { return state_[kHeading] == -M_PI ? M_PI : state_[kHeading]; }
+
+double PoseFilter::gyro_bias_sigma_radps() const { return std::sqrt(covariance_(kBias, kBias)); }
+
+double PoseFilter::corrected_rate(double gyro_rate_radps) const {
   return (1.0 + state_[kGyroScale]) * (gyro_rate_radps - state_[kBias]);
 }
 
-double DeadReckoning::corrected_speed(double wheel_speed_mps) const {
+double PoseFilter::corrected_speed(double wheel_speed_mps) const {
   return (1.0 + state_[kWheelScale]) * wheel_speed_mps;
 }
 
-std::array<double, 9> DeadReckoning::pose_covariance() const {
-  std::array<double, 9> rows{};
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      rows[static_cast<std::size_t>(3 * row + column)] = covariance_(row, column);
-    }
-  }
-  return rows;
+Eigen::Matrix3d PoseFilter::pose_covariance() const {
+  const Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxErrorSources> lasting = by_source_.topRows<3>();
+  return prior_covariance() + lasting * lasting.transpose();
 }
 
 }  // namespace mtr_localization

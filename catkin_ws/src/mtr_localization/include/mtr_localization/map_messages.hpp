@@ -1,0 +1,19 @@
+/// @file
+/// The frozen map as messages.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <mtr_msgs/SurfaceMap.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include "mtr_localization/map_keeper.hpp"
+#include "mtr_localization/samples.hpp"
+
+namespace mtr_localization {
+
+mtr_msgs::SurfaceMap message_of(const MapResult& result);
+
+/// What a person sees in rviz: surfaces, key-frames, and the ellipse of 3 sigma round the robot.
+visualization_msgs::MarkerArray markers_of(const MapKeeper& keeper, const Estimate& estimate);
+
+}  // namespace mtr_localization

@@ -1,0 +1,35 @@
+/// @file
+/// Which surface element each key-frame saw where.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mtr_localization/adjustment_parameters.hpp"
+#include "mtr_localization/line_fit.hpp"
+#include "mtr_localization/map_types.hpp"
+#include "mtr_localization/surfel_map.hpp"
+
+namespace mtr_localization {
+
+/// One key-frame's view of one surfel: the mean of its returns from there, in base_link.
+struct Observation {
+  int key_frame;
+  int surfel;
+  Eigen::Vector2d position;
+  /// Mean of the beams' directions: a range error e moves the position by e * direction.
+  Eigen::Vector2d direction;
+  /// 1 sigma of the position along the surfel's normal.
+  double sigma_m;
+  int beams;
+};
+
+/// All returns in map, free of a range bias.
+SeenPoints points_in_map(const std::vector<KeyFrame>& key_frames, double range_bias_m);
+
+/// Views of the surfels by returns that lie within the gate of them.
+std::vector<Observation> observe(const std::vector<KeyFrame>& key_frames, double range_bias_m, const SurfelMap& map,
+                                 double gate_m, const AdjustmentParameters& parameters);
+
+}  // namespace mtr_localization

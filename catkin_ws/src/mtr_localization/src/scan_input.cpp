@@ -1,0 +1,84 @@
+/// @file
+/// Reception of scans, and look-up of where their LiDAR sits.
+// SPDX-License-Identifier: Apache-2.0
+#include "mtr_localization/scan_input.hpp"
+
+#include <utility>
+
+#include "mtr_localization/conversions.hpp"
+#include "mtr_lockstep/clock.hpp"
+#include "mtr_lockstep/names.hpp"
+
+namespace mtr_localization {
+namespace {
+
+namespace names = mtr_lockstep::names;
+
+// A sweep is due one turn and one step of the clock after its first beam, see docs/lock-step.md.
+constexpr std::int64_t kDueAfterNs = mtr_lockstep::kLidar.period_ns + mtr_lockstep::kClockStep.period_ns;
+// Wall time within which the description's static transforms have arrived in simulation, where time waits for it.
+constexpr double kFramesWithinS = 4.0;
+constexpr double kPollS = 0.01;
+
+}  // namespace
+
+ScanInput::ScanInput(ros::NodeHandle& node, Lidar lidar, const tf2_ros::Buffer& frames,
+                     std::function<void(Sweep)> take)
+    : lidar_(lidar),
+      frames_(frames),
+      take_(std::move(take)),
+      heard_(mtr_lockstep::kLidar, kDueAfterNs, mtr_lockstep::lockstep_waiting()),
+      subscriber_(node.subscribe<sensor_msgs::LaserScan>(
+          lidar == Lidar::kFront ? names::kFrontScan : names::kRearScan, 10,
+          [this](const sensor_msgs::LaserScan::ConstPtr& message) { receive(*message); }, ros::VoidConstPtr(),
+          ros::TransportHints().tcpNoDelay())) {}
+
+void ScanInput::wait_until_due(std::int64_t stamp_ns) {
+  // Without a LiDAR nobody waits. In simulation all connections are there before the clock starts.
+  if (subscriber_.getNumPublishers() > 0) {
+    heard_.at(stamp_ns);
+  }
+}
+
+void ScanInput::receive(const sensor_msgs::LaserScan& message) {
+  const std::int64_t stamp_ns = mtr_lockstep::to_ns(message.header.stamp);
+  heard_.add(stamp_ns, stamp_ns);
+  if (const Mount* mount = mount_of(message.header.frame_id)) {
+    take_(sweep_of(message, lidar_, mount->pose, mount->upside_down));
+  }
+}
+
+const ScanInput::Mount* ScanInput::mount_of(const std::string& frame) {
+  const auto known = mounts_.find(frame);
+  if (known != mounts_.end()) {
+    return &known->second;
+  }
+  if (frame != unknown_frame_ && mtr_lockstep::is_simulated()) {
+    const double deadline = mtr_lockstep::wall_seconds() + kFramesWithinS;
+    while (ros::ok() && !look_up(frame) && mtr_lockstep::wall_seconds() < deadline) {
+      ros::WallDuration(kPollS).sleep();
+    }
+  }
+  if (const auto mount = look_up(frame)) {
+    return &mounts_.emplace(frame, *mount).first->second;
+  }
+  if (frame != unknown_frame_) {
+    ROS_WARN("There is no transform from %s to '%s', or that LiDAR is not level: its scans are not used.", names::kBase,
+             frame.c_str());
+    unknown_frame_ = frame;
+  }
+  return nullptr;
+}
+
+std::optional<ScanInput::Mount> ScanInput::look_up(const std::string& frame) const {
+  try {
+    Mount mount;
+    if (mount_from(frames_.lookupTransform(names::kBase, frame, ros::Time(0)), mount.pose, mount.upside_down)) {
+      return mount;
+    }
+  } catch (const tf2::TransformException&) {
+  }
+  return std::nullopt;
+}
+
+}  // namespace mtr_localization

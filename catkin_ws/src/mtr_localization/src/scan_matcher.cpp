@@ -1,0 +1,136 @@
+/// @file
+/// Point-to-surface least squares with a prior.
+// SPDX-License-Identifier: Apache-2.0
+#include "mtr_localization/scan_matcher.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "mtr_localization/se2.hpp"
+
+namespace mtr_localization {
+namespace {
+
+constexpr int kMostIterations = 6;
+// Below these the pose is as good as found.
+constexpr double kSmallStepM = 1e-4;
+constexpr double kSmallTurnRad = 2e-5;
+// Points this many sigma off count half (Cauchy's kernel; 2.385 for 95 % efficiency, Holland and Welsch 1977).
+constexpr double kCauchy = 2.385;
+// Surfaces are looked for within this, and 3 sigma of the prior.
+constexpr double kLeastGateM = 0.08;
+
+double square(double value) { return value * value; }
+
+}  // namespace
+
+struct ScanMatcher::Sums {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  double squares = 0.0;
+  int points = 0;
+  int matched = 0;
+};
+
+template <typename Visit>
+void ScanMatcher::for_each_match(const PoseVector& pose, const ScanPoints& scan, const ReferenceMap& map,
+                                 const PosePrior& prior, Visit visit) const {
+  const Eigen::Matrix2d turn = rotation(pose.z());
+  const Eigen::Matrix2d position_covariance = prior.full_covariance.topLeftCorner<2, 2>();
+  const double position_sigma =
+      std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position_covariance, Eigen::EigenvaluesOnly)
+                    .eigenvalues()
+                    .maxCoeff());
+  const double heading_sigma = std::sqrt(prior.full_covariance(2, 2));
+  const auto stride =
+      static_cast<std::size_t>(std::ceil(static_cast<double>(scan.points.size()) / parameters_.max_points));
+  for (std::size_t i = 0; i < scan.points.size(); i += std::max<std::size_t>(stride, 1)) {
+    const ScanPoint& point = scan.points[i];
+    const Eigen::Vector2d direction = turn * point.direction;
+    const Eigen::Vector2d lever = turn * point.position - map.range_bias_m * direction;
+    const double gate =
+        std::min(parameters_.max_match_m, kLeastGateM + 3.0 * (position_sigma + heading_sigma * point.range_m));
+    const auto match = map.surfaces.match(pose.head<2>() + lever, gate, direction);
+    if (!match) {
+      visit(nullptr, Eigen::Vector3d::Zero(), 0.0, 0.0, 0.0);
+      continue;
+    }
+    const Eigen::Vector2d& normal = match->surfel->normal;
+    const Eigen::Vector3d slope(normal.x(), normal.y(), lever.x() * normal.y() - lever.y() * normal.x());
+    const double along = normal.dot(direction);
+    const double variance = square(parameters_.range_sigma_m * along) +
+                            square(parameters_.beam_angle_sigma_rad * point.range_m) * (1.0 - square(along)) +
+                            square(match->surfel->sigma_m);
+    visit(match->surfel, slope, match->distance_along_normal_m, variance, along);
+  }
+}
+
+ScanMatcher::Sums ScanMatcher::sum_at(const PoseVector& pose, const ScanPoints& scan, const ReferenceMap& map,
+                                      const PosePrior& prior) const {
+  Sums sums;
+  for_each_match(pose, scan, map, prior,
+                 [&](const Surfel* surfel, const Eigen::Vector3d& slope, double distance, double variance, double) {
+                   ++sums.points;
+                   if (surfel) {
+                     const double in_sigmas = square(distance) / variance;
+                     const double weight =
+                         parameters_.independent_share / variance / (1.0 + in_sigmas / square(kCauchy));
+                     sums.information += weight * slope * slope.transpose();
+                     sums.gradient += weight * distance * slope;
+                     sums.squares += in_sigmas;
+                     ++sums.matched;
+                   }
+                 });
+  return sums;
+}
+
+ScanMatch ScanMatcher::match(const ScanPoints& scan, const ReferenceMap& map, const PosePrior& prior) const {
+  ScanMatch match;
+  match.pose = prior.pose;
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    const Sums sums = sum_at(match.pose, scan, map, prior);
+    match.points = sums.points;
+    match.matched = sums.matched;
+    match.residual_rms = sums.matched > 0 ? std::sqrt(sums.squares / sums.matched) : 0.0;
+    match.correction.information = sums.information;
+    match.correction.pull = sums.information * offset - sums.gradient;
+    const Eigen::Vector3d next = prior.covariance *
+                                 (Eigen::Matrix3d::Identity() + sums.information * prior.covariance).inverse() *
+                                 match.correction.pull;
+    const Eigen::Vector3d step = next - offset;
+    offset = next;
+    match.pose = prior.pose + offset;
+    match.pose.z() = wrapped(match.pose.z());
+    if (step.head<2>().norm() < kSmallStepM && std::abs(step.z()) < kSmallTurnRad) {
+      break;
+    }
+  }
+  add_error_pulls(match.pose, scan, map, prior, match.correction);
+  return match;
+}
+
+void ScanMatcher::add_error_pulls(const PoseVector& pose, const ScanPoints& scan, const ReferenceMap& map,
+                                  const PosePrior& prior, PoseCorrection& correction) const {
+  if (map.sources.of_surfel.empty()) {
+    correction.error_pull.resize(3, 0);
+    return;
+  }
+  correction.error_pull.setZero(3, map.sources.count + 1);
+  const Surfel* first = map.surfaces.surfels().data();
+  for_each_match(
+      pose, scan, map, prior,
+      [&](const Surfel* surfel, const Eigen::Vector3d& slope, double distance, double variance, double along) {
+        if (surfel) {
+          const Eigen::Vector3d pull =
+              parameters_.independent_share / variance / (1.0 + square(distance) / variance / square(kCauchy)) * slope;
+          const auto source = map.sources.of_surfel[static_cast<std::size_t>(surfel - first)];
+          correction.error_pull.col(source) += surfel->sigma_m * pull;
+          correction.error_pull.col(map.sources.count) -= map.range_bias_sigma_m * along * pull;
+        }
+      });
+}
+
+}  // namespace mtr_localization

@@ -1,0 +1,87 @@
+/// @file
+/// Conversion of a sweep, beam by beam, each from where the LiDAR was at its time.
+// SPDX-License-Identifier: Apache-2.0
+#include "mtr_localization/sweep_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mtr_localization/se2.hpp"
+
+namespace mtr_localization {
+namespace {
+
+// Ranges of neighbouring beams on one surface differ by up to this: on a surface met at 80 degrees, and by noise.
+constexpr double kSteepestSlope = 5.7;
+constexpr double kNoiseBetweenNeighboursM = 0.06;
+// Beams on either side that can back a return.
+constexpr int kNeighbours = 2;
+
+class Converter {
+ public:
+  Converter(const Sweep& sweep, const FilterHistory& motion, ScanPoints& scan)
+      : sweep_(sweep), motion_(motion), scan_(scan), odom_from_ref_(motion.odom_at(scan.stamp_ns)) {}
+
+  void run() {
+    // The robot's motion within a few ms is straight: its pose is worked out for some beams, and in between by share.
+    const std::size_t beams = sweep_.ranges_m.size();
+    for (std::size_t first = 0; first < beams; first += kBeamsPerPiece) {
+      convert_piece(first, std::min(first + kBeamsPerPiece, beams));
+    }
+  }
+
+ private:
+  static constexpr std::size_t kBeamsPerPiece = 32;
+
+  PoseVector lidar_at(std::size_t beam) const {
+    return compose(relative(odom_from_ref_, motion_.odom_at(sweep_.beam_ns(beam))), sweep_.mount);
+  }
+
+  void convert_piece(std::size_t first, std::size_t end) {
+    const PoseVector begin_pose = lidar_at(first);
+    const PoseVector end_pose = lidar_at(std::min(end, sweep_.ranges_m.size() - 1));
+    const Eigen::Vector2d shift = end_pose.head<2>() - begin_pose.head<2>();
+    const double turn = wrapped(end_pose.z() - begin_pose.z());
+    for (std::size_t beam = first; beam < end; ++beam) {
+      if (is_return(beam) && is_backed(beam)) {
+        const double share = static_cast<double>(beam - first) / static_cast<double>(end - first);
+        const double angle = begin_pose.z() + share * turn + sweep_.angle_min_rad +
+                             static_cast<double>(beam) * sweep_.angle_increment_rad;
+        const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+        const double range = sweep_.ranges_m[beam];
+        scan_.points.push_back({begin_pose.head<2>() + share * shift + range * direction, direction, range});
+      }
+    }
+  }
+
+  bool is_return(std::size_t beam) const {
+    const double range = sweep_.ranges_m[beam];
+    return std::isfinite(range) && range > 0.0 && range >= sweep_.range_min_m && range <= sweep_.range_max_m;
+  }
+
+  bool is_backed(std::size_t beam) const {
+    const double range = sweep_.ranges_m[beam];
+    const double step = kSteepestSlope * range * std::abs(sweep_.angle_increment_rad);
+    for (int offset = -kNeighbours; offset <= kNeighbours; ++offset) {
+      const std::size_t other = beam + static_cast<std::size_t>(offset);
+      if (offset != 0 && other < sweep_.ranges_m.size() && is_return(other) &&
+          std::abs(sweep_.ranges_m[other] - range) <= kNoiseBetweenNeighboursM + std::abs(offset) * step) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const Sweep& sweep_;
+  const FilterHistory& motion_;
+  ScanPoints& scan_;
+  PoseVector odom_from_ref_;
+};
+
+}  // namespace
+
+void append_points(const Sweep& sweep, const FilterHistory& motion, ScanPoints& scan) {
+  Converter(sweep, motion, scan).run();
+}
+
+}  // namespace mtr_localization

@@ -1,0 +1,78 @@
+/// @file
+/// Order, completeness and grouping of sweeps.
+// SPDX-License-Identifier: Apache-2.0
+#include "mtr_localization/sweep_queue.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "mtr_localization/sweep_points.hpp"
+
+namespace mtr_localization {
+namespace {
+
+// A driver whose time jumps back farther was started anew.
+constexpr std::int64_t kRestartNs = 1'000'000'000;
+// Without wheel odometry nothing is used; then the oldest are dropped.
+constexpr std::size_t kMostWaiting = 20;
+
+}  // namespace
+
+bool SweepQueue::refuse(const std::string& problem) {
+  problem_ = problem;
+  ++refused_;
+  return false;
+}
+
+bool SweepQueue::add(Sweep sweep) {
+  const std::string problem = sweep.problem();
+  if (!problem.empty()) {
+    return refuse(problem);
+  }
+  auto& newest_ns = newest_ns_[static_cast<std::size_t>(sweep.lidar)];
+  const bool is_restart = newest_ns && sweep.stamp_ns < *newest_ns - kRestartNs;
+  if (newest_ns && sweep.stamp_ns <= *newest_ns && !is_restart) {
+    return refuse("A scan is not newer than the one before.");
+  }
+  newest_ns = sweep.stamp_ns;
+  problem_.clear();
+  // Equal stamps in the order of the LiDARs, so that it does not matter whose message comes first.
+  const auto place = std::upper_bound(waiting_.begin(), waiting_.end(), sweep, [](const Sweep& a, const Sweep& b) {
+    return std::make_pair(a.stamp_ns, a.lidar) < std::make_pair(b.stamp_ns, b.lidar);
+  });
+  waiting_.insert(place, std::move(sweep));
+  if (waiting_.size() > kMostWaiting) {
+    waiting_.pop_front();
+    refuse("Scans wait for wheel odometry that does not come.");
+  }
+  return true;
+}
+
+std::int64_t SweepQueue::due_ns(const Sweep& sweep) const {
+  return lag_ns_ ? sweep.end_ns() + *lag_ns_ : sweep.last_beam_ns();
+}
+
+std::vector<Look> SweepQueue::take_due(const FilterHistory& history) {
+  std::vector<Look> looks;
+  std::deque<Sweep> later;
+  for (Sweep& sweep : waiting_) {
+    if (due_ns(sweep) > history.newest().stamp_ns) {
+      later.push_back(std::move(sweep));
+    } else if (sweep.stamp_ns < history.oldest().stamp_ns) {
+      refuse("A scan came too late, or while the pose was set anew.");
+    } else {
+      const std::int64_t middle_ns = sweep.stamp_ns + (sweep.last_beam_ns() - sweep.stamp_ns) / 2;
+      const std::size_t step = history.nearest(middle_ns);
+      if (looks.empty() || looks.back().step != step) {
+        looks.push_back({{}, {history.at(step).stamp_ns, {}}, step});
+      }
+      append_points(sweep, history, looks.back().scan);
+      looks.back().sweeps.push_back(std::move(sweep));
+      ++used_;
+    }
+  }
+  waiting_ = std::move(later);
+  return looks;
+}
+
+}  // namespace mtr_localization

@@ -1,0 +1,101 @@
+/// @file
+/// Ranges that a map lets expect, drawn surfel by surfel, against those of a sweep.
+// SPDX-License-Identifier: Apache-2.0
+#include "mtr_localization/view_agreement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mtr_localization/se2.hpp"
+
+namespace mtr_localization {
+namespace {
+
+constexpr int kBins = 720;
+constexpr double kBinsPerRad = kBins / (2.0 * M_PI);
+// One beam of three is enough to tell.
+constexpr double kBeamStepRad = 0.015;
+constexpr double kNothing = std::numeric_limits<double>::infinity();
+// Surfaces met at less than 6 degrees are not expected to be seen.
+constexpr double kGrazing = 0.1;
+// Of each metre of range, for the pose's heading and the width of a bin on slanting surfaces.
+constexpr double kTolerancePerM = 0.02;
+constexpr double kUnknownWeight = 0.5;
+
+int bin_of(double angle_rad) {
+  const int bin = static_cast<int>(std::floor(angle_rad * kBinsPerRad)) % kBins;
+  return bin < 0 ? bin + kBins : bin;
+}
+
+/// Nearest and farthest expected range in each direction from one place.
+class ExpectedView {
+ public:
+  ExpectedView(const Eigen::Vector2d& eye, const std::vector<Surfel>& surfels, double range_max_m)
+      : ranges_(kBins, kNothing) {
+    for (const Surfel& surfel : surfels) {
+      draw(surfel, surfel.position - eye, range_max_m);
+    }
+  }
+
+  double nearest(int bin) const { return ranges_[static_cast<std::size_t>((bin + kBins) % kBins)]; }
+
+ private:
+  void draw(const Surfel& surfel, const Eigen::Vector2d& offset, double range_max_m) {
+    const double distance = offset.norm();
+    const double facing = -surfel.normal.dot(offset) / distance;
+    if (facing < kGrazing || distance > range_max_m) {
+      return;
+    }
+    const double middle = std::atan2(offset.y(), offset.x());
+    const double half_width = std::atan2(0.5 * surfel.length_m * facing, distance);
+    const int first = static_cast<int>(std::floor((middle - half_width) * kBinsPerRad));
+    const int last = static_cast<int>(std::floor((middle + half_width) * kBinsPerRad));
+    for (int bin = first; bin <= last; ++bin) {
+      double& range = ranges_[static_cast<std::size_t>((bin % kBins + kBins) % kBins)];
+      range = std::min(range, distance);
+    }
+  }
+
+  std::vector<double> ranges_;
+};
+
+}  // namespace
+
+double Agreement::share() const {
+  const double all = evidence() + kUnknownWeight * unknown;
+  return all > 0.0 ? seen / all : 1.0;
+}
+
+Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap& map, double tolerance_m) {
+  const PoseVector eye = compose(view.pose, sweep.mount);
+  const ExpectedView expected(eye.head<2>(), map.surfels(), sweep.range_max_m);
+  Agreement agreement;
+  const auto beams = static_cast<int>(sweep.ranges_m.size());
+  const int stride = std::max(1, static_cast<int>(kBeamStepRad / std::abs(sweep.angle_increment_rad)));
+  const double turn = view.turned_at_last_beam_rad - view.turned_at_first_beam_rad;
+  for (int beam = 0; beam < beams; beam += stride) {
+    const double turned = view.turned_at_first_beam_rad + turn * beam / beams;
+    const int bin = bin_of(eye.z() + turned + sweep.angle_min_rad + beam * sweep.angle_increment_rad);
+    const double measured = sweep.ranges_m[static_cast<std::size_t>(beam)];
+    const bool is_return = std::isfinite(measured) && measured >= sweep.range_min_m && measured > 0.0;
+    const double shown = is_return && measured <= sweep.range_max_m ? measured : kNothing;
+    const double ranges[] = {expected.nearest(bin - 1), expected.nearest(bin), expected.nearest(bin + 1)};
+    const auto agrees = [&](double range) {
+      return range == shown || std::abs(range - shown) <= tolerance_m + kTolerancePerM * range;
+    };
+    if (ranges[1] == kNothing) {
+      const bool is_known = shown == kNothing || agrees(ranges[0]) || agrees(ranges[2]);
+      agreement.unknown += is_known ? 0 : 1;
+    } else if (std::any_of(std::begin(ranges), std::end(ranges), agrees)) {
+      ++agreement.seen;
+    } else if (shown < ranges[1]) {
+      ++agreement.hidden;
+    } else {
+      ++agreement.missing;
+    }
+  }
+  return agreement;
+}
+
+}  // namespace mtr_localization
