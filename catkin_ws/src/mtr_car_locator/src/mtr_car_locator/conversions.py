@@ -1,7 +1,7 @@
 """Between ROS messages and the locator's plain types."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Any, Optional
+from typing import Any, List, Optional
 
 import numpy as np
 from geometry_msgs.msg import Point, TransformStamped
@@ -10,15 +10,21 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from mtr_core import names
 from mtr_core.se2 import Pose2
-from mtr_core.states import CarState
-from mtr_msgs.msg import CarEstimate, MotionStatus, RobotMode, Waypoint
+from mtr_core.states import Result, State
+from mtr_msgs.msg import CarCheck, CarEstimate, LocalizedPose, MappingOrder, MotionStatus, RobotMode, Waypoint
+from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 
-from .locator import Drive, Estimate, Order
-from .rectangle import Rectangle
+from .drawing import Kind, Shape
+from .estimate import Drive, Estimate, Order
+from .parameters import RefinementParameters
+from .poses import PoseMode, RobotPose
 from .scan import Scan
+from .surfels import surfels_from
+from .survey import SurfaceMap
 
-LINE_WIDTH_M = 0.04
 MARKER_HEIGHT_M = 0.05
+MARKER_TYPES = {Kind.LOOP: Marker.LINE_STRIP, Kind.SEGMENTS: Marker.LINE_LIST, Kind.ARROW: Marker.ARROW,
+                Kind.DOTS: Marker.SPHERE_LIST}
 
 
 def order_from(message: Optional[RobotMode]) -> Optional[Order]:
@@ -26,14 +32,20 @@ def order_from(message: Optional[RobotMode]) -> Optional[Order]:
     if message is None:
         return None
     goal = message.goal
-    return Order(message.mapping, message.map_car_id, goal.id if goal.frame_id == names.MAP else 0, goal.x, goal.y)
+    return Order(message.mapping, message.map_car_id, goal.id if goal.frame_id == names.MAP else 0, goal.x, goal.y,
+                 message.mode == State.CHECKING_CAR, message.check_car_id)
 
 
 def drive_from(message: Optional[MotionStatus]) -> Optional[Drive]:
     """Word of the motion planner."""
-    if message is None:
-        return None
-    return Drive(message.goal_id, message.result in (MotionStatus.REACHED, MotionStatus.REFUSED))
+    return None if message is None else Drive(message.goal_id, Result(message.result))
+
+
+def robot_pose_from(message: LocalizedPose) -> RobotPose:
+    """The robot's pose."""
+    return RobotPose(message.header.stamp.to_nsec() * 1e-9, Pose2(message.x, message.y, message.heading),
+                     message.speed_mps, message.yaw_rate_radps, PoseMode(message.mode), message.map_revision,
+                     tuple(message.covariance))
 
 
 def scan_from(message: LaserScan, base_from_lidar: Pose2) -> Scan:
@@ -43,17 +55,30 @@ def scan_from(message: LaserScan, base_from_lidar: Pose2) -> Scan:
                 base_from_lidar)
 
 
+def surface_map_from(message: SurfaceMapMessage) -> SurfaceMap:
+    """Localization's adjusted map; columns of different lengths make it invalid."""
+    columns = [message.x, message.y, message.normal, message.length, message.sigma, message.hits]
+    frames = np.array([(frame.x, frame.y, frame.heading) for frame in message.key_frames]).reshape(-1, 3)
+    whole = len({len(column) for column in columns}) == 1
+    surfels = surfels_from(np.column_stack(columns) if whole else np.empty((0, 6)))
+    sentence = message.message if whole else "Localization's map of surfaces is damaged."
+    return SurfaceMap(message.map_car_id, message.revision, message.valid and whole, surfels, frames, sentence)
+
+
 def estimate_message(estimate: Estimate, stamp: Any) -> CarEstimate:
     """Estimate for the other nodes."""
-    message = CarEstimate(state=int(estimate.state), map_car_id=estimate.map_car_id, message=estimate.message)
+    message = CarEstimate(state=int(estimate.state), map_car_id=estimate.map_car_id, message=estimate.message,
+                          revision=estimate.revision)
     message.header.stamp, message.header.frame_id = stamp, names.MAP
-    car = estimate.rectangle
+    car, correction = estimate.rectangle, estimate.correction
     message.x, message.y, message.heading = car.pose.x, car.pose.y, car.pose.heading
     message.covariance = covariance_in_map(estimate)
     message.length, message.width = car.length, car.width
     message.length_sigma, message.width_sigma = estimate.length_sigma, estimate.width_sigma
     message.outline_x = [x for x, _ in estimate.outline]
     message.outline_y = [y for _, y in estimate.outline]
+    message.correction_x, message.correction_y = correction.x, correction.y
+    message.correction_heading = correction.heading
     if estimate.place:
         pose = estimate.place.pose
         message.next_waypoint = Waypoint(estimate.place.place_id, names.MAP, pose.x, pose.y, pose.heading,
@@ -69,6 +94,23 @@ def covariance_in_map(estimate: Estimate) -> np.ndarray:
     return (map_from_car @ np.diag(np.square(estimate.sigmas)) @ map_from_car.T).ravel()
 
 
+def mapping_message(estimate: Estimate, stamp: Any) -> MappingOrder:
+    """What localization's mapper shall do."""
+    message = MappingOrder(map_car_id=estimate.map_id, phase=int(estimate.phase))
+    message.header.stamp = stamp
+    return message
+
+
+def check_message(estimate: Estimate, limits: RefinementParameters, stamp: Any) -> CarCheck:
+    """How the self-check stands."""
+    report = estimate.check
+    message = CarCheck(id=report.check_id, state=int(report.state), difference_m=report.difference_m,
+                       difference_rad=report.difference_rad, limit_m=limits.check_limit_m,
+                       limit_rad=limits.check_limit_rad, message=report.message)
+    message.header.stamp = stamp
+    return message
+
+
 def transform_message(estimate: Estimate, stamp: Any) -> TransformStamped:
     """map to car."""
     pose = estimate.rectangle.pose
@@ -80,26 +122,21 @@ def transform_message(estimate: Estimate, stamp: Any) -> TransformStamped:
     return message
 
 
-def markers_message(estimate: Estimate, stamp: Any) -> MarkerArray:
-    """Outline and an arrow to the front, green when the Car is located."""
-    outline = _marker(estimate, stamp, 0, Marker.LINE_STRIP)
-    outline.scale.x = LINE_WIDTH_M
-    outline.points = _points_in_map(estimate.rectangle, [*estimate.outline, *estimate.outline[:1]])
-    arrow = _marker(estimate, stamp, 1, Marker.ARROW)
-    arrow.scale.x, arrow.scale.y = LINE_WIDTH_M, 3.0 * LINE_WIDTH_M
-    arrow.points = _points_in_map(estimate.rectangle, [(0.0, 0.0), (0.5 * estimate.rectangle.length, 0.0)])
-    return MarkerArray(markers=[outline, arrow])
+def markers_message(shapes: List[Shape], stamp: Any) -> MarkerArray:
+    """The shapes, and nothing of what was shown before."""
+    clear = Marker(action=Marker.DELETEALL)
+    clear.header.stamp, clear.header.frame_id = stamp, names.MAP
+    return MarkerArray(markers=[clear, *(_marker(shape, stamp) for shape in shapes if shape.points)])
 
 
-def _marker(estimate: Estimate, stamp: Any, number: int, kind: int) -> Marker:
-    marker = Marker(ns="car", id=number, type=kind, action=Marker.ADD)
+def _marker(shape: Shape, stamp: Any) -> Marker:
+    marker = Marker(ns=shape.name, type=MARKER_TYPES[shape.kind], action=Marker.ADD)
     marker.header.stamp, marker.header.frame_id = stamp, names.MAP
     marker.pose.orientation.w = 1.0
-    located = estimate.state == CarState.LOCATED
-    marker.color.r, marker.color.g, marker.color.b, marker.color.a = (0.1, 0.8, 0.2, 1.0) if located else (
-        1.0, 0.6, 0.0, 1.0)
+    marker.color.r, marker.color.g, marker.color.b, marker.color.a = shape.colour
+    marker.scale.x = marker.scale.y = marker.scale.z = shape.size_m
+    if shape.kind is Kind.ARROW:
+        marker.scale.y, marker.scale.z = 3.0 * shape.size_m, 0.0
+    points = [*shape.points, *shape.points[:1]] if shape.kind is Kind.LOOP else shape.points
+    marker.points = [Point(x, y, MARKER_HEIGHT_M) for x, y in points]
     return marker
-
-
-def _points_in_map(car: Rectangle, points: Any) -> Any:
-    return [Point(*car.pose.apply(x, y), MARKER_HEIGHT_M) for x, y in points]

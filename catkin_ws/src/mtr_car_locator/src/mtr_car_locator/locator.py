@@ -1,96 +1,75 @@
-"""The car locator: at each tick from mode, pose and scans to the estimate of the Car."""
+"""The car locator: at each tick from orders, poses, scans and maps to the estimate of the Car."""
 # SPDX-License-Identifier: Apache-2.0
-from dataclasses import dataclass
-from typing import List, Optional, Tuple
+from typing import Optional
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 
-from .fit import CarFit, NotLocated
+from .estimate import Estimate, Inputs, Order, result_at
+from .fit import NotLocated
+from .located import LocatedCar
+from .outline import rounded
 from .parameters import LocatorParameters
-from .poses import PoseHistory
-from .rectangle import Rectangle, prior_from
-from .scan import Scan
-from .survey import Place, Survey
+from .poses import PoseHistory, RobotPose
+from .prior import prior_at, prior_from_start
+from .rectangle import Rectangle
+from .survey import MapPhase, Survey
 
 # Sigma of what the starting place alone tells.
-PRIOR_POSITION_SIGMA_M, PRIOR_HEADING_SIGMA_RAD = 0.5, 0.1
-POSITION_SIGMA_MIN_M = 0.01
-NOWHERE = Pose2(0.0, 0.0, 0.0)
-
-
-@dataclass(frozen=True)
-class Order:
-    """What the state machine wants: mapping, under which id, and the goal that the motion planner has."""
-
-    mapping: bool
-    map_car_id: int
-    goal_id: int
-    goal_x: float
-    goal_y: float
-
-
-@dataclass(frozen=True)
-class Drive:
-    """What the motion planner says: the goal it speaks of, and whether it is done with it, well or not."""
-
-    goal_id: int
-    is_settled: bool
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """What is known of the Car at a tick; sigmas are (x, y, heading) in the Car's frame."""
-
-    state: CarState
-    rectangle: Rectangle
-    outline: Tuple[Tuple[float, float], ...]
-    sigmas: Tuple[float, float, float]
-    length_sigma: float
-    width_sigma: float
-    place: Optional[Place]
-    map_car_id: int
-    message: str
+PRIOR_POSITION_SIGMA_M, PRIOR_HEADING_SIGMA_RAD = 0.5, 0.2
+NOWHERE = Rectangle(Pose2(0.0, 0.0, 0.0), 0.0, 0.0)
+ADVICE = "Put the robot at the starting place and map again."
 
 
 class CarLocator:
-    """Collects points while the mode says so, and then keeps the Car's frame where it was found."""
+    """Maps the Car while the mode says so, and then keeps its frame unless there is evidence against it."""
 
     def __init__(self, parameters: LocatorParameters):
         self._parameters = parameters
         self._poses = PoseHistory()
         self._survey: Optional[Survey] = None
-        self._fit: Optional[CarFit] = None
+        self._located: Optional[LocatedCar] = None
         self._state = CarState.UNKNOWN
         self._was_mapping = False
         self._map_car_id = 0
         self._next_place_id = 1
+        self._revision = 0
         self._message = ""
 
-    @property
-    def needs_poses(self) -> bool:
-        """False while the Car's frame stands and nobody asks for a new one."""
-        return self._state != CarState.LOCATED
-
-    def wants_scans(self, order: Optional[Order]) -> bool:
+    def wants_scans(self, inputs: Inputs) -> bool:
         """True while scans are collected or about to be."""
-        return order is not None and order.mapping and (self._state == CarState.COLLECTING or self._is_new(order))
+        order = inputs.order
+        if order is not None and order.mapping:
+            return self._state == CarState.COLLECTING or self._is_new(order)
+        return self._located is not None and self._located.wants_scans(inputs, self._poses)
 
-    def add_pose(self, time_s: float, pose: Pose2) -> None:
+    def add_pose(self, robot: RobotPose) -> None:
         """Take a valid pose of the robot."""
-        if pose.is_finite():
-            self._poses.add(time_s, pose)
+        if robot.pose.is_finite():
+            self._poses.add(robot)
 
-    def step(self, now_s: float, order: Optional[Order], drive: Optional[Drive], scans: List[Scan]) -> Estimate:
-        """Estimate at a tick; all poses up to the tick have been added."""
+    def step(self, inputs: Inputs) -> Estimate:
+        """Estimate at a tick."""
+        order = inputs.order
         mapping = order is not None and order.mapping
-        if mapping and not self._poses.is_empty():
-            if self._is_new(order):
-                self._begin(now_s, order.map_car_id)
-            if self._state == CarState.COLLECTING:
-                self._collect(now_s, order, drive, scans)
+        if self._poses.newest is not None:
+            try:
+                self._work(inputs, mapping)
+            except NotLocated as reason:
+                self._fail(str(reason))
         self._was_mapping = mapping
         return self._estimate()
+
+    def _work(self, inputs: Inputs, mapping: bool) -> None:
+        if mapping and self._is_new(inputs.order):
+            self._begin(inputs.now_s, inputs.order.map_car_id)
+        if mapping and self._state == CarState.COLLECTING:
+            self._collect(inputs)
+        elif self._located:
+            self._located.step(inputs, self._poses, self._next_place_id)
+            if self._located.place:
+                self._next_place_id = self._located.place.place_id + 1
+            self._revision, self._message = self._located.revision, self._located.message
 
     def _is_new(self, order: Order) -> bool:
         if self._state == CarState.UNKNOWN or order.map_car_id != self._map_car_id:
@@ -98,58 +77,56 @@ class CarLocator:
         return self._state == CarState.FAILED and not self._was_mapping
 
     def _begin(self, now_s: float, map_car_id: int) -> None:
-        prior = self._fit.rectangle if self._fit else prior_from(self._poses.newest(), self._parameters)
-        self._survey = Survey(prior, now_s, self._next_place_id, self._parameters)
+        robot = self._poses.newest.pose
+        prior = (prior_at(self._located.fit.rectangle) if self._located
+                 else prior_from_start(robot, self._parameters))
+        # The time at which it begins is a number that no survey has had, not even before this node was restarted.
+        self._survey = Survey(prior, round(now_s * 1000.0), self._next_place_id, self._parameters)
+        self._located = None
         self._state, self._map_car_id = CarState.COLLECTING, map_car_id
 
-    def _collect(self, now_s: float, order: Order, drive: Optional[Drive], scans: List[Scan]) -> None:
-        survey = self._survey
-        survey.collect(scans, self._poses)
-        survey.advance(now_s, self._poses.newest(), is_settled_at(survey.place, order, drive))
-        if survey.place:
-            self._next_place_id = survey.place.place_id + 1
+    def _collect(self, inputs: Inputs) -> None:
+        survey, robot = self._survey, self._poses.newest
+        survey.collect(inputs.scans, self._poses)
+        survey.advance(inputs.now_s, robot, result_at(survey.place, inputs.order, inputs.drive))
+        self._next_place_id = survey.next_place_id
         self._message = survey.progress
-        if survey.finished:
-            self._finish(survey)
+        survey.conclude(inputs.now_s, robot, inputs.surfaces)
+        if survey.fit:
+            self._revision += 1
+            self._located = LocatedCar(survey.fit, robot.map_revision, self._revision, self._parameters.refinement)
+            self._state, self._message = CarState.LOCATED, self._located.message
 
-    def _finish(self, survey: Survey) -> None:
-        try:
-            self._fit = survey.result()
-        except NotLocated as reason:
-            self._fit, self._state = None, CarState.FAILED
-            self._message = f"The Car was not found. {reason} Put the robot at the starting place and map again."
-            return
-        self._state = CarState.LOCATED
-        found = self._fit.rectangle
-        self._message = f"The Car was found: {found.length:.2f} m long, {found.width:.2f} m wide."
+    def _fail(self, reason: str) -> None:
+        lost = "The Car was not found." if self._state == CarState.COLLECTING else "The Car's position is lost."
+        self._located, self._state = None, CarState.FAILED
+        self._message = f"{lost} {reason} {ADVICE}"
 
     def _estimate(self) -> Estimate:
-        if self._state == CarState.LOCATED:
-            return self._found(self._fit)
+        if self._located:
+            return self._found(self._located)
         if self._survey:
             car, was_seen = self._survey.car, self._survey.was_seen
-        elif self._poses.is_empty():
-            return self._rough(Rectangle(NOWHERE, 0.0, 0.0), (), "The robot's pose is not known yet.")
+        elif self._poses.newest is None:
+            return self._rough(NOWHERE, (), "The robot's pose is not known yet.")
         else:
-            car, was_seen = prior_from(self._poses.newest(), self._parameters), False
+            car, was_seen = prior_from_start(self._poses.newest.pose, self._parameters).car, False
         margin = self._parameters.seen_margin_m if was_seen else self._parameters.prior_margin_m
-        return self._rough(car, tuple(car.outline(margin)), self._message)
+        return self._rough(car, rounded(car, margin), self._message)
 
-    def _rough(self, car: Rectangle, outline: Tuple[Tuple[float, float], ...], message: str) -> Estimate:
-        place = self._survey.place if self._survey and self._state == CarState.COLLECTING else None
-        sigma, size_sigma = PRIOR_POSITION_SIGMA_M, 0.5 * self._parameters.size_tolerance_m
+    def _rough(self, car: Rectangle, outline: tuple, message: str) -> Estimate:
+        collecting = self._state == CarState.COLLECTING
+        place = self._survey.place if collecting else None
+        phase = self._survey.phase if collecting else MapPhase.IDLE
+        map_id = self._survey.map_id if collecting else 0
+        ahead = self._survey.places_ahead if collecting else ()
+        sigma, size_sigma = PRIOR_POSITION_SIGMA_M, 0.5 * self._parameters.profile.size_tolerance_m
         return Estimate(self._state, car, outline, (sigma, sigma, PRIOR_HEADING_SIGMA_RAD), size_sigma, size_sigma,
-                        place, self._map_car_id, message)
+                        place, self._map_car_id, message, self._revision, phase=phase, map_id=map_id,
+                        places=ahead)
 
-    def _found(self, fit: CarFit) -> Estimate:
-        sigmas = (max(0.5 * fit.length_sigma, POSITION_SIGMA_MIN_M), max(0.5 * fit.width_sigma, POSITION_SIGMA_MIN_M),
-                  fit.heading_sigma)
-        return Estimate(self._state, fit.rectangle, tuple(fit.rectangle.outline()), sigmas, fit.length_sigma,
-                        fit.width_sigma, None, self._map_car_id, self._message)
-
-
-def is_settled_at(place: Optional[Place], order: Order, drive: Optional[Drive]) -> bool:
-    """True when the motion planner has ended the drive to the place, which the state machine gives an id of its own."""
-    if place is None or drive is None or not drive.is_settled or order.goal_id == 0 or drive.goal_id != order.goal_id:
-        return False
-    return abs(order.goal_x - place.pose.x) < 1e-6 and abs(order.goal_y - place.pose.y) < 1e-6
+    def _found(self, located: LocatedCar) -> Estimate:
+        fit = located.fit
+        return Estimate(self._state, fit.rectangle, fit.outline, fit.sigmas, fit.length_sigma, fit.width_sigma,
+                        located.place, self._map_car_id, self._message, located.revision, located.correction,
+                        check=located.report, places=located.places_ahead, fit=fit)

@@ -1,7 +1,5 @@
-"""The car locator as a ROS node: scans and poses in, the Car's estimate, frame and markers out, 10 times a second."""
+"""The car locator as a ROS node: poses, scans and maps in; the Car, and orders to localization's mapper, out."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Optional
-
 import rospy
 import tf2_ros
 from visualization_msgs.msg import MarkerArray
@@ -10,12 +8,22 @@ from mtr_core import names, schedule
 from mtr_core.states import CarState
 from mtr_lockstep import Ticker, TickInput, publisher, run_node
 from mtr_lockstep.clock import stamp_of
-from mtr_msgs.msg import CarEstimate, RobotMode
+from mtr_msgs.msg import CarCheck, CarEstimate, MappingOrder, MotionStatus, RobotMode
 
-from .conversions import estimate_message, markers_message, order_from, transform_message
-from .locator import CarLocator, Estimate
+from .conversions import (
+    check_message,
+    drive_from,
+    estimate_message,
+    mapping_message,
+    markers_message,
+    order_from,
+    transform_message,
+)
+from .drawing import shapes_of
+from .estimate import Estimate, Inputs
+from .locator import CarLocator
 from .parameters import LocatorParameters
-from .sensors import MappingSources, PoseSource
+from .sensors import MapSource, PoseSource, ScanSource
 
 
 class CarLocatorNode:
@@ -26,10 +34,13 @@ class CarLocatorNode:
         self._locator = CarLocator(parameters)
         self._ticker = Ticker(schedule.CAR_LOCATOR)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
-        self._poses = PoseSource(self._locator)
-        self._mapping: Optional[MappingSources] = None
+        self._drive = TickInput(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER)
+        self._poses, self._scans, self._maps = PoseSource(self._locator), ScanSource(parameters), MapSource()
         self._shown = None
+        self._said = ("", 0)
         self._estimates = publisher(names.CAR_ESTIMATE, CarEstimate)
+        self._checks = publisher(names.CAR_CHECK, CarCheck)
+        self._orders = publisher(names.MAPPING_ORDER, MappingOrder)
         self._markers = rospy.Publisher(names.CAR_MARKERS, MarkerArray, queue_size=1, latch=True)
         self._frames = tf2_ros.TransformBroadcaster()
 
@@ -40,30 +51,34 @@ class CarLocatorNode:
 
     def tick(self, tick_ns: int) -> None:
         """One step of the locator."""
-        order = order_from(self._mode.at(tick_ns))
-        wants_scans = self._locator.wants_scans(order)
-        self._poses.feed(tick_ns, self._locator.needs_poses or wants_scans)
-        self._listen(wants_scans)
-        scans = self._mapping.scans(tick_ns) if self._mapping else []
-        drive = self._mapping.drive(tick_ns) if self._mapping else None
-        self._publish(self._locator.step(tick_ns * 1e-9, order, drive, scans), tick_ns)
-
-    def _listen(self, wanted: bool) -> None:
-        if wanted and self._mapping is None:
-            self._mapping = MappingSources(self._parameters)
-        if not wanted and self._mapping is not None:
-            self._mapping.close()
-            self._mapping = None
+        self._poses.feed(tick_ns)
+        heard = Inputs(tick_ns * 1e-9, order_from(self._mode.at(tick_ns)), drive_from(self._drive.at(tick_ns)))
+        scans = self._scans.take(tick_ns, self._locator.wants_scans(heard))
+        surfaces = self._maps.at(tick_ns, self._poses.map_revision)
+        self._publish(self._locator.step(Inputs(heard.now_s, heard.order, heard.drive, scans, surfaces)), tick_ns)
 
     def _publish(self, estimate: Estimate, tick_ns: int) -> None:
         stamp = stamp_of(tick_ns)
         self._estimates.publish(estimate_message(estimate, stamp))
+        self._checks.publish(check_message(estimate, self._parameters.refinement, stamp))
+        self._orders.publish(mapping_message(estimate, stamp))
         if estimate.state == CarState.LOCATED:
             self._frames.sendTransform(transform_message(estimate, stamp))
-        shown = (estimate.state, estimate.rectangle)
+        shown = (estimate.state, estimate.rectangle, estimate.places)
         if shown != self._shown:
             self._shown = shown
-            self._markers.publish(markers_message(estimate, stamp))
+            self._markers.publish(markers_message(shapes_of(estimate), stamp))
+        self._say(estimate)
+
+    def _say(self, estimate: Estimate) -> None:
+        """Each new sentence once; what changes the frame, or ends it, is a warning that reaches the Operator."""
+        said = (estimate.message, estimate.revision)
+        if said == self._said or not estimate.message:
+            return
+        was_corrected = estimate.revision > 1 and estimate.state == CarState.LOCATED and estimate.correction.x
+        log = rospy.logwarn if was_corrected or estimate.state == CarState.FAILED else rospy.loginfo
+        log("%s", estimate.message)
+        self._said = said
 
 
 def main() -> int:

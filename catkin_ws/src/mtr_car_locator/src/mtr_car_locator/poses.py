@@ -1,6 +1,9 @@
 """The robot's recent poses, at any time between them."""
 # SPDX-License-Identifier: Apache-2.0
+import enum
+import math
 from collections import deque
+from dataclasses import dataclass
 from typing import Deque, Optional, Tuple
 
 import numpy as np
@@ -10,24 +13,75 @@ from mtr_core.se2 import Pose2, wrap_angle
 # Localization gives a pose each 20 ms; over a longer gap nothing is interpolated.
 LONGEST_GAP_S = 0.1
 KEPT = 100
+# Below these a robot stands.
+STANDING_MPS, STANDING_RADPS = 0.01, 0.01
+
+
+class PoseMode(enum.IntEnum):
+    """What localization works with, as in LocalizedPose."""
+
+    DEAD_RECKONING = 0
+    MAPPING = 1
+    LOCALIZED = 2
+    LOST = 3
+
+
+@dataclass(frozen=True)
+class RobotPose:
+    """A valid pose of base_link in map.
+
+    Attributes:
+        map_revision: map that it is in; poses of two maps have nothing to do with each other.
+        covariance: row-major 3x3 of x, y, heading in map.
+    """
+
+    time_s: float
+    pose: Pose2
+    speed_mps: float = 0.0
+    yaw_rate_radps: float = 0.0
+    mode: PoseMode = PoseMode.DEAD_RECKONING
+    map_revision: int = 0
+    covariance: Tuple[float, ...] = (0.0,) * 9
+
+    @property
+    def position_sigma_m(self) -> float:
+        """1 sigma in the mean direction."""
+        return math.sqrt(max(0.5 * (self.covariance[0] + self.covariance[4]), 0.0))
+
+    @property
+    def stands(self) -> bool:
+        """True when the robot does not move."""
+        return abs(self.speed_mps) < STANDING_MPS and abs(self.yaw_rate_radps) < STANDING_RADPS
 
 
 class PoseHistory:
-    """Valid poses of base_link in map by time."""
+    """Valid poses of base_link in map by time.
+
+    Attributes:
+        newest: the last one, None before the first.
+        stands_since_s: time since which the robot stands, None while it moves.
+    """
 
     def __init__(self) -> None:
         self._rows: Deque[Tuple[float, float, float, float]] = deque(maxlen=KEPT)
+        self.newest: Optional[RobotPose] = None
+        self.stands_since_s: Optional[float] = None
 
-    def add(self, time_s: float, pose: Pose2) -> None:
-        """Take the next pose; a time that is not later than the last starts anew."""
-        heading = pose.heading
+    def add(self, robot: RobotPose) -> None:
+        """Take the next pose; another map, or a time that is not later than the last, starts anew."""
+        heading = robot.pose.heading
         if self._rows:
-            if time_s <= self._rows[-1][0]:
+            if robot.time_s <= self._rows[-1][0] or robot.map_revision != self.newest.map_revision:
                 self._rows.clear()
             else:
                 last = self._rows[-1][3]
                 heading = last + wrap_angle(heading - last)
-        self._rows.append((time_s, pose.x, pose.y, heading))
+        self._rows.append((robot.time_s, robot.pose.x, robot.pose.y, heading))
+        self.newest = robot
+        if not robot.stands:
+            self.stands_since_s = None
+        elif self.stands_since_s is None or robot.time_s < self.stands_since_s:
+            self.stands_since_s = robot.time_s
 
     def at(self, times_s: np.ndarray) -> Optional[Tuple[np.ndarray, np.ndarray, np.ndarray]]:
         """x, y and heading at the times, None when they are not covered."""
@@ -43,11 +97,6 @@ class PoseHistory:
             return None
         return tuple(np.interp(times_s, known, rows[:, column]) for column in (1, 2, 3))
 
-    def is_empty(self) -> bool:
-        """True before the first pose."""
-        return not self._rows
-
-    def newest(self) -> Pose2:
-        """Last pose; only when there is one."""
-        _, x, y, heading = self._rows[-1]
-        return Pose2(x, y, wrap_angle(heading))
+    def standing_s(self, now_s: float) -> float:
+        """How long the robot has been standing, 0 while it moves."""
+        return 0.0 if self.stands_since_s is None else max(now_s - self.stands_since_s, 0.0)

@@ -4,9 +4,12 @@ import dataclasses
 from dataclasses import dataclass
 from typing import List, Tuple
 
+import numpy as np
+
 from mtr_core.se2 import Pose2
 
-from .parameters import LocatorParameters
+# Within this distance of its middle line a Car has no outside: directions outwards are counted from there.
+CORE_M = 0.6
 
 
 @dataclass(frozen=True)
@@ -22,12 +25,17 @@ class Rectangle:
         x, y = 0.5 * self.length + margin_m, 0.5 * self.width + margin_m
         return [(x, y), (-x, y), (-x, -y), (x, -y)]
 
-    def turned_by(self, angle_rad: float) -> "Rectangle":
-        """Same centre and size, other heading."""
-        return dataclasses.replace(self, pose=self.pose @ Pose2(0.0, 0.0, angle_rad))
+    def outside(self, in_car: np.ndarray) -> np.ndarray:
+        """Distance of points in the Car's frame outwards of the nearest side, negative inside."""
+        beyond = np.abs(in_car) - (0.5 * self.length, 0.5 * self.width)
+        return np.max(beyond, axis=1)
 
+    def outwards(self, in_car: np.ndarray) -> np.ndarray:
+        """Unit vectors (n, 2) away from the Car at points in its frame; round the corners they turn."""
+        core = np.maximum(np.array([0.5 * self.length, 0.5 * self.width]) - CORE_M, 0.1)
+        away = in_car - np.clip(in_car, -core, core)
+        return away / np.maximum(np.linalg.norm(away, axis=1), 1e-9)[:, np.newaxis]
 
-def prior_from(robot: Pose2, parameters: LocatorParameters) -> Rectangle:
-    """Where the Car should be when the robot stands at the starting place."""
-    pose = robot @ parameters.car_from_start.inverse()
-    return Rectangle(pose, parameters.expected_length_m, parameters.expected_width_m)
+    def moved_by(self, motion: Pose2) -> "Rectangle":
+        """Same size, moved in its own frame."""
+        return dataclasses.replace(self, pose=self.pose @ motion)

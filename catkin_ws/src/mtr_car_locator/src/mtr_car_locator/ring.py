@@ -1,7 +1,7 @@
-"""Places around the Car from which all its sides are seen."""
+"""Places around the Car from which all its sides are seen, and the order in which the robot goes there."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import List, Tuple
+from typing import List, Optional, Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
 
@@ -9,7 +9,7 @@ from .rectangle import Rectangle
 
 
 class Ring:
-    """Eight places, two at each corner, that go round the Car once from where the robot stands.
+    """Eight places, two at each corner, and at the end the first one again, so that the loop is closed.
 
     The order is fixed when the ring is made; the places follow the Car as it gets known better.
     """
@@ -18,21 +18,71 @@ class Ring:
         self._distance_m = distance_m
         start = car.pose.inverse() @ robot
         ways = _orders(start, _places(car, distance_m))
-        self._order = min(ways, key=lambda order: self._first_turn(order, robot, car))
+        self._left = min(ways, key=lambda order: self._first_turn(order, robot, car))
+        self._passed: List[int] = []
+        self._cannot_close = False
 
-    def __len__(self) -> int:
-        return len(self._order)
+    @property
+    def done(self) -> int:
+        """Places that have been passed."""
+        return len(self._passed)
 
-    def place(self, index: int, car: Rectangle) -> Pose2:
-        """Pose in map; the heading is that of the way from the place before."""
+    @property
+    def total(self) -> int:
+        """Places that have been passed or are still ahead."""
+        return len(self._passed) + len(self._ahead)
+
+    @property
+    def is_finished(self) -> bool:
+        """True when the robot has been everywhere it can go."""
+        return not self._ahead
+
+    @property
+    def _ahead(self) -> List[int]:
+        first = self._passed[:1] or self._left[:1]
+        is_closed = len(self._passed) + len(self._left) < 2 or (not self._left and self._passed[-1] == first[0])
+        return self._left if is_closed or self._cannot_close else [*self._left, *first]
+
+    def place(self, car: Rectangle) -> Pose2:
+        """Pose in map of the next place; the heading is that of the way from the place before."""
         places = _places(car, self._distance_m)
-        x, y = places[self._order[index]]
-        back_x, back_y = places[self._order[index - 1]]
+        x, y = places[self._ahead[0]]
+        back_x, back_y = places[self._before()]
         return car.pose @ Pose2(x, y, math.atan2(y - back_y, x - back_x))
+
+    def places_ahead(self, car: Rectangle) -> Tuple[Pose2, ...]:
+        """Places in map where the robot has still to go; their headings say nothing."""
+        places = _places(car, self._distance_m)
+        return tuple(car.pose @ Pose2(*places[index], 0.0) for index in self._ahead)
+
+    def pass_place(self) -> None:
+        """The robot is there, or will never be."""
+        self._passed.append(self._ahead[0])
+        self._left = self._left[1:]
+
+    def turn_back(self) -> None:
+        """Something stands in the way: give the place up, and go round the other way to those that are left."""
+        self._cannot_close = not self._left
+        self._left = self._left[:0:-1]
+
+    def _before(self) -> int:
+        return self._passed[-1] if self._passed else self._left[-1]
 
     def _first_turn(self, order: List[int], robot: Pose2, car: Rectangle) -> float:
         x, y = car.pose.apply(*_places(car, self._distance_m)[order[0]])
         return abs(wrap_angle(math.atan2(y - robot.y, x - robot.x) - robot.heading))
+
+
+def corners(car: Rectangle, distance_m: float) -> List[Pose2]:
+    """Places in map before the four corners, counterclockwise from the front's left, that face the Car's centre."""
+    reach = distance_m * math.sqrt(0.5)
+    x, y = 0.5 * car.length + reach, 0.5 * car.width + reach
+    return [car.pose @ Pose2(a, b, math.atan2(-b, -a)) for a, b in ((x, y), (-x, y), (-x, -y), (x, -y))]
+
+
+def nearest(places: List[Pose2], robot: Pose2) -> Optional[int]:
+    """Index of the place next to the robot."""
+    return min(range(len(places)), key=lambda index: places[index].distance_to(robot), default=None)
 
 
 def _places(car: Rectangle, distance_m: float) -> List[Tuple[float, float]]:

@@ -1,6 +1,7 @@
 """From a laser scan to points in map, each beam from where the robot was at its own time."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
+from typing import Optional
 
 import numpy as np
 
@@ -23,21 +24,28 @@ class Scan:
     base_from_lidar: Pose2
 
 
-NO_POINTS = np.empty((0, 2))
+@dataclass(frozen=True)
+class Returns:
+    """Points (n, 2) in map, and where the LiDAR was in the middle of the sweep."""
+
+    points: np.ndarray
+    viewer: np.ndarray
 
 
-def points_in_map(scan: Scan, poses: PoseHistory) -> np.ndarray:
-    """Array (n, 2) of the returns in map; empty when the robot's poses do not cover the sweep."""
+def returns_in_map(scan: Scan, poses: PoseHistory) -> Optional[Returns]:
+    """Returns of a scan; None when the robot's poses do not cover the sweep."""
     count = len(scan.ranges_m)
     index = np.arange(count)
     robot = poses.at(scan.start_s + index * scan.beam_period_s)
     if robot is None:
-        return NO_POINTS
+        return None
     ranges = np.asarray(scan.ranges_m, dtype=float)
     good = np.isfinite(ranges) & (ranges >= scan.range_min_m) & (ranges < scan.range_max_m)
-    x, y, heading = (values[good] for values in robot)
     mount = scan.base_from_lidar
+    middle = Pose2(*(float(values[count // 2]) for values in robot))
+    x, y, heading = (values[good] for values in robot)
     beam = scan.first_angle_rad + index[good] * scan.beam_angle_rad + mount.heading
     ahead, aside = mount.x + ranges[good] * np.cos(beam), mount.y + ranges[good] * np.sin(beam)
     cos, sin = np.cos(heading), np.sin(heading)
-    return np.column_stack((x + cos * ahead - sin * aside, y + sin * ahead + cos * aside))
+    points = np.column_stack((x + cos * ahead - sin * aside, y + sin * ahead + cos * aside))
+    return Returns(points, np.array(middle.apply(mount.x, mount.y)))

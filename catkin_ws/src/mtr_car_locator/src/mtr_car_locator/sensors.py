@@ -1,73 +1,106 @@
-"""The topics that the locator hears only while it needs them."""
+"""The topics that the locator hears: poses always, scans only while it needs them, maps when there is a new one."""
 # SPDX-License-Identifier: Apache-2.0
+import threading
+import time
 from typing import List, Optional
 
+import rospy
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import LaserScan
 
 from mtr_core import names, schedule
-from mtr_core.schedule import CLOCK_STEP, MILLISECOND_NS
-from mtr_core.se2 import Pose2
+from mtr_core.schedule import MILLISECOND_NS
 from mtr_lockstep import StampedQueue
-from mtr_msgs.msg import LocalizedPose, MotionStatus
+from mtr_lockstep.clock import is_simulated
+from mtr_msgs.msg import LocalizedPose
+from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 
-from .conversions import drive_from, scan_from
-from .locator import CarLocator, Drive
+from .conversions import robot_pose_from, scan_from, surface_map_from
+from .locator import CarLocator
 from .parameters import LocatorParameters
 from .scan import Scan
+from .survey import SurfaceMap
 
 # A scan bears its first beam's time and is there when the sweep has ended; the pose of its last beam is there too then.
 SCAN_LAG_NS = 100 * MILLISECOND_NS
+# Scans that come while the connections are being made are not used: how many there are depends on the machine.
+CONNECTING_NS = 200 * MILLISECOND_NS
+# A map counts from this long after its stamp on; one that a pose speaks of is waited for so long (wall time).
+MAP_LAG_NS = 100 * MILLISECOND_NS
+MAP_WAIT_WALL_S = 2.0
 
 
 class PoseSource:
-    """Feeds the robot's poses to the locator while it needs them."""
+    """Feeds the robot's poses to the locator.
+
+    Attributes:
+        map_revision: map that the newest pose is in.
+    """
 
     def __init__(self, locator: CarLocator):
         self._locator = locator
-        self._queue: Optional[StampedQueue] = open_poses()
+        self._queue = StampedQueue(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, 0)
+        self.map_revision = 0
 
-    def feed(self, tick_ns: int, needed: bool) -> None:
+    def feed(self, tick_ns: int) -> None:
         """Hand over the poses up to the tick."""
-        if needed and self._queue is None:
-            self._queue = open_poses()
-        if not needed and self._queue is not None:
-            self._queue.close()
-            self._queue = None
-        for message in self._queue.take(tick_ns) if self._queue else []:
+        for message in self._queue.take(tick_ns):
             if message.valid:
-                pose = Pose2(message.x, message.y, message.heading)
-                self._locator.add_pose(message.header.stamp.to_nsec() * 1e-9, pose)
+                self.map_revision = message.map_revision
+                self._locator.add_pose(robot_pose_from(message))
 
 
-def open_poses() -> StampedQueue:
-    """Subscription to the robot's pose, which is there before the clock reaches its stamp."""
-    return StampedQueue(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, 0)
-
-
-class MappingSources:
-    """Scans and the motion planner's word, from the beginning of a mapping to its end."""
+class ScanSource:
+    """Scans of both LiDARs, from when they are wanted on."""
 
     def __init__(self, parameters: LocatorParameters):
-        scan_type = numpy_msg(LaserScan)
         self._mounts = (parameters.base_from_front_lidar, parameters.base_from_rear_lidar)
-        self._scans = tuple(StampedQueue(topic, scan_type, schedule.LIDAR, SCAN_LAG_NS)
-                            for topic in (names.FRONT_SCAN, names.REAR_SCAN))
-        self._statuses = StampedQueue(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER, CLOCK_STEP.period_ns)
-        self._drive: Optional[Drive] = None
+        self._queues: List[StampedQueue] = []
+        self._usable_from_ns = 0
 
-    def scans(self, tick_ns: int) -> List[Scan]:
+    def take(self, tick_ns: int, wanted: bool) -> List[Scan]:
         """Scans that have come since the last tick."""
-        return [scan_from(message, mount) for queue, mount in zip(self._scans, self._mounts)
-                for message in queue.take(tick_ns)]
+        if not wanted:
+            self._close()
+            return []
+        if not self._queues:
+            self._usable_from_ns = tick_ns + CONNECTING_NS
+            self._queues = [StampedQueue(topic, numpy_msg(LaserScan), schedule.LIDAR, SCAN_LAG_NS)
+                            for topic in (names.FRONT_SCAN, names.REAR_SCAN)]
+        return [scan_from(message, mount) for queue, mount in zip(self._queues, self._mounts)
+                for message in queue.take(tick_ns) if message.header.stamp.to_nsec() >= self._usable_from_ns]
 
-    def drive(self, tick_ns: int) -> Optional[Drive]:
-        """Newest word of the motion planner."""
-        for message in self._statuses.take(tick_ns)[-1:]:
-            self._drive = drive_from(message)
-        return self._drive
-
-    def close(self) -> None:
-        """End the subscriptions."""
-        for queue in (*self._scans, self._statuses):
+    def _close(self) -> None:
+        for queue in self._queues:
             queue.close()
+        self._queues = []
+
+
+class MapSource:
+    """Localization's newest map of surfaces."""
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self._message: Optional[SurfaceMapMessage] = None
+        self._map: Optional[SurfaceMap] = None
+        self._subscriber = rospy.Subscriber(names.SURFACE_MAP, SurfaceMapMessage, self._take, queue_size=2)
+
+    def at(self, tick_ns: int, pose_revision: int) -> Optional[SurfaceMap]:
+        """The map at a tick; in simulation it waits for the one that the poses are in."""
+        deadline = time.monotonic() + (MAP_WAIT_WALL_S if is_simulated() else 0.0)
+        with self._changed:
+            while self._revision() < pose_revision and time.monotonic() < deadline:
+                self._changed.wait(deadline - time.monotonic())
+            message = self._message
+            if message is None:
+                return None
+            is_due = message.header.stamp.to_nsec() + MAP_LAG_NS <= tick_ns
+            return self._map if is_due or message.revision == pose_revision else None
+
+    def _revision(self) -> int:
+        return -1 if self._message is None else self._message.revision
+
+    def _take(self, message: SurfaceMapMessage) -> None:
+        with self._changed:
+            self._message, self._map = message, surface_map_from(message)
+            self._changed.notify_all()

@@ -1,26 +1,51 @@
-"""One mapping of the Car: points collected on the way round it, and where the robot shall go next."""
+"""One mapping of the Car: the way round it, and the Car from what localization made of it."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
-import dataclasses
-import math
+import enum
 from dataclasses import dataclass
-from typing import Dict, List, Optional
+from typing import Optional, Sequence, Tuple
+
+import numpy as np
 
 from mtr_core.se2 import Pose2
+from mtr_core.states import Result
 
-from .cluster import car_points
-from .drift import drift_between
-from .fit import CarFit, NotLocated, fit_car, profiles_of
+from .car_fit import CarFit
+from .fit import NotLocated, fit_car, rough_car
 from .parameters import LocatorParameters
-from .point_grid import PointGrid
-from .poses import PoseHistory
-from .profile import Profile
-from .rectangle import Rectangle
+from .poses import PoseHistory, PoseMode, RobotPose
+from .prior import Prior
 from .ring import Ring
-from .scan import Scan, points_in_map
+from .scan import Scan, returns_in_map
+from .surfel_grid import SurfelGrid
+from .surfels import Surfels
 
-# Part of the drift between first and last look that goes into the errors of the dimensions, as 1 sigma.
-DRIFT_SHARE = 0.5
+
+class MapPhase(enum.IntEnum):
+    """What localization's mapper shall do, as in MappingOrder."""
+
+    IDLE = 0
+    COLLECT = 1
+    FREEZE = 2
+
+
+@dataclass(frozen=True)
+class SurfaceMap:
+    """Localization's adjusted map.
+
+    Attributes:
+        map_id: of the survey that it was made for.
+        revision: poses that say so are in it.
+        key_frames: (n, 3) poses of base_link.
+        message: why it is not valid.
+    """
+
+    map_id: int
+    revision: int
+    valid: bool
+    surfels: Surfels
+    key_frames: np.ndarray
+    message: str = ""
 
 
 @dataclass(frozen=True)
@@ -32,89 +57,137 @@ class Place:
 
 
 class Survey:
-    """Collects until the robot has been round the Car.
+    """Leads the robot round the Car, has the map adjusted, and fits the Car.
 
     Attributes:
+        map_id: number of the map that localization shall make.
         prior: where the Car should be.
         car: what is known of the Car so far, the prior before the first look.
         was_seen: True when car comes from points.
-        finished: True when the robot has been everywhere.
+        fit: the Car, once it was found.
+        surfels: what it was found among.
     """
 
-    def __init__(self, prior: Rectangle, started_s: float, first_place_id: int, parameters: LocatorParameters):
+    def __init__(self, prior: Prior, map_id: int, first_place_id: int, parameters: LocatorParameters):
         self._parameters = parameters
-        self._started_s = started_s
-        # All points, and apart those of the first look and of the last piece of the way.
-        self._all, self._first, self._last = (PointGrid(prior.pose.x, prior.pose.y) for _ in range(3))
+        self._grid = SurfelGrid(prior.car.pose.x, prior.car.pose.y)
         self._ring: Optional[Ring] = None
-        self._first_place_id = first_place_id
-        self._index = 0
-        self.prior, self.car = prior, prior
+        self._place_id = first_place_id
+        self._begun_s: Optional[float] = None
+        self._blocked_since_s: Optional[float] = None
+        self._frozen_since_s: Optional[float] = None
+        self._is_mapped = False
+        self.map_id = map_id
+        self.prior, self.car = prior, prior.car
         self.was_seen = False
-        self.finished = False
+        self.fit: Optional[CarFit] = None
+        self.surfels: Optional[Surfels] = None
+
+    @property
+    def phase(self) -> MapPhase:
+        """What localization shall do."""
+        return MapPhase.COLLECT if self._frozen_since_s is None else MapPhase.FREEZE
 
     @property
     def place(self) -> Optional[Place]:
         """Where the robot shall go now."""
-        if self._ring is None or self.finished:
+        if self._ring is None or self._ring.is_finished:
             return None
-        return Place(self._first_place_id + self._index, self._ring.place(self._index, self.car))
+        return Place(self._place_id, self._ring.place(self.car))
+
+    @property
+    def places_ahead(self) -> Tuple[Pose2, ...]:
+        """Where it has still to go."""
+        return self._ring.places_ahead(self.car) if self._ring else ()
+
+    @property
+    def next_place_id(self) -> int:
+        """Id that no place of this survey has had."""
+        return self._place_id + 1
 
     @property
     def progress(self) -> str:
         """One sentence for a person."""
         if self._ring is None:
             return "The robot looks at the Car from where it stands."
-        return f"The robot goes round the Car: place {min(self._index + 1, len(self._ring))} of {len(self._ring)}."
+        if self._ring.is_finished:
+            return "The robot makes a map of what it has seen."
+        return f"The robot goes round the Car: place {self._ring.done + 1} of {self._ring.total}."
 
-    def collect(self, scans: List[Scan], poses: PoseHistory) -> None:
+    def collect(self, scans: Sequence[Scan], poses: PoseHistory) -> None:
         """Take the returns of new scans."""
+        self._is_mapped = self._is_mapped or poses.newest.mode is PoseMode.MAPPING
         for scan in scans:
-            points = points_in_map(scan, poses)
-            self._all.add(points)
-            if self._ring is None:
-                self._first.add(points)
-            elif self._index == len(self._ring) - 1:
-                self._last.add(points)
+            seen = returns_in_map(scan, poses)
+            if seen is not None:
+                self._grid.add(seen.points, seen.viewer)
 
-    def advance(self, now_s: float, robot: Pose2, is_settled: bool) -> None:
+    def advance(self, now_s: float, robot: RobotPose, result: Result) -> None:
         """Lay the way round after the first look; later go on to the next place.
 
-        is_settled: the motion planner has ended the drive to the present place, well or not.
+        result: what the motion planner says of the present place.
         """
+        if self._begun_s is None:
+            self._begun_s = now_s
         if self._ring is None:
-            if now_s - self._started_s >= self._parameters.look_first_s:
-                self._look()
-                self._ring = Ring(robot, self.car, self._parameters.ring_distance_m)
+            self._look_first(now_s - self._begun_s, robot)
+        elif not self._ring.is_finished:
+            self._go_on(now_s, robot, result)
+
+    def conclude(self, now_s: float, robot: RobotPose, surfaces: Optional[SurfaceMap]) -> None:
+        """After the way round: take the adjusted map once the robot's pose is in it; NotLocated when there is none."""
+        if self._ring is None or not self._ring.is_finished:
             return
-        place = self.place
-        if place and (is_settled or robot.distance_to(place.pose) <= self._parameters.arrival_m):
-            self._index += 1
-            self.finished = self._index == len(self._ring)
-            if not self.finished:
-                self._look()
+        if self._frozen_since_s is None:
+            self._frozen_since_s = now_s
+        if not self._is_mapped and robot.mode is PoseMode.DEAD_RECKONING:
+            # A localization that makes no map, wheels and gyro alone: what the locator has seen itself must do.
+            self._fit(self._grid.surfels(robot.position_sigma_m))
+        elif surfaces is not None and surfaces.map_id == self.map_id:
+            if not surfaces.valid:
+                raise NotLocated(surfaces.message or "Localization could not make a map of what was seen.")
+            if robot.map_revision == surfaces.revision:
+                self._fit(surfaces.surfels)
+        elif now_s - self._frozen_since_s > self._parameters.map_limit_s:
+            raise NotLocated(f"Localization has not made its map within {self._parameters.map_limit_s:g} s.")
 
-    def result(self) -> CarFit:
-        """The Car from all points, sigmas widened by the drift of the pose; NotLocated when it cannot be trusted."""
-        fit = self._fit()
-        x_m, y_m = drift_between(self._profiles(self._first, fit.rectangle), self._profiles(self._last, fit.rectangle))
-        limit_m = self._parameters.drift_limit_m
-        if max(x_m, y_m) > limit_m:
-            raise NotLocated(f"The robot's pose drifted by {max(x_m, y_m):.2f} m on the way round; allowed is "
-                             f"{limit_m:.2f} m.")
-        return dataclasses.replace(fit, length_sigma=math.hypot(fit.length_sigma, DRIFT_SHARE * x_m),
-                                   width_sigma=math.hypot(fit.width_sigma, DRIFT_SHARE * y_m))
+    def _go_on(self, now_s: float, robot: RobotPose, result: Result) -> None:
+        place = self.place.pose
+        is_settled = result in (Result.REACHED, Result.REFUSED)
+        if is_settled or robot.pose.distance_to(place) <= self._parameters.arrival_m:
+            self._ring.pass_place()
+            with contextlib.suppress(NotLocated):
+                self._look(robot)
+            self._begin_leg()
+        elif result is not Result.BLOCKED:
+            self._blocked_since_s = None
+        elif self._blocked_since_s is None:
+            self._blocked_since_s = now_s
+        elif now_s - self._blocked_since_s >= self._parameters.blocked_limit_s:
+            self._ring.turn_back()
+            self._begin_leg()
 
-    def _fit(self) -> CarFit:
-        return fit_car(*self._all.points(), self.prior, self._parameters)
+    def _begin_leg(self) -> None:
+        self._place_id += 1
+        self._blocked_since_s = None
 
-    def _profiles(self, grid: PointGrid, car: Rectangle) -> Dict[str, Profile]:
-        points, hits = grid.points()
-        kept, _ = car_points(points, car)
-        return profiles_of(points[kept], hits[kept], car.pose)
+    def _fit(self, surfels: Surfels) -> None:
+        self.surfels = surfels
+        self.fit = fit_car(surfels, self.prior, self._parameters)
 
-    def _look(self) -> None:
-        """A better idea of the Car for the rest of the way, if the points give one."""
-        with contextlib.suppress(NotLocated):
-            self.car = self._fit().rectangle
-            self.was_seen = True
+    def _look_first(self, since_s: float, robot: RobotPose) -> None:
+        """Begin the way round once the Car is seen: nobody goes round what may stand elsewhere."""
+        if since_s < self._parameters.look_first_s:
+            return
+        try:
+            self._look(robot)
+        except NotLocated:
+            if since_s >= self._parameters.look_limit_s:
+                raise
+            return
+        self._ring = Ring(robot.pose, self.car, self._parameters.ring_distance_m)
+
+    def _look(self, robot: RobotPose) -> None:
+        """A better idea of the Car for the rest of the way; NotLocated when the points give none."""
+        self.car = rough_car(self._grid.surfels(robot.position_sigma_m), self.prior, self._parameters)
+        self.was_seen = True

@@ -2,18 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, field
-from typing import List, Sequence, Tuple
+from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
 
-from mtr_car_locator.locator import CarLocator, Drive, Estimate, Order
+from mtr_car_locator.estimate import Drive, Estimate, Inputs, Order
+from mtr_car_locator.locator import CarLocator
 from mtr_car_locator.parameters import LocatorParameters
-from mtr_car_locator.scan import Scan
+from mtr_car_locator.poses import PoseHistory, PoseMode, RobotPose
+from mtr_car_locator.scan import Scan, returns_in_map
+from mtr_car_locator.surfel_grid import SurfelGrid
+from mtr_car_locator.survey import MapPhase, Place, SurfaceMap
 from mtr_core.se2 import Pose2, wrap_angle
-from mtr_core.states import CarState
+from mtr_core.states import CarState, Check, Result
 
 PARAMETERS = LocatorParameters()
-BEAMS, FIELD_RAD, SWEEP_S = 720, math.radians(270.0), 0.030
+BEAMS, FIELD_RAD, SWEEP_S = 480, math.radians(270.0), 0.030
 SPEED_MPS, YAW_RADPS, PERIOD_S = 0.5, 1.0, 0.02
 Points = Sequence[Tuple[float, float]]
 BOX: Points = ((2.25, .9), (-2.25, .9), (-2.25, -.9), (2.25, -.9))
@@ -26,6 +30,11 @@ def closed(points: Points, at: Tuple[float, float] = (0.0, 0.0)) -> np.ndarray:
     """Segments (n, 4) of a closed polygon."""
     shifted = [(x + at[0], y + at[1]) for x, y in points]
     return np.array([(*a, *b) for a, b in zip(shifted, [*shifted[1:], shifted[0]])])
+
+
+def wheels_alone() -> np.ndarray:
+    """A Car of 4.5 m that the LiDARs look under."""
+    return np.vstack([closed(WHEEL, (x, y)) for x in (1.325, -1.325) for y in (.77, -.77)])
 
 
 def leg_at(x: float, y: float) -> np.ndarray:
@@ -55,53 +64,131 @@ class Scene:
     drift_m: float = 0.0
     drift_rad: float = 0.0
     drift_time_s: float = 5.0
-    creep_mps: float = 0.0
+    pose_sigma_m: float = 0.005
     seed: int = 1
     refused: Tuple[int, ...] = ()
+    blocked: Tuple[int, ...] = ()
+    maps: bool = True
+    map_problem: str = ""
+    parameters: LocatorParameters = PARAMETERS
     rng: np.random.Generator = field(init=False)
 
     def __post_init__(self) -> None:
         self.rng = np.random.default_rng(self.seed)
 
 
+class Mapper:
+    """Localization's part: key-frames from exact poses, and a map some time after the order to freeze."""
+
+    def __init__(self, scene: Scene, centre: Pose2):
+        self._scene, self._centre = scene, centre
+        self._grid = SurfelGrid(centre.x, centre.y)
+        self._poses = PoseHistory()
+        self._map_id, self._freeze_s = 0, math.inf
+        self.revision = 0
+        self.mode = PoseMode.DEAD_RECKONING
+        self.map: Optional[SurfaceMap] = None
+
+    def add_pose(self, now_s: float, pose: Pose2) -> None:
+        """True pose."""
+        self._poses.add(RobotPose(now_s, pose))
+
+    def obey(self, now_s: float, estimate: Estimate, scans: Sequence[Scan]) -> None:
+        """Take the locator's order."""
+        if estimate.phase is MapPhase.COLLECT and estimate.map_id != self._map_id:
+            self._map_id, self._freeze_s, self.revision = estimate.map_id, math.inf, 0
+            self._grid = SurfelGrid(self._centre.x, self._centre.y)
+            self.mode = PoseMode.MAPPING
+        for scan in scans:
+            seen = returns_in_map(scan, self._poses)
+            if seen is not None:
+                self._grid.add(seen.points, seen.viewer)
+        if estimate.phase is MapPhase.FREEZE and math.isinf(self._freeze_s):
+            self._freeze_s = now_s + 2.0
+        if now_s >= self._freeze_s and self.revision == 0:
+            valid = not self._scene.map_problem
+            self.revision = 1 + (self.map.revision if self.map else 0) if valid else 0
+            self.mode = PoseMode.LOCALIZED
+            self.map = SurfaceMap(self._map_id, self.revision, valid, self._grid.surfels(0.002), np.zeros((0, 3)),
+                                  self._scene.map_problem)
+
+
 class World:
-    """Runs a scene; map begins at the robot's start. `car` is the true pose of the Car in map."""
+    """Runs a scene; map begins at the robot's start.
+
+    Attributes:
+        car: true pose of the Car in map.
+        checking: order to check the Car, 0 for none.
+        pushed_mps: somebody pushes the robot ahead.
+    """
 
     def __init__(self, scene: Scene):
         self.scene = scene
-        self.locator = CarLocator(PARAMETERS)
+        self.locator = CarLocator(scene.parameters)
         self.pose = Pose2(0.0, 0.0, 0.0)
-        self.car = scene.start.inverse()
-        self.segments = np.hstack([self._to_map(scene.segments[:, :2]), self._to_map(scene.segments[:, 2:])])
+        self.mode: Optional[PoseMode] = None
+        self.checking = 0
+        self.pushed_mps = 0.0
         self.steps = 50
         self.drift = np.zeros(3)
         self.estimates: List[Estimate] = []
         self._scans: List[Tuple[float, Scan]] = []
         self._trail: List[Tuple[float, Pose2]] = []
+        self.place_car(scene.start.inverse(), scene.segments)
+        self.mapper = Mapper(scene, self.car)
+
+    def place_car(self, car: Pose2, segments: np.ndarray) -> None:
+        """Put the Car, and what is beside it, somewhere in map."""
+        self.car = car
+        self.segments = np.hstack([self._to_map(segments[:, :2]), self._to_map(segments[:, 2:])])
 
     @property
     def now(self) -> float:
         """Time in s."""
         return self.steps * PERIOD_S
 
+    @property
+    def newest(self) -> Estimate:
+        """Newest estimate."""
+        return self.estimates[-1]
+
     def run(self, limit_s: float = 150.0, map_car_id: int = 7) -> Estimate:
         """Map the Car until the locator has made up its mind."""
         for _ in range(int(limit_s / PERIOD_S)):
             self.step(mapping=True, map_car_id=map_car_id)
-            if self.estimates and self.estimates[-1].state in (CarState.LOCATED, CarState.FAILED):
+            if self.estimates and self.newest.state in (CarState.LOCATED, CarState.FAILED):
                 break
-        return self.estimates[-1]
+        return self.newest
 
-    def step(self, mapping: bool, map_car_id: int) -> None:
-        """20 ms: the robot moves; each 160 ms a scan, each 100 ms a tick of the locator."""
+    def check(self, check_car_id: int, limit_s: float = 120.0) -> Estimate:
+        """Have the Car checked."""
+        self.checking = check_car_id
+        for _ in range(int(limit_s / PERIOD_S)):
+            self.step(mapping=False, map_car_id=7)
+            if self.newest.check.check_id == check_car_id and self.newest.check.state in (Check.PASSED, Check.FAILED):
+                break
+        self.checking = 0
+        return self.newest
+
+    def stand(self, duration_s: float) -> Estimate:
+        """Let time pass while the robot stands."""
+        for _ in range(int(duration_s / PERIOD_S)):
+            self.step(mapping=False, map_car_id=7, drives=False)
+        return self.newest
+
+    def step(self, mapping: bool, map_car_id: int, drives: bool = True) -> None:
+        """20 ms: the robot moves; each 160 ms, or 320 ms on the way, a scan, each 100 ms a tick of the locator."""
         self.steps += 1
-        place = self.estimates[-1].place if self.estimates else None
-        if place and mapping and place.place_id not in self.scene.refused:
+        before = self.pose
+        place = self.newest.place if self.estimates else None
+        if place and drives and (mapping or self.checking) and place.place_id not in self._unreachable():
             self._drive_to(place.pose)
+        self.pose = self.pose @ Pose2(self.pushed_mps * PERIOD_S, 0.0, 0.0)
         self._drift()
         self._trail = [*self._trail[-3:], (self.now, self.pose)]
-        self.locator.add_pose(self.now, self._localized())
-        if self.steps % 8 == 0 and len(self._trail) == 4:
+        self.locator.add_pose(self._localized(before))
+        self.mapper.add_pose(self.now, self.pose)
+        if self.steps % (8 if self.pose == before else 16) == 0 and len(self._trail) == 4:
             for mount in (PARAMETERS.base_from_front_lidar, PARAMETERS.base_from_rear_lidar):
                 self._scans.append((self.now, self._scan(mount)))
         if self.steps % 5 == 0:
@@ -109,34 +196,61 @@ class World:
 
     def error(self) -> Tuple[float, float, float, float]:
         """Distance, heading, length and width error of the newest estimate."""
-        found = self.estimates[-1].rectangle
+        found = self.newest.rectangle
         at = self.car.inverse() @ found.pose
         return math.hypot(at.x, at.y), at.heading, found.length - 4.5, found.width - 1.8
 
+    def _unreachable(self) -> Tuple[int, ...]:
+        return (*self.scene.refused, *self.scene.blocked)
+
     def _tick(self, mapping: bool, map_car_id: int) -> None:
-        place = self.estimates[-1].place if self.estimates else None
+        place = self.newest.place if self.estimates else None
         goal = (100 + place.place_id, place.pose.x, place.pose.y) if place else (0, 0.0, 0.0)
         due = [scan for time_s, scan in self._scans if time_s <= self.now - 0.06]
         self._scans = [entry for entry in self._scans if entry[0] > self.now - 0.06]
-        drive = Drive(goal[0], place is not None and place.place_id in self.scene.refused)
-        self.estimates.append(self.locator.step(self.now, Order(mapping, map_car_id, *goal), drive, due))
+        order = Order(mapping, map_car_id, *goal, checking=self.checking != 0, check_car_id=self.checking)
+        inputs = Inputs(self.now, order, Drive(goal[0], self._result(place)), due, self.mapper.map)
+        self.estimates.append(self.locator.step(inputs))
+        if self.scene.maps:
+            self.mapper.obey(self.now, self.newest, due)
+
+    def _result(self, place: Optional[Place]) -> Result:
+        if place is None:
+            return Result.IDLE
+        if place.place_id in self.scene.refused:
+            return Result.REFUSED
+        if place.place_id in self.scene.blocked:
+            return Result.BLOCKED
+        return Result.REACHED if self.pose == place.pose else Result.PENDING
 
     def _drive_to(self, goal: Pose2) -> None:
-        here = self._localized()
-        error = wrap_angle(math.atan2(goal.y - here.y, goal.x - here.x) - here.heading)
+        error = wrap_angle(math.atan2(goal.y - self.pose.y, goal.x - self.pose.x) - self.pose.heading)
+        if self.pose.distance_to(goal) < 0.05 or self._is_through_car(goal):
+            self.pose = goal
+            return
         turn = max(-YAW_RADPS, min(YAW_RADPS, 2.0 * error)) * PERIOD_S
         ahead = SPEED_MPS * PERIOD_S if abs(error) < 0.8 else 0.0
         self.pose = self.pose @ Pose2(ahead, 0.0, turn)
+
+    def _is_through_car(self, goal: Pose2) -> bool:
+        """A way that a planner would lead round the Car."""
+        here, there = (self.car.inverse() @ pose for pose in (self.pose, goal))
+        points = [(here.x + s * (there.x - here.x), here.y + s * (there.y - here.y)) for s in np.linspace(0, 1, 20)]
+        return any(abs(x) < 2.6 and abs(y) < 1.2 for x, y in points)
 
     def _drift(self) -> None:
         keep = math.exp(-PERIOD_S / self.scene.drift_time_s)
         sigma = np.array([self.scene.drift_m, self.scene.drift_m, self.scene.drift_rad])
         self.drift = keep * self.drift + math.sqrt(1.0 - keep ** 2) * sigma * self.scene.rng.standard_normal(3)
 
-    def _localized(self) -> Pose2:
+    def _localized(self, before: Pose2) -> RobotPose:
         x, y, heading = self.drift
-        creep = self.scene.creep_mps * self.now
-        return Pose2(self.pose.x + x + creep, self.pose.y + y, self.pose.heading + heading)
+        pose = Pose2(self.pose.x + x, self.pose.y + y, self.pose.heading + heading)
+        variance = self.scene.pose_sigma_m ** 2
+        covariance = (variance, 0.0, 0.0, 0.0, variance, 0.0, 0.0, 0.0, 0.25 * variance)
+        return RobotPose(self.now, pose, self.pose.distance_to(before) / PERIOD_S,
+                         (self.pose.heading - before.heading) / PERIOD_S, self.mode or self.mapper.mode,
+                         self.mapper.revision, covariance)
 
     def _scan(self, mount: Pose2) -> Scan:
         """A sweep that ends now; each beam from the true pose at its own time."""

@@ -1,0 +1,72 @@
+"""The Car's axis of symmetry from its long sides: heading and lateral position."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import Optional, Tuple
+
+import numpy as np
+
+from .side import BIN_M, Side
+
+# The ends of a side bend towards the bumpers; with one side alone they would turn the axis.
+ENDS_M = 0.6
+LEAST_BINS = 6
+# Spread of a car's surface about its symmetric shape; bins farther off count less and less.
+SHAPE_SIGMA_M = 0.005
+ROUNDS = 8
+
+
+@dataclass(frozen=True)
+class Axis:
+    """Slope and offset of the axis in the frame of the sides, and how well they are known.
+
+    is_centred: False when only one side was seen; then the offset is that of the side.
+    """
+
+    slope: float
+    offset_m: float
+    slope_sigma: float
+    offset_sigma_m: float
+    is_centred: bool
+
+
+def axis_of(left: Side, right: Side, length: float) -> Optional[Axis]:
+    """Middle between both sides where both were seen, else parallel to one; None when they tell nothing."""
+    lefts, rights = left.bins(), right.bins()
+    both = sorted(set(lefts) & set(rights))
+    if len(both) >= LEAST_BINS:
+        middle = np.array([0.5 * (lefts[number] - rights[number]) for number in both])
+        sigma = 0.5 * math.hypot(_sigma(left), _sigma(right))
+        return _axis((np.array(both) + 0.5) * BIN_M, middle, sigma, is_centred=True)
+    for side, bins, sign in ((left, lefts, 1.0), (right, rights, -1.0)):
+        inner = [number for number in sorted(bins) if abs((number + 0.5) * BIN_M) < 0.5 * length - ENDS_M]
+        if len(inner) >= LEAST_BINS:
+            levels = sign * np.array([bins[number] for number in inner])
+            return _axis((np.array(inner) + 0.5) * BIN_M, levels, _sigma(side), is_centred=False)
+    return None
+
+
+def _axis(along: np.ndarray, level: np.ndarray, common_sigma_m: float, is_centred: bool) -> Axis:
+    slope, offset, slope_sigma, offset_sigma = robust_line(along, level)
+    # What the map is wrong by on one side may differ from its one end to the other.
+    span = max(float(np.ptp(along)), BIN_M)
+    return Axis(slope, offset, math.hypot(slope_sigma, math.sqrt(2.0) * common_sigma_m / span),
+                math.hypot(offset_sigma, common_sigma_m), is_centred)
+
+
+def robust_line(along: np.ndarray, level: np.ndarray) -> Tuple[float, float, float, float]:
+    """Slope and offset at 0 of the line through most points, and their 1 sigma by the scatter."""
+    matrix = np.column_stack((along, np.ones_like(along)))
+    weights = np.ones(len(level))
+    line = np.array([0.0, float(np.median(level))])
+    for _ in range(ROUNDS):
+        line = np.linalg.lstsq(matrix * weights[:, np.newaxis], level * weights, rcond=None)[0]
+        rest = level - matrix @ line
+        weights = 1.0 / np.sqrt(1.0 + (rest / SHAPE_SIGMA_M) ** 2)
+    scatter = math.sqrt(float(np.sum((weights * rest) ** 2) / max(np.sum(weights ** 2) - 2.0, 1.0)))
+    covariance = np.linalg.inv((matrix * weights[:, np.newaxis] ** 2).T @ matrix) * max(scatter, 1e-4) ** 2
+    return float(line[0]), float(line[1]), math.sqrt(covariance[0, 0]), math.sqrt(covariance[1, 1])
+
+
+def _sigma(side: Side) -> float:
+    return float(np.median(side.sigma)) if len(side.sigma) else 0.0

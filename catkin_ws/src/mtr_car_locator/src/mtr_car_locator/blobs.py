@@ -1,0 +1,69 @@
+"""A guess, from one place, of a Car that the LiDARs look under: they see parts of three of its wheels or of four."""
+# SPDX-License-Identifier: Apache-2.0
+import itertools
+import math
+from typing import Iterator, List, Optional
+
+import numpy as np
+from scipy.cluster.hierarchy import fcluster, linkage
+
+from mtr_core.se2 import Pose2
+
+from .candidates import is_allowed, near
+from .parameters import LocatorParameters
+from .prior import Prior
+from .rectangle import Rectangle
+from .surfels import Surfels, in_frame
+from .wheels import LONGEST_WHEELBASE_M, SHORTEST_WHEELBASE_M, WHEELBASE_SHARE
+
+# Parts of a wheel are nearer to each other than this, and a wheel is larger than a leg and smaller than a sill.
+LINK_M = 0.3
+LEAST_M, MOST_M = 0.1, 0.95
+NARROWEST_TRACK_M, WIDEST_TRACK_M = 1.2, 1.9
+# The middle of what is seen of a wheel is so far from its middle.
+OFF_M = 0.4
+
+
+def guess_from_blobs(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> Optional[Rectangle]:
+    """The Car whose wheels the blobs may be, the one next to the prior; None when there is none."""
+    blobs = in_frame(_blobs(near(surfels, prior, parameters)), prior.car.pose)
+    found = []
+    for at in _cars(blobs, parameters):
+        car = Rectangle(prior.car.pose @ at.pose, at.length, at.width)
+        if is_allowed(car, prior, parameters):
+            found.append(car)
+    return min(found, key=lambda car: prior.error_of(car.pose)[0], default=None)
+
+
+def _blobs(surfels: Surfels) -> np.ndarray:
+    """Middles (n, 2) of things of a wheel's size."""
+    if len(surfels) < 2:
+        return np.empty((0, 2))
+    labels = fcluster(linkage(surfels.position, "single"), LINK_M, "distance")
+    middles = []
+    for label in np.unique(labels):
+        mine = surfels.where(labels == label)
+        span = np.ptp(mine.ends(), axis=0)
+        if LEAST_M <= math.hypot(*span) <= MOST_M:
+            middles.append(0.5 * (mine.ends().min(axis=0) + mine.ends().max(axis=0)))
+    return np.array(middles).reshape(-1, 2)
+
+
+def _cars(blobs: np.ndarray, parameters: LocatorParameters) -> Iterator[Rectangle]:
+    """Rectangles, in the frame of the blobs, with two wheels on one side and a third beside one of them."""
+    for rear, front in itertools.permutations(blobs, 2):
+        wheelbase, heading = math.hypot(*(front - rear)), math.atan2(*(front - rear)[::-1])
+        if (not SHORTEST_WHEELBASE_M <= wheelbase <= LONGEST_WHEELBASE_M
+                or abs(heading) > parameters.heading_tolerance_rad):
+            continue
+        frame = Pose2(*rear, heading)
+        for track in _tracks(in_frame(blobs, frame).tolist(), wheelbase):
+            yield Rectangle(frame @ Pose2(0.5 * wheelbase, 0.5 * track, 0.0), wheelbase / WHEELBASE_SHARE,
+                            parameters.profile.width_m)
+
+
+def _tracks(blobs: List[List[float]], wheelbase: float) -> Iterator[float]:
+    """Sideways distances of blobs that stand beside one of the axles, to the left positive."""
+    for along, across in blobs:
+        if min(abs(along), abs(along - wheelbase)) <= OFF_M and NARROWEST_TRACK_M <= abs(across) <= WIDEST_TRACK_M:
+            yield across

@@ -1,0 +1,127 @@
+"""Rectangles that may be the Car: pairs of opposite surfaces at a Car's distance, near where it should stand."""
+# SPDX-License-Identifier: Apache-2.0
+import itertools
+import math
+from dataclasses import dataclass
+from typing import Iterator, List, Optional, Tuple
+
+import numpy as np
+
+from mtr_core.se2 import Pose2
+
+from .parameters import CarProfile, LocatorParameters
+from .prior import Prior
+from .rectangle import Rectangle
+from .scoring import Score, score_of
+from .side import ENDS, LONG_SIDES, Side, side_of
+from .surfels import SAMPLE_M, Surfels
+from .wheels import Wheels, wheels_between
+
+# Surface within this distance beyond the expected Car and the tolerance of its place may be its own.
+REACH_M = 0.8
+HEADING_BIN_RAD, HEADING_SIGMA_BINS = math.radians(0.5), 3.0
+MOST_HEADINGS, LEAST_OF_BEST_HEADING = 3, 0.4
+LEVEL_BIN_M, LEVEL_SIGMA_BINS = 0.02, 1.5
+# Surface that makes a level: half a sill, or the middle of a bumper.
+LEAST_SURFACE_M = {"front": 0.25, "rear": 0.25, "left": 0.4, "right": 0.4}
+MOST_LEVELS = 5
+# A bumper is seen in the middle of the Car; tyres, which face forwards too, are not.
+MIDDLE_SHARE = 0.6
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A rectangle with its evidence; wheels when neither front nor rear was seen."""
+
+    car: Rectangle
+    score: Score
+    wheels: Optional[Wheels] = None
+
+
+def near(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> Surfels:
+    """Those that may be the Car's."""
+    car, swing_m = prior.car, prior.reach_m * parameters.heading_tolerance_rad
+    reach = 0.5 * math.hypot(car.length, car.width) + parameters.position_tolerance_m + swing_m + REACH_M
+    return surfels.where(np.hypot(*(surfels.position - (car.pose.x, car.pose.y)).T) < reach)
+
+
+def candidates(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> List[Candidate]:
+    """Candidates within the tolerance of the prior, best first."""
+    profile = parameters.profile
+    found = []
+    for turn in headings(surfels, prior, parameters.heading_tolerance_rad):
+        frame = prior.car.pose @ Pose2(0.0, 0.0, turn)
+        for car, wheels in _rectangles(surfels.in_frame(frame), profile):
+            placed = Rectangle(frame @ car.pose, car.length, car.width)
+            if is_allowed(placed, prior, parameters):
+                found.append(Candidate(placed, score_of(surfels, placed, prior, profile), wheels))
+    return sorted(found, key=lambda each: -each.score.total)
+
+
+def is_allowed(car: Rectangle, prior: Prior, parameters: LocatorParameters) -> bool:
+    """True when the Operator may have been so wrong."""
+    off_m, off_rad = prior.error_of(car.pose)
+    return off_m <= parameters.position_tolerance_m and off_rad <= parameters.heading_tolerance_rad
+
+
+def headings(surfels: Surfels, prior: Prior, tolerance_rad: float) -> List[float]:
+    """Turns from the prior's heading at which much surface is parallel or square to the Car."""
+    turn = np.arctan2(surfels.normal[:, 1], surfels.normal[:, 0]) - prior.car.pose.heading
+    quarter = np.remainder(turn + 0.25 * math.pi, 0.5 * math.pi) - 0.25 * math.pi
+    edges = np.arange(-0.25 * math.pi, 0.25 * math.pi + HEADING_BIN_RAD, HEADING_BIN_RAD)
+    counts, edges = np.histogram(quarter, bins=edges, weights=surfels.length)
+    density = smoothed(counts, HEADING_SIGMA_BINS)
+    density[np.abs(0.5 * (edges[:-1] + edges[1:])) > tolerance_rad] = 0.0
+    best = peaks(density, LEAST_OF_BEST_HEADING * density.max())[:MOST_HEADINGS]
+    return [float(0.5 * (edges[index] + edges[index + 1])) for index in best]
+
+
+def levels(side: Side) -> List[float]:
+    """Distances outwards at which the side has much surface, the most first."""
+    if len(side.outward) == 0:
+        return []
+    low = side.outward.min() - 5 * LEVEL_BIN_M
+    count = math.ceil((side.outward.max() - low) / LEVEL_BIN_M) + 5
+    counts, _ = np.histogram(side.outward, bins=count, range=(low, low + count * LEVEL_BIN_M))
+    density = smoothed(counts * SAMPLE_M, LEVEL_SIGMA_BINS)
+    # A single level of surface s makes a peak of this height.
+    height = LEAST_SURFACE_M[side.name] / (LEVEL_SIGMA_BINS * math.sqrt(2.0 * math.pi))
+    return [low + (index + 0.5) * LEVEL_BIN_M for index in peaks(density, height)[:MOST_LEVELS]]
+
+
+def smoothed(values: np.ndarray, sigma_bins: float) -> np.ndarray:
+    """Convolution with a Gaussian."""
+    reach = np.arange(-math.ceil(3 * sigma_bins), math.ceil(3 * sigma_bins) + 1)
+    kernel = np.exp(-0.5 * (reach / sigma_bins) ** 2)
+    return np.convolve(values.astype(float), kernel / kernel.sum(), mode="same")
+
+
+def peaks(density: np.ndarray, least: float) -> List[int]:
+    """Indices of the local maxima above a height, highest first."""
+    padded = np.concatenate(([-1.0], density, [-1.0]))
+    top = (density > padded[:-2]) & (density >= padded[2:]) & (density > 0.0) & (density >= least)
+    return sorted(np.nonzero(top)[0].tolist(), key=lambda index: -density[index])
+
+
+def _rectangles(seen: Surfels, profile: CarProfile) -> Iterator[Tuple[Rectangle, Optional[Wheels]]]:
+    """Rectangles in the frame of seen, whose x axis is the Car's."""
+    left, right = (side_of(name, seen, -math.inf) for name in LONG_SIDES)
+    front, rear = (side_of(name, seen, -math.inf) for name in ENDS)
+    for y, width in _spans(levels(left), levels(right), profile.width_m, profile.size_tolerance_m / 2.0):
+        middle = (y - 0.5 * MIDDLE_SHARE * width, y + 0.5 * MIDDLE_SHARE * width)
+        ahead, behind = levels(front.within(*middle)), levels(rear.within(*middle))
+        for x, length in _spans(ahead, behind, profile.length_m, profile.size_tolerance_m):
+            yield Rectangle(Pose2(x, y, 0.0), length, width), None
+        wheels = wheels_between(left, right, y, width, profile)
+        if wheels:
+            yield Rectangle(Pose2(wheels.centre_m, y, 0.0), wheels.length_m, width), wheels
+
+
+def _spans(ahead: List[float], behind: List[float], expected_m: float,
+           tolerance_m: float) -> Iterator[Tuple[float, float]]:
+    """Middle and size between opposite surfaces, one of which may not have been seen."""
+    for a, b in itertools.product(ahead, behind):
+        if abs(a + b - expected_m) <= tolerance_m:
+            yield 0.5 * (a - b), a + b
+    yield from ((a - 0.5 * expected_m, expected_m) for a in ahead)
+    yield from ((0.5 * expected_m - b, expected_m) for b in behind)

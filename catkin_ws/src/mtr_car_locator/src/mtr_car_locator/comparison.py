@@ -1,0 +1,165 @@
+"""The Car seen anew against the surfaces that it was measured by: how far it has moved, and how sure that is."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import Dict, List, Optional, Tuple
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from mtr_core.se2 import Pose2
+
+from .scan import Returns
+from .side import OUTWARDS
+from .surfels import Surfels, in_frame, rotated_back
+
+# Points farther from every known surface are something else: a person, an open door.
+FIRST_GATE_M, LAST_GATE_M = 0.20, 0.05
+ROUNDS = 8
+# A surface that is seen at a flatter angle is not used: there the LiDAR's spot is long.
+LEAST_FACING = 0.25
+# 1 sigma of a LiDAR's range, and of what the surfels simplify.
+POINT_SIGMA_M = 0.015
+# Without evidence the Car stands where it stood: 1 sigma before the look, along x, y (m) and heading (rad).
+BEFORE_SIGMAS = (0.10, 0.10, math.radians(2.0))
+LEAST_POINTS = 40
+LEAST_POINTS_ON_SIDE = 20
+SIDE_COSINE = 0.8
+# Neighbouring beams hit the same unevenness and are wrong together: so many of them count as one.
+BEAMS_PER_SAMPLE = 10.0
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What one look, or several, say of the Car's motion (x, y, heading) in its own frame.
+
+    Attributes:
+        information: inverse covariance by the points' scatter, 3x3.
+        weighted: information times motion.
+        sides: median shift outwards of each side that was seen, m.
+        points: how many were used.
+        common: covariance of what is common to a whole look: the robot's pose.
+    """
+
+    information: np.ndarray
+    weighted: np.ndarray
+    sides: Dict[str, float]
+    points: int
+    common: np.ndarray
+
+    @property
+    def motion(self) -> Pose2:
+        """Most likely motion of the Car; 0 in directions that were not seen."""
+        x, y, heading = np.linalg.solve(self.information + _before(), self.weighted)
+        return Pose2(float(x), float(y), float(heading))
+
+    @property
+    def covariance(self) -> np.ndarray:
+        """Of the motion."""
+        own = np.linalg.inv(self.information + _before())
+        return own + self.common
+
+    @property
+    def sigmas(self) -> Tuple[float, float]:
+        """1 sigma of the shift, in its worst direction (m), and of the turn (rad)."""
+        covariance = self.covariance
+        return (math.sqrt(float(np.linalg.eigvalsh(covariance[:2, :2])[-1])), math.sqrt(float(covariance[2, 2])))
+
+    @property
+    def shift_m(self) -> float:
+        """Shift of the Car's centre or of a side, the larger."""
+        motion = self.motion
+        return max([math.hypot(motion.x, motion.y), *(abs(shift) for shift in self.sides.values())])
+
+    def significance(self) -> float:
+        """Mahalanobis distance of the motion from none."""
+        motion = self.motion
+        vector = np.array([motion.x, motion.y, motion.heading])
+        return math.sqrt(max(float(vector @ np.linalg.solve(self.covariance, vector)), 0.0))
+
+
+class Reference:
+    """Surfaces of the Car in its own frame, ready to be compared with."""
+
+    def __init__(self, surfels: Surfels):
+        self._points, index = surfels.samples()
+        self._normals = surfels.normal[index]
+        self._tree = cKDTree(self._points)
+
+    def compare(self, looks: List[Returns], car: Pose2, pose_covariance: np.ndarray) -> Optional[Evidence]:
+        """Motion that fits what was seen from one place, None when too little of the Car was seen.
+
+        pose_covariance: of the robot's pose in map.
+        """
+        points = in_frame(np.vstack([look.points for look in looks]), car) if looks else np.empty((0, 2))
+        viewers = [in_frame(look.viewer[np.newaxis], car).repeat(len(look.points), axis=0) for look in looks]
+        viewer = np.vstack(viewers) if looks else points
+        motion = np.zeros(3)
+        for turn in range(ROUNDS):
+            gate_m = max(FIRST_GATE_M * 0.6 ** turn, LAST_GATE_M)
+            matched = self._match(points, viewer, motion, gate_m)
+            if matched is None:
+                return None
+            motion, information, weighted = _solve(*matched, motion)
+        rows, rest, normals = matched
+        sides = _side_shifts(rest + rows @ motion, normals)
+        return Evidence(information, weighted, sides, len(rest), _common(pose_covariance, car))
+
+    def _match(self, points: np.ndarray, viewer: np.ndarray, motion: np.ndarray,
+               gate_m: float) -> Optional[Tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Jacobian, residual and normal of each point that is near a surface that it can be a point of."""
+        pose = Pose2(*motion)
+        moved = in_frame(points, pose)
+        distance, index = self._tree.query(moved, distance_upper_bound=gate_m)
+        found = np.isfinite(distance)
+        normals = self._normals[np.where(found, index, 0)]
+        back = rotated_back(viewer - points, pose.heading)
+        back /= np.maximum(np.linalg.norm(back, axis=1), 1e-6)[:, np.newaxis]
+        found &= np.sum(normals * back, axis=1) > LEAST_FACING
+        if np.count_nonzero(found) < LEAST_POINTS:
+            return None
+        moved, normals = moved[found], normals[found]
+        rest = np.sum(normals * (moved - self._points[index[found]]), axis=1)
+        lever = normals[:, 1] * moved[:, 0] - normals[:, 0] * moved[:, 1]
+        return np.column_stack((normals, lever)), rest, normals
+
+
+def joined(first: Evidence, second: Evidence) -> Evidence:
+    """Both looks together; a side that both saw counts with its larger shift."""
+    sides = dict(first.sides)
+    for name, shift in second.sides.items():
+        sides[name] = max(shift, sides.get(name, 0.0), key=abs)
+    return Evidence(first.information + second.information, first.weighted + second.weighted, sides,
+                    first.points + second.points, 0.5 * (first.common + second.common))
+
+
+def _solve(rows: np.ndarray, rest: np.ndarray, normals: np.ndarray,
+           motion: np.ndarray) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Next motion, information and weighted motion, robust against points that are wrong."""
+    weights = 1.0 / (1.0 + (rest / POINT_SIGMA_M) ** 2)
+    scatter = math.sqrt(float(np.sum(weights * rest ** 2) / np.sum(weights)))
+    scale = 1.0 / (BEAMS_PER_SAMPLE * max(scatter, 0.2 * POINT_SIGMA_M) ** 2)
+    information = scale * (rows * weights[:, np.newaxis]).T @ rows
+    # The residual is what is left beyond the present motion; the whole motion is wanted.
+    weighted = scale * rows.T @ (weights * (rest + rows @ motion))
+    return np.linalg.solve(information + _before(), weighted), information, weighted
+
+
+def _side_shifts(shift: np.ndarray, normals: np.ndarray) -> Dict[str, float]:
+    found = {}
+    for name, outwards in OUTWARDS.items():
+        mine = normals @ np.array(outwards) > SIDE_COSINE
+        if np.count_nonzero(mine) >= LEAST_POINTS_ON_SIDE:
+            found[name] = float(np.median(shift[mine]))
+    return found
+
+
+def _common(pose_covariance: np.ndarray, car: Pose2) -> np.ndarray:
+    """Covariance of the robot's pose, turned into the Car's frame; the Car is near, so the heading's lever is short."""
+    cos, sin = math.cos(car.heading), math.sin(car.heading)
+    car_from_map = np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
+    return car_from_map @ np.asarray(pose_covariance, dtype=float).reshape(3, 3) @ car_from_map.T
+
+
+def _before() -> np.ndarray:
+    return np.diag(1.0 / np.square(BEFORE_SIGMAS))

@@ -1,0 +1,44 @@
+"""Command line of the fit to recorded surfaces."""
+# SPDX-License-Identifier: Apache-2.0
+import argparse
+import pathlib
+import sys
+from typing import List, Optional, Tuple
+
+from mtr_core.errors import RobotError
+from mtr_core.parameters import parameters_from
+from mtr_core.se2 import Pose2
+
+from .offline import fit_files, summary_of
+from .parameters import LocatorParameters
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    """Print the Car; the exit status is 0 when it was found and 2 after one sentence when not."""
+    options = _parser().parse_args(arguments)
+    try:
+        parameters = parameters_from(dict(options.parameter), LocatorParameters)
+        fit = fit_files(options.folder, Pose2(*options.prior) if options.prior else None, parameters)
+    except RobotError as error:
+        print(error, file=sys.stderr)
+        return 2
+    print("\n".join(summary_of(fit)))
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="fit", description="Finds and measures the Car in surfaces.csv of a replay.")
+    parser.add_argument("folder", type=pathlib.Path, help="folder with surfaces.csv and key_frames.csv")
+    parser.add_argument("--prior", type=float, nargs=3, metavar=("X", "Y", "HEADING"),
+                        help="guessed pose of the Car in map, m and rad; default: from the starting place")
+    parser.add_argument("--parameter", type=_assignment, action="append", default=[], metavar="NAME=VALUE",
+                        help="parameter of the Car locator, any number of times")
+    return parser
+
+
+def _assignment(text: str) -> Tuple[str, float]:
+    name, _, value = text.partition("=")
+    try:
+        return name, float(value)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not NAME=NUMBER") from None

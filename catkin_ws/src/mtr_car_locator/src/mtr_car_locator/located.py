@@ -1,0 +1,105 @@
+"""The Car after it was found: its frame stands until there is evidence that it has to change."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import replace
+from typing import Optional, Tuple
+
+from mtr_core.se2 import Pose2
+
+from .car_fit import CarFit
+from .estimate import NO_MOTION, Inputs, result_at
+from .fit import NotLocated
+from .parameters import RefinementParameters
+from .poses import PoseHistory
+from .refinement import Change, Refinement
+from .self_check import CheckReport, SelfCheck
+from .survey import Place
+
+
+class LocatedCar:
+    """Frame, self-check and corrections of a Car.
+
+    Attributes:
+        fit: the Car.
+        revision: of its frame.
+        correction: the frame in that of the revision before.
+        message: one sentence.
+    """
+
+    def __init__(self, fit: CarFit, map_revision: int, revision: int, parameters: RefinementParameters):
+        self._map_revision, self._parameters = map_revision, parameters
+        self._refinement = Refinement(fit, parameters)
+        self._check: Optional[SelfCheck] = None
+        self._place: Optional[Place] = None
+        self.fit, self.revision, self.correction = fit, revision, NO_MOTION
+        self.message = found_sentence(fit)
+
+    @property
+    def place(self) -> Optional[Place]:
+        """Where the self-check wants the robot now."""
+        return self._place
+
+    @property
+    def places_ahead(self) -> Tuple[Pose2, ...]:
+        """Where the self-check has still to go."""
+        return self._check.places_ahead if self._check else ()
+
+    @property
+    def report(self) -> CheckReport:
+        """How the last self-check stands."""
+        return self._check.report if self._check else CheckReport()
+
+    def wants_scans(self, inputs: Inputs, poses: PoseHistory) -> bool:
+        """True while something looks."""
+        if inputs.order is not None and inputs.order.checking:
+            return self._place is not None
+        return self._refinement.wants_scans(inputs.now_s, poses)
+
+    def step(self, inputs: Inputs, poses: PoseHistory, next_place_id: int) -> None:
+        """One tick; NotLocated when the Car's frame holds no longer."""
+        if poses.newest.map_revision != self._map_revision:
+            raise NotLocated("Localization has another map than the one in which the Car was found.")
+        if inputs.order is not None and inputs.order.checking:
+            self._run_check(inputs, poses, next_place_id)
+            return
+        self._place = None
+        change = self._refinement.step(inputs.now_s, inputs.scans, poses)
+        if change:
+            self._apply(change)
+
+    def _run_check(self, inputs: Inputs, poses: PoseHistory, next_place_id: int) -> None:
+        if self._check is None or self._check.report.check_id != inputs.order.check_car_id:
+            self._check = SelfCheck(inputs.order.check_car_id, poses.newest.pose, self.fit, self._parameters)
+            self._place = None
+        result = result_at(self._place, inputs.order, inputs.drive)
+        self._check.step(inputs.now_s, result, inputs.scans, poses)
+        self._place = self._placed(self._check.place, next_place_id)
+
+    def _placed(self, pose: Optional[Pose2], next_place_id: int) -> Optional[Place]:
+        if pose is None or (self._place and self._place.pose == pose):
+            return self._place if pose else None
+        return Place(next_place_id, pose)
+
+    def _apply(self, change: Change) -> None:
+        if change.motion is None:
+            raise NotLocated("The Car is no longer seen where it was measured.")
+        shift = (f"{100.0 * math.hypot(change.motion.x, change.motion.y):.1f} cm and "
+                 f"{math.degrees(abs(change.motion.heading)):.2f} deg")
+        if not change.is_correction:
+            raise NotLocated(f"The Car was moved, by {shift}.")
+        self.fit = replace(self.fit, rectangle=self.fit.rectangle.moved_by(change.motion))
+        self.revision, self.correction = self.revision + 1, change.motion
+        self._refinement = Refinement(self.fit, self._parameters)
+        self.message = (f"The Car's frame was corrected by {shift}, as it is seen now; it has revision "
+                        f"{self.revision}.")
+
+
+def found_sentence(fit: CarFit) -> str:
+    """What was found."""
+    car = fit.rectangle
+    size = (f"{car.length:.2f} m long (1 sigma {100.0 * fit.length_sigma:.1f} cm), {car.width:.2f} m wide (1 sigma "
+            f"{100.0 * fit.width_sigma:.1f} cm)")
+    if fit.by_wheels:
+        return (f"The Car was found by its wheels, {size}; the LiDARs look under its bumpers. Known length and front "
+                "overhang make it more exact.")
+    return f"The Car was found: {size}."

@@ -1,0 +1,54 @@
+"""A look at the Car from where the robot stands."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import List, Optional, Sequence
+
+import numpy as np
+
+from .car_fit import CarFit
+from .comparison import Evidence, Reference
+from .poses import PoseHistory
+from .scan import Returns, Scan, returns_in_map
+
+# A robot that has just stopped still sways.
+SETTLING_S = 0.3
+# Points within this distance of the Car's outline may be its own.
+NEAR_M = 0.4
+
+
+class Look:
+    """Collects scans while the robot stands, and compares them with the Car as it was measured.
+
+    A robot that moves meanwhile begins again.
+    """
+
+    def __init__(self, look_s: float):
+        self._look_s = look_s
+        self._returns: List[Returns] = []
+        self._first_s: Optional[float] = None
+
+    def collect(self, now_s: float, scans: Sequence[Scan], poses: PoseHistory) -> None:
+        """Take scans of a robot that stands."""
+        if poses.standing_s(now_s) < SETTLING_S:
+            self._returns, self._first_s = [], None
+            return
+        since_s = poses.stands_since_s + SETTLING_S
+        for scan in scans:
+            seen = returns_in_map(scan, poses) if scan.start_s >= since_s else None
+            if seen is not None:
+                self._first_s = scan.start_s if self._first_s is None else self._first_s
+                self._returns.append(seen)
+
+    def is_over(self, now_s: float) -> bool:
+        """True when it has lasted long enough."""
+        return self._first_s is not None and now_s - self._first_s >= self._look_s
+
+    def result(self, car: CarFit, reference: Reference, poses: PoseHistory) -> Optional[Evidence]:
+        """What it says, None when it has seen too little of the Car."""
+        near = [each for each in (_near(seen, car) for seen in self._returns) if len(each.points)]
+        return reference.compare(near, car.rectangle.pose, np.array(poses.newest.covariance))
+
+
+def _near(seen: Returns, car: CarFit) -> Returns:
+    pose, reach = car.rectangle.pose, 0.5 * car.rectangle.length + NEAR_M
+    points = seen.points[np.hypot(seen.points[:, 0] - pose.x, seen.points[:, 1] - pose.y) < reach + 0.5]
+    return Returns(points, seen.viewer)

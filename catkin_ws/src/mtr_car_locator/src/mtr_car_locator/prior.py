@@ -1,0 +1,44 @@
+"""Where the Car should be, by what the Operator or an earlier map says."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+from typing import Tuple
+
+from mtr_core.se2 import Pose2, wrap_angle
+
+from .parameters import LocatorParameters
+from .rectangle import Rectangle
+
+
+@dataclass(frozen=True)
+class Prior:
+    """A guess of the Car.
+
+    Attributes:
+        car: where it should be.
+        pivot: place whose position and heading relative to the Car the guess rests on: where the robot was put. A
+            heading that is wrong there moves the Car on an arc about it.
+    """
+
+    car: Rectangle
+    pivot: Pose2
+
+    def error_of(self, car: Pose2) -> Tuple[float, float]:
+        """How wrong the guess was if the Car is there: m and rad, of the pivot as seen from the Car."""
+        assumed, actual = self.car.pose.inverse() @ self.pivot, car.inverse() @ self.pivot
+        return assumed.distance_to(actual), abs(wrap_angle(actual.heading - assumed.heading))
+
+    @property
+    def reach_m(self) -> float:
+        """Distance of the Car's centre from the pivot."""
+        return self.car.pose.distance_to(self.pivot)
+
+
+def prior_from_start(robot: Pose2, parameters: LocatorParameters) -> Prior:
+    """The Car when the robot stands at the starting place."""
+    pose = robot @ parameters.car_from_start.inverse()
+    return Prior(Rectangle(pose, parameters.profile.length_m, parameters.profile.width_m), robot)
+
+
+def prior_at(car: Rectangle) -> Prior:
+    """A Car that was there before."""
+    return Prior(car, car.pose)

@@ -1,0 +1,101 @@
+"""Looks at the Car whenever the robot stands during a test, and says when its frame has to change."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import Optional, Sequence
+
+from mtr_core.se2 import Pose2, wrap_angle
+
+from .car_fit import CarFit
+from .comparison import Evidence, Reference
+from .look import SETTLING_S, Look
+from .parameters import RefinementParameters
+from .poses import PoseHistory
+from .scan import Scan
+
+# A change has to stand out of its own uncertainty by this Mahalanobis distance (99.9 % of three degrees of freedom).
+SIGNIFICANT = 4.0
+# Two looks in a row have to agree.
+AGREE_M, AGREE_RAD = 0.01, math.radians(0.3)
+# A robot that goes on standing looks again after this time; one look costs some 20 ms.
+AGAIN_AFTER_S = 10.0
+# A Car that is not seen at all for so long, from so near, has gone; somebody who walks by hides it for less.
+UNSEEN_LIMIT_S, SEEN_FROM_M = 5.0, 8.0
+
+
+@dataclass(frozen=True)
+class Change:
+    """The Car stands elsewhere than it was measured.
+
+    Attributes:
+        motion: of the Car in its own frame, None when it has gone.
+        is_correction: small enough to be applied.
+    """
+
+    motion: Optional[Pose2]
+    is_correction: bool
+
+
+class Refinement:
+    """Two looks that agree on a significant change make a Change; one that sees none ends the looking for a while."""
+
+    def __init__(self, car: CarFit, parameters: RefinementParameters):
+        self._car, self._parameters = car, parameters
+        self._reference = Reference(car.surfels)
+        self._look: Optional[Look] = None
+        self._suspected: Optional[Pose2] = None
+        self._satisfied_s: Optional[float] = None
+        self._unseen_since_s: Optional[float] = None
+
+    def wants_scans(self, now_s: float, poses: PoseHistory) -> bool:
+        """True while a look is under way or due."""
+        if poses.standing_s(now_s) < SETTLING_S:
+            self._satisfied_s = self._unseen_since_s = None
+            return False
+        return self._satisfied_s is None or now_s - self._satisfied_s >= AGAIN_AFTER_S
+
+    def step(self, now_s: float, scans: Sequence[Scan], poses: PoseHistory) -> Optional[Change]:
+        """One tick; a change only while the robot stands."""
+        if not self.wants_scans(now_s, poses):
+            self._look = None
+            return None
+        self._look = self._look or Look(self._parameters.look_s)
+        self._look.collect(now_s, scans, poses)
+        if not self._look.is_over(now_s):
+            return None
+        evidence = self._look.result(self._car, self._reference, poses)
+        self._look = None
+        if evidence is None and poses.newest.pose.distance_to(self._car.rectangle.pose) <= SEEN_FROM_M:
+            return self._miss(now_s)
+        self._unseen_since_s = None
+        return self._judge(now_s, evidence)
+
+    def _miss(self, now_s: float) -> Optional[Change]:
+        self._suspected = None
+        self._unseen_since_s = now_s if self._unseen_since_s is None else self._unseen_since_s
+        return Change(None, False) if now_s - self._unseen_since_s >= UNSEEN_LIMIT_S else None
+
+    def _judge(self, now_s: float, evidence: Optional[Evidence]) -> Optional[Change]:
+        motion = evidence.motion if evidence and self._is_change(evidence) else None
+        before, self._suspected = self._suspected, motion
+        if motion is None:
+            self._satisfied_s = now_s
+            return None
+        if before is None or not _agree(before, motion):
+            return None
+        self._suspected = None
+        return Change(motion, self._is_small(motion))
+
+    def _is_change(self, evidence: Evidence) -> bool:
+        limits, motion = self._parameters, evidence.motion
+        large = (math.hypot(motion.x, motion.y) > limits.refine_least_m
+                 or abs(motion.heading) > limits.refine_least_rad)
+        return large and evidence.significance() > SIGNIFICANT
+
+    def _is_small(self, motion: Pose2) -> bool:
+        limits = self._parameters
+        return math.hypot(motion.x, motion.y) <= limits.refine_most_m and abs(motion.heading) <= limits.refine_most_rad
+
+
+def _agree(one: Pose2, other: Pose2) -> bool:
+    return one.distance_to(other) <= AGREE_M and abs(wrap_angle(one.heading - other.heading)) <= AGREE_RAD

@@ -1,0 +1,120 @@
+"""Self-check: the Car seen anew from two places, compared with where it was."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import List, Optional, Sequence, Tuple
+
+from mtr_core.se2 import Pose2
+from mtr_core.states import Check, Result
+
+from .car_fit import CarFit
+from .comparison import Evidence, Reference, joined
+from .look import Look
+from .parameters import RefinementParameters
+from .poses import PoseHistory
+from .ring import corners, nearest
+from .scan import Scan
+
+PLACES = 2
+# A place that is blocked longer than this is left out; the Car has four corners.
+BLOCKED_LIMIT_S = 10.0
+# Standing at the place, the Car has to be seen by then.
+LOOK_LIMIT_S = 5.0
+
+
+@dataclass(frozen=True)
+class CheckReport:
+    """Where the self-check stands; NaN while unknown."""
+
+    check_id: int = 0
+    state: Check = Check.NONE
+    difference_m: float = math.nan
+    difference_rad: float = math.nan
+    message: str = ""
+
+
+class SelfCheck:
+    """Goes to two corners of the Car and looks.
+
+    Attributes:
+        report: how it stands.
+    """
+
+    def __init__(self, check_id: int, robot: Pose2, car: CarFit, parameters: RefinementParameters):
+        self._car, self._parameters = car, parameters
+        self._reference = Reference(car.surfels)
+        places = corners(car.rectangle, parameters.check_distance_m)
+        self._places = _order(places, nearest(places, robot))
+        self._found: List[Evidence] = []
+        self._look: Optional[Look] = None
+        self._since_s: Optional[float] = None
+        self.report = CheckReport(check_id, Check.RUNNING, message="The robot goes to look at the Car again.")
+
+    @property
+    def place(self) -> Optional[Pose2]:
+        """Where the robot shall stand now, in map; None when nothing is left to do."""
+        return self._places[0] if self._places and self.report.state is Check.RUNNING else None
+
+    @property
+    def places_ahead(self) -> Tuple[Pose2, ...]:
+        """Where it has still to go."""
+        return tuple(self._places[:PLACES - len(self._found)]) if self.place else ()
+
+    def step(self, now_s: float, result: Result, scans: Sequence[Scan], poses: PoseHistory) -> None:
+        """One tick; result: what the motion planner says of the present place."""
+        if self.report.state is not Check.RUNNING:
+            return
+        if self._since_s is None or result is Result.PENDING:
+            self._since_s = now_s
+        if result is Result.REACHED:
+            self._observe(now_s, scans, poses)
+        elif result is Result.REFUSED or now_s - self._since_s >= BLOCKED_LIMIT_S:
+            self._next(now_s)
+        if not self._places or len(self._found) == PLACES:
+            self._judge()
+
+    def _observe(self, now_s: float, scans: Sequence[Scan], poses: PoseHistory) -> None:
+        if self._look is None:
+            self._look = Look(self._parameters.look_s)
+            self._since_s = now_s
+        self._look.collect(now_s, scans, poses)
+        if self._look.is_over(now_s):
+            evidence = self._look.result(self._car, self._reference, poses)
+            if evidence:
+                self._found.append(evidence)
+            self._next(now_s)
+        elif now_s - self._since_s >= LOOK_LIMIT_S:
+            self._next(now_s)
+
+    def _next(self, now_s: float) -> None:
+        self._places = self._places[1:]
+        self._look, self._since_s = None, now_s
+
+    def _judge(self) -> None:
+        check_id = self.report.check_id
+        if len(self._found) < PLACES:
+            self.report = CheckReport(check_id, Check.FAILED, message=(
+                f"The Car could be looked at from {len(self._found)} of {PLACES} places only; clear the way round it, "
+                "or map it again."))
+            return
+        evidence = joined(*self._found)
+        shift_m, turn_rad = evidence.shift_m, abs(evidence.motion.heading)
+        state, words = self._verdict(shift_m, turn_rad, evidence)
+        self.report = CheckReport(check_id, state, shift_m, turn_rad, words)
+
+    def _verdict(self, shift_m: float, turn_rad: float, evidence: Evidence) -> Tuple[Check, str]:
+        limits = self._parameters
+        sigma_m, sigma_rad = evidence.sigmas
+        found = (f"The Car stands {100.0 * shift_m:.1f} cm and {math.degrees(turn_rad):.2f} deg from where it was "
+                 f"measured (1 sigma {100.0 * sigma_m:.1f} cm, {math.degrees(sigma_rad):.2f} deg)")
+        if shift_m > limits.check_limit_m or turn_rad > limits.check_limit_rad:
+            allowed = f"{100.0 * limits.check_limit_m:.1f} cm and {math.degrees(limits.check_limit_rad):.2f} deg"
+            return Check.FAILED, f"{found}; allowed is {allowed}. Close its doors and check again, or map it again."
+        return Check.PASSED, f"{found}."
+
+
+def _order(places: List[Pose2], first: int) -> List[Pose2]:
+    """The nearest corner, the one beside it at the same end, and the others in case that one cannot be reached."""
+    second = 3 - first
+    rest = [index for index in range(len(places)) if index not in (first, second)]
+    return [places[first], places[second], *(places[index] for index in rest)]

@@ -1,0 +1,127 @@
+"""ROS messages to the locator's types and back, and what rviz is shown."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import replace
+
+import genpy
+import numpy as np
+import pytest
+from locator_surfels import PARAMETERS, box, prior, surfels
+from visualization_msgs.msg import Marker
+
+from mtr_car_locator.conversions import (
+    check_message,
+    drive_from,
+    estimate_message,
+    mapping_message,
+    markers_message,
+    order_from,
+    robot_pose_from,
+    surface_map_from,
+)
+from mtr_car_locator.drawing import shapes_of
+from mtr_car_locator.estimate import Estimate
+from mtr_car_locator.fit import fit_car
+from mtr_car_locator.poses import PoseMode
+from mtr_car_locator.self_check import CheckReport
+from mtr_car_locator.survey import MapPhase, Place
+from mtr_core.se2 import Pose2
+from mtr_core.states import CarState, Check, Result
+from mtr_msgs.msg import (
+    CarCheck,
+    CarEstimate,
+    KeyFrame,
+    LocalizedPose,
+    MappingOrder,
+    MotionStatus,
+    RobotMode,
+    SurfaceMap,
+    Waypoint,
+)
+
+STAMP = genpy.Time(9, 60_000_000)
+
+
+@pytest.fixture(scope="module")
+def estimate():
+    fit = fit_car(surfels(box()), prior(), PARAMETERS)
+    place = Place(4, Pose2(1.0, 2.0, 0.5))
+    return Estimate(CarState.LOCATED, replace(fit.rectangle, pose=Pose2(3.0, 1.0, math.pi / 2.0)), fit.outline,
+                    (0.1, 0.2, 0.01), 0.03, 0.02, place, 5, "Found.", 2, Pose2(0.01, 0.02, 0.003), MapPhase.FREEZE, 77,
+                    CheckReport(6, Check.FAILED, 0.03, 0.002, "Moved."), (place.pose,), fit)
+
+
+def test_order_names_mapping_checking_and_the_goal_in_map():
+    order = order_from(RobotMode(mode=RobotMode.CHECKING_CAR, goal=Waypoint(3, "map", 1.0, 2.0, 0.0, 0), map_car_id=5,
+                                 check_car_id=8))
+    assert (order.mapping, order.checking, order.check_car_id, order.map_car_id) == (False, True, 8, 5)
+    assert (order.goal_id, order.goal_x, order.goal_y) == (3, 1.0, 2.0)
+    assert order_from(RobotMode(mapping=True, goal=Waypoint(id=3, frame_id="car"))).goal_id == 0
+    assert order_from(None) is drive_from(None) is None
+    assert drive_from(MotionStatus(goal_id=3, result=4)).result is Result.BLOCKED
+
+
+def test_pose_carries_mode_map_and_motion():
+    message = LocalizedPose(valid=True, x=1.0, y=2.0, heading=0.5, speed_mps=0.3, yaw_rate_radps=0.1, mode=2,
+                            map_revision=4, covariance=[0.01, 0, 0, 0, 0.03, 0, 0, 0, 0.001])
+    message.header.stamp = genpy.Time(7, 500_000_000)
+    robot = robot_pose_from(message)
+    assert (robot.pose, robot.speed_mps) == (Pose2(1.0, 2.0, 0.5), 0.3)
+    assert robot.time_s == pytest.approx(7.5)
+    assert (robot.mode, robot.map_revision, robot.stands) == (PoseMode.LOCALIZED, 4, False)
+    assert robot.position_sigma_m == pytest.approx(math.sqrt(0.02))
+
+
+def test_surface_map_becomes_surfels_and_a_damaged_one_is_not_valid():
+    message = SurfaceMap(map_car_id=77, revision=3, valid=True, x=[1.0, 2.0], y=[0.0, 0.0], normal=[0.0, math.pi / 2.0],
+                         length=[0.1, 0.2], sigma=[0.003, 0.004], hits=[9, 8],
+                         key_frames=[KeyFrame(x=1.0, y=2.0, heading=0.3)])
+    found = surface_map_from(message)
+    assert (found.map_id, found.revision, found.valid, len(found.surfels)) == (77, 3, True, 2)
+    assert found.surfels.normal[1] == pytest.approx((0.0, 1.0), abs=1e-6)
+    assert found.key_frames.tolist() == [[1.0, 2.0, 0.3]]
+    message.hits = [9]
+    assert not surface_map_from(message).valid and "damaged" in surface_map_from(message).message
+
+
+def test_estimate_survives_as_a_message(estimate):
+    message = estimate_message(estimate, STAMP)
+    assert (message.state, message.map_car_id, message.revision) == (CarEstimate.LOCATED, 5, 2)
+    assert (message.correction_x, message.correction_y, message.correction_heading) == (0.01, 0.02, 0.003)
+    assert (message.next_waypoint.id, message.next_waypoint.frame_id) == (4, "map")
+    # The Car's x axis points to map's y: 0.1 m along the Car is along y.
+    assert message.covariance[[0, 4, 8]] == pytest.approx([0.04, 0.01, 0.0001])
+    assert len(message.outline_x) == len(message.outline_y) == len(estimate.outline)
+
+
+def test_mapper_and_check_are_told(estimate):
+    order = mapping_message(estimate, STAMP)
+    assert (order.phase, order.map_car_id, order.header.stamp) == (MappingOrder.FREEZE, 77, STAMP)
+    check = check_message(estimate, PARAMETERS.refinement, STAMP)
+    assert (check.id, check.state, check.message) == (6, CarCheck.FAILED, "Moved.")
+    assert (check.difference_m, check.limit_m) == (0.03, PARAMETERS.refinement.check_limit_m)
+
+
+def test_numbers_are_those_of_the_messages():
+    assert (MapPhase.IDLE, MapPhase.COLLECT, MapPhase.FREEZE) == (MappingOrder.IDLE, MappingOrder.COLLECT,
+                                                                 MappingOrder.FREEZE)
+    assert [mode.value for mode in PoseMode] == [LocalizedPose.DEAD_RECKONING, LocalizedPose.MAPPING,
+                                                 LocalizedPose.LOCALIZED, LocalizedPose.LOST]
+
+
+def test_markers_show_outline_band_surfels_and_places(estimate):
+    shapes = {shape.name: shape for shape in shapes_of(estimate)}
+    assert set(shapes) == {"outline", "front", "outer", "inner", "surfels", "centre", "places"}
+    # The band is 2 sigma of half the length and of the centre wider on each end; the Car points to map's y.
+    span = {name: np.ptp([y for _, y in shapes[name].points]) for name in ("outline", "outer", "inner")}
+    assert span["outer"] - span["outline"] == pytest.approx(4.0 * math.hypot(0.1, 0.015), abs=0.01)
+    assert span["outline"] - span["inner"] == pytest.approx(span["outer"] - span["outline"], abs=1e-6)
+    markers = markers_message(list(shapes.values()), STAMP).markers
+    assert markers[0].action == Marker.DELETEALL and len(markers) == 1 + len(shapes)
+    outline = next(marker for marker in markers if marker.ns == "outline")
+    assert outline.points[0] == outline.points[-1] and outline.header.frame_id == "map"
+
+
+def test_before_the_car_is_found_only_the_guess_is_shown(estimate):
+    rough = replace(estimate, state=CarState.COLLECTING, fit=None, places=())
+    assert {shape.name for shape in shapes_of(rough)} == {"outline", "front"}

@@ -1,0 +1,103 @@
+"""Fit of the Car to given surfels: other things near it, sides that were not seen, choice between two."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+import numpy as np
+import pytest
+from locator_surfels import LENGTH_M, ORIGIN, PARAMETERS, SIGMA_M, STEP_M, WIDTH_M, box, prior, surfels
+
+from mtr_car_locator.fit import NotLocated, fit_car
+from mtr_car_locator.parameters import CarProfile, LocatorParameters
+from mtr_core.se2 import Pose2
+
+
+def error_of(fit, actual=ORIGIN):
+    """Distance in m and angle in rad of the fit from the truth."""
+    at = actual.inverse() @ fit.rectangle.pose
+    return math.hypot(at.x, at.y), abs(at.heading)
+
+
+@pytest.mark.parametrize("guess", [(0.9, -0.5, 0.1), (-0.7, 0.7, -0.3), (0.0, -1.0, 0.34)])
+@pytest.mark.parametrize("actual", [Pose2(0.0, 0.0, 0.0), Pose2(3.0, -2.0, 2.0)])
+def test_car_seen_from_all_sides_is_exact_wherever_it_stands(guess, actual):
+    turned = actual @ Pose2(*guess)
+    fit = fit_car(surfels(box(actual)), prior(turned.x, turned.y, turned.heading), PARAMETERS)
+    off_m, off_rad = error_of(fit, actual)
+    assert off_m < 0.003 and math.degrees(off_rad) < 0.1
+    assert fit.rectangle.length == pytest.approx(LENGTH_M, abs=0.006)
+    assert fit.rectangle.width == pytest.approx(WIDTH_M, abs=0.006)
+
+
+def test_errors_are_as_large_as_the_sigmas_say():
+    squares = []
+    for seed in range(40):
+        fit = fit_car(surfels(box(seed=seed)), prior(0.2, 0.1, 0.05), PARAMETERS)
+        at = fit.rectangle.pose
+        squares.append(np.square(np.array([at.x, at.y, at.heading]) / fit.sigmas))
+    # The sigma of a map is common to neighbours and does not average out; here it does, so the errors are smaller.
+    assert np.all(np.mean(squares, axis=0) < 1.5)
+    assert np.all(np.mean(squares, axis=0) > 0.005)
+
+
+@pytest.mark.parametrize("sides, unseen", [(("front", "left"), ("rear", "right")),
+                                           (("rear", "right"), ("front", "left")),
+                                           (("front", "left", "rear"), ("right",))])
+def test_unseen_sides_are_placed_by_the_expected_size_and_say_so(sides, unseen):
+    fit = fit_car(surfels(box(sides=sides)), prior(0.3, -0.2, 0.1), PARAMETERS)
+    assert set(fit.seen) == set(sides)
+    assert error_of(fit)[0] < 0.01
+    assert fit.width_sigma > 0.08 and fit.sigmas[1] > 0.04
+    assert (fit.length_sigma > 0.3) == ("rear" in unseen or "front" in unseen)
+
+
+@pytest.mark.parametrize("sides", [("front",), ("left",), ("left", "right"), ("front", "rear")])
+def test_one_direction_alone_is_not_enough(sides):
+    with pytest.raises(NotLocated, match="one long side and one end"):
+        fit_car(surfels(box(sides=sides)), prior(), PARAMETERS)
+
+
+@pytest.mark.parametrize("gap_m", [0.4, 0.7, 1.0])
+@pytest.mark.parametrize("guess_y", [-0.5, 0.0, 0.5])
+def test_neighbour_beside_is_not_taken(gap_m, guess_y):
+    neighbour = box(Pose2(0.3, WIDTH_M + gap_m, 0.03), seed=2)
+    fit = fit_car(surfels(box(), neighbour), prior(0.0, guess_y), PARAMETERS)
+    assert error_of(fit)[0] < 0.005
+
+
+def test_two_cars_that_are_as_likely_are_not_guessed_between():
+    both = surfels(box(Pose2(0.0, 1.2, 0.0)), box(Pose2(0.0, -1.2, 0.0), seed=2))
+    with pytest.raises(NotLocated, match=r"Two things of a Car's size stand there, 2\.4 m apart"):
+        fit_car(both, prior(), PARAMETERS)
+
+
+@pytest.mark.parametrize("wall", [Pose2(0.0, 1.2, -math.pi / 2.0), Pose2(0.0, 1.5, -math.pi / 2.0),
+                                  Pose2(2.6, 0.0, math.pi)])
+def test_wall_beside_the_car_is_not_its_side(wall):
+    rows = [(*wall.apply(0.0, along), wall.heading, STEP_M, SIGMA_M, 50) for along in np.arange(-6.0, 6.0, STEP_M)]
+    fit = fit_car(surfels(box(), rows), prior(0.3, 0.3, 0.1), PARAMETERS)
+    assert error_of(fit)[0] < 0.005
+    assert fit.rectangle.width == pytest.approx(WIDTH_M, abs=0.006)
+
+
+@pytest.mark.parametrize("length, width, name", [(6.5, 1.8, "length"), (3.0, 1.8, "length"), (4.5, 2.7, "width")])
+def test_thing_of_another_size_is_no_car(length, width, name):
+    with pytest.raises(NotLocated):
+        fit_car(surfels(box(length=length, width=width)), prior(), PARAMETERS)
+
+
+def test_car_too_far_from_the_prior_is_not_looked_for():
+    with pytest.raises(NotLocated):
+        fit_car(surfels(box(Pose2(3.0, 2.0, 0.0))), prior(), PARAMETERS)
+
+
+@pytest.mark.parametrize("rows", [[], [(0.0, 0.0, 0.0, 0.05, 0.003, 9)]])
+def test_nothing_there_is_said(rows):
+    with pytest.raises(NotLocated, match="nothing of a Car's size"):
+        fit_car(surfels(rows), prior(), PARAMETERS)
+
+
+def test_side_inset_widens_the_car():
+    inset = LocatorParameters(profile=CarProfile(side_inset_m=0.02))
+    plain, wide = (fit_car(surfels(box()), prior(), parameters) for parameters in (PARAMETERS, inset))
+    assert wide.rectangle.width - plain.rectangle.width == pytest.approx(0.04)
+    assert wide.rectangle.length == pytest.approx(plain.rectangle.length)
