@@ -115,7 +115,8 @@ class Host:
         topics: what the device has announced, by id.
         states, healths, echoes: all that have arrived.
         height_m, led: sent with each command.
-        is_talking: False keeps silent.
+        is_talking: False sends no commands.
+        answers_time: False does not answer TIME.
     """
 
     def __init__(self, board: Emulator):
@@ -127,7 +128,7 @@ class Host:
         self.damaged_states = 0
         self.height_m = float("nan")
         self.led = 4
-        self.is_talking = True
+        self.is_talking = self.answers_time = True
         self.log: List[Probe] = []
         self._press: Optional[Tuple[int, bytes]] = None
         self._outbox: Deque[bytes] = collections.deque()
@@ -185,7 +186,7 @@ class Host:
             self._take(topic, payload)
 
     def _take(self, topic: int, payload: bytes) -> None:
-        if topic == TIME and self.is_talking:
+        if topic == TIME and self.answers_time:
             self.send(frame(TIME, struct.pack("<II", 1, 0)))
         elif topic in (NEGOTIATE, SUBSCRIBER):
             self._announced(topic, payload)
