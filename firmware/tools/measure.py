@@ -13,8 +13,9 @@ from typing import Tuple
 FIRMWARE = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(FIRMWARE / "emulator" / "python"), str(FIRMWARE / "tests" / "emulated")]
 
-from mtr_emulator.emulator import MCUS, Emulator  # noqa: E402
 from serial_host import NEGOTIATE, Host, frame  # noqa: E402
+
+from mtr_emulator.emulator import MCUS, Emulator  # noqa: E402
 
 STEP_US = 20_000
 TICKS_PER_S = os.sysconf("SC_CLK_TCK")

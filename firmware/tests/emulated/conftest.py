@@ -9,8 +9,9 @@ import pytest
 FIRMWARE = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(FIRMWARE / "emulator" / "python"), str(FIRMWARE / "tests" / "emulated")]
 
-from mtr_emulator.emulator import MCUS, Emulator  # noqa: E402
 from serial_host import NEGOTIATE, Host, frame  # noqa: E402
+
+from mtr_emulator.emulator import MCUS, Emulator  # noqa: E402
 
 
 @contextlib.contextmanager

@@ -1,4 +1,4 @@
-"""A host of the serial line for tests in lock-step: rosserial frames, messages, and the answers that the upstream gives."""
+"""A host of the serial line for tests in lock-step: frames, messages, and the upstream host's answers."""
 # SPDX-License-Identifier: Apache-2.0
 import binascii
 import collections
@@ -211,4 +211,5 @@ class Host:
             length = struct.unpack_from("<I", payload, offset)[0]
             texts.append(payload[offset + 4:offset + 4 + length].decode("ascii"))
             offset += 4 + length
-        self.topics[struct.unpack_from("<H", payload)[0]] = Topic(kind, *texts, struct.unpack_from("<i", payload, offset)[0])
+        topic, buffer_bytes = struct.unpack_from("<H", payload)[0], struct.unpack_from("<i", payload, offset)[0]
+        self.topics[topic] = Topic(kind, *texts, buffer_bytes)

@@ -1,4 +1,4 @@
-"""The flashed firmware on an emulated board, in lock-step: what each fault gets while the lift moves and a button is held."""
+"""The flashed firmware on an emulated board, in lock-step: each fault while the lift moves and a button is held."""
 # SPDX-License-Identifier: Apache-2.0
 import binascii
 
