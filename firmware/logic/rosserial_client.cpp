@@ -56,6 +56,7 @@ void RosserialClient::poll(uint32_t now_us, bool is_commanded) {
     host_heard_ = false;
   }
   if (!(host_heard_ && is_commanded) && now_us - announced_us_ >= kAnnouncePeriodUs) {
+    is_asked_ = false;
     announce();
   }
   if (now_us - asked_us_ >= kTimePeriodUs) {
@@ -76,6 +77,7 @@ void RosserialClient::take(void* self, uint16_t topic, const uint8_t* payload, u
     case kTopicNegotiate:
       client->open_ = true;
       client->time_due_ = true;
+      client->is_asked_ = true;
       client->announce();
       return;
     case kTopicTime:

@@ -7,7 +7,9 @@ import subprocess
 
 import pytest
 from conftest import FIRMWARE, running_host
-from serial_host import COMMAND, PRESS, STATE, STOP, SUBSCRIBER, calibrate, command, frame, press
+from serial_host import COMMAND, PRESS, STATE, STOP, SUBSCRIBER, Host, calibrate, command, frame, press
+
+from mtr_emulator import Emulator
 
 FLASH_LIMIT, STATIC_RAM_LIMIT = 16 * 1024, 1024
 HEIGHT_TOLERANCE_M = 0.002
@@ -34,6 +36,15 @@ def test_host_is_told_all_topics(host):
     assert names[COMMAND] == (SUBSCRIBER, "/firmware/command", "mtr_msgs/FirmwareCommand")
     assert names[STATE] == (0, "/firmware/state", "mtr_msgs/FirmwareState")
     assert len(names) == 6
+
+
+def test_host_that_comes_late_is_told_all_topics_soon(mcu):
+    with Emulator(mcu, stepped=True) as board:
+        board.step(3_333_000)
+        host = Host(board)
+        host.run(0.5)
+        assert len(host.topics) == 6 and len(host.states) > 2
+        host.close()
 
 
 def test_md5_sums_are_those_of_the_built_messages(host):
