@@ -4,13 +4,16 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup build demo test lint unit rostest system sim clean bench
+.PHONY: help setup build demo test lint unit firmware-test rostest system sim clean bench firmware flash
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
 FACTOR ?= 1
 # Of demo and sim: fake (simulated in the simulator) or emulated (the flashed firmware on an emulated board).
 PERIPHERALS ?= fake
+# For `make flash`: mega or uno, and its serial port.
+BOARD ?= mega
+PORT ?=
 RVIZ ?= $(if $(DISPLAY),true,false)
 
 STAMPS := .setup
@@ -22,7 +25,7 @@ BUILD_INPUTS := $(shell find -L catkin_ws/src proto launch tests -not -path '*/.
 	-type f 2>/dev/null)
 
 help: ## List the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 setup: ## Install the missing Debian and Python packages
 	@setup/install.sh
@@ -41,7 +44,7 @@ sim: setup build $(if $(EMULATED),firmware) ## Start the simulated robot and Car
 	@$(RUN) roslaunch mtr_bringup sim.launch seed:=$(SEED) real_time_factor:=$(FACTOR) rviz:=$(RVIZ) \
 		car_port_link:=$(CURDIR)/out/sim/can truth_dir:=$(CURDIR)/out/sim $(if $(EMULATED),firmware_elf:=$(FIRMWARE_ELF))
 
-test: setup build ## Lint, layer test, unit tests, rostest suites and system tests
+test: setup build ## Lint, layer test, unit tests, firmware, rostest suites and system tests
 	@$(RUN) python setup/run_tests.py all
 
 lint: setup build ## Only the lint
@@ -49,6 +52,9 @@ lint: setup build ## Only the lint
 
 unit: setup build ## Only the tests that need no ROS master
 	@$(RUN) python setup/run_tests.py lint unit gtest
+
+firmware-test: setup build ## Only the tests of the firmware, on the PC and on the emulated boards
+	@$(RUN) python setup/run_tests.py firmware
 
 rostest: setup build ## Only the rostest suites
 	@$(RUN) python setup/run_tests.py rostest
@@ -59,5 +65,11 @@ system: setup build ## Only the tests of the whole stack
 bench: setup build ## Benchmarks; figures in out/bench
 	@$(RUN) python -m mtr_bringup.bench --out out/bench
 
+firmware: setup ## Build the firmware of both boards and its emulator; prints sizes
+	@$(MAKE) --no-print-directory -s -C firmware all
+
+flash: setup ## Write the firmware to a board: BOARD=mega|uno PORT=/dev/serial/by-id/...
+	@$(MAKE) --no-print-directory -s -C firmware flash BOARD=$(BOARD) PORT=$(PORT)
+
 clean: ## Remove everything that was built or written
-	rm -rf out $(STAMPS) .venv catkin_ws/{build,devel,logs,.catkin_tools} proto/src/mtr_proto/*_pb2.py
+	rm -rf out firmware/build $(STAMPS) .venv catkin_ws/{build,devel,logs,.catkin_tools} proto/src/mtr_proto/*_pb2.py

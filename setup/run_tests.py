@@ -1,6 +1,6 @@
 """Runs the test suites one after the other and prints one line with the sum of their results.
 
-Usage: run_tests.py all | [lint] [unit] [gtest] [rostest] [system]
+Usage: run_tests.py all | [lint] [unit] [gtest] [firmware] [rostest] [system]
 """
 # SPDX-License-Identifier: Apache-2.0
 import os
@@ -67,7 +67,7 @@ def check(name: str, command: List[str]) -> bool:
 
 def tracked(pattern: str) -> List[pathlib.Path]:
     """Files of the project by name pattern, generated ones excluded."""
-    roots = ["catkin_ws/src", "proto", "launch", "tests", "operator_gui", "setup"]
+    roots = ["catkin_ws/src", "proto", "launch", "tests", "operator_gui", "setup", "firmware"]
     found = {path.resolve() for root in roots for path in (TOP / root).rglob(pattern)}
     return sorted(path for path in found if not path.name.endswith("_pb2.py") and "/build/" not in str(path))
 
@@ -116,6 +116,19 @@ def gtest() -> Counts:
     return counts_of(reports, status)
 
 
+def firmware() -> Counts:
+    """The firmware's logic on the PC with sanitizers, then the flashed firmware on emulated boards in lock-step."""
+    built = subprocess.run(["make", "-s", "-j2", "-C", str(TOP / "firmware"), "all", "host_tests"], check=False)
+    if built.returncode:
+        return 0, 1
+    report = RESULTS / "firmware" / "host.xml"
+    binary = TOP / "firmware" / "build" / "firmware_test"
+    done = subprocess.run([str(binary), f"--gtest_output=xml:{report}", "--gtest_brief=1"], check=False)
+    passed, failed = counts_of([report], done.returncode)
+    emulated = pytest("firmware", [str(TOP / "firmware" / "tests" / "emulated")], 60)
+    return passed + emulated[0], failed + emulated[1]
+
+
 def rostest() -> Counts:
     """Every *.test file, with a master of its own."""
     found = [*PACKAGES.glob("*/tests/rostest/*.test"), *PACKAGES.glob("mtr_tests/rostest/*.test")]
@@ -147,7 +160,7 @@ def counts_of(reports: List[pathlib.Path], status: int) -> Counts:
 
 
 SUITES: Dict[str, Callable[[], Counts]] = {
-    "lint": lint, "unit": unit, "gtest": gtest, "rostest": rostest, "system": system,
+    "lint": lint, "unit": unit, "gtest": gtest, "firmware": firmware, "rostest": rostest, "system": system,
 }
 
 if __name__ == "__main__":

@@ -62,7 +62,7 @@ void Board::step() {
     }
   }
   memory_.poll();
-  if (client_.is_open()) {
+  if (client_.may_report()) {
     report(now_us_);
   }
   const uint32_t took_us = hal::clock_us() - began_us;

@@ -20,18 +20,18 @@ static_assert(MTR_FIRMWARECOMMAND_BYTES <= kLongestPayload && MTR_FIRMWAREPRESS_
 }  // namespace
 
 const Endpoint kEndpoints[kEndpointCount] PROGMEM = {
-    {kTopicCommand, kTopicSubscriber, MTR_FIRMWARECOMMAND_BYTES, "/firmware/command", MTR_FIRMWARECOMMAND_TYPE,
-     MTR_FIRMWARECOMMAND_MD5},
-    {kTopicPress, kTopicSubscriber, MTR_FIRMWAREPRESS_BYTES, "/firmware/press", MTR_FIRMWAREPRESS_TYPE,
-     MTR_FIRMWAREPRESS_MD5},
-    {kTopicCalibrate, kTopicSubscriber, MTR_FIRMWARECALIBRATE_BYTES, "/firmware/calibrate", MTR_FIRMWARECALIBRATE_TYPE,
-     MTR_FIRMWARECALIBRATE_MD5},
     {kTopicState, kTopicNegotiate, MTR_FIRMWARESTATE_BYTES, "/firmware/state", MTR_FIRMWARESTATE_TYPE,
      MTR_FIRMWARESTATE_MD5},
     {kTopicHealth, kTopicNegotiate, MTR_FIRMWAREHEALTH_BYTES, "/firmware/health", MTR_FIRMWAREHEALTH_TYPE,
      MTR_FIRMWAREHEALTH_MD5},
     {kTopicEcho, kTopicNegotiate, MTR_FIRMWAREECHO_BYTES, "/firmware/echo", MTR_FIRMWAREECHO_TYPE,
      MTR_FIRMWAREECHO_MD5},
+    {kTopicCommand, kTopicSubscriber, MTR_FIRMWARECOMMAND_BYTES, "/firmware/command", MTR_FIRMWARECOMMAND_TYPE,
+     MTR_FIRMWARECOMMAND_MD5},
+    {kTopicPress, kTopicSubscriber, MTR_FIRMWAREPRESS_BYTES, "/firmware/press", MTR_FIRMWAREPRESS_TYPE,
+     MTR_FIRMWAREPRESS_MD5},
+    {kTopicCalibrate, kTopicSubscriber, MTR_FIRMWARECALIBRATE_BYTES, "/firmware/calibrate", MTR_FIRMWARECALIBRATE_TYPE,
+     MTR_FIRMWARECALIBRATE_MD5},
 };
 
 int16_t host_payload_bytes(uint16_t topic) {

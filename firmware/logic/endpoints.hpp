@@ -38,7 +38,8 @@ struct Endpoint {
 
 constexpr uint8_t kEndpointCount = 6;
 
-/// In flash: read it with pgm_read_*.
+/// In flash: read it with pgm_read_*. Publishers first: the host takes a message that it knows nothing of for a lost
+/// negotiation.
 extern const Endpoint kEndpoints[kEndpointCount];
 
 /// Payload bytes of a topic that the host may send, or kUnknownTopic.

@@ -88,7 +88,8 @@ int16_t Lift::step(int32_t measured_um, int32_t stroke_um) {
 int16_t Lift::duty(int32_t measured_um) {
   const int32_t error_um = profile_.position_um() - measured_um;
   const bool is_final = profile_.speed_um() == 0;
-  const int32_t wanted_um = profile_.speed_um() + error_um / kGainStepsPerCorrection;
+  const int32_t wanted_um =
+      clamp(profile_.speed_um() + error_um / kGainStepsPerCorrection, -kTopSpeedUmPerStep, kTopSpeedUmPerStep);
   creep_ = is_final ? static_cast<int16_t>(creep_ + (error_um > 0 ? 1 : -1)) : 0;
   const int32_t direction = (is_final ? error_um : profile_.speed_um()) > 0 ? 1 : -1;
   const int32_t drive = wanted_um * kFullDuty / kFullDutySpeedUmPerStep + direction * kFrictionDuty + creep_;

@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "../hal/hal.hpp"
 #include "config.hpp"
 #include "endpoints.hpp"
 #include "frame_writer.hpp"
@@ -15,6 +16,9 @@ namespace {
 
 /// What the host is told about the size of our buffer: it drops longer messages.
 constexpr uint32_t kBufferBytes = kLongestPayload;
+
+/// Topics are announced one at a time on an idle line, so that reports wait behind one of them at most.
+constexpr uint8_t kIdleRoom = 250;
 
 uint8_t flash_length(const char* text) {
   uint8_t length = 0;
@@ -52,6 +56,7 @@ void RosserialClient::poll(uint32_t now_us, bool is_commanded) {
     host_heard_ = false;
   }
   if (!(host_heard_ && is_commanded) && now_us - announced_us_ >= kAnnouncePeriodUs) {
+    is_asked_ = false;
     announce();
   }
   if (now_us - asked_us_ >= kTimePeriodUs) {
@@ -61,7 +66,7 @@ void RosserialClient::poll(uint32_t now_us, bool is_commanded) {
   // With no room now, the next pass tries again.
   if (time_due_) {
     time_due_ = !ask_time();
-  } else if (next_endpoint_ < kEndpointCount && send_endpoint(next_endpoint_)) {
+  } else if (next_endpoint_ < kEndpointCount && hal::uart_room() >= kIdleRoom && send_endpoint(next_endpoint_)) {
     ++next_endpoint_;
   }
 }
@@ -72,6 +77,7 @@ void RosserialClient::take(void* self, uint16_t topic, const uint8_t* payload, u
     case kTopicNegotiate:
       client->open_ = true;
       client->time_due_ = true;
+      client->is_asked_ = true;
       client->announce();
       return;
     case kTopicTime:

@@ -28,8 +28,9 @@ class RosserialClient {
   /// Negotiates and asks for the time, once per pass of the main loop; is_commanded: messages of the host arrive.
   void poll(uint32_t now_us, bool is_commanded);
 
-  /// False after a stop by the host.
-  bool is_open() const { return open_; }
+  /// False after a stop by the host, and until it has been told the topics that it asked for: it would take a report
+  /// for a lost negotiation and ask again, for ever.
+  bool may_report() const { return open_ && !(is_asked_ && next_endpoint_ < kEndpointCount); }
 
  private:
   static void take(void* self, uint16_t topic, const uint8_t* payload, uint8_t length);
@@ -48,6 +49,7 @@ class RosserialClient {
   bool open_ = true;
   bool time_due_ = true;
   bool host_heard_ = false;
+  bool is_asked_ = false;
   uint8_t next_endpoint_ = 0;
 };
 

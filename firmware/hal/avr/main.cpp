@@ -17,12 +17,14 @@ mtr::Board board(&press_memory);
 
 void hal::idle() {
   cli();
-  if (!has_byte() && !has_tick()) {
+  // A sent byte also wakes the core; it is no reason for a pass.
+  while (!has_byte() && !has_tick()) {
     sleep_enable();
     // The instruction after sei runs before any interrupt, so that none is slept through.
     sei();
     sleep_cpu();
     sleep_disable();
+    cli();
   }
   sei();
 }

@@ -1,7 +1,8 @@
-"""A host of the serial line for tests in lock-step: rosserial frames, messages, and the answers that the upstream gives."""
+"""A host of the serial line for tests in lock-step: frames, messages, and the upstream host's answers."""
 # SPDX-License-Identifier: Apache-2.0
 import binascii
 import collections
+import contextlib
 import os
 import struct
 import termios
@@ -111,11 +112,14 @@ def split(data: bytearray) -> List[Tuple[int, bytes]]:
 class Host:
     """Sends commands each 100 ms, answers TIME, repeats a press until its id is reported.
 
+    As the upstream's, it asks for topics when a message comes that it knows nothing of.
+
     Attributes:
         topics: what the device has announced, by id.
         states, healths, echoes: all that have arrived.
         height_m, led: sent with each command.
-        is_talking: False keeps silent.
+        is_talking: False sends no commands.
+        answers_time: False does not answer TIME.
     """
 
     def __init__(self, board: Emulator):
@@ -127,7 +131,7 @@ class Host:
         self.damaged_states = 0
         self.height_m = float("nan")
         self.led = 4
-        self.is_talking = True
+        self.is_talking = self.answers_time = True
         self.log: List[Probe] = []
         self._press: Optional[Tuple[int, bytes]] = None
         self._outbox: Deque[bytes] = collections.deque()
@@ -185,10 +189,12 @@ class Host:
             self._take(topic, payload)
 
     def _take(self, topic: int, payload: bytes) -> None:
-        if topic == TIME and self.is_talking:
-            self.send(frame(TIME, struct.pack("<II", 1, 0)))
+        if topic == TIME:
+            self.send(frame(TIME, struct.pack("<II", 1, 0)) if self.answers_time else b"")
         elif topic in (NEGOTIATE, SUBSCRIBER):
             self._announced(topic, payload)
+        elif topic not in self.topics:
+            self.send(frame(NEGOTIATE))
         elif topic == STATE and len(payload) == STATE_FORMAT.size:
             self._report(payload)
         elif topic == HEALTH and len(payload) == HEALTH_FORMAT.size:
@@ -206,8 +212,11 @@ class Host:
 
     def _announced(self, kind: int, payload: bytes) -> None:
         texts, offset = [], 2
-        for _ in range(3):
-            length = struct.unpack_from("<I", payload, offset)[0]
-            texts.append(payload[offset + 4:offset + 4 + length].decode("ascii"))
-            offset += 4 + length
-        self.topics[struct.unpack_from("<H", payload)[0]] = Topic(kind, *texts, struct.unpack_from("<i", payload, offset)[0])
+        # On a bad line a damaged one may pass the sum; it will be told again when it is missed.
+        with contextlib.suppress(UnicodeDecodeError, struct.error):
+            for _ in range(3):
+                length = struct.unpack_from("<I", payload, offset)[0]
+                texts.append(payload[offset + 4:offset + 4 + length].decode("ascii"))
+                offset += 4 + length
+            topic, buffer_bytes = struct.unpack_from("<H", payload)[0], struct.unpack_from("<i", payload, offset)[0]
+            self.topics[topic] = Topic(kind, *texts, buffer_bytes)

@@ -105,6 +105,11 @@ class Emulator:
         if self._temporary:
             self._temporary.cleanup()
 
+    @property
+    def pid(self) -> int:
+        """Of the running process."""
+        return self._process.pid
+
     def step(self, us: int, rx_bytes: Optional[int] = None) -> Dict[str, int]:
         """Let simulated time pass; rx_bytes: bytes written to the port so far, which shall have arrived before.
 
