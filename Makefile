@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup build demo test lint unit rostest system sim clean bench
+.PHONY: help setup build demo test lint unit rostest system sim clean bench bench-motion
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -58,6 +58,9 @@ system: setup build ## Only the tests of the whole stack
 
 bench: setup build ## Benchmarks; figures in out/bench
 	@$(RUN) python -m mtr_bringup.bench --out out/bench
+
+bench-motion: setup build ## Benchmark of the robot's motion; figures in out/bench/motion.json
+	@$(RUN) python -m mtr_bringup.bench_motion --seed $(SEED) --out out/bench
 
 clean: ## Remove everything that was built or written
 	rm -rf out $(STAMPS) .venv catkin_ws/{build,devel,logs,.catkin_tools} proto/src/mtr_proto/*_pb2.py

@@ -117,7 +117,8 @@ class MotionParameters(ParameterSet):
             does not see what is behind it.
         degenerate_speed_mps: speed limit while localization says that its surroundings do not hold the pose.
         input_age_limit_s: older inputs stop the robot.
-        accept_nav_goal: for developers: goals from rviz are taken while the Operator wants none.
+        accept_nav_goal: for developers: goals from rviz are taken while the robot follows waypoints and the Operator
+            wants none.
         nav_goal_speed_mps: speed limit of those.
     """
 
