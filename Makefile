@@ -5,6 +5,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim clean bench firmware flash
+.PHONY: help setup build demo test lint unit rostest system sim clean bench bench-motion
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -70,6 +71,8 @@ firmware: setup ## Build the firmware of both boards and its emulator; prints si
 
 flash: setup ## Write the firmware to a board: BOARD=mega|uno PORT=/dev/serial/by-id/...
 	@$(MAKE) --no-print-directory -s -C firmware flash BOARD=$(BOARD) PORT=$(PORT)
+bench-motion: setup build ## Benchmark of the robot's motion; figures in out/bench/motion.json
+	@$(RUN) python -m mtr_bringup.bench_motion --seed $(SEED) --out out/bench
 
 clean: ## Remove everything that was built or written
 	rm -rf out firmware/build $(STAMPS) .venv catkin_ws/{build,devel,logs,.catkin_tools} proto/src/mtr_proto/*_pb2.py

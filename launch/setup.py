@@ -4,5 +4,6 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-setup(**generate_distutils_setup(
-    packages=["mtr_bringup", "mtr_bringup.bench", "mtr_bringup.bench_localization"], package_dir={"": "src"}))
+PACKAGES = ["mtr_bringup", "mtr_bringup.bench", "mtr_bringup.bench_localization", "mtr_bringup.bench_motion"]
+
+setup(**generate_distutils_setup(packages=PACKAGES, package_dir={"": "src"}))

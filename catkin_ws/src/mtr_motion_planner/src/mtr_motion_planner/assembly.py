@@ -22,8 +22,8 @@ from .trajectory import Drive, Motion, Pivot, Trajectory
 CORNER_SHARE = 0.4
 ENDS_M = 0.6
 NO_TURN_RAD = 0.002
-# What a stop may take longer than the formula says, by rounding to samples.
-BRAKE_SHARE, BRAKE_M, BRAKE_RAD = 1.05, 0.02, 0.02
+# Lengths of a stop that are tried, as shares of the shortest; on a tight curve and by rounding it takes longer.
+BRAKE_SHARES, BRAKE_M, BRAKE_RAD = (1.05, 1.4, 2.0, 3.0), 0.02, 0.02
 # One of so many samples, 60 ms, is checked for what it comes close to.
 CHECKED = 3
 
@@ -93,19 +93,20 @@ class Assembly:
         return self._fence is None or self._fence.holds(poses, trajectory.linear[::CHECKED])
 
     def brake(self, start: Moving) -> Part:
-        """Stop on the present curve, or the turn on the spot."""
-        limits = self._parameters.limits
-        speed, rate = abs(start.linear_mps), abs(start.angular_radps)
-        if speed > MOVING_MPS:
-            sign = 1 if start.linear_mps > 0.0 else -1
-            length = BRAKE_SHARE * limits.stopping_distance(speed) + BRAKE_M
-            curve = trace(facing(start.pose, sign), [0.0, length], [start.angular_radps / speed, 0.0])
-            motion: Motion = Drive(curve, sign)
-            return Part(motion, motion.timed(limits, speed, speed))
-        angle = BRAKE_SHARE * (0.5 * rate ** 2 / limits.angular_acceleration_radps2
-                               + 0.5 * rate * limits.angular_ramp_s) + BRAKE_RAD
-        motion = Pivot(start.pose, math.copysign(angle, start.angular_radps))
-        return Part(motion, motion.timed(limits, 0.0, rate))
+        """Stop on the present curve, or the turn on the spot; as short as it can be timed."""
+        limits, speed, rate = self._parameters.limits, abs(start.linear_mps), abs(start.angular_radps)
+        if speed <= MOVING_MPS:
+            angle = limits.stopping_angle(rate)
+            turns = (Pivot(start.pose, math.copysign(share * angle + BRAKE_RAD, start.angular_radps))
+                     for share in BRAKE_SHARES)
+            return next(Part(turn, timed) for turn in turns for timed in [turn.timed(limits, 0.0, rate)] if timed)
+        sign = 1 if start.linear_mps > 0.0 else -1
+        bend = start.angular_radps / speed
+        # Where even the longest stop on the curve is too short, the straight one is not.
+        curves = (trace(facing(start.pose, sign), [0.0, share * limits.stopping_distance(speed) + BRAKE_M], ends)
+                  for ends in ([bend, 0.0], [0.0, 0.0]) for share in BRAKE_SHARES)
+        drives = (Drive(curve, sign) for curve in curves)
+        return next(Part(drive, timed) for drive in drives for timed in [drive.timed(limits, speed, speed)] if timed)
 
 
 def line(start: Pose2, straight: Straight) -> Drive:

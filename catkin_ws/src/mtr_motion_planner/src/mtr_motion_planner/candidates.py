@@ -43,7 +43,7 @@ class Candidates:
         self._radii = sorted({*(radius for radius in TIGHT_RADII_M if radius < 0.9 * cruise), cruise})
         gap = parameters.route_gap_m
         sizes = {gap, min(LARGEST_RING_M, max(gap, cruise)), min(LARGEST_RING_M, max(gap, 0.6 * cruise))}
-        self._rings = [Ring(tuple(keep_out.centres(size, gap)), size) for size in sorted(sizes)]
+        self._rings = [Ring(keep_out.centres(size, gap), size) for size in sorted(sizes)]
 
     def between(self, start: Moving, goal: Pose2, direction: Direction) -> List[Candidate]:
         """Candidates, the quickest first; PlanRefused when start or goal lies too close to the Car."""

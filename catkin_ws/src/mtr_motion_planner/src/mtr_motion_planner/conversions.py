@@ -1,11 +1,12 @@
 """Between ROS messages and the planner's plain types."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Any, Optional
+from typing import Any, Optional, Tuple
 
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import Point, PoseStamped
 from nav_msgs.msg import Path
-from std_msgs.msg import Header
+from std_msgs.msg import ColorRGBA, Header
+from visualization_msgs.msg import Marker, MarkerArray
 
 from mtr_core import names
 from mtr_core.se2 import Pose2
@@ -13,8 +14,14 @@ from mtr_core.states import Direction
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
 from .inputs import Car, Drive, Goal, Order, RobotState, Zone
+from .picture import Picture
 from .planner import Output
 from .planner import Path as PlannedPath
+
+# Of the markers: lines, their height above ground, and colours by what they show.
+LINE_M, HEIGHT_M, ARROW_M = 0.03, 0.02, 0.5
+RED, GREEN, YELLOW = (0.9, 0.2, 0.1), (0.1, 0.9, 0.2), (1.0, 0.9, 0.1)
+SLOW, FAST = (0.2, 0.4, 1.0), (1.0, 1.0, 1.0)
 
 
 def order_from(message: Optional[RobotMode]) -> Optional[Order]:
@@ -27,7 +34,15 @@ def order_from(message: Optional[RobotMode]) -> Optional[Order]:
     known = goal.id == 0 or goal.frame_id in (names.CAR, names.MAP)
     pose = Pose2(goal.x, goal.y, goal.heading) if known else Pose2(math.nan, math.nan, math.nan)
     return Order(message.header.stamp.to_sec(), Goal(goal.id, goal.frame_id == names.CAR, pose, direction),
-                 message.max_speed_mps)
+                 message.max_speed_mps, message.mode == RobotMode.FOLLOWING_WAYPOINT)
+
+
+def nav_goal_from(message: PoseStamped) -> Optional[Tuple[Pose2, bool]]:
+    """Pose set in rviz, and whether it is in the Car's frame; None in a frame in which there are no goals."""
+    frame, at, turned = message.header.frame_id, message.pose.position, message.pose.orientation
+    if frame not in (names.CAR, names.MAP):
+        return None
+    return Pose2(at.x, at.y, 2.0 * math.atan2(turned.z, turned.w)), frame == names.CAR
 
 
 def robot_from(message: Optional[LocalizedPose]) -> Optional[RobotState]:
@@ -73,3 +88,33 @@ def path_message(planned: PlannedPath, stamp: Any) -> Path:
         pose.pose.position.x, pose.pose.position.y, pose.pose.orientation.w = x, y, 1.0
         path.poses.append(pose)
     return path
+
+
+def markers_message(picture: Picture, stamp: Any) -> MarkerArray:
+    """Keep-out zone, trajectory (the faster the brighter), place to be at now, and goal."""
+    header = Header(stamp=stamp, frame_id=names.CAR if picture.in_car_frame else names.MAP)
+    zone = _marker(header, "keep out", Marker.LINE_STRIP, RED)
+    zone.points = [Point(x, y, HEIGHT_M) for x, y in picture.keep_out]
+    way = _marker(header, "trajectory", Marker.LINE_STRIP, FAST)
+    way.points = [Point(x, y, HEIGHT_M) for x, y, _ in picture.trajectory]
+    top = max((speed for _, _, speed in picture.trajectory), default=0.0) or 1.0
+    way.colors = [ColorRGBA(*(slow + speed / top * (fast - slow) for slow, fast in zip(SLOW, FAST)), 1.0)
+                  for _, _, speed in picture.trajectory]
+    arrows = [("goal", picture.goal, GREEN), ("reference", picture.reference, YELLOW)]
+    return MarkerArray([zone, way, *(_arrow(header, name, pose, colour) for name, pose, colour in arrows)])
+
+
+def _arrow(header: Header, name: str, pose: Optional[Pose2], colour: Tuple[float, float, float]) -> Marker:
+    marker = _marker(header, name, Marker.ARROW, colour)
+    if pose is None:
+        marker.action = Marker.DELETE
+        return marker
+    marker.points = [Point(*pose.apply(x, 0.0), HEIGHT_M) for x in (0.0, ARROW_M)]
+    marker.scale.y = 3.0 * LINE_M
+    return marker
+
+
+def _marker(header: Header, name: str, kind: int, colour: Tuple[float, float, float]) -> Marker:
+    marker = Marker(header=header, ns=name, type=kind, action=Marker.ADD, color=ColorRGBA(*colour, 1.0))
+    marker.pose.orientation.w, marker.scale.x = 1.0, LINE_M
+    return marker

@@ -31,6 +31,7 @@ class Order:
     stamp_s: float
     goal: Goal
     max_speed_mps: float
+    follows_waypoints: bool = False
 
 
 @dataclass(frozen=True)

@@ -40,6 +40,10 @@ class MotionLimits(ParameterSet):
         """Way in m on which the robot stops from a speed."""
         return speed_mps ** 2 / (2.0 * self.acceleration_mps2) + 0.5 * abs(speed_mps) * self.ramp_s
 
+    def stopping_angle(self, rate: float) -> float:
+        """Angle in rad in which the robot ends a turn on the spot."""
+        return rate ** 2 / (2.0 * self.angular_acceleration_radps2) + 0.5 * abs(rate) * self.angular_ramp_s
+
     def turn_time(self, angle: float) -> float:
         """Time in s of a turn on the spot."""
         return rest_to_rest_time(abs(angle), self.max_angular_radps, self.angular_acceleration_radps2,

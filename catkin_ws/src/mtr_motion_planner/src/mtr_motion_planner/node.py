@@ -1,24 +1,44 @@
 """The motion planner as a ROS node: topics in, velocity and status out, 25 times a second."""
 # SPDX-License-Identifier: Apache-2.0
 import rospy
+from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
 from std_msgs.msg import Header
+from visualization_msgs.msg import MarkerArray
 
 from mtr_core import names, schedule
 from mtr_lockstep import Ticker, TickInput, publisher, run_node
 from mtr_lockstep.clock import stamp_of
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
-from .conversions import car_from, drive_from, order_from, path_message, robot_from, status_message, velocity_message
+from .conversions import (
+    car_from,
+    drive_from,
+    markers_message,
+    nav_goal_from,
+    order_from,
+    path_message,
+    robot_from,
+    status_message,
+    velocity_message,
+)
 from .inputs import Inputs
+from .nav_goal import NavGoals
 from .parameters import MotionParameters
+from .picture import picture_of
 from .planner import MotionPlanner
+
+# Of rviz' tool "2D Nav Goal".
+NAV_GOAL = "/move_base_simple/goal"
+# One of so many ticks shows the markers: 2.5 times a second.
+MARKER_TICKS = 10
 
 
 class MotionPlannerNode:
     """Feeds the planner at its ticks and publishes what it says."""
 
     def __init__(self, parameters: MotionParameters):
+        self._parameters = parameters
         self._planner = MotionPlanner(parameters)
         self._ticker = Ticker(schedule.MOTION_PLANNER)
         self._pose = TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0)
@@ -28,6 +48,11 @@ class MotionPlannerNode:
         self._velocity = publisher(names.PLANNER_VELOCITY, VelocityCommand)
         self._status = publisher(names.MOTION_STATUS, MotionStatus)
         self._path = rospy.Publisher(names.MOTION_PATH, Path, queue_size=1, latch=True)
+        self._markers = rospy.Publisher(names.MOTION_MARKERS, MarkerArray, queue_size=1)
+        self._nav_goals = NavGoals(parameters.nav_goal_speed_mps)
+        if parameters.accept_nav_goal:
+            self._nav_subscriber = rospy.Subscriber(NAV_GOAL, PoseStamped, self._take_nav_goal, queue_size=1)
+        self._ticks = 0
 
     def spin(self) -> None:
         """Run until shutdown."""
@@ -36,7 +61,8 @@ class MotionPlannerNode:
 
     def tick(self, tick_ns: int) -> None:
         """One step of the planner."""
-        inputs = Inputs(tick_ns * 1e-9, order_from(self._mode.at(tick_ns)), robot_from(self._pose.at(tick_ns)),
+        order = self._nav_goals.joined(order_from(self._mode.at(tick_ns)))
+        inputs = Inputs(tick_ns * 1e-9, order, robot_from(self._pose.at(tick_ns)),
                         car_from(self._car.at(tick_ns)), drive_from(self._drive.at(tick_ns)))
         output = self._planner.step(inputs)
         stamp = stamp_of(tick_ns)
@@ -44,6 +70,22 @@ class MotionPlannerNode:
         self._status.publish(status_message(output, Header(stamp=stamp)))
         if output.path is not None:
             self._path.publish(path_message(output.path, stamp))
+        self._show(stamp)
+
+    def _show(self, stamp: rospy.Time) -> None:
+        """Markers now and then, for whoever listens."""
+        self._ticks += 1
+        if self._ticks % MARKER_TICKS == 0 and self._markers.get_num_connections():
+            picture = picture_of(self._planner, self._parameters)
+            if picture:
+                self._markers.publish(markers_message(picture, stamp))
+
+    def _take_nav_goal(self, message: PoseStamped) -> None:
+        goal = nav_goal_from(message)
+        if goal is None:
+            rospy.logwarn("A goal in frame %s is not taken; allowed are car and map.", message.header.frame_id)
+        else:
+            self._nav_goals.take(*goal)
 
 
 def main() -> int:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
-from typing import List, Optional, Sequence, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
 
@@ -13,23 +13,37 @@ from .inputs import Point
 LONGEST_ARC_RAD = math.radians(250.0)
 
 
-@dataclass(frozen=True)
 class Ring:
-    """Polygon whose corners the route turns about.
+    """Polygon whose corners a route turns about.
 
     Attributes:
         corners: counterclockwise.
         radius: of the turns in m.
     """
 
-    corners: Tuple[Point, ...]
-    radius: float
+    def __init__(self, corners: Sequence[Point], radius: float):
+        self.corners, self.radius = tuple(corners), radius
+        self._middle = Pose2(sum(x for x, _ in corners) / len(corners), sum(y for _, y in corners) / len(corners), 0.0)
+        self._supports: Dict[Tuple[Circle, int], Optional[int]] = {}
 
-    @property
-    def middle(self) -> Point:
-        """Mean of the corners."""
-        return (sum(x for x, _ in self.corners) / len(self.corners),
-                sum(y for _, y in self.corners) / len(self.corners))
+    def support(self, circle: Circle, side: int) -> Optional[int]:
+        """Corner on which the tangent from the circle lies that has the whole ring to its left (1) or right (-1)."""
+        key = (circle, side)
+        if key not in self._supports:
+            self._supports[key] = self._support(circle, side)
+        return self._supports[key]
+
+    def _support(self, circle: Circle, side: int) -> Optional[int]:
+        towards = math.atan2(self._middle.y - circle.y, self._middle.x - circle.x)
+        best, found = math.inf, None
+        for index, (x, y) in enumerate(self.corners):
+            joined = tangent(circle, Circle(x, y, side * self.radius))
+            if joined is None:
+                return None
+            offset = side * wrap_angle(joined[0] - towards)
+            if offset < best:
+                best, found = offset, index
+        return found
 
 
 @dataclass(frozen=True)
@@ -73,29 +87,14 @@ def route_along(circles: Sequence[Circle], first_heading: float, last_heading: f
 
 def around(first: Circle, last: Circle, ring: Ring, side: int) -> Optional[List[Circle]]:
     """Circles on which a route with the ring to its left (side 1) or right (-1) turns, first and last included."""
-    begin = _support(first, ring, side)
-    back = _support(Circle(last.x, last.y, -last.radius), ring, -side)
+    begin = ring.support(first, side)
+    back = ring.support(Circle(last.x, last.y, -last.radius), -side)
     if begin is None or back is None:
         return None
     count = len(ring.corners)
     steps = (side * (back - begin)) % count
     corners = [ring.corners[(begin + side * step) % count] for step in range(steps + 1)]
     return [first, *(Circle(x, y, side * ring.radius) for x, y in corners), last]
-
-
-def _support(circle: Circle, ring: Ring, side: int) -> Optional[int]:
-    """Corner on which the tangent from the circle lies that has the whole ring on one side."""
-    x, y = ring.middle
-    towards = math.atan2(y - circle.y, x - circle.x)
-    best, found = math.inf, None
-    for index, (corner_x, corner_y) in enumerate(ring.corners):
-        joined = tangent(circle, Circle(corner_x, corner_y, side * ring.radius))
-        if joined is None:
-            return None
-        offset = side * wrap_angle(joined[0] - towards)
-        if offset < best:
-            best, found = offset, index
-    return found
 
 
 def moved(pose: Pose2, way: float) -> Pose2:

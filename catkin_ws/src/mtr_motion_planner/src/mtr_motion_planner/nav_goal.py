@@ -1,0 +1,39 @@
+"""Goals that a developer sets in rviz; the Operator's always go before them."""
+# SPDX-License-Identifier: Apache-2.0
+import threading
+from dataclasses import replace
+from typing import Optional
+
+from mtr_core.se2 import Pose2
+from mtr_core.states import Direction
+
+from .inputs import Goal, Order
+
+# Ids of the state machine's goals count from 1; these never meet them.
+FIRST_ID = 1 << 63
+
+
+class NavGoals:
+    """Takes the newest goal and puts it into an order that has none, while the robot follows waypoints."""
+
+    def __init__(self, speed_mps: float):
+        self._speed_mps = speed_mps
+        self._lock = threading.Lock()
+        self._count = 0
+        self._goal: Optional[Goal] = None
+
+    def take(self, pose: Pose2, in_car_frame: bool) -> None:
+        """A goal has been set; from any thread."""
+        with self._lock:
+            self._goal = Goal(FIRST_ID + self._count, in_car_frame, pose, Direction.ANY)
+            self._count += 1
+
+    def joined(self, order: Optional[Order]) -> Optional[Order]:
+        """The order, with the goal from rviz if nobody else wants one; an Operator's goal ends that."""
+        with self._lock:
+            if order is None or self._goal is None:
+                return order
+            if order.goal.goal_id or not order.follows_waypoints:
+                self._goal = None
+                return order
+            return replace(order, goal=self._goal, max_speed_mps=self._speed_mps)

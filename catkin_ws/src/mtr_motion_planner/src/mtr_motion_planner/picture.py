@@ -1,0 +1,44 @@
+"""What the planner has in mind, as lines for people who look."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+from typing import Optional, Tuple
+
+from mtr_core.se2 import Pose2
+
+from .inputs import Point
+from .parameters import MotionParameters
+from .planner import MotionPlanner
+
+ROUND_STEPS = 8
+
+
+@dataclass(frozen=True)
+class Picture:
+    """Lines in map or in the Car's frame.
+
+    Attributes:
+        keep_out: where the robot's centre is not led on its way; closed.
+        trajectory: where the robot is to be, and how fast in m/s.
+        reference: where it is to be now.
+        goal: of base_link.
+    """
+
+    in_car_frame: bool
+    keep_out: Tuple[Point, ...]
+    trajectory: Tuple[Tuple[float, float, float], ...]
+    reference: Optional[Pose2]
+    goal: Pose2
+
+
+def picture_of(planner: MotionPlanner, parameters: MotionParameters) -> Optional[Picture]:
+    """The present picture; None when the robot goes nowhere."""
+    site, follower = planner.site, planner.follower
+    if site is None:
+        return None
+    zone = site.keep_out.hull.buffer(parameters.route_gap_m, ROUND_STEPS)
+    parts = follower.plan.parts if follower else ()
+    trajectory = tuple((float(x), float(y), abs(float(speed))) for part in parts for (x, y, _), speed in zip(
+        part.trajectory.poses[::5], part.trajectory.linear[::5]))
+    return Picture(site.in_car_frame, tuple(zone.exterior.coords), trajectory,
+                   follower.reference().pose if follower else None,
+                   site.goal @ parameters.footprint.slip.base_from_centre.inverse())
