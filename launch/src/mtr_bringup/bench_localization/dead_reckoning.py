@@ -22,8 +22,8 @@ def dead_reckoned(log: SensorLog) -> Trajectory:
     headings = np.cumsum(turns)
     middles = headings - 0.5 * turns
     steps = speeds * periods
-    return trajectory(stamps, np.stack([np.cumsum(steps * np.cos(middles)), np.cumsum(steps * np.sin(middles)), headings],
-                                       axis=1))
+    x, y = np.cumsum(steps * np.cos(middles)), np.cumsum(steps * np.sin(middles))
+    return trajectory(stamps, np.stack([x, y, headings], axis=1))
 
 
 def _bias(stamps: np.ndarray, speeds: np.ndarray, rates: np.ndarray) -> np.ndarray:

@@ -36,6 +36,8 @@ class DriveOptions(ParameterSet):
         rear: the rear LiDAR is recorded too.
         person: somebody walks to and fro beside the Car.
         kidnap: after the loop somebody lifts the robot and puts it down 2 m aside; no axes, no radials.
+        duration_s: axes and radials are driven again and again for so long; 0: once.
+        sweeps_apart: only each of so many sweeps of the LiDARs is recorded.
     """
 
     scene: str = "lot"
@@ -52,6 +54,8 @@ class DriveOptions(ParameterSet):
     rear: bool = False
     person: bool = False
     kidnap: bool = False
+    duration_s: float = number(0.0, 0.0, 86_400.0, "s")
+    sweeps_apart: int = number(1, 1, 100, "sweeps")
 
     def __post_init__(self) -> None:
         super().__post_init__()

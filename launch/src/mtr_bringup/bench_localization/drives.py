@@ -7,10 +7,12 @@ from .drive_options import DriveOptions
 
 SCENES = ("lot", "far", "cones", "open")
 CARS = ("hatchback", "sedan", "van")
-PLAIN, RANGE_BIAS, TILT, KIDNAP = "plain", "range_bias", "tilt", "kidnap"
+PLAIN, RANGE_BIAS, TILT, KIDNAP, CAMPAIGN = "plain", "range_bias", "tilt", "kidnap", "campaign"
 SEEDS, VARIANT_SEEDS, KIDNAP_SEEDS, QUICK_SEEDS = 10, 5, 3, 2
 RANGE_BIAS_M, TILT_DEG = 0.02, 1.0
 KIDNAP_SCENES = ("lot", "open")
+# A working day. Its sweeps are recorded four times as seldom, so that the recording has 2 GB and not 8.
+CAMPAIGN_S, QUICK_CAMPAIGN_S, CAMPAIGN_SWEEPS_APART = 8.0 * 3600.0, 900.0, 4
 
 
 class Drive(NamedTuple):
@@ -28,7 +30,11 @@ class Drive(NamedTuple):
 def all_drives(quick: bool = False) -> List[Drive]:
     """Drives with other errors use the first of the plain drives' seeds, so that they differ in nothing else."""
     seeds, variant_seeds, kidnap_seeds = ((QUICK_SEEDS,) * 3 if quick else (SEEDS, VARIANT_SEEDS, KIDNAP_SEEDS))
-    drives = [Drive(options(scene, seed), PLAIN) for scene in SCENES for seed in range(1, seeds + 1)]
+    # The longest first, so that it does not end alone.
+    campaign = replace(options("lot", 1), duration_s=QUICK_CAMPAIGN_S if quick else CAMPAIGN_S,
+                       sweeps_apart=CAMPAIGN_SWEEPS_APART)
+    drives = [Drive(campaign, CAMPAIGN)]
+    drives += [Drive(options(scene, seed), PLAIN) for scene in SCENES for seed in range(1, seeds + 1)]
     for scene in SCENES:
         for seed in range(1, variant_seeds + 1):
             plain = options(scene, seed)

@@ -1,7 +1,7 @@
 """The way of one drive round the Car: the loop that maps it, then axes and radials as the scenarios drive them."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import List, NamedTuple, Tuple
+from typing import Iterator, List, NamedTuple, Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
 from mtr_simulation import robot
@@ -16,7 +16,8 @@ AXIS_SPEED_MPS, RADIAL_SPEED_MPS = 0.5, 0.5
 AXIS_FAR_M, AXIS_NEAR_M = 2.5, 0.4
 RADIAL_NEAR_M, RADIAL_STEP_M = 1.5, 1.0
 STAND_FIRST_S, STAND_S, STAND_AFTER_LOOP_S = 2.0, 1.5, 4.0
-LOOP, TRANSFER, AXIS, RADIAL, START, KIDNAP = "loop", "transfer", "axis", "radial", "start", "kidnap"
+START, LOOP, SETTLE, TRANSFER, AXIS, RADIAL, KIDNAP = (
+    "start", "loop", "settle", "transfer", "axis", "radial", "kidnap")
 # Lifted away from the Car, which is to the left on the way round it; then it stands as the fail-safes let it.
 LIFTED = Lift(-2.0, math.radians(20.0))
 STAND_AFTER_LIFT_S = 20.0
@@ -31,28 +32,42 @@ class Piece(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """Which axes and radials, as directions in frame car, how far from the Car the radials go, and a kidnapping."""
+    """What comes after the loop.
+
+    Attributes:
+        axes_rad: directions in frame car.
+        radials_rad: the same.
+        reach_m: how far from the Car the radials go.
+        endless: axes and radials are driven again and again.
+        kidnap: instead of axes and radials the robot is lifted and put down elsewhere.
+    """
 
     axes_rad: Tuple[float, ...]
     radials_rad: Tuple[float, ...]
     reach_m: float
+    endless: bool = False
     kidnap: bool = False
 
 
-def pieces(shape: CarShape, start: Pose2, plan: Plan) -> List[Piece]:
-    """All legs from the start, a pose in frame car."""
+def pieces(shape: CarShape, start: Pose2, plan: Plan) -> Iterator[Piece]:
+    """Leg by leg from the start, a pose in frame car."""
     here = (start.x, start.y)
-    way = [Piece(Stand(STAND_FIRST_S), START), *_loop(shape, here)]
-    here = way[-2].leg.points[-1]
+    yield Piece(Stand(STAND_FIRST_S), START)
+    way = _loop_way(shape, here)
+    yield from (Piece(Turn(_bearing(here, way[0])), LOOP), Piece(Path(way, LOOP_SPEED_MPS), LOOP),
+                Piece(Stand(STAND_AFTER_LOOP_S), SETTLE))
     if plan.kidnap:
-        return [*way, Piece(LIFTED, KIDNAP), Piece(Stand(STAND_AFTER_LIFT_S), KIDNAP)]
-    for direction in plan.axes_rad:
-        legs, here = _axis(shape, here, direction)
-        way += legs
-    for direction in plan.radials_rad:
-        legs, here = _radial(shape, here, direction, plan.reach_m)
-        way += legs
-    return way
+        yield from (Piece(LIFTED, KIDNAP), Piece(Stand(STAND_AFTER_LIFT_S), KIDNAP))
+        return
+    here, again = way[-1], True
+    while again:
+        for direction in plan.axes_rad:
+            legs, here = _axis(shape, here, direction)
+            yield from legs
+        for direction in plan.radials_rad:
+            legs, here = _radial(shape, here, direction, plan.reach_m)
+            yield from legs
+        again = plan.endless
 
 
 def ring(shape: CarShape, distance_m: float) -> List[Point]:
@@ -73,13 +88,12 @@ def outline_distance(shape: CarShape, direction_rad: float) -> float:
     return min(0.5 * shape.length_m / max(cos, 1e-9), 0.5 * shape.width_m / max(sin, 1e-9))
 
 
-def _loop(shape: CarShape, here: Point) -> List[Piece]:
+def _loop_way(shape: CarShape, here: Point) -> Tuple[Point, ...]:
+    """Once round, from the place next to the robot back to it."""
     places = ring(shape, LOOP_DISTANCE_M)
     first = min(range(len(places)), key=lambda index: math.hypot(places[index][0] - here[0],
                                                                  places[index][1] - here[1]))
-    way = tuple(places[(first + step) % len(places)] for step in range(len(places) + 1))
-    return [Piece(Turn(_bearing(here, way[0])), LOOP), Piece(Path(way, LOOP_SPEED_MPS), LOOP),
-            Piece(Stand(STAND_AFTER_LOOP_S), START)]
+    return tuple(places[(first + step) % len(places)] for step in range(len(places) + 1))
 
 
 def _axis(shape: CarShape, here: Point, direction: float) -> Tuple[List[Piece], Point]:

@@ -11,7 +11,7 @@ from dataclasses import asdict
 from typing import Any, Dict, List, Optional
 
 from mtr_core.errors import ConfigurationError
-from mtr_core.schedule import CAR_LOCATOR, SIMULATION_START_NS
+from mtr_core.schedule import CAR_LOCATOR, CLOCK_STEP, LIDAR, SIMULATION_START_NS
 from mtr_core.se2 import Pose2
 from mtr_msgs.msg import MappingOrder
 from mtr_simulation.car_shape import size_at
@@ -19,10 +19,12 @@ from mtr_simulation.sim import TICK_S, Sim
 
 from .drive_options import DriveOptions
 from .legs import LegFollower, Lift
-from .pattern import LOOP, Piece, Plan, pieces
+from .pattern import LOOP, START, Piece, Plan, pieces
 from .recording import Recording, pose_values
 
 MAP_CAR_ID = 1
+# The map is frozen when the loop is complete.
+PHASES = {START: MappingOrder.IDLE, LOOP: MappingOrder.COLLECT}
 LEG_LIMIT_S = 120.0
 EIGHTH_RAD = math.pi / 4.0
 # Distance from the Car that leaves room before what stands in the lot.
@@ -40,57 +42,73 @@ def plan(options: DriveOptions) -> Plan:
     axes = tuple(EIGHTH_RAD * ((first + 3 * step) % 8) for step in range(4))
     # None to the right, where a person may walk.
     radials = tuple(EIGHTH_RAD * ((options.seed + step) % 5) for step in (0, 2))
-    return Plan(axes, radials, REACH_M.get(options.scene, FULL_REACH_M), options.kidnap)
+    return Plan(axes, radials, REACH_M.get(options.scene, FULL_REACH_M), options.duration_s > 0.0, options.kidnap)
 
 
 def record(options: DriveOptions, folder: pathlib.Path) -> Dict[str, Any]:
     """Drive and write; returns what meta.json says."""
     sim = options.sim()
-    way = pieces(options.shape, sim.truth().car_from_base, plan(options))
     start = sim.truth()
+    segments: List[Dict[str, Any]] = []
     with Recording(folder, options.lidar_height_m) as files:
         files.mounts(SIMULATION_START_NS)
-        segments = [_drive(sim, files, index, piece, _phase(way, index)) for index, piece in enumerate(way)]
-        car_in_map = start.world_from_base.inverse() @ sim.scenario.world_from_car
-        loop_end_s = next(each["end_s"] for each in reversed(segments) if each["kind"] == LOOP)
-        meta = {"options": asdict(options), "map_from_car": pose_values(car_in_map),
-                "prior_car_from_start": pose_values(sim.scenario.start_in_car),
-                "world_from_car": pose_values(sim.scenario.world_from_car), "length_m": options.shape.length_m,
-                "width_m": options.shape.width_m, "at_lidar": size_at(options.shape, options.lidar_height_m)._asdict(),
-                "loop_end_s": loop_end_s, "end_s": sim.time_ns * 1e-9, "segments": segments}
+        driving = _Driving(sim, files, options)
+        for index, piece in enumerate(pieces(options.shape, start.car_from_base, plan(options))):
+            segments.append(driving.follow(index, piece))
+            if options.duration_s and sim.time_ns * 1e-9 > options.duration_s:
+                break
+        meta = _meta(options, start.world_from_base, segments)
         files.meta(meta)
     return meta
 
 
-def _phase(way: List[Piece], index: int) -> int:
-    last_of_loop = max(place for place, piece in enumerate(way) if piece.kind == LOOP)
-    if index <= last_of_loop:
-        return MappingOrder.COLLECT if way[index].kind == LOOP else MappingOrder.IDLE
-    return MappingOrder.FREEZE
+def _meta(options: DriveOptions, world_from_start: Pose2, segments: List[Dict[str, Any]]) -> Dict[str, Any]:
+    site, shape = options.scenario(), options.shape
+    return {"options": asdict(options), "map_from_car": pose_values(world_from_start.inverse() @ site.world_from_car),
+            "prior_car_from_start": pose_values(site.start_in_car), "world_from_car": pose_values(site.world_from_car),
+            "length_m": shape.length_m, "width_m": shape.width_m,
+            "front_overhang_m": 0.5 * (shape.length_m - shape.wheelbase_m),
+            "at_lidar": size_at(shape, options.lidar_height_m)._asdict(),
+            "loop_end_s": max((each["end_s"] for each in segments if each["kind"] == LOOP), default=segments[-1]["end_s"]),
+            "end_s": segments[-1]["end_s"], "segments": segments}
 
 
-def _drive(sim: Sim, files: Recording, index: int, piece: Piece, phase: int) -> Dict[str, Any]:
-    """Follow one leg to its end; what it was, for meta.json."""
-    begin_ns = sim.time_ns
-    if isinstance(piece.leg, Lift):
-        sim.kidnap(sim.truth().world_from_base @ Pose2(0.0, piece.leg.aside_m, piece.leg.turn_rad))
-    follower = LegFollower(piece.leg, sim.truth().car_from_base, TICK_S)
-    done = False
-    while not done:
-        velocity, done = follower.update(sim.truth().car_from_base)
-        sim.command(*velocity)
+class _Driving:
+    """Follows legs and writes what the sensors say meanwhile."""
+
+    def __init__(self, sim: Sim, files: Recording, options: DriveOptions):
+        self._sim, self._files, self._options = sim, files, options
+
+    def follow(self, index: int, piece: Piece) -> Dict[str, Any]:
+        """Follow one leg to its end; what it was, for meta.json."""
+        sim, begin_ns = self._sim, self._sim.time_ns
+        if isinstance(piece.leg, Lift):
+            sim.kidnap(sim.truth().world_from_base @ Pose2(0.0, piece.leg.aside_m, piece.leg.turn_rad))
+        follower = LegFollower(piece.leg, sim.truth().car_from_base, TICK_S)
+        done = False
+        while not done:
+            velocity, done = follower.update(sim.truth().car_from_base)
+            sim.command(*velocity)
+            self._tick(index, PHASES.get(piece.kind, MappingOrder.FREEZE))
+            if (sim.time_ns - begin_ns) * 1e-9 > LEG_LIMIT_S:
+                raise DriveError(f"Leg {index}, {piece.leg}, is not finished after {LEG_LIMIT_S:.0f} s at "
+                                 f"{sim.truth().car_from_base}.")
+            if sim.contacts():
+                raise DriveError(f"The robot touches {', '.join(sorted(sim.contacts()))} on leg {index}, {piece.leg}.")
+        return {"index": index, "kind": piece.kind, "leg": type(piece.leg).__name__.lower(),
+                "line_rad": piece.line_rad, "begin_s": begin_ns * 1e-9, "end_s": sim.time_ns * 1e-9}
+
+    def _tick(self, index: int, phase: int) -> None:
+        sim, files = self._sim, self._files
+        sweep = (sim.time_ns - SIMULATION_START_NS) // LIDAR.period_ns
+        sim.scans_wanted = sweep % self._options.sweeps_apart == 0
         sensors = sim.step()
         if CAR_LOCATOR.last_at(sim.time_ns) == sim.time_ns:
             files.order(sim.time_ns, MAP_CAR_ID if phase else 0, phase)
         files.sensors(sensors)
-        files.truth(sim.truth(), index)
-        if (sim.time_ns - begin_ns) * 1e-9 > LEG_LIMIT_S:
-            raise DriveError(f"Leg {index}, {piece.leg}, is not finished after {LEG_LIMIT_S:.0f} s at "
-                             f"{sim.truth().car_from_base}.")
-        if sim.contacts():
-            raise DriveError(f"The robot touches {', '.join(sorted(sim.contacts()))} on leg {index}, {piece.leg}.")
-    return {"index": index, "kind": piece.kind, "leg": type(piece.leg).__name__.lower(), "line_rad": piece.line_rad,
-            "begin_s": begin_ns * 1e-9, "end_s": sim.time_ns * 1e-9}
+        # The truth of a long drive is written as seldom as its sweeps.
+        if sim.time_ns // CLOCK_STEP.period_ns % self._options.sweeps_apart == 0:
+            files.truth(sim.truth(), index)
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
@@ -110,6 +128,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--rear", action="store_true", help="record the rear LiDAR too")
     parser.add_argument("--person", action="store_true", help="somebody walks to and fro beside the Car")
     parser.add_argument("--kidnap", action="store_true", help="after the loop the robot is lifted 2 m aside")
+    parser.add_argument("--duration", type=float, default=0.0, dest="duration_s", help="s, lines again and again")
+    parser.add_argument("--sweeps-apart", type=int, default=1, help="record only each of so many sweeps")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder of the files")
     values = vars(parser.parse_args(arguments))
     folder = values.pop("out")

@@ -7,7 +7,7 @@ import numpy as np
 from .drives import PLAIN, RANGE_BIAS, SCENES, TILT
 from .errors import percentile
 from .figures import FAR_OUT_M, NEAR_M, column, joined
-from .methods import Outcome
+from .methods import THIS_SYSTEM, Outcome
 
 CM = 0.01
 # Outcomes of this system by scene, variant and seed.
@@ -48,9 +48,9 @@ BIAS = Goal("worse with 2 cm of range error, worst of the positions", "m", 0.5 *
 TILTED = Goal("factor with 1 deg of tilt, worst of the positions", "(ratio)", 1.5, 3.0)
 
 
-def rows(outcomes: Outcomes) -> List[Dict[str, Any]]:
-    """The whole table."""
-    table = [judged(row.goal, position(outcomes, row, PLAIN)) for row in POSITIONS]
+def rows(outcomes: Outcomes, failures: Dict[str, Dict[str, str]]) -> List[Dict[str, Any]]:
+    """The whole table; a row with a drive that gave nothing is not met, whatever the others gave."""
+    table = [judged(row.goal, position(outcomes, row, PLAIN), failed(failures, row.scene)) for row in POSITIONS]
     plain = [each for scene in SCENES for each in outcomes[scene].get(PLAIN, {}).values()]
     errors = joined([each.errors for each in plain])
     table.append(judged(YAW, percentile(np.abs(errors.yaw_deg[errors.standing]))))
@@ -101,15 +101,25 @@ def worst(values: List[Optional[float]]) -> Optional[float]:
     return max((value for value in values if value is not None), default=None)
 
 
-def judged(goal: Goal, value: Optional[float]) -> Dict[str, Any]:
+def failed(failures: Dict[str, Dict[str, str]], scene: str) -> int:
+    """Plain drives of a scene in which this system, or the recording, failed."""
+    return sum(name.startswith(f"{scene}_{PLAIN}_") and bool(sentences.keys() & {THIS_SYSTEM, "recording"})
+               for name, sentences in failures.items())
+
+
+def judged(goal: Goal, value: Optional[float], failed_drives: int = 0) -> Dict[str, Any]:
     """One row; a value that is not known meets nothing."""
+    known = value is not None and not failed_drives
     return {"name": goal.name, "unit": goal.unit, "value": value, "goal": goal.goal, "must": goal.must,
-            "met": value is not None and value <= goal.must, "goal_met": value is not None and value <= goal.goal}
+            "failed_drives": failed_drives, "met": known and value <= goal.must,
+            "goal_met": known and value <= goal.goal}
 
 
 def printed(row: Dict[str, Any]) -> str:
     """One row for a person; lengths in cm."""
     scale, unit = (100.0, "cm") if row["unit"] == "m" else (1.0, row["unit"].strip("()"))
     value = "unknown" if row["value"] is None else f"{scale * row['value']:.2f}"
+    failed_drives = f", {row['failed_drives']} drives failed" if row["failed_drives"] else ""
     verdict = "goal met" if row["goal_met"] else "met" if row["met"] else "NOT MET"
-    return f"{row['name']:<55} {value:>8} {unit:<6} goal {scale * row['goal']:.2f}, must {scale * row['must']:.2f}: {verdict}"
+    limits = f"goal {scale * row['goal']:.2f}, must {scale * row['must']:.2f}"
+    return f"{row['name']:<55} {value:>8} {unit:<6} {limits}: {verdict}{failed_drives}"
