@@ -1,0 +1,90 @@
+/// @file
+/// Parsing of the command line.
+// SPDX-License-Identifier: Apache-2.0
+#include "options.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace mtr_localization::replay {
+namespace {
+
+const char kUsage[] = "Usage: replay BAG --out DIR [--front-only] [--parameter NAME=VALUE ...] [--loop-end STAMP_S]";
+
+double number_of(const std::string& text, const std::string& what) {
+  try {
+    std::size_t used = 0;
+    const double value = std::stod(text, &used);
+    if (used == text.size() && std::isfinite(value)) {
+      return value;
+    }
+  } catch (const std::logic_error&) {
+    // Told below.
+  }
+  throw std::runtime_error(what + " is '" + text + "', which is no number.");
+}
+
+/// False when no row has the name; throws ConfigurationError for a value out of range.
+template <typename Rows, typename P>
+bool set(const Rows& rows, P& parameters, const std::string& name, double value) {
+  for (const auto& row : rows) {
+    if (name == row.name) {
+      parameters.*(row.member) = mtr_lockstep::check_range(name, value, row.low, row.high, row.unit);
+      return true;
+    }
+  }
+  return false;
+}
+
+void set_parameter(Options& options, const std::string& assignment) {
+  const std::size_t sign = assignment.find('=');
+  if (sign == std::string::npos) {
+    throw std::runtime_error("Parameter '" + assignment + "' is not of the form NAME=VALUE.");
+  }
+  const std::string name = assignment.substr(0, sign);
+  const double value = number_of(assignment.substr(sign + 1), "Parameter " + name);
+  LocalizerParameters& localizer = options.localizer;
+  // Noise of a range is one parameter to a person, whoever uses it.
+  bool is_known = set(kRows, localizer.motion, name, value);
+  is_known = set(kTrackingRows, localizer.tracking, name, value) || is_known;
+  is_known = set(kAdjustmentRows, localizer.adjustment, name, value) || is_known;
+  is_known = set(kMountingRows, options.mounting, name, value) || is_known;
+  if (!is_known) {
+    throw std::runtime_error("Parameter " + name + " is unknown; see the package's README.");
+  }
+}
+
+}  // namespace
+
+Options parse(const std::vector<std::string>& arguments) {
+  Options options;
+  options.localizer.lockstep = true;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    const auto next = [&]() -> const std::string& {
+      if (i + 1 >= arguments.size()) {
+        throw std::runtime_error(argument + " needs a value. " + kUsage);
+      }
+      return arguments[++i];
+    };
+    if (argument == "--front-only") {
+      options.front_only = true;
+    } else if (argument == "--out") {
+      options.folder = next();
+    } else if (argument == "--parameter") {
+      set_parameter(options, next());
+    } else if (argument == "--loop-end") {
+      options.loop_end_ns = std::llround(number_of(next(), argument) * 1e9);
+    } else if (argument.rfind("--", 0) == 0 || !options.bag.empty()) {
+      throw std::runtime_error("'" + argument + "' is not understood. " + kUsage);
+    } else {
+      options.bag = argument;
+    }
+  }
+  if (options.bag.empty() || options.folder.empty()) {
+    throw std::runtime_error(kUsage);
+  }
+  return options;
+}
+
+}  // namespace mtr_localization::replay

@@ -1,0 +1,48 @@
+/// @file
+/// Command line of the offline replay.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mtr_localization/localizer_parameters.hpp"
+
+namespace mtr_localization::replay {
+
+/// Where the LiDARs sit on the robot, for bags without /tf_static; defaults from mtr_description.
+struct Mounting {
+  double front_lidar_x_m = 0.12;
+  double front_lidar_y_m = 0.0;
+  double front_lidar_heading_rad = 0.0;
+  double rear_lidar_x_m = -0.2;
+  double rear_lidar_y_m = 0.0;
+  double rear_lidar_heading_rad = 3.141592653589793;
+};
+
+inline constexpr std::array<mtr_lockstep::ParameterRow<Mounting>, 6> kMountingRows{{
+    {"front_lidar_x_m", &Mounting::front_lidar_x_m, -2.0, 2.0, "m"},
+    {"front_lidar_y_m", &Mounting::front_lidar_y_m, -2.0, 2.0, "m"},
+    {"front_lidar_heading_rad", &Mounting::front_lidar_heading_rad, -3.2, 3.2, "rad"},
+    {"rear_lidar_x_m", &Mounting::rear_lidar_x_m, -2.0, 2.0, "m"},
+    {"rear_lidar_y_m", &Mounting::rear_lidar_y_m, -2.0, 2.0, "m"},
+    {"rear_lidar_heading_rad", &Mounting::rear_lidar_heading_rad, -3.2, 3.2, "rad"},
+}};
+
+struct Options {
+  std::string bag;
+  std::string folder;
+  bool front_only = false;
+  /// Time of the bag's stamps at which the way round the Car ends; without it by the bag's orders, or when it closes.
+  std::optional<std::int64_t> loop_end_ns;
+  LocalizerParameters localizer;
+  Mounting mounting;
+};
+
+/// Throws std::runtime_error with one sentence for what cannot be understood.
+Options parse(const std::vector<std::string>& arguments);
+
+}  // namespace mtr_localization::replay

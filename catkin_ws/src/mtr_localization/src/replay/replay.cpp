@@ -1,0 +1,120 @@
+/// @file
+/// Events to the localizer, its answers to the result.
+// SPDX-License-Identifier: Apache-2.0
+#include "replay.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <utility>
+
+#include "mtr_localization/map_adjustment.hpp"
+
+namespace mtr_localization::replay {
+namespace {
+
+// Of the map that is made when the bag has no orders.
+constexpr std::uint64_t kMapCarId = 1;
+
+double cpu_s(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// CPU time of the calling thread since it was made.
+class Watch {
+ public:
+  double elapsed_s() const { return cpu_s(CLOCK_THREAD_CPUTIME_ID) - begun_s_; }
+
+ private:
+  double begun_s_ = cpu_s(CLOCK_THREAD_CPUTIME_ID);
+};
+
+}  // namespace
+
+Result Replay::run() {
+  const auto begun = std::chrono::steady_clock::now();
+  const double process_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID);
+  const Watch thread;
+  reader_.open();
+  Event event;
+  while (reader_.next(event)) {
+    std::visit([this](auto& content) { take(std::move(content)); }, event);
+  }
+  result_.adjustment_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - process_s - thread.elapsed_s();
+  finish_map();
+  result_.sweeps_refused = localizer_.keeper().sweeps().refused();
+  result_.sweeps_used = localizer_.keeper().sweeps().used();
+  result_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return std::move(result_);
+}
+
+void Replay::take(ImuSample sample) {
+  ++result_.imu_samples;
+  const std::vector<Estimate> late = localizer_.add_imu(sample);
+  result_.trajectory.insert(result_.trajectory.end(), late.begin(), late.end());
+}
+
+void Replay::take(MapOrder order) { localizer_.set_order(order); }
+
+void Replay::take(Sweep sweep) {
+  ++result_.sweeps;
+  const std::int64_t stamp_ns = sweep.stamp_ns;
+  const Watch watch;
+  if (!localizer_.add_scan(std::move(sweep))) {
+    note(localizer_.keeper().sweeps().problem(), stamp_ns);
+  }
+  result_.tracking_s += watch.elapsed_s();
+}
+
+void Replay::take(WheelSample sample) {
+  ++result_.wheel_samples;
+  if (!reader_.has_orders()) {
+    give_order(sample.stamp_ns);
+  }
+  const Watch watch;
+  const std::vector<Estimate> estimates = localizer_.add_wheels(sample);
+  const double elapsed_s = watch.elapsed_s();
+  result_.tracking_s += elapsed_s;
+  result_.longest_ms = std::max(result_.longest_ms, 1e3 * elapsed_s);
+  for (const Estimate& estimate : estimates) {
+    note(estimate.message, estimate.stamp_ns);
+    result_.trajectory.push_back(estimate);
+  }
+  if (auto map = localizer_.take_map()) {
+    note(map->map.message, map->stamp_ns);
+    if (map->map.valid || !has_map_) {
+      result_.map = std::move(*map);
+      has_map_ = true;
+    }
+  }
+}
+
+void Replay::give_order(std::int64_t now_ns) {
+  MapOrder order{now_ns, kMapCarId, MapOrder::Phase::kCollect};
+  const bool is_closed =
+      options_.loop_end_ns ? now_ns >= *options_.loop_end_ns : loop_.closes(localizer_.keeper().builder().key_frames());
+  if (is_closed) {
+    order.phase = MapOrder::Phase::kFreeze;
+  }
+  localizer_.set_order(order);
+}
+
+void Replay::finish_map() {
+  if (has_map_) {
+    return;
+  }
+  // The bag ended before its map was due: what there is shows at least what is missing.
+  result_.map.map = adjust(localizer_.keeper().builder().key_frames(), options_.localizer.adjustment);
+  note(result_.map.map.valid ? "The bag ends before the map takes effect." : result_.map.map.message,
+       result_.trajectory.empty() ? 0 : result_.trajectory.back().stamp_ns);
+}
+
+void Replay::note(const std::string& message, std::int64_t stamp_ns) {
+  if (!message.empty()) {
+    result_.messages.emplace(message, stamp_ns);
+  }
+}
+
+}  // namespace mtr_localization::replay

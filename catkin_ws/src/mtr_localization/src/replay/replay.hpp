@@ -1,0 +1,64 @@
+/// @file
+/// A bag through the localizer.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bag_reader.hpp"
+#include "loop_watch.hpp"
+#include "mtr_localization/localizer.hpp"
+#include "options.hpp"
+
+namespace mtr_localization::replay {
+
+/// What the bag gave.
+struct Result {
+  std::vector<Estimate> trajectory;
+  /// The last map that was made; without any, invalid and with the reason.
+  MapResult map;
+  /// Sentences of the localizer with the stamp at which each was first heard.
+  std::map<std::string, std::int64_t> messages;
+  int imu_samples = 0;
+  int wheel_samples = 0;
+  int sweeps = 0;
+  int sweeps_refused = 0;
+  int sweeps_used = 0;
+  /// CPU time of tracking, and the longest between wheel odometry and its pose.
+  double tracking_s = 0.0;
+  double longest_ms = 0.0;
+  /// CPU time of the adjustment.
+  double adjustment_s = 0.0;
+  double wall_s = 0.0;
+};
+
+/// Feeds one bag; takes the bag's orders, or collects from the start and freezes when the path closes.
+class Replay {
+ public:
+  explicit Replay(const Options& options) : options_(options), reader_(options), localizer_(options.localizer) {}
+
+  /// Throws std::runtime_error with one sentence when the bag cannot be used.
+  Result run();
+
+ private:
+  void take(ImuSample sample);
+  void take(MapOrder order);
+  void take(Sweep sweep);
+  void take(WheelSample sample);
+  void give_order(std::int64_t now_ns);
+  void finish_map();
+  void note(const std::string& message, std::int64_t stamp_ns);
+
+  Options options_;
+  BagReader reader_;
+  Localizer localizer_;
+  LoopWatch loop_;
+  Result result_;
+  bool has_map_ = false;
+};
+
+}  // namespace mtr_localization::replay

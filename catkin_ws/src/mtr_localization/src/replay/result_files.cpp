@@ -1,0 +1,105 @@
+/// @file
+/// CSV of the poses, JSON of the figures, and the map's own files.
+// SPDX-License-Identifier: Apache-2.0
+#include "result_files.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <stdexcept>
+
+#include "mtr_localization/conversions.hpp"
+#include "mtr_localization/map_files.hpp"
+#include "mtr_localization/occupancy_grid.hpp"
+
+namespace mtr_localization::replay {
+namespace {
+
+double seconds(std::int64_t stamp_ns) { return static_cast<double>(stamp_ns) * 1e-9; }
+
+std::ofstream open(const std::string& path) {
+  std::ofstream file(path);
+  if (!file) {
+    throw std::runtime_error("File " + path + " cannot be written.");
+  }
+  file << std::fixed << std::setprecision(6);
+  return file;
+}
+
+void write_trajectory(const std::vector<Estimate>& trajectory, const std::string& path) {
+  std::ofstream file = open(path);
+  file << "stamp_s,x_m,y_m,heading_rad,cxx,cxy,cxh,cyx,cyy,cyh,chx,chy,chh,valid,mode,degenerate,map_revision\n";
+  for (const Estimate& estimate : trajectory) {
+    const mtr_msgs::LocalizedPose message = message_of(estimate);
+    file << std::fixed << seconds(estimate.stamp_ns) << ',' << message.x << ',' << message.y << ',' << message.heading
+         << std::scientific;
+    for (const double value : message.covariance) {
+      file << ',' << value;
+    }
+    file << ',' << int{message.valid} << ',' << int{message.mode} << ',' << int{message.degenerate} << ','
+         << message.map_revision << '\n';
+  }
+}
+
+/// Text as JSON: control characters do not occur in sentences.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char character : text) {
+    if (character == '"' || character == '\\') {
+      result += '\\';
+    }
+    result += character;
+  }
+  return result + "\"";
+}
+
+void write_messages(std::ofstream& file, const Result& result) {
+  file << "  \"messages\": [";
+  const char* separator = "";
+  for (const auto& [message, stamp_ns] : result.messages) {
+    file << separator << "\n    {\"first_s\": " << seconds(stamp_ns) << ", \"message\": " << quoted(message) << '}';
+    separator = ",";
+  }
+  file << "\n  ]\n";
+}
+
+void write_summary(const Result& result, const std::string& bag, const std::string& path) {
+  const AdjustedMap& map = result.map.map;
+  const std::vector<Estimate>& track = result.trajectory;
+  const auto valid = std::count_if(track.begin(), track.end(), [](const Estimate& pose) { return pose.valid; });
+  const double duration_s = track.empty() ? 0.0 : seconds(track.back().stamp_ns - track.front().stamp_ns);
+  std::ofstream file = open(path);
+  file << "{\n  \"bag\": " << quoted(bag) << ",\n  \"duration_s\": " << duration_s
+       << ",\n  \"imu_samples\": " << result.imu_samples << ",\n  \"wheel_samples\": " << result.wheel_samples
+       << ",\n  \"scans\": " << result.sweeps << ",\n  \"scans_used\": " << result.sweeps_used
+       << ",\n  \"scans_refused\": " << result.sweeps_refused << ",\n  \"poses\": " << track.size()
+       << ",\n  \"poses_valid\": " << valid << ",\n  \"map_valid\": " << (map.valid ? "true" : "false")
+       << ",\n  \"map_revision\": " << result.map.revision << ",\n  \"map_from_s\": " << seconds(result.map.stamp_ns)
+       << ",\n  \"map_message\": " << quoted(map.message) << ",\n  \"key_frames\": " << map.key_frames.size()
+       << ",\n  \"surfels\": " << map.surfels.size() << ",\n  \"range_bias_m\": " << map.range_bias_m
+       << ",\n  \"range_bias_sigma_m\": " << map.range_bias_sigma_m
+       << ",\n  \"cpu_ms_per_scan\": " << (result.sweeps_used > 0 ? 1e3 * result.tracking_s / result.sweeps_used : 0.0)
+       << ",\n  \"worst_latency_ms\": " << result.longest_ms << ",\n  \"adjustment_cpu_s\": " << result.adjustment_s
+       << ",\n  \"wall_s\": " << result.wall_s << ",\n";
+  write_messages(file, result);
+  file << "}\n";
+}
+
+}  // namespace
+
+void write_files(const Result& result, const std::string& bag, const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw std::runtime_error("Folder " + folder + " cannot be made: " + error.message() + ".");
+  }
+  write_trajectory(result.trajectory, folder + "/trajectory.csv");
+  write_surfaces(result.map.map, folder + "/surfaces.csv");
+  write_key_frames(result.map.map, folder + "/key_frames.csv");
+  write_grid(occupancy_of(result.map.map), folder);
+  write_summary(result, bag, folder + "/summary.json");
+}
+
+}  // namespace mtr_localization::replay
