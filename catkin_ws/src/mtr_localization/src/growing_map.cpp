@@ -4,6 +4,7 @@
 #include "mtr_localization/growing_map.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "mtr_localization/se2.hpp"
@@ -12,8 +13,8 @@ namespace mtr_localization {
 namespace {
 
 constexpr double kCellM = 0.05;
-// Cells on either side that tell the direction of the surface: 0.15 m, less than a car's rounded corner.
-constexpr int kNeighbours = 3;
+// Cells on either side that tell the direction of the surface: 0.1 m, less than a car's rounded corner.
+constexpr int kNeighbours = 2;
 constexpr int kLeastCells = 4;
 // Narrower than this share of its length, squared, a neighbourhood is a line.
 constexpr double kFlatness = 0.15;
@@ -33,19 +34,30 @@ void GrowingMap::clear() {
 
 void GrowingMap::insert(const PoseVector& pose, const ScanPoints& scan) {
   const Eigen::Matrix2d turn = rotation(pose.z());
+  std::vector<std::size_t> met;
   for (const ScanPoint& point : scan.points) {
     const Eigen::Vector2d position = pose.head<2>() + turn * point.position;
-    const Eigen::Vector2i place = (position / kCellM).array().floor().cast<int>();
-    const auto entry = index_.emplace(key_of(place.x(), place.y()), cells_.size());
-    if (entry.second) {
-      cells_.emplace_back();
-      cells_.back().place = place;
-    }
-    Cell& cell = cells_[entry.first->second];
+    met.push_back(index_at(position));
+    Cell& cell = cells_[met.back()];
     cell.sum += position;
     cell.seen_along += turn * point.direction;
     ++cell.hits;
   }
+  std::sort(met.begin(), met.end());
+  met.erase(std::unique(met.begin(), met.end()), met.end());
+  for (const std::size_t index : met) {
+    cells_[index].surfel = surfel_of(cells_[index]);
+  }
+}
+
+std::size_t GrowingMap::index_at(const Eigen::Vector2d& position) {
+  const Eigen::Vector2i place = (position / kCellM).array().floor().cast<int>();
+  const auto entry = index_.emplace(key_of(place.x(), place.y()), cells_.size());
+  if (entry.second) {
+    cells_.emplace_back();
+    cells_.back().place = place;
+  }
+  return entry.first->second;
 }
 
 const GrowingMap::Cell* GrowingMap::cell_at(int x, int y) const {
@@ -57,7 +69,7 @@ std::vector<Surfel> GrowingMap::surfels() const {
   std::vector<Surfel> surfels;
   for (const Cell& cell : cells_) {
     if (cell.hits > 1) {
-      surfels.push_back(surfel_of(cell));
+      surfels.push_back(cell.surfel);
     }
   }
   return surfels;

@@ -20,7 +20,7 @@ class GrowingMap {
   void insert(const PoseVector& pose, const ScanPoints& scan);
   bool empty() const { return cells_.empty(); }
 
-  /// Of all cells that more than one beam met.
+  /// Of all cells that more than one beam met; each as its neighbourhood was when a beam met it last.
   std::vector<Surfel> surfels() const;
 
  private:
@@ -29,9 +29,11 @@ class GrowingMap {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     Eigen::Vector2d seen_along = Eigen::Vector2d::Zero();
     int hits = 0;
+    Surfel surfel{};
   };
 
   const Cell* cell_at(int x, int y) const;
+  std::size_t index_at(const Eigen::Vector2d& position);
   Surfel surfel_of(const Cell& cell) const;
 
   /// In the order in which they were met first, so that nothing depends on a hash.

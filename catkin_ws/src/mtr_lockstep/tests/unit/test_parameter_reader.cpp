@@ -30,6 +30,7 @@ class Reading : public ::testing::Test {
     reader.read_numbers(kRows, numbers);
     reader.read("rear", rear);
     reader.read("owners", owners);
+    reader.read("source", source, {"own", "external"});
     return reader.finish();
   }
 
@@ -46,10 +47,11 @@ class Reading : public ::testing::Test {
   Example numbers;
   bool rear = true;
   std::vector<std::string> owners{"a", "b"};
+  std::string source = "own";
 };
 
 TEST_F(Reading, NothingGivenTellsTheDefaultsInOneLineWithUnits) {
-  EXPECT_EQ(read(), "speed_mps 0.5 m/s, share 0.2, rear true, owners ['a', 'b']");
+  EXPECT_EQ(read(), "speed_mps 0.5 m/s, share 0.2, rear true, owners ['a', 'b'], source own");
 }
 
 TEST_F(Reading, GivenValuesReplaceDefaults) {
@@ -57,14 +59,15 @@ TEST_F(Reading, GivenValuesReplaceDefaults) {
   values["share"] = 0.25;
   values["rear"] = false;
   values["owners"][0] = std::string("c");
-  EXPECT_EQ(read(), "speed_mps 1 m/s, share 0.25, rear false, owners ['c']");
+  values["source"] = std::string("external");
+  EXPECT_EQ(read(), "speed_mps 1 m/s, share 0.25, rear false, owners ['c'], source external");
   EXPECT_EQ(numbers.speed_mps, 1.0);
   EXPECT_EQ(owners, std::vector<std::string>{"c"});
 }
 
 TEST_F(Reading, UnknownNameIsRefusedWithThoseAllowed) {
   values["spead_mps"] = 1.0;
-  EXPECT_EQ(refusal(), "Parameter spead_mps is unknown; allowed are owners, rear, share, speed_mps.");
+  EXPECT_EQ(refusal(), "Parameter spead_mps is unknown; allowed are owners, rear, share, source, speed_mps.");
 }
 
 TEST_F(Reading, TextForANumberIsRefusedWithWhatIsAllowed) {
@@ -85,6 +88,11 @@ TEST_F(Reading, NumberForASwitchIsRefused) {
 TEST_F(Reading, ListWithANumberIsRefused) {
   values["owners"][0] = 5;
   EXPECT_EQ(refusal(), "Parameter owners is {5}; allowed is a list of texts.");
+}
+
+TEST_F(Reading, TextThatIsNoneOfTheChoicesIsRefusedWithThem) {
+  values["source"] = std::string("gps");
+  EXPECT_EQ(refusal(), "Parameter source is gps; allowed is external or own.");
 }
 
 TEST_F(Reading, NumberOutOfRangeIsRefusedWithValueAndRange) {
