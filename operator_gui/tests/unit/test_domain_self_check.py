@@ -39,8 +39,8 @@ def test_car_is_checked_before_the_first_line_and_the_difference_is_kept(world, 
     assert len(run_scenario(SCENARIO, PARAMETERS, observer=actions)) == 8
     assert actions.said.index("check where the Car stands") < actions.said.index("axis 1 (front): go to the start")
     record = run_scenario.progress.frame_record
-    assert len(record.checks) == 1
-    assert (record.checks[0]["state"], record.checks[0]["difference_m"], record.checks[0]["frame"]) == ("passed", 0.003, 0)
+    check, = record.checks
+    assert (check["state"], check["difference_m"], check["frame"]) == ("passed", 0.003, 0)
     assert [frame["revision"] for frame in record.frames] == [2]
     assert record.lines == {str(number): 0 for number in range(1, 9)}
 
