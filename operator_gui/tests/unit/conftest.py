@@ -12,6 +12,7 @@ from mtr_operator.domain.ports import (
     PASSIVE_ENTRY,
     CarDimensions,
     CarEvent,
+    CarFrame,
     CarLink,
     Direction,
     LinkStatistics,
@@ -41,6 +42,8 @@ class World:
         car_problem: sentence of the Car's bus at a time.
         refuses: reason why a waypoint is refused, empty when it is not.
         source_of: what the Car says for the true source of a change.
+        check: what a self-check finds, None for a robot that knows none.
+        frame: Car coordinate system of the poses.
     """
 
     def __init__(self):
@@ -51,6 +54,7 @@ class World:
         self.car_problem = lambda time_s: ""
         self.refuses = lambda waypoint: ""
         self.source_of = lambda source: source
+        self.check, self.frame, self.checked_id = None, CarFrame(), 0
         self.desired, self.waypoint, self.result, self.message = None, None, WaypointResult.NONE, ""
         self.pressed, self.presses, self.toggles, self.events = set(), [], [], []
 
@@ -62,6 +66,7 @@ class World:
         if goal is not None and (self.waypoint is None or goal.id != self.waypoint.id):
             self.waypoint, self.message = goal, self.refuses(goal)
             self.result = WaypointResult.REFUSED if self.message else WaypointResult.PENDING
+        self.checked_id = desired.check_car_id
         press = desired.press
         if press is not None and press.id not in self.pressed:
             self.pressed.add(press.id)
@@ -129,7 +134,8 @@ class FakeRobot(RobotLink):
         return world.spoil(RobotStatus(
             id=self.status_id, robot_session_id=7, stamp_s=world.time_s, x=world.x, y=world.y, heading=world.heading,
             speed_mps=world.speed_mps, pose_valid=True, position_sigma_m=0.03, heading_sigma_rad=0.01, key_x=KEY_X_M,
-            key_height_m=world.height_m, mode=world.mode, car=world.car, waypoint_result=world.result,
+            key_height_m=world.height_m, mode=world.mode, car=world.car, car_frame=world.frame,
+            car_check=world.check and replace(world.check, id=world.checked_id), waypoint_result=world.result,
             waypoint_id=world.waypoint.id if world.waypoint else 0, waypoint_message=world.message,
             presses=tuple(press for press in world.presses if press.end_s <= world.time_s)))
 

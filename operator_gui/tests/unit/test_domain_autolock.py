@@ -6,7 +6,7 @@ import pytest
 
 from mtr_operator.domain.errors import LinkLost, RobotFailed
 from mtr_operator.domain.observer import RunObserver
-from mtr_operator.domain.ports import KEY_BUTTON, CarDimensions, Direction, Mode
+from mtr_operator.domain.ports import KEY_BUTTON, CarCheck, CarDimensions, CheckState, Direction, Mode
 from mtr_operator.domain.progress import Progress
 from mtr_operator.domain.scenarios.autolock import SCENARIO
 from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
@@ -167,8 +167,8 @@ def test_every_line_is_saved_before_the_robot_goes_on(run_scenario):
     assert [len(results) for results in run_scenario.saved] == list(range(1, 9))
 
 
-def test_new_robot_is_led_through_mapping(run_scenario, world):
-    world.car, world.mode = None, Mode.STARTING
+def test_new_robot_is_led_through_mapping_and_self_check(run_scenario, world):
+    world.car, world.mode, world.check = None, Mode.STARTING, CarCheck(state=CheckState.PASSED)
 
     def grow_up(status):
         if status.stamp_s > 3.0:
@@ -185,8 +185,8 @@ def test_new_robot_is_led_through_mapping(run_scenario, world):
             actions.append(text)
 
     assert len(run_scenario(SCENARIO, PARAMETERS, observer=Listener())) == 8
-    assert actions[:4] == ["wait for robot and Car", "move the key to 100 cm", "map the Car",
-                           "axis 1 (front): go to the start"]
+    assert actions[:5] == ["wait for robot and Car", "move the key to 100 cm", "map the Car",
+                           "check where the Car stands", "axis 1 (front): go to the start"]
     assert actions[-1] == "the robot stands still"
 
 

@@ -15,6 +15,7 @@ HEADER = CommandHeader(2 ** 63 - 1, 5, 12.5, seen_status_id=7, seen_robot_time_s
 DESIRED = [
     ports.DesiredState(),
     ports.DesiredState(stop=True, map_car_id=3),
+    ports.DesiredState(check_car_id=4),
     ports.DesiredState(max_speed_mps=0.5, key_height_m=1.25,
                        waypoint=ports.Waypoint(4, 1.5, -2.25, math.pi, ports.Direction.BACKWARD)),
     ports.DesiredState(press=ports.ButtonPress(9, (1, 2), 0.75, 0.5)),
@@ -25,7 +26,11 @@ STATUS = ports.RobotStatus(
     pose_valid=True, position_sigma_m=0.25, variance_x_m2=0.5, variance_y_m2=0.125,
     covariance_xy_m2=-0.25, heading_sigma_rad=0.0625, key_x=0.25, key_y=0.5, key_height_m=1.0,
     pressed_buttons=(1, 2), localization_accuracy_cm=2, battery_percent=80, is_mapping_car=True,
-    mode=ports.Mode.MAPPING_CAR, car=ports.CarDimensions(4.5, 1.75, 0.25, 0.125), session_id=2 ** 63 - 1, command_id=5,
+    mode=ports.Mode.MAPPING_CAR,
+    car=ports.CarDimensions(4.5, 1.75, 0.25, 0.125, ((2.25, 0.5), (-2.25, 0.5), (0.0, -0.875))),
+    car_frame=ports.CarFrame(3, 0.5, -0.25, 0.125),
+    car_check=ports.CarCheck(7, ports.CheckState.FAILED, 0.25, 0.125, 0.5, 0.0625, "Moved."),
+    session_id=2 ** 63 - 1, command_id=5,
     waypoint_id=4, waypoint_result=ports.WaypointResult.REFUSED, waypoint_message="Too close.",
     presses=(ports.PressConfirmation(1, 2.5, 3.5), ports.PressConfirmation(2, 4.5, 4.5, "Servo jammed.")), map_car_id=3,
     log=(ports.LogMessage(1, 99.5, 2, "lift", "Slow."),), notifications=(ports.Notification("link_lost", 3, "Lost."),),
@@ -63,6 +68,16 @@ def test_status_without_optional_parts_says_so():
     assert (status.mode, status.waypoint_result) == (ports.Mode.UNKNOWN, ports.WaypointResult.NONE)
 
 
+def test_robot_that_knows_no_check_has_none_and_one_without_figures_has_no_numbers():
+    old = pb.Status(id=1, robot_session_id=2, sent_time_s=3.5)
+    assert conversions.robot_status_from(old).car_check is None
+    assert conversions.robot_status_from(old).car_frame == ports.CarFrame()
+    old.car_check.limit_m = 0.5
+    check = conversions.robot_status_from(old).car_check
+    assert (check.id, check.state, check.limit_m) == (0, ports.CheckState.NONE, 0.5)
+    assert math.isnan(check.difference_m)
+
+
 def test_time_goes_on_when_the_pose_is_not_valid():
     message = conversions.status_message_from(dataclasses.replace(STATUS, pose_valid=False))
     message.sent_time_s = 105.0
@@ -83,8 +98,8 @@ def test_other_bytes_are_undecodable(payload):
         conversions.decode_status(payload)
 
 
-@pytest.mark.parametrize("message", ["Command", "RobotState"])
+@pytest.mark.parametrize("message", ["Command", "RobotState", "CarDimensions", "CarCheck"])
 def test_every_status_field_of_the_proto_is_read(message):
     """A field added to the proto must be thought of here."""
-    known = {"Command": 12, "RobotState": 19}
+    known = {"Command": 13, "RobotState": 19, "CarDimensions": 11, "CarCheck": 7}
     assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]

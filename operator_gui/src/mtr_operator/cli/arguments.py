@@ -29,6 +29,7 @@ def argument_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     _add_params(commands.add_parser("params", help="list the parameters of a scenario"))
     _add_run(commands.add_parser("run", help="run a test"))
+    _add_check(commands.add_parser("check", help="look whether the Car still stands where it was measured"))
     return parser
 
 
@@ -42,13 +43,7 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", type=pathlib.Path, required=True, metavar="DIR", help="folder for the results")
     parser.add_argument("--continue", dest="continued", type=pathlib.Path, metavar="FILE",
                         help="progress.json of an interrupted test to go on with")
-    robot = parser.add_argument_group("robot")
-    robot.add_argument("--robot", default="127.0.0.1", metavar="HOST", help="address, default %(default)s")
-    robot.add_argument("--subscriber-port", type=_whole_number, default=3334, metavar="N",
-                       help="TCP port of Status, default %(default)s")
-    robot.add_argument("--publisher-port", type=_whole_number, default=3333, metavar="N",
-                       help="TCP port of Command, default %(default)s")
-    robot.add_argument("--simulated-robot", action="store_true", help="use a substitute inside the application")
+    _add_robot(parser)
     car = parser.add_argument_group("Car")
     car.add_argument("--can-interface", default="pcan", metavar="NAME",
                      help="python-can interface: pcan, socketcan, slcan, ...; default %(default)s")
@@ -59,6 +54,20 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
     car.add_argument("--car-profile", default="mtr_demo_car", metavar="NAME_OR_PATH",
                      help="how the Car's bus tells its lock state, default %(default)s")
     car.add_argument("--simulated-car", action="store_true", help="use a substitute inside the application")
+
+
+def _add_check(parser: argparse.ArgumentParser) -> None:
+    _add_robot(parser)
+
+
+def _add_robot(parser: argparse.ArgumentParser) -> None:
+    robot = parser.add_argument_group("robot")
+    robot.add_argument("--robot", default="127.0.0.1", metavar="HOST", help="address, default %(default)s")
+    robot.add_argument("--subscriber-port", type=_whole_number, default=3334, metavar="N",
+                       help="TCP port of Status, default %(default)s")
+    robot.add_argument("--publisher-port", type=_whole_number, default=3333, metavar="N",
+                       help="TCP port of Command, default %(default)s")
+    robot.add_argument("--simulated-robot", action="store_true", help="use a substitute inside the application")
     parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",
                         help="of the substitutes' random numbers, default %(default)s")
 

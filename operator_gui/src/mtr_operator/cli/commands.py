@@ -11,6 +11,7 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.trouble import Cancelled
 
 from .arguments import argument_parser
+from .checking import check
 from .entry import EXIT_INTERRUPTED
 from .measuring import Measuring
 
@@ -24,6 +25,8 @@ def run_command(arguments: list[str] | None = None) -> int:
     try:
         if options.command == "params":
             list_parameters(options)
+        elif options.command == "check":
+            check(options)
         else:
             Measuring(options).run()
     except OperatorError as error:
@@ -41,6 +44,8 @@ def list_parameters(options: argparse.Namespace) -> None:
     for declared in SCENARIOS[options.scenario].parameters_type.declarations().values():
         default = "-" if declared.default is None else with_unit(declared.default, declared.unit)
         rows.append((declared.file_key, default, declared.allowed, declared.doc))
+    for name, declared in SCENARIOS[options.scenario].parameters_type.flags().items():
+        rows.append((name, str(declared.default).lower(), declared.allowed, declared.doc))
     widths = [max(len(row[column]) for row in rows) for column in range(3)]
     for row in rows:
         print("  ".join([*(cell.ljust(width) for cell, width in zip(row, widths)), row[3]]))

@@ -18,9 +18,9 @@ _BAR = "{n_fmt} of {total_fmt} |{bar:20}| {remaining} left{postfix}"
 
 
 class Display(RunObserver):
-    """Shows lines done, the present action, and each sentence of the robot once."""
+    """Shows lines done, the present action, and each sentence of the robot once; scenario: None without lines."""
 
-    def __init__(self, scenario: Scenario, stream: TextIO | None = None):
+    def __init__(self, scenario: Scenario | None, stream: TextIO | None = None):
         self._scenario = scenario
         self._stream = stream or sys.stderr
         self._bar: tqdm.tqdm | None = None

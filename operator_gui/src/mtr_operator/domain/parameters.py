@@ -93,6 +93,22 @@ class Declaration:
         return f"allowed is a number, {self.allowed}."
 
 
+@dataclass(frozen=True)
+class Flag:
+    """One parameter that is true or false."""
+
+    default: bool
+    doc: str
+
+    allowed = "true or false"
+
+    def checked(self, file_key: str, value: Any) -> bool:
+        """What stood in a file; InvalidParameter when it is neither."""
+        if not isinstance(value, bool):
+            raise InvalidParameter(f"Parameter {file_key} is {_short(value)}; allowed is {self.allowed}.")
+        return value
+
+
 def with_unit(value: float, unit: str) -> str:
     """Number with its unit, if it has one."""
     gap = "" if unit == DEGREE else " "
@@ -117,11 +133,21 @@ def parameter(default: Any, low: float, high: float, unit: str, doc: str, *, fil
     return dataclasses.field(default=value, metadata={"declared": declared})
 
 
+def flag(default: bool, doc: str) -> Any:
+    """Field of a ParameterSet that is true or false; it is called the same in files."""
+    return dataclasses.field(default=default, metadata={"flag": Flag(default, doc)})
+
+
 @dataclass(frozen=True)
 class ParameterSet:
     """Base of the scenarios' parameters; checked when it is made."""
 
+    self_check: bool = flag(True, "Before the test the robot looks at the Car again from two places; it does not begin "
+                                  "when the Car stands elsewhere than it was measured.")
+
     def __post_init__(self) -> None:
+        for name, declared in self.flags().items():
+            declared.checked(name, getattr(self, name))
         for name, declared in self.declarations().items():
             value = getattr(self, name)
             if value is not None and not math.isfinite(value):
@@ -134,28 +160,37 @@ class ParameterSet:
 
     @classmethod
     def declarations(cls) -> dict[str, Declaration]:
-        """Declarations by field name."""
+        """Declarations of the numbers by field name."""
         return {item.name: dataclasses.replace(item.metadata["declared"],
                                                file_key=item.metadata["declared"].file_key or item.name)
-                for item in dataclasses.fields(cls)}
+                for item in dataclasses.fields(cls) if "declared" in item.metadata}
+
+    @classmethod
+    def flags(cls) -> dict[str, Flag]:
+        """Flags by field name, which is also their file key."""
+        return {item.name: item.metadata["flag"] for item in dataclasses.fields(cls) if "flag" in item.metadata}
 
     @classmethod
     def from_mapping(cls: type[Set], mapping: Mapping[str, Any]) -> Set:
         """Parameters from what stood in a file; what is missing takes its default."""
         fields = {declared.file_key: (name, declared) for name, declared in cls.declarations().items()}
-        for key in mapping:
-            if key not in fields:
-                raise InvalidParameter(f"Parameter {key} is unknown; {_alternatives(str(key), list(fields))}")
+        flags = cls.flags()
         values = {}
         for key, value in mapping.items():
-            name, declared = fields[key]
-            values[name] = declared.to_si(value)
+            if key in flags:
+                values[key] = flags[key].checked(key, value)
+            elif key in fields:
+                name, declared = fields[key]
+                values[name] = declared.to_si(value)
+            else:
+                raise InvalidParameter(f"Parameter {key} is unknown; {_alternatives(str(key), [*fields, *flags])}")
         return cls(**values)
 
-    def to_mapping(self) -> dict[str, float | None]:
-        """What from_mapping takes: every parameter in the unit of its file key."""
-        return {declared.file_key: declared.to_unit(getattr(self, name))
-                for name, declared in self.declarations().items()}
+    def to_mapping(self) -> dict[str, Any]:
+        """What from_mapping takes: every number in the unit of its file key, and the flags."""
+        return {**{declared.file_key: declared.to_unit(getattr(self, name))
+                   for name, declared in self.declarations().items()},
+                **{name: getattr(self, name) for name in self.flags()}}
 
 
 def _alternatives(key: str, known: list[str]) -> str:

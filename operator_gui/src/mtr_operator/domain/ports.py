@@ -32,6 +32,7 @@ class Mode(enum.Enum):
     MAPPING_CAR = 3
     FOLLOWING_WAYPOINT = 4
     FAULT = 5
+    CHECKING_CAR = 6
 
 
 class WaypointResult(enum.Enum):
@@ -42,6 +43,15 @@ class WaypointResult(enum.Enum):
     REACHED = 2
     REFUSED = 3
     BLOCKED = 4
+
+
+class CheckState(enum.Enum):
+    """How a self-check of the Car's frame stands."""
+
+    NONE = 0
+    RUNNING = 1
+    PASSED = 2
+    FAILED = 3
 
 
 class LockState(enum.Enum):
@@ -88,6 +98,7 @@ class DesiredState:
     key_height_m: float | None = None
     press: ButtonPress | None = None
     map_car_id: int = 0
+    check_car_id: int = 0
 
 
 @dataclass(frozen=True)
@@ -102,12 +113,43 @@ class PressConfirmation:
 
 @dataclass(frozen=True)
 class CarDimensions:
-    """Length and width of the Car as the robot measured them, with 1 sigma, in m."""
+    """Length and width of the Car as the robot measured them, with 1 sigma, in m.
+
+    outline: counterclockwise polygon in the Car coordinate system, m; empty when the robot does not say.
+    """
 
     length: float
     width: float
     length_sigma: float
     width_sigma: float
+    outline: tuple[tuple[float, float], ...] = ()
+
+
+@dataclass(frozen=True)
+class CarFrame:
+    """The Car coordinate system that poses are in.
+
+    revision: counts the frames since the robot's start, 0 when the robot does not say.
+    correction: where this frame lies in the one before, m and rad; zeros for the first after a mapping.
+    """
+
+    revision: int = 0
+    correction_x: float = 0.0
+    correction_y: float = 0.0
+    correction_heading: float = 0.0
+
+
+@dataclass(frozen=True)
+class CarCheck:
+    """The Car seen anew, compared with where it was; NaN while unknown. id: the order that it answers, 0 for none."""
+
+    id: int = 0
+    state: CheckState = CheckState.NONE
+    difference_m: float = math.nan
+    difference_rad: float = math.nan
+    limit_m: float = math.nan
+    limit_rad: float = math.nan
+    message: str = ""
 
 
 @dataclass(frozen=True)
@@ -135,6 +177,7 @@ class RobotStatus:
     """One Status message. NaN or None where the robot did not say.
 
     controlled_by_other: another application has the robot; the confirmations are absent then.
+    car_check: None for a robot that cannot check the Car's frame.
     """
 
     id: int
@@ -160,6 +203,8 @@ class RobotStatus:
     is_mapping_car: bool = False
     mode: Mode = Mode.UNKNOWN
     car: CarDimensions | None = None
+    car_frame: CarFrame = CarFrame()
+    car_check: CarCheck | None = None
     session_id: int = 0
     controlled_by_other: bool = False
     command_id: int = 0

@@ -6,7 +6,7 @@ from typing import Callable
 
 from .car import Car
 from .errors import RobotFailed
-from .ports import Mode, RobotStatus
+from .ports import CarCheck, Mode, RobotStatus
 from .ray import Ray
 from .robot import Robot
 from .session import Session
@@ -34,6 +34,26 @@ def prepare(session: Session, robot: Robot, car: Car, key_height_m: float, maxim
         robot.say("map the Car")
         robot.go_to(_AHEAD_OF_CAR, _AHEAD_M)
         _wait_until(session, MAPPING_LIMIT_S, "did not find the Car", _is_ready)
+
+
+def check_car(robot: Robot) -> CarCheck | None:
+    """Have the robot look whether the Car still stands where it was measured; None when it cannot check."""
+    if not robot.can_check_car:
+        robot.say("warning: the robot's software is too old to check where the Car stands; it is taken as it is")
+        return None
+    robot.say("check where the Car stands")
+    return robot.check_car()
+
+
+def prepare_to_check(session: Session, robot: Robot) -> None:
+    """Wait until the robot can look at the Car; RobotFailed when it has not found it or cannot check."""
+    robot.say("wait for the robot")
+    _wait_until(session, START_LIMIT_S, "did not start", _has_started)
+    _wait_for_control(session)
+    if session.status.car is None:
+        raise RobotFailed("The robot has not found the Car yet, so there is nothing to check; a test begins with it.")
+    if not robot.can_check_car:
+        raise RobotFailed("The robot's software is too old to check where the Car stands.")
 
 
 def _has_started(status: RobotStatus) -> bool:

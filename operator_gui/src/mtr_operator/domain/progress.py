@@ -7,7 +7,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .errors import ProgressFileError
-from .ports import CarDimensions
+from .frame_history import KnownFrame
+from .frame_record import FrameRecord, record_from
+from .ports import CarCheck, CarDimensions
 from .scenario import REASON, LineStatus, Result, Scenario
 
 FORMAT = "mtr-operator progress"
@@ -27,6 +29,7 @@ class Progress:
         car: dimensions with which the lines were laid out, None before the Car was mapped.
         results: one per measured line, in order of their numbers.
         retried: numbers of invalid lines that were measured again.
+        frame_record: Car coordinate system of each line, and the self-checks.
     """
 
     scenario: str
@@ -35,13 +38,18 @@ class Progress:
     car: CarDimensions | None = None
     results: list[Result] = field(default_factory=list)
     retried: list[int] = field(default_factory=list)
+    frame_record: FrameRecord = field(default_factory=FrameRecord)
 
     def to_document(self) -> dict[str, Any]:
         """Plain values for a file."""
         return {"format": FORMAT, "version": VERSION, **dataclasses.asdict(self)}
 
-    def record(self, scenario: Scenario, result: Result) -> None:
-        """Add a line; one measured before is replaced unless it was the better one."""
+    def record_check(self, check: CarCheck, frame: KnownFrame | None, time_s: float) -> None:
+        """Add a self-check."""
+        self.frame_record.note_check(check, frame, time_s)
+
+    def record(self, scenario: Scenario, result: Result, frame: KnownFrame | None = None) -> None:
+        """Add a line, measured in this frame; one measured before is replaced unless it was the better one."""
         number = scenario.number_of(result)
         former = next((old for old in self.results if scenario.number_of(old) == number), None)
         if former is not None:
@@ -49,6 +57,7 @@ class Progress:
             if scenario.invalid_count(former) < scenario.invalid_count(result):
                 return
             self.results.remove(former)
+        self.frame_record.note_line(number, frame)
         self.results.append(result)
         self.results.sort(key=scenario.number_of)
 
@@ -80,12 +89,11 @@ def progress_from_document(document: Any, scenario: Scenario, parameters: dict[s
         raise ProgressFileError(f"It has version {document.get('version')}; this application reads version {VERSION}.")
     if document.get("scenario") != scenario.name:
         raise ProgressFileError(f"It belongs to the scenario {document.get('scenario')}, not to {scenario.name}.")
-    _check_parameters(document.get("parameters"), parameters)
+    _check_parameters(document.get("parameters"), parameters, scenario)
     try:
-        car = document["car"]
-        progress = Progress(scenario.name, parameters, dict(document["session"]),
-                            None if car is None else CarDimensions(**{name: float(car[name]) for name in car}),
-                            list(document["results"]), [int(number) for number in document["retried"]])
+        progress = Progress(scenario.name, parameters, dict(document["session"]), _car_from(document["car"]),
+                            list(document["results"]), [int(number) for number in document["retried"]],
+                            record_from(document.get("frame_record")))
         _check_lines(progress, scenario)
         for result in progress.results:
             _check_result(result, scenario)
@@ -94,10 +102,18 @@ def progress_from_document(document: Any, scenario: Scenario, parameters: dict[s
     return progress
 
 
-def _check_parameters(stored: Any, wanted: dict[str, Any]) -> None:
+def _car_from(car: Any) -> CarDimensions | None:
+    if car is None:
+        return None
+    sizes = {name: float(car[name]) for name in car if name != "outline"}
+    return CarDimensions(**sizes, outline=tuple((float(x), float(y)) for x, y in car.get("outline", ())))
+
+
+def _check_parameters(stored: Any, wanted: dict[str, Any], scenario: Scenario) -> None:
     if not isinstance(stored, dict):
         raise ProgressFileError("It is damaged: the parameters are missing.")
-    for name in sorted(set(stored) | set(wanted)):
+    # Whether the Car is checked before a test changes no distance.
+    for name in sorted((set(stored) | set(wanted)) - set(scenario.parameters_type.flags())):
         if stored.get(name) != wanted.get(name):
             raise ProgressFileError(f"It was measured with other parameters: {name} was {stored.get(name)}, "
                                     f"now it is {wanted.get(name)}.")

@@ -7,7 +7,16 @@ from typing import Callable, TypeVar
 
 from .distance import Distance, measure
 from .errors import RobotFailed
-from .ports import ButtonPress, Direction, PressConfirmation, RobotStatus, Waypoint, WaypointResult
+from .ports import (
+    ButtonPress,
+    CarCheck,
+    CheckState,
+    Direction,
+    PressConfirmation,
+    RobotStatus,
+    Waypoint,
+    WaypointResult,
+)
 from .pose import Pose
 from .pose_history import PoseUnknown
 from .ray import Ray
@@ -20,18 +29,20 @@ Answer = TypeVar("Answer")
 REACH_LIMIT_S = 180.0
 HEIGHT_LIMIT_S = 60.0
 PRESS_LIMIT_S = 10.0
+CHECK_LIMIT_S = 240.0
 # The key's height is reached within this part of it or this distance, whichever is more.
 _HEIGHT_PART = 0.02
 _HEIGHT_M = 0.02
 
 
 class Robot:
-    """Waypoints and presses count from 1 in a session."""
+    """Waypoints, presses and checks count from 1 in a session."""
 
     def __init__(self, session: Session):
         self._session = session
         self._waypoint_id = 0
         self._press_id = 0
+        self._check_id = 0
 
     @property
     def now_s(self) -> float:
@@ -115,6 +126,23 @@ class Robot:
                 if confirmation.id == order.id:
                     return confirmation
         raise LineInvalid(f"The robot did not confirm a button press within {PRESS_LIMIT_S:g} s.")
+
+    @property
+    def can_check_car(self) -> bool:
+        """False for a robot whose software is too old."""
+        return self._session.status.car_check is not None
+
+    def check_car(self) -> CarCheck:
+        """Look at the Car again from two places; the robot's answer, RobotFailed when none comes."""
+        self._check_id += 1
+        self._session.change(stop=False, check_car_id=self._check_id)
+        until_s = self.now_s + CHECK_LIMIT_S
+        while self.now_s < until_s:
+            check = self._session.step().car_check
+            if check and check.id == self._check_id and check.state in (CheckState.PASSED, CheckState.FAILED):
+                return check
+        texts = [notification.text for notification in self._session.status.notifications]
+        raise RobotFailed(" ".join([f"The robot did not check the Car within {CHECK_LIMIT_S:g} s.", *texts]))
 
     def key_distance(self, ray: Ray, time_s: float, time_sigma_s: float, origin_sigma_m: float = 0.0) -> Distance:
         """Distance of the Remote key on the ray at an instant; LineInvalid when the pose then is unknown."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any, Callable
 
 from .car import Car
-from .errors import ProgressFileError
+from .errors import ProgressFileError, RobotFailed
 from .parameters import ParameterSet
-from .preparation import prepare
+from .ports import CheckState
+from .preparation import check_car, prepare
 from .progress import Progress
 from .robot import Robot
 from .scenario import Scenario
@@ -36,7 +37,10 @@ class Runner:
         parameters = self._parameters
         try:
             prepare(self._session, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
-            self._measure(self._lines())
+            lines = self._lines()
+            if parameters.self_check:
+                self._check_car()
+            self._measure(lines)
         finally:
             self._halt()
 
@@ -45,6 +49,14 @@ class Runner:
         if stands is not None:
             self._robot.say("the robot stands still" if stands else "the robot does not confirm that it stands still; "
                             "without an application it stops by itself")
+
+    def _check_car(self) -> None:
+        check = check_car(self._robot)
+        if check is None:
+            return
+        self._progress.record_check(check, self._session.frames.newest, self._robot.now_s)
+        if check.state is CheckState.FAILED:
+            raise RobotFailed(f"The test does not begin. {check.message}".rstrip())
 
     def _lines(self) -> list[Any]:
         mapped = self._car.dimensions()
@@ -69,7 +81,7 @@ class Runner:
     def _measure_line(self, line: Any) -> None:
         self._car.wait_until_heard()
         result = self._scenario.measure(line, self._parameters, self._robot, self._car)
-        self._progress.record(self._scenario, result)
+        self._progress.record(self._scenario, result, self._session.frames.newest)
         # Shown first, so that it is not lost for the Operator when it cannot be saved.
         self._session.observer.on_result(result, len(self._progress.results), self._total)
         self._save(self._progress)

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Callable, Iterator
 
 from .errors import LinkLost, RobotFailed
+from .frame_history import FrameHistory
 from .observer import RunObserver
 from .ports import CarDimensions, CarEvent, CarLink, DesiredState, RobotLink, RobotStatus
 from .pose_history import PoseHistory
@@ -38,6 +39,7 @@ class Session:
         poses: poses of the last while.
         events: changes of the Car's locks, in order of time.
         car_dimensions: the Car as the robot measured it last, None before.
+        frames: the Car coordinate systems that the robot has had in this run.
     """
 
     def __init__(self, robot_link: RobotLink, car_link: CarLink, observer: RunObserver | None = None,
@@ -46,6 +48,7 @@ class Session:
         self.poses = PoseHistory()
         self.events: list[CarEvent] = []
         self.car_dimensions: CarDimensions | None = None
+        self.frames = FrameHistory()
         self.observer = observer or RunObserver()
         self._robot_link = robot_link
         self._car_link = car_link
@@ -118,7 +121,7 @@ class Session:
         status = self._next_status(FIRST_STATUS_LIMIT_S if before is None else patience_s)
         restarted = before is not None and (status.robot_session_id != before.robot_session_id
                                             or status.stamp_s < before.stamp_s)
-        if restarted:
+        if self.frames.add(status) or restarted:
             self.poses.clear()
         self.poses.add(status)
         self._status = status

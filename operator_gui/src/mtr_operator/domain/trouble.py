@@ -19,13 +19,27 @@ class Cancelled(Exception):
 
 def trouble_between(before: RobotStatus | None, status: RobotStatus, car_link: CarLink) -> str:
     """Sentence that says why a measurement between two Status messages would be doubtful; empty when it would not."""
+    return _link_trouble(before, status) or _pose_trouble(before, status) or _car_trouble(car_link)
+
+
+def _link_trouble(before: RobotStatus | None, status: RobotStatus) -> str:
     if before is not None and status.stamp_s - before.stamp_s > LINK_GAP_S:
         return f"The link to the robot was interrupted for {status.stamp_s - before.stamp_s:.1f} s."
     for notification in status.notifications:
         if notification.code == _LINK_LOST_CODE:
             return f"The link to the robot was interrupted: {notification.text}"
+    return ""
+
+
+def _pose_trouble(before: RobotStatus | None, status: RobotStatus) -> str:
     if not status.pose_valid:
         return "The robot does not know its position relative to the Car."
+    if before is not None and before.car and before.car_frame != status.car_frame:
+        return "The Car coordinate system was corrected during the measurement."
+    return ""
+
+
+def _car_trouble(car_link: CarLink) -> str:
     if car_link.problem:
         return car_link.problem
     if car_link.lock_state is LockState.UNKNOWN:

@@ -37,6 +37,9 @@ def _metadata(scenario: Scenario, progress: Progress) -> Iterator[str]:
         value = progress.parameters[declared.file_key]
         shown = "not set" if value is None else with_unit(value, declared.unit)
         yield f"parameter {declared.file_key}: {shown}"
+    for name in scenario.parameters_type.flags():
+        yield f"parameter {name}: {str(progress.parameters.get(name, False)).lower()}"
+    yield from progress.frame_record.sentences()
     for column in scenario.columns:
         unit = f" [{column.unit}]" if column.unit else ""
         yield f"column {column.name}{unit}: {column.doc}"

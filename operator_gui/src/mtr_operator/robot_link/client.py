@@ -11,7 +11,14 @@ import time
 import zmq
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import DesiredState, LinkStatistics, RobotLink, RobotStatus, WaypointResult
+from mtr_operator.domain.ports import (
+    CarCheck,
+    DesiredState,
+    LinkStatistics,
+    RobotLink,
+    RobotStatus,
+    WaypointResult,
+)
 
 from . import sockets
 from .address import PUBLISHER_PORT, SUBSCRIBER_PORT, RobotAddress
@@ -105,7 +112,8 @@ class ZmqRobotLink(RobotLink):
         if status.session_id in (0, self.session_id):
             return status
         return dataclasses.replace(status, controlled_by_other=True, command_id=0, waypoint_id=0,
-                                   waypoint_result=WaypointResult.NONE, waypoint_message="", presses=(), map_car_id=0)
+                                   waypoint_result=WaypointResult.NONE, waypoint_message="", presses=(), map_car_id=0,
+                                   car_check=status.car_check and CarCheck())
 
     def _receive_waiting(self) -> None:
         while True:

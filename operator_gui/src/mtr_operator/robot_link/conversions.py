@@ -12,6 +12,7 @@ from mtr_operator.domain import ports
 from mtr_proto import robot_link_pb2 as pb
 
 MAXIMUM_MESSAGE_BYTES = 64 * 1024
+_CHECK_FIGURES = ("difference_m", "difference_rad", "limit_m", "limit_rad")
 
 
 class UndecodableMessage(ValueError):
@@ -33,7 +34,7 @@ class CommandHeader:
 def command_from_desired(desired: ports.DesiredState, header: CommandHeader) -> pb.Command:
     """Command with this header; None is an absent field."""
     command = pb.Command(session_id=header.session_id, id=header.id, sent_time_s=header.sent_time_s,
-                         stop=desired.stop, map_car_id=desired.map_car_id)
+                         stop=desired.stop, map_car_id=desired.map_car_id, check_car_id=desired.check_car_id)
     for name, value in (("seen_status_id", header.seen_status_id), ("seen_robot_time_s", header.seen_robot_time_s),
                         ("max_speed_mps", desired.max_speed_mps), ("device_height_m", desired.key_height_m)):
         if value is not None:
@@ -61,6 +62,7 @@ def desired_from_command(command: pb.Command) -> ports.DesiredState:
         order = command.press
         press = ports.ButtonPress(order.id, tuple(order.buttons), order.strength, order.duration_s)
     return ports.DesiredState(stop=command.stop, waypoint=waypoint, press=press, map_car_id=command.map_car_id,
+                              check_car_id=command.check_car_id,
                               max_speed_mps=_value(command, "max_speed_mps", None),
                               key_height_m=_value(command, "device_height_m", None))
 
@@ -111,7 +113,8 @@ def robot_status_from(message: pb.Status) -> ports.RobotStatus:
         pressed_buttons=tuple(state.pressed_device_buttons),
         localization_accuracy_cm=_value(state, "localization_accuracy", None),
         battery_percent=_value(state, "battery_level", None), is_mapping_car=state.is_mapping_car,
-        mode=ports.Mode(message.mode), car=_car_from(message.car),
+        mode=ports.Mode(message.mode), car=_car_from(message.car), car_frame=_frame_from(message.car),
+        car_check=_check_from(message.car_check) if message.HasField("car_check") else None,
         session_id=message.session_id, command_id=message.command_id, waypoint_id=message.waypoint_id,
         waypoint_result=ports.WaypointResult(message.waypoint_result), waypoint_message=message.waypoint_message,
         presses=tuple(ports.PressConfirmation(p.id, p.start_s, p.end_s, p.error) for p in message.presses),
@@ -147,14 +150,43 @@ def status_message_from(status: ports.RobotStatus) -> pb.Status:
              for m in status.log],
         notifications=[pb.Notification(code=n.code, severity=n.severity, text=n.text) for n in status.notifications])
     if status.car is not None:
-        car = status.car
-        message.car.CopyFrom(pb.CarDimensions(length=car.length, width=car.width, length_sigma=car.length_sigma,
-                                              width_sigma=car.width_sigma, mapped=True))
+        message.car.CopyFrom(_car_message(status.car, status.car_frame))
+    if status.car_check is not None:
+        _fill_check(message.car_check, status.car_check)
     return message
 
 
+def _car_message(car: ports.CarDimensions, frame: ports.CarFrame) -> pb.CarDimensions:
+    return pb.CarDimensions(
+        length=car.length, width=car.width, length_sigma=car.length_sigma, width_sigma=car.width_sigma, mapped=True,
+        outline_x=[x for x, _ in car.outline], outline_y=[y for _, y in car.outline], revision=frame.revision,
+        correction_x=frame.correction_x, correction_y=frame.correction_y, correction_heading=frame.correction_heading)
+
+
+def _fill_check(message: pb.CarCheck, check: ports.CarCheck) -> None:
+    message.id, message.state, message.message = check.id, check.state.value, check.message
+    for name in _CHECK_FIGURES:
+        value = getattr(check, name)
+        if not math.isnan(value):
+            setattr(message, name, value)
+
+
 def _car_from(car: pb.CarDimensions) -> ports.CarDimensions | None:
-    return ports.CarDimensions(car.length, car.width, car.length_sigma, car.width_sigma) if car.mapped else None
+    if not car.mapped:
+        return None
+    outline = tuple(zip(car.outline_x, car.outline_y))
+    return ports.CarDimensions(car.length, car.width, car.length_sigma, car.width_sigma, outline)
+
+
+def _frame_from(car: pb.CarDimensions) -> ports.CarFrame:
+    if not car.mapped:
+        return ports.CarFrame()
+    return ports.CarFrame(car.revision, car.correction_x, car.correction_y, car.correction_heading)
+
+
+def _check_from(check: pb.CarCheck) -> ports.CarCheck:
+    figures = {name: _value(check, name, math.nan) for name in _CHECK_FIGURES}
+    return ports.CarCheck(id=check.id, state=ports.CheckState(check.state), message=check.message, **figures)
 
 
 def _value(message: Any, name: str, default: Any) -> Any:

@@ -7,8 +7,17 @@ import random
 from dataclasses import dataclass
 
 from mtr_operator import __version__
-from mtr_operator.domain.ports import CarDimensions, DesiredState, Mode, RobotStatus, Waypoint, WaypointResult
+from mtr_operator.domain.ports import (
+    CarDimensions,
+    CarFrame,
+    DesiredState,
+    Mode,
+    RobotStatus,
+    Waypoint,
+    WaypointResult,
+)
 
+from .virtual_check import VirtualCheck
 from .virtual_keyholder import VirtualKeyholder
 from .virtual_route import Box, Point, advance, route
 
@@ -26,13 +35,14 @@ _ROBOT_RADIUS_M = 0.34
 
 @dataclass(frozen=True)
 class VirtualWorld:
-    """The Car, and how long the robot takes to start and to map it."""
+    """The Car, how long the robot takes to start and to map it, and how far it finds it moved when it checks."""
 
     car_length_m: float = 4.5
     car_width_m: float = 1.8
     key_x_m: float = 0.25
     starting_s: float = 0.5
     mapping_s: float = 3.0
+    check_difference_m: float = 0.002
 
 
 DEFAULT_WORLD = VirtualWorld()
@@ -54,6 +64,7 @@ class VirtualRobot:
         self._heading = math.remainder(bearing + math.pi, 2 * math.pi)
         self._speed_mps = self._yaw_rate_radps = 0.0
         self._key = VirtualKeyholder()
+        self._check = VirtualCheck(world.check_difference_m)
         self._desired = DesiredState(stop=True)
         self._goal: Waypoint | None = None
         self._way: list[Point] = []
@@ -73,7 +84,10 @@ class VirtualRobot:
             self._session_id, self._map_car_id, self._goal = session_id, 0, None
             self._result, self._result_text = WaypointResult.NONE, ""
             self._key.begin_session()
+            self._check.begin_session()
         self._command_id, self._desired = command_id, desired
+        if self._mode() in (Mode.FOLLOWING_WAYPOINT, Mode.CHECKING_CAR):
+            self._check.order(desired.check_car_id)
         self._key.order(desired.key_height_m, desired.press, self._time_s)
         if desired.map_car_id != self._map_car_id:
             self._map_car_id = desired.map_car_id
@@ -91,11 +105,13 @@ class VirtualRobot:
         self._time_s += dt_s
         self._key.step(self._time_s, dt_s)
         before, heading = self._here, self._heading
+        if not self._desired.stop:
+            self._check.step(dt_s)
         ordered = self._goal is not None and not self._desired.stop and self._desired.waypoint is not None
         if ordered and self._time_s >= _START_TIME_S + self._world.starting_s:
             if self._mapping_left_s > 0:
                 self._mapping_left_s -= dt_s
-            elif self._result == WaypointResult.PENDING:
+            elif self._result == WaypointResult.PENDING and not self._check.is_running:
                 self._drive(dt_s)
         dx, dy = self._here[0] - before[0], self._here[1] - before[1]
         ahead = math.cos(heading) * dx + math.sin(heading) * dy
@@ -116,6 +132,7 @@ class VirtualRobot:
             localization_accuracy_cm=round(_POSITION_SIGMA_M * 100), battery_percent=80,
             is_mapping_car=self._mode() is Mode.MAPPING_CAR, mode=self._mode(),
             car=CarDimensions(world.car_length_m, world.car_width_m, 0.01, 0.01) if mapped else None,
+            car_frame=CarFrame(revision=1) if mapped else CarFrame(), car_check=self._check.report,
             session_id=self._session_id, command_id=self._command_id,
             waypoint_id=self._goal.id if self._goal else 0, waypoint_result=self._result,
             waypoint_message=self._result_text, presses=self._key.confirmations, map_car_id=self._map_car_id,
@@ -125,7 +142,7 @@ class VirtualRobot:
         if self._time_s < _START_TIME_S + self._world.starting_s:
             return Mode.STARTING
         if self._mapping_left_s <= 0:
-            return Mode.FOLLOWING_WAYPOINT
+            return Mode.CHECKING_CAR if self._check.is_running else Mode.FOLLOWING_WAYPOINT
         begun = self._goal is not None or self._mapping_left_s < self._world.mapping_s
         return Mode.MAPPING_CAR if begun else Mode.READY_TO_MAP_CAR
 

@@ -64,7 +64,7 @@ class SelfCheck:
         """One tick; result: what the motion planner says of the present place."""
         if self.report.state is not Check.RUNNING:
             return
-        if self._since_s is None or result is Result.PENDING:
+        if self._since_s is None or result in (Result.PENDING, Result.IDLE):
             self._since_s = now_s
         if result is Result.REACHED:
             self._observe(now_s, scans, poses)

@@ -51,6 +51,7 @@ class Command:
     press: Optional[Press] = None
     map_car_id: int = 0
     end_session: bool = False
+    check_car_id: int = 0
 
 
 def problem_of(command: Command, platform_speed_mps: float) -> str:

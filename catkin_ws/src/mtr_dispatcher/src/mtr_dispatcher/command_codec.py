@@ -34,7 +34,7 @@ def decode(data: bytes) -> Command:
         seen_robot_time_s=_float(message, "seen_robot_time_s", math.nan), stop=message.stop,
         waypoint=_waypoint(message), max_speed_mps=_float(message, "max_speed_mps", None),
         key_height_m=_float(message, "device_height_m", None), press=_press(message), map_car_id=message.map_car_id,
-        end_session=message.end_session)
+        end_session=message.end_session, check_car_id=message.check_car_id)
 
 
 def _float(message: object, name: str, absent: Optional[float]) -> Optional[float]:

@@ -19,6 +19,7 @@ def desired_message(desired: Desired, stamp: rospy.Time, default_speed_mps: floa
     message = DesiredState(
         session_id=desired.session_id, command_id=command.id, link_alive=desired.link_alive,
         stop=bool(desired.stop_reason), waypoint=_waypoint(command), map_car_id=desired.map_order,
+        check_car_id=desired.check_order,
         max_speed_mps=default_speed_mps if command.max_speed_mps is None else command.max_speed_mps,
         key_height_m=math.nan if command.key_height_m is None else command.key_height_m, press=_press(command))
     message.header.stamp = stamp

@@ -7,7 +7,7 @@ from .command import Command
 from .command_codec import UndecodableError, decode
 from .inputs import Inputs
 from .log_buffer import LogBuffer
-from .notices import ERROR, WARNING, Notice, RecentNotices, standing_notices
+from .notices import ERROR, WARNING, ForeignApplications, Notice, RecentNotices, standing_notices
 from .parameters import Parameters
 from .session import REJECTIONS, Desired, Session, Verdict
 from .status_builder import Confirmations, Identity, Report, status_bytes
@@ -29,7 +29,7 @@ class Dispatcher:
         self.log = LogBuffer()
         self.status_id = 0
         self.rejected_messages = 0
-        self._recent = RecentNotices()
+        self._recent, self._foreign = RecentNotices(), ForeignApplications()
 
     def receive(self, data: bytes, now_s: float) -> Tuple[Optional[Verdict], str]:
         """Take one message of the link. Returns its verdict (None: no Command) and a sentence for the log, if any."""
@@ -40,6 +40,9 @@ class Dispatcher:
             return None, str(error)
         before = self.session.session_id
         verdict = self.session.take(command, now_s, self.status_id)
+        if verdict is Verdict.FOREIGN:
+            self.rejected_messages += 1
+            return verdict, self._foreign.hear(self.session.session_id, command.session_id, now_s)
         if verdict in REJECTIONS:
             return verdict, self._reject(self._rejection(verdict, command), now_s)
         return verdict, self._event(verdict, command, before)
@@ -56,19 +59,23 @@ class Dispatcher:
         standing = standing_notices(desired, fresh, self._parameters.low_battery)
         return status_bytes(self._identity, Report(
             self.status_id, fresh, self._confirmations(desired, fresh), self.rejected_messages, self.log.due(),
-            itertools.chain(standing, self._recent.at(inputs.now_s))))
+            itertools.chain(standing, self._foreign.notices(desired.session_id, inputs.now_s),
+                            self._recent.at(inputs.now_s))))
 
     def confirmed(self, inputs: Inputs) -> List[object]:
         """What a Status would confirm now; when it changes a Status is due at once."""
-        mode, peripherals = inputs.mode, inputs.peripherals
+        mode, peripherals, check = inputs.mode, inputs.peripherals, inputs.check
         return [self.session.session_id, self.session.command.id,
                 mode and (mode.mode, mode.waypoint_id, mode.waypoint_result, mode.map_car_id),
+                check and (check.id, check.state),
                 peripherals and [(press.session_id, press.id) for press in peripherals.presses]]
 
     def _confirmations(self, desired: Desired, fresh: Inputs) -> Confirmations:
-        order = fresh.mode.map_car_id if fresh.mode is not None else 0
+        mapped = fresh.mode.map_car_id if fresh.mode is not None else 0
+        checked = fresh.check.id if fresh.check is not None else 0
         return Confirmations(desired.session_id, desired.command.id,
-                             self.session.orders.map_car_id_of(desired.session_id, order))
+                             self.session.map_orders.id_of(desired.session_id, mapped),
+                             self.session.check_orders.id_of(desired.session_id, checked))
 
     def _reject(self, notice: Notice, now_s: float) -> str:
         self.rejected_messages += 1
@@ -80,10 +87,6 @@ class Dispatcher:
         if verdict is Verdict.EXPIRED:
             return Notice("command_expired", WARNING,
                           f"Command {command.id} had expired when it arrived and was ignored.")
-        if verdict is Verdict.FOREIGN:
-            return Notice("controlled_by_other", WARNING,
-                          f"Application {self.session.session_id:x} controls the robot; Commands of application "
-                          f"{command.session_id:x} are ignored.")
         return Notice("command_refused", ERROR, f"Command {command.id} was refused: {self.session.refusal}")
 
     def _event(self, verdict: Verdict, command: Command, session_before: int) -> str:

@@ -17,6 +17,7 @@ class Inputs(NamedTuple):
     car: Optional[Any] = None
     mode: Optional[Any] = None
     peripherals: Optional[Any] = None
+    check: Optional[Any] = None
 
     def fresh(self) -> "Inputs":
         """The same without stale messages."""

@@ -9,7 +9,7 @@ from rosgraph_msgs.msg import Log
 
 from mtr_core import names, schedule
 from mtr_lockstep import Ticker, TickInput, clock, publisher, run_node
-from mtr_msgs.msg import CarEstimate, DesiredState, LocalizedPose, MotionLock, PeripheralsState, RobotMode
+from mtr_msgs.msg import CarCheck, CarEstimate, DesiredState, LocalizedPose, MotionLock, PeripheralsState, RobotMode
 
 from .conversions import desired_message, lock_message
 from .core import Dispatcher
@@ -40,6 +40,7 @@ class DispatcherNode:
         self._pose = TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0)
         self._car = TickInput(names.CAR_ESTIMATE, CarEstimate, schedule.CAR_LOCATOR)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
+        self._check = TickInput(names.CAR_CHECK, CarCheck, schedule.CAR_LOCATOR)
         self._peripherals = TickInput(names.PERIPHERALS_STATE, PeripheralsState, schedule.PERIPHERALS)
         self._desired = publisher(names.DESIRED_STATE, DesiredState)
         self._lock = publisher(names.MOTION_LOCK, MotionLock)
@@ -105,7 +106,7 @@ class DispatcherNode:
 
     def _inputs(self, now_ns: int) -> Inputs:
         return Inputs(now_ns * NS, self._pose.at(now_ns), self._car.at(now_ns), self._mode.at(now_ns),
-                      self._peripherals.at(now_ns))
+                      self._peripherals.at(now_ns), self._check.at(now_ns))
 
     def _publish_status(self, now_ns: int, inputs: Optional[Inputs] = None) -> None:
         inputs = inputs or self._inputs(now_ns)

@@ -11,6 +11,8 @@ from .session import Desired
 INFO, WARNING, ERROR = 1, 2, 3
 # A single event, such as a rejected message, is shown this long.
 SHOWN_S = 3.0
+# An application that waits for the robot sends now and then; between two of its Commands the notice stays.
+FOREIGN_SHOWN_S = 10.0
 
 
 class Notice(NamedTuple):
@@ -34,6 +36,30 @@ class RecentNotices:
     def at(self, now_s: float) -> List[Notice]:
         """Notices shown at now_s."""
         return [notice for shown_s, notice in self._notices.values() if now_s - shown_s <= SHOWN_S]
+
+
+class ForeignApplications:
+    """Applications that want the robot while another one controls it."""
+
+    def __init__(self) -> None:
+        self._heard = {}
+
+    def hear(self, controlling_id: int, session_id: int, now_s: float) -> str:
+        """A Command of one came; the sentence about it."""
+        self._heard[session_id] = now_s
+        return _foreign_sentence(controlling_id, session_id)
+
+    def notices(self, controlling_id: int, now_s: float) -> List[Notice]:
+        """One notice, the same as long as such an application is heard; none when nobody controls the robot."""
+        self._heard = {session_id: heard_s for session_id, heard_s in self._heard.items()
+                       if now_s - heard_s <= FOREIGN_SHOWN_S and session_id != controlling_id}
+        if not controlling_id or not self._heard:
+            return []
+        return [Notice("controlled_by_other", WARNING, _foreign_sentence(controlling_id, min(self._heard)))]
+
+
+def _foreign_sentence(controlling_id: int, session_id: int) -> str:
+    return (f"Application {controlling_id:x} controls the robot; Commands of application {session_id:x} are ignored.")
 
 
 def standing_notices(desired: Desired, fresh: Inputs, low_battery: float) -> Iterator[Notice]:

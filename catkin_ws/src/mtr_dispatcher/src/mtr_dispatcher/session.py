@@ -35,26 +35,27 @@ class Desired:
     session_id: int
     command: Command
     map_order: int
+    check_order: int
     link_alive: bool
     stop_reason: str
 
 
-class MapOrders:
-    """Numbers mapping orders so that those of different sessions differ; 0 is no order."""
+class OrderNumbers:
+    """Numbers orders of one kind so that those of different sessions differ; 0 is no order."""
 
     def __init__(self) -> None:
         self._number = 0
         self._order = (0, 0)
 
-    def number_of(self, session_id: int, map_car_id: int) -> int:
+    def number_of(self, session_id: int, order_id: int) -> int:
         """Number of a session's order."""
-        if not map_car_id:
+        if not order_id:
             return 0
-        if (session_id, map_car_id) != self._order:
-            self._number, self._order = self._number + 1, (session_id, map_car_id)
+        if (session_id, order_id) != self._order:
+            self._number, self._order = self._number + 1, (session_id, order_id)
         return self._number
 
-    def map_car_id_of(self, session_id: int, number: int) -> int:
+    def id_of(self, session_id: int, number: int) -> int:
         """The session's own id of the order with this number, 0 when it is not its order."""
         return self._order[1] if number and number == self._number and session_id == self._order[0] else 0
 
@@ -67,7 +68,8 @@ class Session:
         command: newest Command that was taken.
         refusal: why its newest Command was refused; empty when it was not.
         answered_status_id: newest Status that the application in control has answered.
-        orders: numbers of the mapping orders.
+        map_orders: numbers of the orders to map the Car.
+        check_orders: numbers of the orders to check it.
     """
 
     def __init__(self, parameters: Parameters):
@@ -76,7 +78,7 @@ class Session:
         self.command = Command()
         self.refusal = ""
         self.answered_status_id = 0
-        self.orders = MapOrders()
+        self.map_orders, self.check_orders = OrderNumbers(), OrderNumbers()
         self._newest_id = 0
         self._heard_s = -math.inf
         self._former: Dict[int, int] = {}
@@ -103,8 +105,9 @@ class Session:
     def desired(self, now_s: float) -> Desired:
         """What the robot shall do at now_s."""
         alive = self.link_alive(now_s)
-        order = self.orders.number_of(self.session_id, self.command.map_car_id)
-        return Desired(self.session_id, self.command, order, alive, self._stop_reason(alive))
+        map_order = self.map_orders.number_of(self.session_id, self.command.map_car_id)
+        check_order = self.check_orders.number_of(self.session_id, self.command.check_car_id)
+        return Desired(self.session_id, self.command, map_order, check_order, alive, self._stop_reason(alive))
 
     def _stop_reason(self, alive: bool) -> str:
         if not self.session_id:

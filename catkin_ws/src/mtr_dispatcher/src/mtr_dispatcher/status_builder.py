@@ -30,6 +30,7 @@ class Confirmations(NamedTuple):
     session_id: int
     command_id: int
     map_car_id: int
+    check_car_id: int
 
 
 class Report(NamedTuple):
@@ -54,6 +55,7 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
     _add_mode(status, report.fresh.mode, report.confirmations.session_id)
     _add_pose(status.state, report.fresh)
     _add_car(status.car, report.fresh.car)
+    _add_check(status.car_check, report.fresh.check, report.confirmations.check_car_id)
     _add_peripherals(status, report.fresh.peripherals, report.confirmations.session_id)
     for entry in report.log:
         status.log.add(id=entry.id, stamp_s=entry.stamp_s, severity=entry.severity, source=entry.source,
@@ -104,6 +106,24 @@ def _add_car(dimensions: link.CarDimensions, car: Optional[object]) -> None:
     if car is not None:
         dimensions.length, dimensions.width = car.length, car.width
         dimensions.length_sigma, dimensions.width_sigma = car.length_sigma, car.width_sigma
+    if dimensions.mapped:
+        dimensions.outline_x.extend(car.outline_x)
+        dimensions.outline_y.extend(car.outline_y)
+        dimensions.revision = car.revision
+        dimensions.correction_x, dimensions.correction_y = car.correction_x, car.correction_y
+        dimensions.correction_heading = car.correction_heading
+
+
+def _add_check(message: link.CarCheck, check: Optional[object], check_car_id: int) -> None:
+    """The answer to an order of the session in control; what the limits are is told always."""
+    if check is None:
+        return
+    message.limit_m, message.limit_rad = check.limit_m, check.limit_rad
+    if not check_car_id:
+        return
+    message.id, message.state, message.message = check_car_id, check.state, check.message
+    if math.isfinite(check.difference_m):
+        message.difference_m, message.difference_rad = check.difference_m, check.difference_rad
 
 
 def _add_peripherals(status: link.Status, peripherals: Optional[object], session_id: int) -> None:

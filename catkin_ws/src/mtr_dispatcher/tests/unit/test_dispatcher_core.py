@@ -11,7 +11,7 @@ from mtr_dispatcher.inputs import Inputs
 from mtr_dispatcher.parameters import Parameters
 from mtr_dispatcher.session import Verdict
 from mtr_dispatcher.status_builder import Identity
-from mtr_msgs.msg import CarEstimate, LocalizedPose, PeripheralsState, PressReport, RobotMode
+from mtr_msgs.msg import CarCheck, CarEstimate, LocalizedPose, PeripheralsState, PressReport, RobotMode
 from mtr_proto import robot_link_pb2 as link
 
 NOW_S = 100.0
@@ -42,11 +42,13 @@ def codes(message):
 def test_command_survives_the_round_trip():
     sent = link.Command(
         session_id=5, id=6, seen_status_id=7, seen_robot_time_s=8.0, stop=True, max_speed_mps=0.5, device_height_m=1.0,
-        map_car_id=2, waypoint=link.Waypoint(id=9, x=1.0, y=2.0, heading=3.0, direction=link.DIRECTION_BACKWARD),
+        map_car_id=2, check_car_id=4,
+        waypoint=link.Waypoint(id=9, x=1.0, y=2.0, heading=3.0, direction=link.DIRECTION_BACKWARD),
         press=link.ButtonPress(id=3, buttons=[1, 2], strength=0.5, duration_s=0.25))
     command = decode(sent.SerializeToString())
     assert (command.session_id, command.id, command.seen_status_id, command.seen_robot_time_s) == (5, 6, 7, 8.0)
     assert (command.stop, command.max_speed_mps, command.key_height_m, command.map_car_id) == (True, 0.5, 1.0, 2)
+    assert command.check_car_id == 4
     waypoint, press = command.waypoint, command.press
     assert (waypoint.id, waypoint.x, waypoint.y, waypoint.heading, waypoint.direction) == (9, 1.0, 2.0, 3.0, 2)
     assert (press.id, press.buttons, press.strength, press.duration_s) == (3, (1, 2), 0.5, 0.25)
@@ -87,6 +89,30 @@ def test_foreign_and_expired_commands_are_counted_and_reported(core):
     message = status(core)
     assert message.rejected_messages == 2
     assert {"controlled_by_other", "command_expired"} <= codes(message)
+
+
+def test_notice_of_another_application_is_steady_while_it_is_heard_now_and_then(core):
+    texts = set()
+    for tenth in range(200):
+        now_s = NOW_S + 0.1 * tenth
+        core.receive(link.Command(session_id=5, id=1, seen_status_id=1, seen_robot_time_s=now_s).SerializeToString(),
+                     now_s)
+        if tenth % 50 == 0:
+            core.receive(link.Command(session_id=6, id=1, seen_status_id=1,
+                                      seen_robot_time_s=now_s).SerializeToString(), now_s)
+        notices = link.Status.FromString(core.status(Inputs(now_s))).notifications
+        texts.add(tuple(notice.text for notice in notices if notice.code == "controlled_by_other"))
+    assert len(texts) == 1 and "Application 5 controls" in texts.pop()[0]
+    later = link.Status.FromString(core.status(Inputs(NOW_S + 25.5)))
+    assert "controlled_by_other" not in codes(later)
+
+
+def test_notice_of_another_application_ends_when_nobody_controls_the_robot(core):
+    core.receive(command_bytes(), NOW_S)
+    core.receive(command_bytes(session_id=6), NOW_S)
+    assert "controlled_by_other" in codes(status(core))
+    core.receive(command_bytes(number=2, end_session=True), NOW_S)
+    assert "controlled_by_other" not in codes(status(core))
 
 
 def test_refused_command_is_a_notification_as_long_as_it_stands(core):
@@ -139,6 +165,34 @@ def test_confirmations_speak_of_the_session_in_control_only(core):
     assert not message.state.HasField("battery_level")
 
 
+def test_outline_and_revision_are_told_once_the_car_is_located(core):
+    car = CarEstimate(state=CarEstimate.LOCATED, length=4.5, width=1.8, outline_x=[1.0, -1.0, 0.0],
+                      outline_y=[0.0, 0.5, -0.5], revision=3, correction_x=0.02, correction_y=-0.01,
+                      correction_heading=0.004)
+    told = status(core, car=car).car
+    assert told.outline_x == [1.0, -1.0, 0.0] and told.outline_y == [0.0, 0.5, -0.5]
+    assert told.revision == 3 and told.correction_x == pytest.approx(0.02)
+    assert (told.correction_y, told.correction_heading) == (pytest.approx(-0.01), pytest.approx(0.004))
+    car.state = CarEstimate.COLLECTING
+    assert not status(core, car=car).car.outline_x and not status(core, car=car).car.mapped
+
+
+def test_check_is_told_to_the_session_that_ordered_it(core):
+    core.receive(command_bytes(check_car_id=9), NOW_S)
+    order = core.desired(NOW_S).check_order
+    check = CarCheck(id=order, state=CarCheck.FAILED, difference_m=0.03, difference_rad=0.002, limit_m=0.02,
+                     limit_rad=0.01, message="Moved.")
+    told = status(core, check=check).car_check
+    assert (told.id, told.state, told.message) == (9, link.CHECK_STATE_FAILED, "Moved.")
+    assert (told.difference_m, told.limit_m) == (pytest.approx(0.03), pytest.approx(0.02))
+    check.difference_m = math.nan
+    assert not status(core, check=check).car_check.HasField("difference_m")
+    check.id = order + 1
+    other = status(core, check=check)
+    assert other.HasField("car_check") and not other.car_check.HasField("id")
+    assert not status(core).HasField("car_check")
+
+
 def test_another_sessions_waypoint_is_not_confirmed(core):
     core.receive(command_bytes(), NOW_S)
     message = status(core, mode=RobotMode(mode=4, session_id=4, waypoint_id=6, waypoint_result=2))
@@ -166,4 +220,5 @@ def test_confirmations_change_with_command_result_and_press(core):
     taken = core.confirmed(Inputs(NOW_S))
     reached = core.confirmed(Inputs(NOW_S, mode=RobotMode(waypoint_result=2)))
     pressed = core.confirmed(Inputs(NOW_S, peripherals=PeripheralsState(presses=[PressReport(id=1)])))
-    assert taken not in (before, reached, pressed)
+    checked = core.confirmed(Inputs(NOW_S, check=CarCheck(id=1, state=2)))
+    assert taken not in (before, reached, pressed, checked)

@@ -149,9 +149,18 @@ def test_mapping_orders_of_two_sessions_differ(session):
     take(session, command(2, map_car_id=1))
     second = session.desired(100.0).map_order
     assert 0 < first < second
-    assert session.orders.map_car_id_of(2, second) == 1
-    assert session.orders.map_car_id_of(2, first) == 0
-    assert session.orders.map_car_id_of(1, first) == 0
+    assert session.map_orders.id_of(2, second) == 1
+    assert session.map_orders.id_of(2, first) == 0
+    assert session.map_orders.id_of(1, first) == 0
+
+
+def test_orders_to_check_are_numbered_on_their_own(session):
+    take(session, command(1, map_car_id=1, check_car_id=5))
+    first = session.desired(100.0)
+    assert (first.map_order, first.check_order) == (1, 1)
+    take(session, command(1, 2, map_car_id=1, check_car_id=6))
+    assert (session.desired(100.0).map_order, session.desired(100.0).check_order) == (1, 2)
+    assert session.check_orders.id_of(1, 2) == 6 and session.check_orders.id_of(1, 1) == 0
 
 
 def test_repetition_asks_for_the_same(session):

@@ -1,9 +1,9 @@
 """The state machine without ROS: an observation in, mode and goal out."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
-from typing import Optional, Tuple
+from typing import Hashable, Optional, Tuple
 
-from mtr_core.states import CarState, Result, State
+from mtr_core.states import CarState, Check, Result, State
 
 from .goals import NO_GOAL, Goals, WaypointResult
 from .observation import Observation, Part, Place
@@ -14,6 +14,9 @@ from .table import AGAIN, Event, StateTable
 MAX_EVENTS_PER_TICK = 4
 UNWELCOME = (Result.REFUSED, Result.BLOCKED)
 LOCKED_STATES = (State.STARTING, State.FAULT)
+# States that rest on the Car's frame.
+FRAME_STATES = (State.FOLLOWING_WAYPOINT, State.CHECKING_CAR)
+LOST_CAR = "The position of the Car is no longer known; order the robot to map the Car again."
 
 
 @dataclass(frozen=True)
@@ -30,10 +33,11 @@ class Decision:
     waypoint_result: Result
     message: str
     lock_reason: str
+    check_car_id: int = 0
 
 
 class StateMachine:
-    """Decides at each tick; keeps the state, the mapping order in force and the goal."""
+    """Decides at each tick; keeps the state, the orders in force to map and to check, and the goal."""
 
     def __init__(self, parameters: Parameters):
         self._parameters = parameters
@@ -41,6 +45,8 @@ class StateMachine:
         self._goals = Goals()
         self._waypoint = WaypointResult()
         self._map_car_id = 0
+        self._check_car_id = 0
+        self._map_revision = 0
         self._before_fault = State.READY_TO_MAP_CAR
         self._failed_waypoint = (0, 0)
         self._failure_is_old = False
@@ -75,15 +81,25 @@ class StateMachine:
         failed = seen.car.state is CarState.FAILED and seen.car.map_car_id == self._map_car_id
         if state is State.MAPPING_CAR and failed and not self._failure_is_old:
             return seen.car.message or "The Car was not found."
-        if state is State.FOLLOWING_WAYPOINT and seen.car.state is not CarState.LOCATED:
-            return "The position of the Car is no longer known; order the robot to map the Car again."
+        return self._frame_problem(state, seen) if state in FRAME_STATES else ""
+
+    def _frame_problem(self, state: State, seen: Observation) -> str:
+        if seen.car.state is not CarState.LOCATED:
+            return seen.car.message if seen.car.state is CarState.FAILED and seen.car.message else LOST_CAR
+        if seen.map_revision != self._map_revision:
+            return f"Localization has another map than the one in which the Car was found. {LOST_CAR}"
+        if state is State.CHECKING_CAR and self._check_is(Check.FAILED, seen):
+            return seen.check.message or "The Car does not stand where it was measured."
         return ""
 
     def _event(self, seen: Observation, problem: str) -> Optional[Event]:
         if self.state is State.STARTING:
             return None if problem else Event.ALL_RUNNING
-        if self._is_map_ordered(seen) and (not problem or self._car_problem(seen) == problem):
+        may_order = not problem or self._car_problem(seen) == problem
+        if may_order and self._is_map_ordered(seen):
             return Event.MAP_ORDERED
+        if may_order and self._is_check_ordered(seen):
+            return Event.CHECK_ORDERED
         if self.state is State.FAULT:
             over = not problem or self._is_new_attempt(seen, problem)
             return AGAIN[self._before_fault] if over else None
@@ -94,6 +110,11 @@ class StateMachine:
             return Event.WAYPOINT_GIVEN
         if self.state is State.MAPPING_CAR and self._is_located(seen):
             return Event.CAR_LOCATED
+        if self.state is State.CHECKING_CAR:
+            if self._check_is(Check.PASSED, seen):
+                return Event.CHECK_PASSED
+            if seen.desired.link_alive and not seen.desired.check_car_id:
+                return Event.CHECK_WITHDRAWN
         return None
 
     def _fire(self, event: Event, seen: Observation) -> None:
@@ -104,10 +125,23 @@ class StateMachine:
             self._failure_is_old = seen.car.state is CarState.FAILED
         if event is Event.MAP_ORDERED:
             self._map_car_id = seen.desired.map_car_id
+        if event is Event.CAR_LOCATED:
+            self._map_revision = seen.map_revision
+        if event is Event.CHECK_ORDERED:
+            self._check_car_id = seen.desired.check_car_id
+            self._waypoint.reopen()
         self._table.fire(event)
 
     def _is_map_ordered(self, seen: Observation) -> bool:
         return seen.desired.link_alive and seen.desired.map_car_id not in (0, self._map_car_id)
+
+    def _is_check_ordered(self, seen: Observation) -> bool:
+        state = self._before_fault if self.state is State.FAULT else self.state
+        is_new = seen.desired.link_alive and seen.desired.check_car_id not in (0, self._check_car_id)
+        return is_new and state in FRAME_STATES and seen.car.state is CarState.LOCATED
+
+    def _check_is(self, state: Check, seen: Observation) -> bool:
+        return seen.check.id == self._check_car_id and seen.check.state is state
 
     def _is_new_attempt(self, seen: Observation, problem: str) -> bool:
         """A waypoint that is not the one under which mapping failed tries again."""
@@ -123,26 +157,37 @@ class StateMachine:
         return seen.desired.link_alive and not seen.desired.stop
 
     def _pursue(self, seen: Observation) -> None:
-        desired, mapping_place = seen.desired, seen.car.next_waypoint
+        desired = seen.desired
         if desired.link_alive:
             self._waypoint.expect(desired.session_id, desired.waypoint.id)
-        if not self._may_move(seen) or not (desired.waypoint.id or desired.map_car_id):
-            self._goals.pause()
-        elif self.state is State.FOLLOWING_WAYPOINT and desired.waypoint.id:
-            self._goals.pursue(_waypoint_key(seen), desired.waypoint)
-        elif self.state is State.MAPPING_CAR and seen.car.state is CarState.COLLECTING and mapping_place.id:
-            self._goals.pursue(("mapping", self._map_car_id, mapping_place.id), mapping_place)
+        wanted = self._wanted(seen) if self._may_move(seen) else None
+        if wanted:
+            self._goals.pursue(*wanted)
         else:
             self._goals.pause()
         following = self.state is State.FOLLOWING_WAYPOINT
         self._waypoint.update(self._goals.goal if following else NO_GOAL, seen.motion)
+
+    def _wanted(self, seen: Observation) -> Optional[Tuple[Hashable, Place]]:
+        """Where the robot shall go, under a key that tells one order from another."""
+        desired, place = seen.desired, seen.car.next_waypoint
+        if self.state is State.FOLLOWING_WAYPOINT and desired.waypoint.id:
+            return _waypoint_key(seen), desired.waypoint
+        if not place.id:
+            return None
+        if self.state is State.MAPPING_CAR and seen.car.state is CarState.COLLECTING:
+            ordered = desired.waypoint.id or desired.map_car_id
+            return (("mapping", self._map_car_id, place.id), place) if ordered else None
+        if self.state is State.CHECKING_CAR and desired.check_car_id == self._check_car_id:
+            return ("checking", self._check_car_id, place.id), place
+        return None
 
     def _decision(self, seen: Observation, problem: str) -> Decision:
         locked = self.state in LOCKED_STATES
         message = problem if locked else self._message(seen)
         return Decision(self.state, self._goals.goal, seen.desired.max_speed_mps, self.state is State.MAPPING_CAR,
                         self._map_car_id, self._waypoint.session_id, self._waypoint.waypoint_id,
-                        self._waypoint.result, message, message if locked else "")
+                        self._waypoint.result, message, message if locked else "", self._check_car_id)
 
     def _message(self, seen: Observation) -> str:
         if self.state is State.READY_TO_MAP_CAR:
@@ -152,6 +197,8 @@ class StateMachine:
         goal_id = self._goals.goal.id
         if goal_id and seen.motion.goal_id == goal_id and seen.motion.result in UNWELCOME:
             return seen.motion.message
+        if self.state is State.CHECKING_CAR:
+            return seen.check.message if seen.check.id == self._check_car_id else "Looks at the Car again."
         return seen.car.message
 
 

@@ -55,6 +55,11 @@ class WaypointResult:
             self.session_id, self.waypoint_id, self.message = session_id, waypoint_id, ""
             self.result = Result.PENDING if waypoint_id else Result.IDLE
 
+    def reopen(self) -> None:
+        """The robot has left the waypoint for something else; it is to be reached again."""
+        if self.waypoint_id:
+            self.result, self.message = Result.PENDING, ""
+
     def update(self, goal: Place, motion: Motion) -> None:
         """Take the planner's report on the goal that stands for the waypoint."""
         if self.result in (Result.IDLE, Result.REACHED):

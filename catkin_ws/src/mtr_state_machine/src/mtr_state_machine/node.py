@@ -6,6 +6,7 @@ from mtr_core import names, schedule
 from mtr_core.states import State
 from mtr_lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_msgs.msg import (
+    CarCheck,
     CarEstimate,
     DesiredState,
     DriveStatus,
@@ -36,6 +37,7 @@ class StateMachineNode:
             Part.DRIVE_CONTROL: TickInput(names.DRIVE_STATUS, DriveStatus, schedule.DRIVE_CONTROL),
             Part.PERIPHERALS: TickInput(names.PERIPHERALS_STATE, PeripheralsState, schedule.PERIPHERALS),
         }
+        self._check = TickInput(names.CAR_CHECK, CarCheck, schedule.CAR_LOCATOR)
         self._mode = publisher(names.ROBOT_MODE, RobotMode)
         self._lock = publisher(names.MOTION_LOCK, MotionLock)
         self._ticker = Ticker(schedule.STATE_MACHINE)
@@ -46,7 +48,8 @@ class StateMachineNode:
             self._step(self._ticker.sleep())
 
     def _step(self, tick: int) -> None:
-        decision = self._core.step(observation({part: topic.at(tick) for part, topic in self._inputs.items()}, tick))
+        messages = {part: topic.at(tick) for part, topic in self._inputs.items()}
+        decision = self._core.step(observation(messages, self._check.at(tick), tick))
         stamp = clock.stamp_of(tick)
         self._lock.publish(lock_message(decision, stamp))
         self._mode.publish(mode_message(decision, stamp))

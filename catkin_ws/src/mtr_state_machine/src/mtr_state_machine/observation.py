@@ -4,7 +4,7 @@ import enum
 from dataclasses import dataclass, field
 from typing import Dict, Optional
 
-from mtr_core.states import CarState, Result
+from mtr_core.states import CarState, Check, Result
 
 
 class Part(enum.Enum):
@@ -40,6 +40,16 @@ class Desired:
     waypoint: Place = Place()
     max_speed_mps: float = 0.0
     map_car_id: int = 0
+    check_car_id: int = 0
+
+
+@dataclass(frozen=True)
+class CheckReport:
+    """How the Car locator's self-check stands; id 0: none yet."""
+
+    id: int = 0
+    state: Check = Check.NONE
+    message: str = ""
 
 
 @dataclass(frozen=True)
@@ -66,12 +76,15 @@ class Observation:
     """Everything known at one tick.
 
     Attributes:
+        map_revision: map that the robot's pose is in.
         age_s: age of each part's newest message; a part that is missing has not reported yet.
         complaint: sentence of a part that reports but is not well, e.g. a localization that is lost.
     """
 
     desired: Desired = Desired()
     car: Car = Car()
+    check: CheckReport = CheckReport()
+    map_revision: int = 0
     motion: Motion = Motion()
     age_s: Dict[Part, float] = field(default_factory=dict)
     complaint: Dict[Part, str] = field(default_factory=dict)

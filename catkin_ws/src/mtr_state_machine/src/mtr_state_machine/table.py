@@ -1,4 +1,5 @@
-"""The robot's high-level behaviour as a table: state, event, next state (thesis, figure 4.15, with the faults)."""
+"""The robot's high-level behaviour as a table: state, event, next state (thesis, figure 4.15, with self-check
+and faults)."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from typing import Tuple
@@ -20,10 +21,14 @@ class Event(enum.Enum):
     WAYPOINT_GIVEN = "waypoint_given"    # the Operator wants the robot to move
     MAP_ORDERED = "map_ordered"          # the Operator orders to map the Car (again)
     CAR_LOCATED = "car_located"          # the Car locator has found the Car
-    PART_FAILED = "part_failed"          # a part is silent or says that it cannot go on; or the Car was not found
+    CHECK_ORDERED = "check_ordered"      # the Operator orders to look whether the Car still stands there
+    CHECK_PASSED = "check_passed"        # it does
+    CHECK_WITHDRAWN = "check_withdrawn"  # the Operator does not want to know any more
+    PART_FAILED = "part_failed"          # a part is silent or cannot go on; the Car was not found or did not pass
     READY_AGAIN = "ready_again"          # a fault is over that began in the state of this name
     MAPPING_AGAIN = "mapping_again"
     FOLLOWING_AGAIN = "following_again"
+    CHECKING_AGAIN = "checking_again"
 
 
 # Row: state, event, next state.
@@ -36,17 +41,26 @@ TABLE: Tuple[Tuple[State, Event, State], ...] = (
     (State.MAPPING_CAR, Event.MAP_ORDERED, State.MAPPING_CAR),
     (State.MAPPING_CAR, Event.PART_FAILED, State.FAULT),
     (State.FOLLOWING_WAYPOINT, Event.MAP_ORDERED, State.MAPPING_CAR),
+    (State.FOLLOWING_WAYPOINT, Event.CHECK_ORDERED, State.CHECKING_CAR),
     (State.FOLLOWING_WAYPOINT, Event.PART_FAILED, State.FAULT),
+    (State.CHECKING_CAR, Event.CHECK_PASSED, State.FOLLOWING_WAYPOINT),
+    (State.CHECKING_CAR, Event.CHECK_WITHDRAWN, State.FOLLOWING_WAYPOINT),
+    (State.CHECKING_CAR, Event.CHECK_ORDERED, State.CHECKING_CAR),
+    (State.CHECKING_CAR, Event.MAP_ORDERED, State.MAPPING_CAR),
+    (State.CHECKING_CAR, Event.PART_FAILED, State.FAULT),
     (State.FAULT, Event.MAP_ORDERED, State.MAPPING_CAR),
+    (State.FAULT, Event.CHECK_ORDERED, State.CHECKING_CAR),
     (State.FAULT, Event.READY_AGAIN, State.READY_TO_MAP_CAR),
     (State.FAULT, Event.MAPPING_AGAIN, State.MAPPING_CAR),
     (State.FAULT, Event.FOLLOWING_AGAIN, State.FOLLOWING_WAYPOINT),
+    (State.FAULT, Event.CHECKING_AGAIN, State.CHECKING_CAR),
 )
 
 AGAIN = {
     State.READY_TO_MAP_CAR: Event.READY_AGAIN,
     State.MAPPING_CAR: Event.MAPPING_AGAIN,
     State.FOLLOWING_WAYPOINT: Event.FOLLOWING_AGAIN,
+    State.CHECKING_CAR: Event.CHECKING_AGAIN,
 }
 
 

@@ -3,8 +3,8 @@
 import genpy
 import pytest
 
-from mtr_core.states import CarState, Result, State
-from mtr_msgs.msg import CarEstimate, DesiredState, LocalizedPose, MotionStatus, PeripheralsState, Waypoint
+from mtr_core.states import CarState, Check, Result, State
+from mtr_msgs.msg import CarCheck, CarEstimate, DesiredState, LocalizedPose, MotionStatus, PeripheralsState, Waypoint
 from mtr_state_machine.conversions import lock_message, mode_message, observation
 from mtr_state_machine.core import Decision
 from mtr_state_machine.observation import Part, Place
@@ -20,11 +20,13 @@ def stamped(message, time_ns=TICK_NS - 20_000_000):
 def test_messages_become_an_observation():
     seen = observation({
         Part.DISPATCHER: stamped(DesiredState(session_id=3, link_alive=True, waypoint=Waypoint(4, "car", 1, 2, 3, 1),
-                                              max_speed_mps=0.6, map_car_id=7)),
+                                              max_speed_mps=0.6, map_car_id=7, check_car_id=6)),
         Part.CAR_LOCATOR: stamped(CarEstimate(state=1, next_waypoint=Waypoint(2, "map", 5, 6, 0, 0), map_car_id=7)),
         Part.MOTION_PLANNER: stamped(MotionStatus(goal_id=8, result=4, message="Blocked.")),
-        Part.LOCALIZATION: stamped(LocalizedPose(valid=True)),
-        Part.PERIPHERALS: None}, TICK_NS)
+        Part.LOCALIZATION: stamped(LocalizedPose(valid=True, map_revision=3)),
+        Part.PERIPHERALS: None}, CarCheck(id=6, state=CarCheck.FAILED, message="Moved."), TICK_NS)
+    assert (seen.check.id, seen.check.state, seen.check.message) == (6, Check.FAILED, "Moved.")
+    assert (seen.map_revision, seen.desired.check_car_id) == (3, 6)
     assert (seen.desired.session_id, seen.desired.link_alive, seen.desired.stop) == (3, True, False)
     assert seen.desired.waypoint == Place(4, "car", 1, 2, 3, 1) and seen.desired.map_car_id == 7
     assert seen.car.state is CarState.COLLECTING and seen.car.next_waypoint.frame_id == "map"
@@ -34,22 +36,22 @@ def test_messages_become_an_observation():
 
 
 def test_without_a_message_nothing_is_wanted():
-    desired = observation({}, TICK_NS).desired
+    desired = observation({}, None, TICK_NS).desired
     assert desired.stop and not desired.link_alive and not desired.waypoint.id
 
 
 def test_lost_localization_and_silent_firmware_are_complaints():
     seen = observation({Part.LOCALIZATION: stamped(LocalizedPose(message="No IMU.")),
-                        Part.PERIPHERALS: stamped(PeripheralsState())}, TICK_NS)
+                        Part.PERIPHERALS: stamped(PeripheralsState())}, None, TICK_NS)
     assert seen.part_problem(Part.LOCALIZATION, 0.5) == "Localization is lost. No IMU."
     assert "firmware" in seen.part_problem(Part.PERIPHERALS, 0.5)
 
 
 def test_decision_becomes_mode_and_lock():
     decision = Decision(State.FAULT, Place(3, "map", 1.0, 2.0, 0.5, 1), 0.7, False, 4, 5, 6, Result.REFUSED,
-                        "Lost.", "Lost.")
+                        "Lost.", "Lost.", 8)
     mode, lock = mode_message(decision, genpy.Time(9)), lock_message(decision, genpy.Time(9))
     assert (mode.mode, mode.goal.id, mode.goal.frame_id, mode.goal.direction) == (mode.FAULT, 3, "map", 1)
     assert (mode.max_speed_mps, mode.mapping, mode.map_car_id, mode.session_id) == (0.7, False, 4, 5)
-    assert (mode.waypoint_id, mode.waypoint_result, mode.message) == (6, 3, "Lost.")
+    assert (mode.waypoint_id, mode.waypoint_result, mode.message, mode.check_car_id) == (6, 3, "Lost.", 8)
     assert (lock.owner, lock.engaged, lock.reason) == ("state_machine", True, "Lost.")

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from mtr_core.states import CarState, Result, State
+from mtr_core.states import CarState, Check, Result, State
 from mtr_state_machine.core import StateMachine
-from mtr_state_machine.observation import Car, Desired, Motion, Observation, Part, Place
+from mtr_state_machine.observation import Car, CheckReport, Desired, Motion, Observation, Part, Place
 from mtr_state_machine.parameters import Parameters
 
 ALL_WELL = {part: 0.1 for part in Part}
@@ -15,6 +15,11 @@ MAP_PLACE = Place(1, "map", 5.0, 5.0, 0.0)
 WANTS = Desired(session_id=9, link_alive=True, stop=False, waypoint=WAYPOINT, max_speed_mps=0.8)
 COLLECTING = Car(CarState.COLLECTING, MAP_PLACE)
 LOCATED = Car(CarState.LOCATED)
+CHECK_PLACE = Place(5, "map", 6.0, 1.0, 2.0)
+LOOKING = replace(LOCATED, next_waypoint=CHECK_PLACE)
+ORDERS_CHECK = replace(WANTS, check_car_id=4)
+PASSED = CheckReport(4, Check.PASSED, "Passed.")
+NOT_PASSED = CheckReport(4, Check.FAILED, "The Car stands 3.0 cm off.")
 
 
 def seen(**changes):
@@ -38,6 +43,13 @@ def following(mapping):
     mapping.step(seen(car=LOCATED))
     assert mapping.state is State.FOLLOWING_WAYPOINT
     return mapping
+
+
+@pytest.fixture
+def checking(following):
+    following.step(seen(car=LOCATED, desired=ORDERS_CHECK))
+    assert following.state is State.CHECKING_CAR
+    return following
 
 
 def reported(decision, result, message=""):
@@ -177,9 +189,10 @@ def test_new_waypoint_tries_a_failed_mapping_again(mapping, change):
 @pytest.mark.parametrize("part", Part)
 @pytest.mark.parametrize("trouble", ["silent", "unwell"])
 @pytest.mark.parametrize("before, car", [(State.READY_TO_MAP_CAR, Car()), (State.MAPPING_CAR, COLLECTING),
-                                         (State.FOLLOWING_WAYPOINT, LOCATED)])
+                                         (State.FOLLOWING_WAYPOINT, LOCATED), (State.CHECKING_CAR, LOOKING)])
 def test_failed_part_is_a_fault_with_its_sentence_and_ends_where_it_began(machine, part, trouble, before, car):
     desired = replace(WANTS, waypoint=Place()) if before is State.READY_TO_MAP_CAR else WANTS
+    desired = ORDERS_CHECK if before is State.CHECKING_CAR else desired
     machine.step(seen(desired=desired, car=Car() if before is State.READY_TO_MAP_CAR else COLLECTING))
     well = seen(desired=desired, car=car)
     assert machine.step(well).state is before
@@ -203,3 +216,100 @@ def test_mapping_order_does_not_end_a_fault_of_a_part(following):
     assert following.step(ill).state is State.FAULT
     assert following.step(ill).state is State.FAULT
     assert following.step(seen(car=LOCATED, desired=order)).state is State.MAPPING_CAR
+
+
+def test_check_order_leads_to_the_places_of_the_locator(following):
+    decision = following.step(seen(car=LOOKING, desired=ORDERS_CHECK))
+    assert (decision.state, decision.check_car_id, decision.mapping) == (State.CHECKING_CAR, 4, False)
+    assert (decision.goal.frame_id, decision.goal.x, decision.goal.heading) == ("map", 6.0, 2.0)
+    second = following.step(seen(car=replace(LOOKING, next_waypoint=replace(CHECK_PLACE, id=6)), desired=ORDERS_CHECK))
+    assert second.goal.id not in (0, decision.goal.id)
+
+
+def test_check_needs_no_waypoint(following):
+    order = replace(ORDERS_CHECK, waypoint=Place())
+    assert following.step(seen(car=LOOKING, desired=order)).goal.frame_id == "map"
+
+
+def test_check_can_be_stopped_and_resumed(checking):
+    first = checking.step(seen(car=LOOKING, desired=ORDERS_CHECK)).goal
+    stopped = checking.step(seen(car=LOOKING, desired=replace(ORDERS_CHECK, stop=True)))
+    assert stopped.state is State.CHECKING_CAR and stopped.goal.id == 0
+    resumed = checking.step(seen(car=LOOKING, desired=ORDERS_CHECK)).goal
+    assert resumed.id not in (0, first.id) and resumed.x == first.x
+
+
+def test_passed_check_leads_back_to_the_waypoint(checking):
+    running = CheckReport(4, Check.RUNNING, "Looks.")
+    assert checking.step(seen(car=LOOKING, desired=ORDERS_CHECK, check=running)).state is State.CHECKING_CAR
+    decision = checking.step(seen(car=LOCATED, desired=ORDERS_CHECK, check=PASSED))
+    assert decision.state is State.FOLLOWING_WAYPOINT and decision.goal.frame_id == "car"
+    assert checking.step(seen(car=LOCATED, desired=ORDERS_CHECK, check=PASSED)).state is State.FOLLOWING_WAYPOINT
+
+
+def test_answer_to_an_earlier_check_counts_for_nothing(checking):
+    for answer in (PASSED, NOT_PASSED):
+        earlier = seen(car=LOOKING, desired=ORDERS_CHECK, check=replace(answer, id=3))
+        assert checking.step(earlier).state is State.CHECKING_CAR
+
+
+def test_failed_check_is_a_fault_that_only_another_check_or_map_ends(checking):
+    ill = seen(car=LOCATED, desired=ORDERS_CHECK, check=NOT_PASSED)
+    decision = checking.step(ill)
+    assert (decision.state, decision.lock_reason) == (State.FAULT, "The Car stands 3.0 cm off.")
+    for change in ({"stop": True}, {"waypoint": replace(WAYPOINT, id=8)}, {"session_id": 10}, {"check_car_id": 0}):
+        assert checking.step(replace(ill, desired=replace(ORDERS_CHECK, **change))).state is State.FAULT
+    again = replace(ORDERS_CHECK, check_car_id=5)
+    assert checking.step(replace(ill, desired=again)).state is State.CHECKING_CAR
+    passed = replace(ill, desired=again, check=replace(PASSED, id=5))
+    assert checking.step(passed).state is State.FOLLOWING_WAYPOINT
+
+
+def test_failed_check_can_be_followed_by_mapping(checking):
+    checking.step(seen(car=LOCATED, desired=ORDERS_CHECK, check=NOT_PASSED))
+    order = replace(ORDERS_CHECK, map_car_id=3)
+    assert checking.step(seen(car=LOCATED, desired=order, check=NOT_PASSED)).state is State.MAPPING_CAR
+    located = replace(LOCATED, map_car_id=3)
+    assert checking.step(seen(car=located, desired=order, check=NOT_PASSED)).state is State.FOLLOWING_WAYPOINT
+
+
+def test_check_that_is_no_longer_wanted_ends(checking):
+    silent = replace(WANTS, link_alive=False, stop=True)
+    assert checking.step(seen(car=LOOKING, desired=silent)).state is State.CHECKING_CAR
+    assert checking.step(seen(car=LOOKING)).state is State.FOLLOWING_WAYPOINT
+
+
+def test_check_ordered_while_mapping_waits_for_the_car(mapping):
+    assert mapping.step(seen(car=COLLECTING, desired=ORDERS_CHECK)).state is State.MAPPING_CAR
+    assert mapping.step(seen(car=LOCATED, desired=ORDERS_CHECK)).state is State.CHECKING_CAR
+
+
+def test_waypoint_that_a_check_led_away_from_is_to_be_reached_again(following):
+    decision = following.step(seen(car=LOCATED))
+    reached = seen(car=LOCATED, motion=reported(decision, Result.REACHED))
+    assert following.step(reached).waypoint_result is Result.REACHED
+    assert following.step(seen(car=LOOKING, desired=ORDERS_CHECK)).waypoint_result is Result.PENDING
+
+
+def test_localization_that_comes_back_in_its_map_goes_on(following):
+    lost = seen(car=LOCATED, complaint={Part.LOCALIZATION: "Localization is lost."})
+    assert following.step(lost).state is State.FAULT
+    assert following.step(seen(car=LOCATED)).state is State.FOLLOWING_WAYPOINT
+
+
+@pytest.mark.parametrize("desired", [WANTS, ORDERS_CHECK])
+def test_localization_in_another_map_asks_to_map_again(following, desired):
+    lost = seen(car=LOCATED, desired=desired, complaint={Part.LOCALIZATION: "Localization is lost."})
+    assert following.step(lost).state is State.FAULT
+    decision = following.step(seen(car=LOCATED, desired=desired, map_revision=1))
+    assert decision.state is State.FAULT and "map the Car again" in decision.message
+    order = replace(desired, map_car_id=3)
+    assert following.step(seen(car=LOCATED, desired=order, map_revision=1)).state is State.MAPPING_CAR
+    located = seen(car=replace(LOCATED, map_car_id=3), desired=replace(order, check_car_id=0), map_revision=2)
+    assert following.step(located).state is State.FOLLOWING_WAYPOINT
+    assert following.step(located).state is State.FOLLOWING_WAYPOINT
+
+
+def test_car_that_was_moved_stops_the_robot_with_the_locators_sentence(following):
+    decision = following.step(seen(car=Car(CarState.FAILED, message="The Car was moved, by 15 cm.")))
+    assert (decision.state, decision.lock_reason) == (State.FAULT, "The Car was moved, by 15 cm.")

@@ -1,0 +1,37 @@
+"""A self-check on demand: does the Car still stand where it was measured?"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import argparse
+import contextlib
+
+from mtr_operator.domain.absent_car import AbsentCarLink
+from mtr_operator.domain.errors import RobotFailed
+from mtr_operator.domain.ports import CheckState
+from mtr_operator.domain.preparation import check_car, prepare_to_check
+from mtr_operator.domain.robot import Robot
+from mtr_operator.domain.session import Session
+
+from .display import Display
+from .interrupt import Interrupt
+from .links import robot_link
+
+_SPEED_MPS = 0.5
+
+
+def check(options: argparse.Namespace) -> None:
+    """Have the robot look at the Car and print what it says; RobotFailed when the Car stands elsewhere."""
+    with contextlib.closing(Display(None)) as display, contextlib.closing(robot_link(options)) as link, \
+            Interrupt() as interrupt:
+        link.connect()
+        session = Session(link, AbsentCarLink(), display, interrupt.is_requested)
+        robot = Robot(session)
+        try:
+            prepare_to_check(session, robot)
+            robot.set_maximum_speed(_SPEED_MPS)
+            found = check_car(robot)
+        finally:
+            session.halt()
+    if found.state is CheckState.FAILED:
+        raise RobotFailed(found.message)
+    print(found.message)
