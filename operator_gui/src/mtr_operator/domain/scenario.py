@@ -63,6 +63,7 @@ class Scenario(ABC, Generic[Parameters, Line]):
         parameters_type: its ParameterSet. It has to have key_height_m and maximum_speed_mps.
         columns: of results.csv.
         measurements: distances of a line, in the order of being measured.
+        lines_stay: the lines do not depend on the Car's size, so that they may be shown while it is still refined.
     """
 
     name: str
@@ -71,6 +72,7 @@ class Scenario(ABC, Generic[Parameters, Line]):
     parameters_type: type[Parameters]
     columns: tuple[Column, ...]
     measurements: tuple[Measurement, ...]
+    lines_stay: bool = False
 
     @abstractmethod
     def lines(self, parameters: Parameters, car: CarDimensions) -> list[Line]:

@@ -27,7 +27,7 @@ class Desk:
         trail: places that the robot has passed during the test.
         test: the test at hand, None before one is started or opened.
         phase: what is done with it.
-        results: of the test so far. done, total: lines; total is 0 before it is known.
+        results: of the test so far. newest: the one measured last, None before. done, total: lines; total is 0 before it is known.
         action: what the robot does now. trouble: why the test was interrupted; empty when the Operator did it.
         outcome: how measuring ended last, None while it has not.
     """
@@ -42,6 +42,7 @@ class Desk:
         self.test: Test | None = None
         self.phase = Phase.IDLE
         self.results: tuple[Mapping[str, Any], ...] = ()
+        self.newest: Mapping[str, Any] | None = None
         self.done = self.total = 0
         self.action = self.trouble = ""
         self.outcome: Outcome | None = None
@@ -84,7 +85,7 @@ class Desk:
         self.results = tuple(dict(result) for result in test.progress.results)
         self.done, self.total = len(self.results), test.line_count
         self.action = self.trouble = ""
-        self.outcome = None
+        self.outcome = self.newest = None
         self.trail.clear()
 
     def begin(self) -> None:
@@ -112,7 +113,8 @@ class Desk:
         elif isinstance(event, Acting):
             self.action = event.text
         elif isinstance(event, Measured):
-            self.results, self.done, self.total = event.results, event.done, event.total
+            self.results, self.newest = event.results, event.newest
+            self.done, self.total = event.done, event.total
             self._time_left.advance(event.done, self._clock())
         elif isinstance(event, Ended):
             self.results, self.outcome, self.trouble = event.results, event.outcome, event.text

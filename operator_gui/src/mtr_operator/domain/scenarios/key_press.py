@@ -41,6 +41,7 @@ class KeyPress(Scenario[KeyPressParameters, Radial]):
     name = "key_press"
     title = "Key press"
     line_word = "radial"
+    lines_stay = True
     parameters_type = KeyPressParameters
     measurements = (Measurement("press", "status", "distance_m", "uncertainty_m"),)
     columns = (
