@@ -26,6 +26,8 @@ class CanForm(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.interface = QComboBox()
+        self.interface.setSizeAdjustPolicy(QComboBox.AdjustToMinimumContentsLengthWithIcon)
+        self.interface.setMinimumContentsLength(12)
         self.interface.addItem(self.tr("None yet"), None)
         for name in _INTERFACES:
             self.interface.addItem(name, name)

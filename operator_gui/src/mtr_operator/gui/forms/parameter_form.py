@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Mapping
 
-from PyQt5.QtCore import pyqtSignal
+from PyQt5.QtCore import Qt, pyqtSignal
 from PyQt5.QtWidgets import QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.errors import InvalidParameter
@@ -32,7 +32,7 @@ class ParameterForm(QWidget):
         self._type = parameters_type
         self.fields = {name: ParameterField(name, declared) for name, declared in parameters_type.declarations().items()}
         self._reset = QPushButton(self.tr("Usual values"))
-        self.more = QPushButton(self.tr("More parameters"))
+        self.more = QPushButton()
         self.more.setCheckable(True)
         self.more.setProperty("role", "flat")
         self._reset.setProperty("role", "flat")
@@ -40,8 +40,8 @@ class ParameterForm(QWidget):
         self.fault.setWordWrap(True)
         self.fault.setProperty("role", "error")
         self._rest = QWidget()
-        self._rest.hide()
-        self.more.toggled.connect(self._rest.setVisible)
+        self.more.toggled.connect(self._show_rest)
+        self._show_rest(False)
         self._reset.clicked.connect(lambda: self.show_mapping({}))
         self._lay_out()
         for field in self.fields.values():
@@ -58,7 +58,7 @@ class ParameterForm(QWidget):
             grid.setHorizontalSpacing(L)
             grid.setVerticalSpacing(M)
             for index, name in enumerate(part):
-                grid.addWidget(self.fields[name], index // _COLUMNS, index % _COLUMNS)
+                grid.addWidget(self.fields[name], index // _COLUMNS, index % _COLUMNS, Qt.AlignTop)
             for column in range(_COLUMNS):
                 grid.setColumnStretch(column, 1)
         self.more.setVisible(split < len(names))
@@ -66,8 +66,13 @@ class ParameterForm(QWidget):
         layout.setContentsMargins(0, 0, M, 0)
         layout.setSpacing(M)
         for widget in (main, self.fault, self.more, self._rest, self._reset):
-            layout.addWidget(widget)
+            layout.addWidget(widget, 0, Qt.AlignLeft if isinstance(widget, QPushButton) else Qt.Alignment())
         layout.addStretch(1)
+
+    def _show_rest(self, is_shown: bool) -> None:
+        self._rest.setVisible(is_shown)
+        sign = "\N{BLACK DOWN-POINTING SMALL TRIANGLE}" if is_shown else "\N{BLACK RIGHT-POINTING SMALL TRIANGLE}"
+        self.more.setText(f"{sign} {self.tr('Fewer parameters') if is_shown else self.tr('More parameters')}")
 
     @property
     def parameters(self) -> ParameterSet | None:

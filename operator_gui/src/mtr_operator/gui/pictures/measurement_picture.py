@@ -11,9 +11,8 @@ from mtr_operator.station.estimate import USUAL_CAR, plan_of
 
 from .car_layer import CarLayer
 from .glide import Glide
-from .legend_layer import LegendLayer
 from .lines_layer import LinesLayer
-from .picture_view import PictureView
+from .picture_panel import PicturePanel
 from .points_layer import PointsLayer
 from .robot_layer import RobotLayer, TrailLayer
 from .surroundings import GridLayer, ScaleLayer
@@ -22,9 +21,9 @@ from .surroundings import GridLayer, ScaleLayer
 class MeasurementPicture:
     """Paints what stands still only when it has changed, and the robot thirty times a second."""
 
-    def __init__(self, desk: Desk, view: PictureView):
+    def __init__(self, desk: Desk, panel: PicturePanel):
         self._desk = desk
-        self._view = view
+        self._panel = panel
         self._glide = Glide()
         self._shown: tuple[Any, ...] = ()
         self.robot = RobotLayer()
@@ -40,13 +39,13 @@ class MeasurementPicture:
             self._shown = shown
             self._arrange()
         self._show_robot(now_s)
-        self._view.update()
+        self._panel.view.update()
 
     def glide(self, now_s: float) -> None:
         """The next frame is due."""
         if self._glide.is_moving(now_s):
             self.robot.pose = self._glide.at(now_s)
-            self._view.update()
+            self._panel.view.update()
 
     def _show_robot(self, now_s: float) -> None:
         news = self._desk.robot
@@ -69,8 +68,9 @@ class MeasurementPicture:
         self.points.sets = picture.point_sets
         self.lines.is_visible = test.scenario.lines_stay
         self.lines.stretches = self._stretches(car)
-        self._view.show_layers([GridLayer(), self.lines, CarLayer(car, mapped is not None), self.points, self.trail,
-                                self.robot, ScaleLayer(), LegendLayer(picture.point_sets)])
+        self._panel.legend.show_sets(picture.point_sets)
+        self._panel.view.show_layers([GridLayer(), self.lines, CarLayer(car, mapped is not None), self.points,
+                                      self.trail, self.robot, ScaleLayer()])
 
     def _stretches(self, car: Any) -> tuple:
         test = self._desk.test

@@ -8,14 +8,16 @@ from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidg
 from ..i18n import number
 from ..theme.appearance import Appearance
 from ..theme.scale import S
+from .legend import LegendStrip
 from .picture_view import ZOOM_STEP, PictureView
 
 
 class PicturePanel(QWidget):
-    """Attributes: view: the picture. ruler: button that turns dragging into measuring."""
+    """Attributes: legend: what its markers mean. view: the picture. ruler: button that turns dragging into measuring."""
 
     def __init__(self, appearance: Appearance, parent: QWidget | None = None):
         super().__init__(parent)
+        self.legend = LegendStrip(appearance)
         self.view = PictureView(appearance)
         self.ruler = self._tool(self.tr("Ruler"), self.tr("Ruler: drag from one place to another (R)"))
         self.ruler.setCheckable(True)
@@ -38,6 +40,7 @@ class PicturePanel(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(S)
+        layout.addWidget(self.legend)
         layout.addWidget(self.view, 1)
         layout.addLayout(row)
 

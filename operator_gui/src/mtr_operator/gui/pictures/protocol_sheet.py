@@ -13,7 +13,7 @@ from ..names import domain_word, parameter_title, scenario_title
 from ..sentences import translated
 from ..theme.palette import LIGHT
 from .layer import Canvas, paint_all
-from .legend_layer import paint_legend
+from .legend import ROW_PX, legend_texts, paint_entry
 from .protocol_picture import Protocol, ProtocolPicture
 from .viewport import Viewport
 
@@ -62,7 +62,11 @@ class ProtocolSheet:
             painter.drawText(QRectF(left, top, _PANEL, pixels + 8), Qt.AlignLeft | Qt.AlignVCenter, text)
             top += pixels + 10
         painter.setFont(canvas.font(14.0))
-        top += paint_legend(canvas, protocol.picture.point_sets, QPointF(left, top)) + 10
+        sets = protocol.picture.point_sets
+        for index in range(len(legend_texts(sets))):
+            paint_entry(canvas, sets, index, QPointF(left, top))
+            top += ROW_PX
+        top += 10
         for heading, rows in ((translate("Protocol", "Result"), self._result_rows()),
                               (translate("Protocol", "Parameters"), self._parameter_rows()),
                               (translate("Protocol", "Test"), _in_words(session_rows(progress)))):

@@ -64,9 +64,9 @@ class RobotLayer(Layer):
         painter.setBrush(QColor(palette.robot))
         painter.drawPolygon(canvas.polygon(_outline(pose)))
         painter.setBrush(QColor(palette.ink))
-        tip, back = _LENGTH_M * 0.36, _LENGTH_M * 0.02
-        painter.drawPolygon(canvas.polygon([pose.apply((tip, 0.0)), pose.apply((back, 0.11)),
-                                            pose.apply((back, -0.11))]))
+        tip, back = 0.42 * _LENGTH_M, -0.1 * _LENGTH_M
+        painter.drawPolygon(canvas.polygon([pose.apply((tip, 0.0)), pose.apply((back, 0.14)),
+                                            pose.apply((back, -0.14))]))
         key: QPointF = canvas.at(pose.apply(self.key))
         painter.setPen(canvas.pen(palette.surface, 1.5))
         painter.setBrush(QColor(palette.key))

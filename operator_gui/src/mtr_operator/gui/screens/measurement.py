@@ -38,7 +38,7 @@ class MeasurementScreen(QWidget):
         self.setObjectName("page")
         self._desk = desk
         self.panel = PicturePanel(appearance)
-        self.picture = MeasurementPicture(desk, self.panel.view)
+        self.picture = MeasurementPicture(desk, self.panel)
         self.facts = MeasurementFacts()
         self.trouble = QLabel()
         self.trouble.setWordWrap(True)

@@ -16,7 +16,6 @@ from mtr_operator.report.protocol_rows import date_text
 from ..dialogs import ask_folder
 from ..flow import Flow
 from ..names import scenario_title
-from ..pictures.legend_layer import LegendLayer
 from ..pictures.picture_panel import PicturePanel
 from ..pictures.protocol_picture import Protocol, ProtocolPicture
 from ..report_writer import CSV, PDF, PNG, SVG, ReportWriter
@@ -25,7 +24,7 @@ from ..theme.appearance import Appearance
 from ..theme.scale import L, M, S
 from .results_model import ResultsModel
 
-_SIDE_WIDTH = 520
+_SIDE_WIDTH = 560
 _CLICK_PX = 18.0
 
 
@@ -59,7 +58,9 @@ class ProtocolScreen(QWidget):
         self.table.setAlternatingRowColors(True)
         self.table.setTabKeyNavigation(False)
         self.table.verticalHeader().hide()
-        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.Stretch)
+        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeToContents)
+        self.table.horizontalHeader().setStretchLastSection(True)
+        self.table.setHorizontalScrollBarPolicy(Qt.ScrollBarAlwaysOff)
         self.save = self._button(self.tr("Save"), "primary", lambda: self._write((CSV, PNG)))
         self.save.setToolTip(self.tr("Save as CSV and PNG"))
         self.save_pdf = self._button(self.tr("Save PDF"), "", lambda: self._write((PDF,)))
@@ -112,7 +113,8 @@ class ProtocolScreen(QWidget):
         self.date.setText(date_text(str(progress.session.get("started", ""))))
         self.table.setModel(ResultsModel(self._protocol, self))
         self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
-        self.panel.view.show_layers([*self._picture.layers, LegendLayer(self._protocol.picture.point_sets)])
+        self.panel.legend.show_sets(self._protocol.picture.point_sets)
+        self.panel.view.show_layers(self._picture.layers)
         self._tell(self._summary())
         self.show_folder.setEnabled(False)
         self.save.setFocus()

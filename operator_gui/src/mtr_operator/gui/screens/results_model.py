@@ -41,7 +41,7 @@ class ResultsModel(QAbstractTableModel):
             return ("#", domain_word(self._scenario.line_word).capitalize())[section]
         measurement = self._measurement(section)
         word = domain_word(measurement.word).capitalize()
-        return f"{word} [cm]" if self._is_distance(section) else "\N{PLUS-MINUS SIGN} [cm]"
+        return f"{word} [cm]" if self._is_distance(section) else "\N{PLUS-MINUS SIGN}"
 
     def data(self, index: QModelIndex, role: int = Qt.DisplayRole) -> Any:
         """See QAbstractItemModel."""

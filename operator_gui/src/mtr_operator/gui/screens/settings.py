@@ -39,6 +39,8 @@ class SettingsScreen(QWidget):
         self._desk = desk
         self._plan: Plan | None = None
         self._shown: tuple = ()
+        # Without a valid plan the view stays as it was.
+        self._lines = LinesLayer()
         self.form = ParameterForm(scenario.parameters_type)
         self.picture = PicturePanel(appearance)
         self.told = QLabel()
@@ -95,15 +97,15 @@ class SettingsScreen(QWidget):
         parameters, mapped = self.form.parameters, self._desk.mapped_car
         car = mapped or USUAL_CAR
         self._plan = None
+        self._lines.is_visible = False
         if parameters is not None:
             try:
                 self._plan = plan_of(self._scenario, parameters, car, mapped is not None)
                 self.form.show_fault("")
+                self._lines.stretches, self._lines.is_visible = self._plan.stretches, True
             except InvalidParameter as error:
                 self.form.show_fault(translated(str(error)))
-        stretches = () if self._plan is None else self._plan.stretches
-        self.picture.view.show_layers([GridLayer(), LinesLayer(stretches), CarLayer(car, mapped is not None),
-                                       ScaleLayer()])
+        self.picture.view.show_layers([GridLayer(), self._lines, CarLayer(car, mapped is not None), ScaleLayer()])
         self.told.setText(self._forecast(mapped is not None))
         self._judge()
 

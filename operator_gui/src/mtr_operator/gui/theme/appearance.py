@@ -30,9 +30,10 @@ class Appearance(QObject):
     def use(self, theme: str) -> None:
         """Apply "light", "dark", or what the system prefers."""
         app = QApplication.instance()
-        self.palette = THEMES[_system_theme(app) if theme == "system" else theme]
+        name = _system_theme(app) if theme == "system" else theme
+        self.palette = THEMES[name]
         app.setPalette(_qt_palette(self.palette))
-        app.setStyleSheet(style_sheet(self.palette))
+        app.setStyleSheet(style_sheet(name, self.palette))
         self.changed.emit()
 
 

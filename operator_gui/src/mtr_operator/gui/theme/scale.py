@@ -3,6 +3,7 @@
 XS, S, M, L, XL = 4, 8, 16, 24, 40
 
 SMALL_PT = 11.0
+TABLE_PT = 12.0
 BODY_PT = 13.0
 LARGE_PT = 16.0
 HEADING_PT = 20.0

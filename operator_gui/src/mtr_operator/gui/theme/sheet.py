@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import pathlib
 import string
 
 from .palette import Palette
-from .scale import BODY_PT, CONTROL_HEIGHT, HEADING_PT, LARGE_PT, RADIUS, SMALL_PT, TITLE_PT
+from .scale import BODY_PT, CONTROL_HEIGHT, HEADING_PT, LARGE_PT, RADIUS, SMALL_PT, TABLE_PT, TITLE_PT
+
+_IMAGES = (pathlib.Path(__file__).parent / "images").as_posix()
 
 _SHEET = string.Template("""
 * { font-size: ${body_pt}pt; color: $ink; }
@@ -37,10 +40,11 @@ QPushButton[role="danger"] { background: $danger; color: $on_signal; border-colo
 QPushButton[role="danger"]:hover, QPushButton[role="danger"]:focus { border-color: $ink; }
 QPushButton[role="danger"]:disabled { color: $ink_soft; background: $window; border: 1px dashed $border; }
 QPushButton[role="tile"] { font-size: ${large_pt}pt; padding: 18px 24px; text-align: left; }
-QPushButton[role="flat"] { background: transparent; border: 1px solid transparent; padding: 4px 8px; color: $accent;
+QPushButton[role="flat"] { background: transparent; border: 2px solid transparent; padding: 3px 4px; color: $accent;
     text-align: left; min-height: 28px; }
-QPushButton[role="flat"]:hover { text-decoration: underline; }
-QPushButton[role="flat"]:focus { border: 2px solid $accent; padding: 3px 7px; }
+QPushButton[role="flat"]:hover { text-decoration: underline; border: 2px solid transparent; padding: 3px 4px; }
+QPushButton[role="flat"]:checked { background: transparent; color: $accent; }
+QPushButton[role="flat"]:focus { border: 2px solid $accent; padding: 3px 4px; }
 QPushButton[word] { min-height: 32px; padding: 4px 16px; border-radius: 20px; color: $on_signal; }
 QPushButton[word="ready"] { background: $ok; border-color: $ok; }
 QPushButton[word="ready with warnings"] { background: $warning; border-color: $warning; }
@@ -54,20 +58,21 @@ QLineEdit:focus, QComboBox:focus { border: 2px solid $accent; padding: 5px 9px; 
 QLineEdit[faulty="true"], QComboBox[faulty="true"] { border: 2px solid $danger; padding: 5px 9px; }
 QLineEdit:read-only { background: $window; border: 1px solid $line; }
 QLineEdit:disabled, QComboBox:disabled { color: $ink_soft; background: $window; }
-QComboBox::drop-down { border: none; width: 28px; }
+QComboBox::drop-down { border: none; width: 34px; }
+QComboBox::down-arrow { image: url("$images/arrow_$name.svg"); width: 16px; height: 16px; }
 QComboBox QAbstractItemView { background: $surface; selection-background-color: $accent;
     selection-color: $on_accent; border: 1px solid $border; }
 QCheckBox { spacing: 10px; background: transparent; min-height: 32px; }
 QCheckBox::indicator { width: 22px; height: 22px; border: 2px solid $border; border-radius: 4px; background: $surface; }
-QCheckBox::indicator:checked { background: $accent; border-color: $accent; }
+QCheckBox::indicator:checked { background: $accent; border-color: $accent; image: url("$images/tick_$name.svg"); }
 QCheckBox::indicator:focus { border-color: $ink; }
 QProgressBar { background: $raised; border: 1px solid $border; border-radius: 6px; min-height: 22px; max-height: 22px;
     text-align: center; color: transparent; }
 QProgressBar::chunk { background: $accent; border-radius: 5px; }
-QTableView { background: $surface; alternate-background-color: $window; gridline-color: $line;
+QTableView { font-size: ${table_pt}pt; background: $surface; alternate-background-color: $window; gridline-color: $line;
     border: 1px solid $line; selection-background-color: $accent; selection-color: $on_accent; }
 QTableView:focus { border: 2px solid $accent; }
-QHeaderView::section { background: $raised; color: $ink; border: none; border-right: 1px solid $line;
+QHeaderView::section { font-size: ${table_pt}pt; background: $raised; color: $ink; border: none; border-right: 1px solid $line;
     border-bottom: 1px solid $border; padding: 6px 8px; font-weight: 600; }
 QTableCornerButton::section { background: $raised; border: none; }
 QToolTip { background: $ink; color: $surface; border: 1px solid $border; padding: 6px; }
@@ -84,8 +89,9 @@ QSplitter::handle { background: $line; }
 """)
 
 
-def style_sheet(palette: Palette) -> str:
-    """Style sheet of the application in these colours."""
+def style_sheet(name: str, palette: Palette) -> str:
+    """Style sheet of the application in the colours of a theme."""
     return _SHEET.substitute(
-        vars(palette), body_pt=BODY_PT, small_pt=SMALL_PT, large_pt=LARGE_PT, heading_pt=HEADING_PT, title_pt=TITLE_PT,
+        vars(palette), name=name, images=_IMAGES, body_pt=BODY_PT, small_pt=SMALL_PT, large_pt=LARGE_PT, heading_pt=HEADING_PT, title_pt=TITLE_PT,
+        table_pt=TABLE_PT,
         radius=RADIUS, button_height=CONTROL_HEIGHT - 20, field_height=CONTROL_HEIGHT - 18)

@@ -40,7 +40,7 @@ class ConnectionWindow(QWidget):
         self.robot.show_choice(settings.connection.robot, settings.hosts)
         self.can.show_choice(settings.connection.can)
         self._say(flow.store.problem, "")
-        self.setMinimumWidth(860)
+        self.setMinimumWidth(960)
 
     def _lay_out(self) -> None:
         title = QLabel(self.tr("Connect"))

@@ -97,6 +97,7 @@ class MainWindow(QMainWindow):
         self.header.steps.select(step.value)
         if step is Step.WELCOME:
             self.welcome.offer_unfinished(self._flow.unfinished_test())
+            self.welcome.new.setFocus()
         elif step is Step.PROTOCOL:
             self.protocol.show_test()
         self._screens.setCurrentWidget({Step.WELCOME: self.welcome, Step.TYPE: self.types,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import pathlib
 
+from PyQt5.QtCore import Qt
 from PyQt5.QtWidgets import QComboBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.station.readiness import Phase
@@ -110,7 +111,7 @@ class SettingsWindow(QDialog):
         row.addWidget(close)
         cards = QHBoxLayout()
         cards.setSpacing(M)
-        cards.addWidget(left_card, 1)
+        cards.addWidget(left_card, 1, Qt.AlignTop)
         cards.addWidget(right_card, 1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
