@@ -13,6 +13,7 @@ from mtr_operator.domain.trouble import Cancelled
 from .arguments import argument_parser
 from .entry import EXIT_INTERRUPTED
 from .measuring import Measuring
+from .window import open_window
 
 EXIT_ERROR = 2
 
@@ -24,8 +25,10 @@ def run_command(arguments: list[str] | None = None) -> int:
     try:
         if options.command == "params":
             list_parameters(options)
-        else:
+        elif options.command == "run":
             Measuring(options).run()
+        else:
+            return open_window(options)
     except OperatorError as error:
         print(error, file=sys.stderr)
         return EXIT_ERROR

@@ -2,15 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import dataclasses
 import pathlib
 import signal
-import sys
+from typing import Any, Mapping
 
 from PyQt5.QtCore import Qt
 from PyQt5.QtGui import QGuiApplication
 from PyQt5.QtWidgets import QApplication, QWidget
 
-from mtr_operator.station.connection import LinkOpener
+from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
 from mtr_operator.station.desk import Desk
 from mtr_operator.station.settings_file import SettingsStore, default_path
 
@@ -35,15 +36,15 @@ class Application:
         self.language = Language()
         self.window: QWidget | None = None
 
-    def open(self) -> None:
-        """Load the settings and show the connection window."""
+    def open(self, robot: Mapping[str, Any] | None = None, can: Mapping[str, Any] | None = None) -> None:
+        """Load the settings and show the connection window; robot, can: what to fill in instead of the last choice."""
         self._store.load()
         settings = self._store.settings
         self.language.use(settings.language)
         self.appearance.use(settings.theme)
         self.bridge.start()
         self.flow.connected.connect(self._show_main)
-        self._show(ConnectionWindow(self.flow))
+        self._show(ConnectionWindow(self.flow, _filled_in(settings.connection, robot or {}, can or {})))
 
     def close(self) -> None:
         """Stop the robot, and disconnect."""
@@ -62,8 +63,14 @@ class Application:
             former.deleteLater()
 
 
-def main(settings_path: pathlib.Path | None = None) -> int:
-    """Run the window; the exit code."""
+def _filled_in(connection: Connection, robot: Mapping[str, Any], can: Mapping[str, Any]) -> Connection:
+    former = connection.can or CanChoice("slcan")
+    return Connection(dataclasses.replace(connection.robot, **robot),
+                      dataclasses.replace(former, **can) if can else connection.can)
+
+
+def run(robot: Mapping[str, Any], can: Mapping[str, Any]) -> int:
+    """Run the window until it is closed; the exit code."""
     QGuiApplication.setAttribute(Qt.AA_EnableHighDpiScaling)
     QGuiApplication.setAttribute(Qt.AA_UseHighDpiPixmaps)
     app = QApplication([NAME])
@@ -71,12 +78,8 @@ def main(settings_path: pathlib.Path | None = None) -> int:
     app.setStyle("Fusion")
     # Python sees Ctrl-C only when Qt lets it run; the heartbeat does.
     signal.signal(signal.SIGINT, lambda *_: app.quit())
-    application = Application(settings_path)
-    application.open()
+    application = Application()
+    application.open(robot, can)
     status = app.exec_()
     application.close()
     return status
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -20,7 +20,7 @@ _COLUMNS = 2
 
 
 class ParameterForm(QWidget):
-    """Attributes: fields: by parameter. more: button that shows the rest. fault: what does not fit together.
+    """Attributes: fields: by parameter. more, usual: buttons. fault: what does not fit together.
 
     Signals: changed: something else was typed.
     """
@@ -30,19 +30,20 @@ class ParameterForm(QWidget):
     def __init__(self, parameters_type: type[ParameterSet], parent: QWidget | None = None):
         super().__init__(parent)
         self._type = parameters_type
+        self._is_filling = False
         self.fields = {name: ParameterField(name, declared) for name, declared in parameters_type.declarations().items()}
-        self._reset = QPushButton(self.tr("Usual values"))
+        self.usual = QPushButton(self.tr("Usual values"))
         self.more = QPushButton()
         self.more.setCheckable(True)
         self.more.setProperty("role", "flat")
-        self._reset.setProperty("role", "flat")
+        self.usual.setProperty("role", "flat")
         self.fault = QLabel()
         self.fault.setWordWrap(True)
         self.fault.setProperty("role", "error")
         self._rest = QWidget()
         self.more.toggled.connect(self._show_rest)
         self._show_rest(False)
-        self._reset.clicked.connect(lambda: self.show_mapping({}))
+        self.usual.clicked.connect(lambda: self.show_mapping({}))
         self._lay_out()
         for field in self.fields.values():
             field.changed.connect(self._check)
@@ -65,7 +66,7 @@ class ParameterForm(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, M, 0)
         layout.setSpacing(M)
-        for widget in (main, self.fault, self.more, self._rest, self._reset):
+        for widget in (main, self.fault, self.more, self._rest, self.usual):
             layout.addWidget(widget, 0, Qt.AlignLeft if isinstance(widget, QPushButton) else Qt.Alignment())
         layout.addStretch(1)
 
@@ -89,8 +90,10 @@ class ParameterForm(QWidget):
             values = self._type.from_mapping(mapping)
         except InvalidParameter:
             values = self._type()
+        self._is_filling = True
         for name, field in self.fields.items():
             field.show_value(getattr(values, name))
+        self._is_filling = False
         self._check()
 
     def show_fault(self, sentence: str) -> None:
@@ -102,6 +105,8 @@ class ParameterForm(QWidget):
         return [field for field in self.fields.values() if field.reading.fault is not None]
 
     def _check(self) -> None:
+        if self._is_filling:
+            return
         for field in self.fields.values():
             field.check()
         sentence = ""

@@ -42,6 +42,7 @@ class WarningSymbol(QAbstractButton):
         self.pulse.setEndValue(PULSE_SCALE)
         self.pulse.setEasingCurve(QEasingCurve.Linear)
         self.pulse.finished.connect(lambda: self._set_scale(1.0))
+        self.setAccessibleName(self.tr("Notifications of the robot"))
         self.setFixedSize(_SIZE, _SIZE)
         self.setFocusPolicy(Qt.StrongFocus)
         self.clicked.connect(self._open)
@@ -59,7 +60,6 @@ class WarningSymbol(QAbstractButton):
         self.setVisible(bool(now))
         texts = [translated(notification.text) for notification in now]
         self.setToolTip("\n".join(texts))
-        self.setAccessibleName(self.tr("Notifications of the robot"))
         self.setAccessibleDescription(" ".join(texts))
         if is_new:
             self.pulse.start()

@@ -13,7 +13,10 @@ from .picture_view import ZOOM_STEP, PictureView
 
 
 class PicturePanel(QWidget):
-    """Attributes: legend: what its markers mean. view: the picture. ruler: button that turns dragging into measuring."""
+    """Attributes: legend: what its markers mean. view: the picture. ruler: button that turns dragging into measuring.
+
+    length: what was measured.
+    """
 
     def __init__(self, appearance: Appearance, parent: QWidget | None = None):
         super().__init__(parent)
@@ -23,8 +26,8 @@ class PicturePanel(QWidget):
         self.ruler.setCheckable(True)
         self.ruler.setShortcut(Qt.Key_R)
         self.ruler.toggled.connect(self.view.measure)
-        self._length = QLabel()
-        self._length.setProperty("role", "soft")
+        self.length = QLabel()
+        self.length.setProperty("role", "soft")
         self.view.measured.connect(self._tell_length)
         row = QHBoxLayout()
         row.setSpacing(S)
@@ -35,7 +38,7 @@ class PicturePanel(QWidget):
             button.clicked.connect(lambda _checked, act=act: act())
             row.addWidget(button)
         row.addWidget(self.ruler)
-        row.addWidget(self._length)
+        row.addWidget(self.length)
         row.addStretch(1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -53,4 +56,4 @@ class PicturePanel(QWidget):
 
     def _tell_length(self) -> None:
         length_m = self.view.ruler.length_m
-        self._length.setText("" if length_m is None else f"{number(length_m, 2)} m")
+        self.length.setText("" if length_m is None else f"{number(length_m, 2)} m")

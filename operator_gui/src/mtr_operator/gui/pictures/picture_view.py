@@ -25,7 +25,7 @@ class PictureView(QWidget):
     """Layers that do not move are painted once into a pixmap.
 
     Attributes:
-        viewport: what is seen. ruler: the ruler's layer. is_measuring: a drag measures and does not pan.
+        layers: what is painted, the first one lowest. viewport: what is seen. ruler: the ruler's layer. is_measuring: a drag measures and does not pan.
         still_paints: how often the pixmap was painted.
     Signals:
         clicked(x, y): a place of the Car coordinate system. measured: the ruler is another one.
@@ -37,7 +37,7 @@ class PictureView(QWidget):
     def __init__(self, appearance: Appearance, parent: QWidget | None = None):
         super().__init__(parent)
         self._appearance = appearance
-        self._layers: tuple[Layer, ...] = ()
+        self.layers: tuple[Layer, ...] = ()
         self._still: QPixmap | None = None
         self._is_fitted = True
         self._pressed: QPoint | None = None
@@ -61,7 +61,7 @@ class PictureView(QWidget):
 
     def show_layers(self, layers: Sequence[Layer]) -> None:
         """Show these, the first one lowest."""
-        self._layers = tuple(layers)
+        self.layers = tuple(layers)
         self.refresh()
 
     def refresh(self) -> None:
@@ -100,7 +100,7 @@ class PictureView(QWidget):
         painter = QPainter(self)
         painter.drawPixmap(0, 0, self._still)
         painter.setRenderHint(QPainter.Antialiasing)
-        moving = [layer for layer in (*self._layers, self.ruler) if layer.is_moving]
+        moving = [layer for layer in (*self.layers, self.ruler) if layer.is_moving]
         paint_all(moving, Canvas(painter, self.viewport, self._appearance.palette))
         focus = self._appearance.palette.accent if self.hasFocus() else self._appearance.palette.line
         painter.setBrush(Qt.NoBrush)
@@ -167,7 +167,7 @@ class PictureView(QWidget):
         self.update()
 
     def _fit(self) -> None:
-        points = [point for layer in self._layers if not layer.is_moving for point in layer.points()]
+        points = [point for layer in self.layers if not layer.is_moving for point in layer.points()]
         self.viewport = self.viewport.fitted(points, _MARGIN_PX)
 
     def _place(self, pixel: QPoint) -> Point:
@@ -182,7 +182,7 @@ class PictureView(QWidget):
         painter = QPainter(pixmap)
         painter.setRenderHint(QPainter.Antialiasing)
         painter.setFont(self.font())
-        still = [layer for layer in self._layers if not layer.is_moving]
+        still = [layer for layer in self.layers if not layer.is_moving]
         paint_all(still, Canvas(painter, self.viewport, self._appearance.palette))
         painter.end()
         return pixmap

@@ -29,7 +29,7 @@ _CLICK_PX = 18.0
 
 
 class ProtocolScreen(QWidget):
-    """Attributes: panel: the picture. table: the results. save, save_pdf, save_svg: buttons. told: what was saved.
+    """Attributes: protocol: what is shown. panel: the picture. table: the results. save, save_pdf, save_svg: buttons. told: what was saved.
 
     Signals: closed: the Operator is done with it.
     """
@@ -40,7 +40,7 @@ class ProtocolScreen(QWidget):
         super().__init__(parent)
         self.setObjectName("page")
         self._flow = flow
-        self._protocol: Protocol | None = None
+        self.protocol: Protocol | None = None
         self._picture: ProtocolPicture | None = None
         self._writer: ReportWriter | None = None
         self._saved: set[str] = set()
@@ -105,22 +105,22 @@ class ProtocolScreen(QWidget):
         desk = self._flow.desk
         test = desk.test
         progress: Progress = dataclasses.replace(test.progress, results=[dict(result) for result in desk.results])
-        self._protocol = Protocol(test.scenario, test.parameters, progress)
-        self._picture = ProtocolPicture(self._protocol)
+        self.protocol = Protocol(test.scenario, test.parameters, progress)
+        self._picture = ProtocolPicture(self.protocol)
         self._saved.clear()
         self._folder = None
         self.title.setText(self.tr("{scenario} protocol").format(scenario=scenario_title(test.scenario)))
         self.date.setText(date_text(str(progress.session.get("started", ""))))
-        self.table.setModel(ResultsModel(self._protocol, self))
+        self.table.setModel(ResultsModel(self.protocol, self))
         self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
-        self.panel.legend.show_sets(self._protocol.picture.point_sets)
+        self.panel.legend.show_sets(self.protocol.picture.point_sets)
         self.panel.view.show_layers(self._picture.layers)
         self._tell(self._summary())
         self.show_folder.setEnabled(False)
         self.save.setFocus()
 
     def _summary(self) -> str:
-        scenario, results = self._protocol.scenario, self._protocol.progress.results
+        scenario, results = self.protocol.scenario, self.protocol.progress.results
         invalid = sum(1 for result in results if scenario.invalid_count(result))
         if invalid:
             return self.tr("{count} lines, {invalid} of them invalid. Not saved as CSV and PNG yet.").format(
@@ -128,16 +128,16 @@ class ProtocolScreen(QWidget):
         return self.tr("{count} lines. Not saved as CSV and PNG yet.").format(count=len(results))
 
     def _mark(self, row: int) -> None:
-        points = self._protocol.picture_of(row).point_sets if row >= 0 else ()
+        points = self.protocol.picture_of(row).point_sets if row >= 0 else ()
         self._picture.points.chosen = tuple(point for each in points for point in each.known)
         self.panel.view.refresh()
 
     def _choose_point(self, x: float, y: float) -> None:
         """Select the row of the point that was clicked."""
         reach_m = _CLICK_PX / self.panel.view.viewport.px_per_m
-        distances = [(min((math.dist((x, y), point) for each in self._protocol.picture_of(row).point_sets
+        distances = [(min((math.dist((x, y), point) for each in self.protocol.picture_of(row).point_sets
                            for point in each.known), default=math.inf), row)
-                     for row in range(len(self._protocol.progress.results))]
+                     for row in range(len(self.protocol.progress.results))]
         nearest_m, row = min(distances, default=(math.inf, -1))
         if nearest_m <= reach_m:
             self.table.selectRow(row)
@@ -146,7 +146,7 @@ class ProtocolScreen(QWidget):
         folder = self._flow.store.settings.result_folder / self._flow.desk.test.name
         self._folder = folder
         self._set_saving(True)
-        self._writer = ReportWriter(self._protocol, folder, kinds, self)
+        self._writer = ReportWriter(self.protocol, folder, kinds, self)
         self._writer.written.connect(self._tell_written)
         self._writer.refused.connect(lambda text: self._tell_refused(text, kinds))
         self._writer.start()

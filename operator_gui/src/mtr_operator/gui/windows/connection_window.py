@@ -18,7 +18,7 @@ from .card import Card
 class ConnectionWindow(QWidget):
     """Attributes: robot, can: the forms. button: Connect. message, detail: what went wrong."""
 
-    def __init__(self, flow: Flow, parent: QWidget | None = None):
+    def __init__(self, flow: Flow, proposed: Connection, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("page")
         self.setWindowTitle(self.tr("Connect to the robot"))
@@ -36,9 +36,8 @@ class ConnectionWindow(QWidget):
         self.robot.submitted.connect(self._connect)
         self.can.submitted.connect(self._connect)
         flow.refused.connect(self._tell_refusal)
-        settings = flow.store.settings
-        self.robot.show_choice(settings.connection.robot, settings.hosts)
-        self.can.show_choice(settings.connection.can)
+        self.robot.show_choice(proposed.robot, flow.store.settings.hosts)
+        self.can.show_choice(proposed.can)
         self._say(flow.store.problem, "")
         self.setMinimumWidth(960)
 

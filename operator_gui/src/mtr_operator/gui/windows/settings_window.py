@@ -80,7 +80,7 @@ class SettingsWindow(QDialog):
     def _lay_out(self) -> None:
         left_card, right_card = Card(self.tr("Folders")), Card(self.tr("Robot"))
         left, right = left_card.column, right_card.column
-        for field, choose in ((self.results, self._choose_results), (self.progress, self._choose_progress)):
+        for field, choose in ((self.results, self.choose_results), (self.progress, self.choose_progress)):
             left.addLayout(self._folder_row(field, choose))
         left_card.add_heading(self.tr("Appearance"))
         for title, box in ((self.tr("Theme"), self.theme), (self.tr("Language"), self.language)):
@@ -132,13 +132,15 @@ class SettingsWindow(QDialog):
         row.addLayout(column)
         return row
 
-    def _choose_results(self) -> None:
+    def choose_results(self) -> None:
+        """Ask for another folder of the results."""
         folder = ask_folder(self, self.tr("Folder for results"), pathlib.Path(self.results.text))
         if folder is not None:
             self.results.edit.setText(str(folder))
             self._change(result_folder=folder)
 
-    def _choose_progress(self) -> None:
+    def choose_progress(self) -> None:
+        """Ask for another folder of the progress."""
         folder = ask_folder(self, self.tr("Folder for the progress of tests"), pathlib.Path(self.progress.text))
         if folder is not None:
             self.progress.edit.setText(str(folder))
