@@ -7,16 +7,16 @@ import threading
 
 os.environ["QT_QPA_PLATFORM"] = "offscreen"
 
-import pytest  # noqa: E402
-from PyQt5.QtCore import Qt  # noqa: E402
+import pytest
+from PyQt5.QtCore import Qt
 
-from mtr_operator.domain.errors import ConnectionFailed  # noqa: E402
-from mtr_operator.domain.ports import CarEvent, CarLink, LockState  # noqa: E402
-from mtr_operator.gui.app import Application  # noqa: E402
-from mtr_operator.robot_link.fake import FakeRobotLink  # noqa: E402
-from mtr_operator.robot_link.virtual_robot import VirtualRobot, VirtualWorld  # noqa: E402
-from mtr_operator.station.connection import SIMULATED, CanChoice, LinkOpener  # noqa: E402
-from mtr_operator.station.no_car import NoCarLink  # noqa: E402
+from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.ports import CarEvent, CarLink, LockState
+from mtr_operator.gui.app import Application
+from mtr_operator.robot_link.fake import FakeRobotLink
+from mtr_operator.robot_link.virtual_robot import VirtualRobot, VirtualWorld
+from mtr_operator.station.connection import SIMULATED, CanChoice, LinkOpener
+from mtr_operator.station.no_car import NoCarLink
 
 TIME_FACTOR = 150.0
 WORLD = VirtualWorld()

@@ -66,7 +66,7 @@ class Counting(Layer):
 def test_what_stands_still_is_painted_once(qtbot):
     view, still, moving = PictureView(Appearance()), Counting(False), Counting(True)
     qtbot.addWidget(view)
-    view.grab()
+    view.show()
     view.show_layers([still, moving])
     for _ in range(30):
         view.grab()

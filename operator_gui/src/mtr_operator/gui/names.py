@@ -1,4 +1,4 @@
-"""What the domain calls by names in files, in words of the Operator; one that is not listed is derived from its name."""
+"""What the domain calls by names in files, in words of the Operator; what is not listed follows from its name."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 

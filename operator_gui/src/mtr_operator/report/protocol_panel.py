@@ -29,8 +29,8 @@ def write_panel(figure: Figure, axes: Axes, scenario: Scenario, progress: Progre
                            fontsize=10, labelcolor=INK, handletextpad=0.4)
     legend.set_in_layout(False)
     height = top - 0.12 - 0.032 * max(len(labels), 1)
-    for heading, rows in (("Result", summary_rows(scenario, progress)), ("Parameters", parameter_rows(scenario, progress)),
-                          ("Test", session_rows(progress))):
+    for heading, rows in (("Result", summary_rows(scenario, progress)),
+                          ("Parameters", parameter_rows(scenario, progress)), ("Test", session_rows(progress))):
         height = _write_table(figure, heading, rows, left, height) - 0.022
 
 

@@ -21,7 +21,7 @@ class FakeRobotLink(RobotLink):
     """
 
     def __init__(self, seed: int = 1, time_factor: float = 0.0, world: VirtualWorld = DEFAULT_WORLD,
-                 sleep: Callable[[float], None] = time.sleep, robot: VirtualRobot | None = None,
+                 sleep: Callable[[float], None] = time.sleep, *, robot: VirtualRobot | None = None,
                  session_id: int = _SESSION_ID):
         self.statistics = LinkStatistics()
         self._robot = robot or VirtualRobot(seed, world)

@@ -27,7 +27,8 @@ class Desk:
         trail: places that the robot has passed during the test.
         test: the test at hand, None before one is started or opened.
         phase: what is done with it.
-        results: of the test so far. newest: the one measured last, None before. done, total: lines; total is 0 before it is known.
+        results: of the test so far. newest: the one measured last, None before.
+        done, total: lines; total is 0 before it is known.
         action: what the robot does now. trouble: why the test was interrupted; empty when the Operator did it.
         outcome: how measuring ended last, None while it has not.
     """

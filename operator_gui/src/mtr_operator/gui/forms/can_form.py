@@ -8,7 +8,7 @@ from PyQt5.QtWidgets import QComboBox, QLabel, QVBoxLayout, QWidget
 from mtr_operator.car_link.profile import profile_names
 from mtr_operator.station.connection import DEFAULT_BITRATE_BPS, SIMULATED, CanChoice
 
-from ..theme.scale import M, XS
+from ..theme.scale import XS, M
 from .field import Field
 
 # The usual ones; any other interface of python-can can be typed in.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PyQt5.QtCore import pyqtSignal
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
 
-from ..theme.scale import S, XS
+from ..theme.scale import XS, S
 
 _UNIT_WIDTH = 56
 

@@ -31,7 +31,8 @@ class ParameterForm(QWidget):
         super().__init__(parent)
         self._type = parameters_type
         self._is_filling = False
-        self.fields = {name: ParameterField(name, declared) for name, declared in parameters_type.declarations().items()}
+        self.fields = {name: ParameterField(name, declared)
+                       for name, declared in parameters_type.declarations().items()}
         self.usual = QPushButton(self.tr("Usual values"))
         self.more = QPushButton()
         self.more.setCheckable(True)

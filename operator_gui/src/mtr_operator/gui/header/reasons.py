@@ -44,8 +44,8 @@ def advice_text(reason: Reason) -> str:
         Cause.ROBOT_SILENT: translate("Status", "Check the Wi-Fi and that the robot is on. The robot stands still "
                                                 "meanwhile; the link comes back by itself."),
         Cause.ROBOT_STARTING: translate("Status", "Wait a moment."),
-        Cause.ROBOT_FAULT: translate("Status", "Make sure that nothing blocks the robot; if the fault stays, switch the "
-                                               "robot off and on."),
+        Cause.ROBOT_FAULT: translate("Status", "Make sure that nothing blocks the robot; if the fault stays, switch "
+                                               "the robot off and on."),
         Cause.OTHER_OPERATOR: translate("Status", "End the other application; control comes here by itself."),
         Cause.BATTERY_EMPTY: translate("Status", "Charge the battery before the test."),
         Cause.BATTERY_LOW: translate("Status", "Short tests are possible; charge the battery soon."),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PyQt5.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QRectF, QSize
-from PyQt5.QtGui import QImage, QPageSize, QPainter, QPdfWriter, QPageLayout
+from PyQt5.QtGui import QImage, QPageLayout, QPageSize, QPainter, QPdfWriter
 from PyQt5.QtSvg import QSvgGenerator
 
 from .protocol_sheet import HEIGHT, WIDTH, ProtocolSheet

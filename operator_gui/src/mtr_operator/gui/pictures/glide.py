@@ -33,7 +33,8 @@ class Glide:
             return self._to
         part = min(max((now_s - self._to_s) / self._gap_s, 0.0), 1.0)
         turn = wrap_angle(self._to.heading - self._from.heading)
-        return Pose(self._from.x + part * (self._to.x - self._from.x), self._from.y + part * (self._to.y - self._from.y),
+        return Pose(self._from.x + part * (self._to.x - self._from.x),
+                    self._from.y + part * (self._to.y - self._from.y),
                     wrap_angle(self._from.heading + part * turn))
 
     def is_moving(self, now_s: float) -> bool:

@@ -13,7 +13,7 @@ from mtr_operator.domain.picture import PointSet
 from ..i18n import translate
 from ..names import domain_word
 from ..theme.appearance import Appearance
-from ..theme.scale import M, XS
+from ..theme.scale import XS, M
 from .layer import Canvas
 from .points_layer import colour_of, draw_marker
 from .viewport import Viewport

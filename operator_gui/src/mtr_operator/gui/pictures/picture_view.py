@@ -25,7 +25,8 @@ class PictureView(QWidget):
     """Layers that do not move are painted once into a pixmap.
 
     Attributes:
-        layers: what is painted, the first one lowest. viewport: what is seen. ruler: the ruler's layer. is_measuring: a drag measures and does not pan.
+        layers: what is painted, the first one lowest. viewport: what is seen.
+        ruler: the ruler's layer. is_measuring: a drag measures and does not pan.
         still_paints: how often the pixmap was painted.
     Signals:
         clicked(x, y): a place of the Car coordinate system. measured: the ruler is another one.

@@ -93,8 +93,9 @@ class ProtocolSheet:
         for result in self._protocol.progress.results:
             if result[REASON] and top + 2 * _ROW < HEIGHT - _MARGIN:
                 text = f"{scenario.number_of(result)}: {translated(result[REASON])}"
-                canvas.painter.drawText(QRectF(left, top, _PANEL, 2 * _ROW), Qt.TextWordWrap | Qt.AlignLeft,
-                                        text if len(text) <= _LONGEST_REASON else text[:_LONGEST_REASON - 1] + "\N{HORIZONTAL ELLIPSIS}")
+                if len(text) > _LONGEST_REASON:
+                    text = text[:_LONGEST_REASON - 1] + "\N{HORIZONTAL ELLIPSIS}"
+                canvas.painter.drawText(QRectF(left, top, _PANEL, 2 * _ROW), Qt.TextWordWrap | Qt.AlignLeft, text)
                 top += 2 * _ROW
 
 

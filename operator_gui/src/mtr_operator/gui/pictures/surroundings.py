@@ -48,8 +48,8 @@ class ScaleLayer(Layer):
         left, bottom = 16.0 * unit, view.height - 16.0 * unit
         painter.setPen(canvas.pen(canvas.palette.ink, 2.5))
         for start, end in (((0, 0), (length, 0)), ((0, -6), (0, 0)), ((length, -6), (length, 0))):
-            scale = unit
-            painter.drawLine(QPointF(left + start[0], bottom + start[1] * scale),
-                             QPointF(left + end[0], bottom + end[1] * scale))
+            painter.drawLine(QPointF(left + start[0], bottom + start[1] * unit),
+                             QPointF(left + end[0], bottom + end[1] * unit))
         painter.setFont(canvas.font(15.0))
-        painter.drawText(QRectF(left, bottom - 30 * unit, max(length, 80 * unit), 22 * unit), Qt.AlignLeft, f"{step:g} m")
+        box = QRectF(left, bottom - 30 * unit, max(length, 80 * unit), 22 * unit)
+        painter.drawText(box, Qt.AlignLeft, f"{step:g} m")

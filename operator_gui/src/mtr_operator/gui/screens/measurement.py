@@ -58,7 +58,7 @@ class MeasurementScreen(QWidget):
     def _button(text: str, role: str, signal: pyqtSignal) -> QPushButton:
         button = QPushButton(text)
         button.setProperty("role", role)
-        button.clicked.connect(lambda: signal.emit())
+        button.clicked.connect(signal)
         return button
 
     def _lay_out(self) -> None:

@@ -10,7 +10,7 @@ from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidg
 from mtr_operator.domain.scenario import Scenario
 
 from ..names import scenario_doc, scenario_title
-from ..theme.scale import L, M, S, XL
+from ..theme.scale import XL, L, M, S
 from .tile import Tile
 
 _WIDTH = 620

@@ -29,7 +29,9 @@ _CLICK_PX = 18.0
 
 
 class ProtocolScreen(QWidget):
-    """Attributes: protocol: what is shown. panel: the picture. table: the results. save, save_pdf, save_svg: buttons. told: what was saved.
+    """Attributes: protocol: what is shown. panel: the picture. table: the results. told: what was saved.
+
+    save, save_pdf, save_svg, show_folder, done: buttons.
 
     Signals: closed: the Operator is done with it.
     """
@@ -73,12 +75,13 @@ class ProtocolScreen(QWidget):
     def _button(text: str, role: str, act) -> QPushButton:
         button = QPushButton(text)
         button.setProperty("role", role)
-        button.clicked.connect(lambda: act())
+        button.clicked.connect(lambda _checked: act())
         return button
 
     def _lay_out(self) -> None:
         first, second = QHBoxLayout(), QHBoxLayout()
-        for row, buttons in ((first, (self.save, self.save_pdf, self.save_svg)), (second, (self.show_folder, self.done))):
+        for row, buttons in ((first, (self.save, self.save_pdf, self.save_svg)),
+                             (second, (self.show_folder, self.done))):
             row.setSpacing(S)
             for button in buttons:
                 row.addWidget(button, 1)
@@ -158,7 +161,8 @@ class ProtocolScreen(QWidget):
     def _tell_written(self, paths: list) -> None:
         self._set_saving(False)
         self._saved |= {path.name for path in paths}
-        self._tell(self.tr("Saved {files} to {folder}").format(files=", ".join(sorted(self._saved)), folder=self._folder))
+        files = ", ".join(sorted(self._saved))
+        self._tell(self.tr("Saved {files} to {folder}").format(files=files, folder=self._folder))
         self.show_folder.setEnabled(True)
 
     def _tell_refused(self, text: str, kinds: tuple[str, ...]) -> None:

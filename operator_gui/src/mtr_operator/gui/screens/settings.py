@@ -122,8 +122,8 @@ class SettingsScreen(QWidget):
             return lines
         if plan.suffices(battery):
             return lines + " " + self.tr("The battery, at {percent} %, suffices.").format(percent=battery)
-        return lines + " " + self.tr("The battery, at {percent} %, may not suffice: the test takes about {need} %.").format(
-            percent=battery, need=round(plan.battery_percent))
+        warning = self.tr("The battery, at {percent} %, may not suffice: the test takes about {need} %.")
+        return lines + " " + warning.format(percent=battery, need=round(plan.battery_percent))
 
     def _judge(self) -> None:
         verdict = self._desk.verdict

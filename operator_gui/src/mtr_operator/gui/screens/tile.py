@@ -5,7 +5,7 @@ from __future__ import annotations
 from PyQt5.QtCore import QSize, Qt
 from PyQt5.QtWidgets import QLabel, QPushButton, QVBoxLayout, QWidget
 
-from ..theme.scale import L, M, XS
+from ..theme.scale import XS, L, M
 
 
 class Tile(QPushButton):

@@ -8,7 +8,7 @@ from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidg
 from mtr_operator.station.test import Test
 
 from ..names import scenario_title
-from ..theme.scale import L, M, S, XL
+from ..theme.scale import XL, L, M, S
 from .tile import Tile
 
 _WIDTH = 620
@@ -28,7 +28,7 @@ class WelcomeScreen(QWidget):
         self.setObjectName("page")
         title = QLabel(self.tr("What would you like to do?"))
         title.setProperty("role", "title")
-        self.new = Tile(self.tr("New test"), self.tr("Choose a scenario and its parameters, and let the robot measure."))
+        self.new = Tile(self.tr("New test"), self.tr("Choose scenario and parameters, and let the robot measure."))
         self.open = Tile(self.tr("Continue test"), self.tr("Go on with a test whose progress was saved to a file."))
         self.calibration = Tile(self.tr("Calibrate"), self.tr("Try lift and buttons of the robot."))
         for tile, signal in ((self.new, self.new_test), (self.open, self.continue_test),

@@ -72,8 +72,8 @@ QProgressBar::chunk { background: $accent; border-radius: 5px; }
 QTableView { font-size: ${table_pt}pt; background: $surface; alternate-background-color: $window; gridline-color: $line;
     border: 1px solid $line; selection-background-color: $accent; selection-color: $on_accent; }
 QTableView:focus { border: 2px solid $accent; }
-QHeaderView::section { font-size: ${table_pt}pt; background: $raised; color: $ink; border: none; border-right: 1px solid $line;
-    border-bottom: 1px solid $border; padding: 6px 8px; font-weight: 600; }
+QHeaderView::section { font-size: ${table_pt}pt; background: $raised; color: $ink; border: none;
+    border-right: 1px solid $line; border-bottom: 1px solid $border; padding: 6px 8px; font-weight: 600; }
 QTableCornerButton::section { background: $raised; border: none; }
 QToolTip { background: $ink; color: $surface; border: 1px solid $border; padding: 6px; }
 QToolButton { background: transparent; border: 2px solid transparent; border-radius: ${radius}px; padding: 4px; }
@@ -91,7 +91,7 @@ QSplitter::handle { background: $line; }
 
 def style_sheet(name: str, palette: Palette) -> str:
     """Style sheet of the application in the colours of a theme."""
-    return _SHEET.substitute(
-        vars(palette), name=name, images=_IMAGES, body_pt=BODY_PT, small_pt=SMALL_PT, large_pt=LARGE_PT, heading_pt=HEADING_PT, title_pt=TITLE_PT,
-        table_pt=TABLE_PT,
-        radius=RADIUS, button_height=CONTROL_HEIGHT - 20, field_height=CONTROL_HEIGHT - 18)
+    sizes = {"small_pt": SMALL_PT, "table_pt": TABLE_PT, "body_pt": BODY_PT, "large_pt": LARGE_PT,
+             "heading_pt": HEADING_PT, "title_pt": TITLE_PT, "radius": RADIUS, "button_height": CONTROL_HEIGHT - 20,
+             "field_height": CONTROL_HEIGHT - 18}
+    return _SHEET.substitute(vars(palette), name=name, images=_IMAGES, **sizes)

@@ -17,9 +17,8 @@ from ..forms.can_form import CanForm
 from ..forms.field import Field
 from ..sentences import translated
 from ..theme.appearance import Appearance
-from ..theme.scale import L, M, S, XS
+from ..theme.scale import XS, L, M, S
 from .card import Card
-
 
 # Languages are named in themselves.
 _CZECH = "\u010ce\u0161tina"
