@@ -5,7 +5,6 @@ import pathlib
 import shutil
 
 import pytest
-from PyQt5.QtWidgets import QMessageBox
 
 from mtr_operator.station.readiness import Phase
 
@@ -16,7 +15,7 @@ LINES = 4
 def told(monkeypatch):
     """Sentences of message boxes."""
     sentences = []
-    monkeypatch.setattr(QMessageBox, "warning", lambda parent, title, text: sentences.append(text))
+    monkeypatch.setattr("mtr_operator.gui.windows.main_window.tell", lambda parent, title, text: sentences.append(text))
     return sentences
 
 
@@ -144,9 +143,9 @@ def test_lost_can_bus_pauses_the_test_and_resume_goes_on(operator, opener):
 def test_closing_asks_first_and_the_next_start_offers_to_go_on(operator, start, monkeypatch, qtbot):
     operator.begin()
     operator.wait(lambda: operator.desk.done >= 1)
-    monkeypatch.setattr(QMessageBox, "question", lambda *_: QMessageBox.No)
+    monkeypatch.setattr("mtr_operator.gui.windows.main_window.confirm", lambda *_: False)
     assert not operator.window.close()
-    monkeypatch.setattr(QMessageBox, "question", lambda *_: QMessageBox.Yes)
+    monkeypatch.setattr("mtr_operator.gui.windows.main_window.confirm", lambda *_: True)
     assert operator.window.close()
     operator.application.close()
     measured = len(stored(operator.desk.test.path))

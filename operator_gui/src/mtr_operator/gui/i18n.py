@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pathlib
 
-from PyQt5.QtCore import QCoreApplication, QLocale, QTranslator
+from PyQt5.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
 FOLDER = pathlib.Path(__file__).parent / "translations"
 ENGLISH, CZECH = "en", "cs"
@@ -21,16 +21,26 @@ class Language:
     def __init__(self) -> None:
         self.code = ENGLISH
         self._translator = QTranslator()
+        self._qt_translator = QTranslator()
 
     def use(self, wanted: str) -> None:
         """Speak this language, or with "system" the system's, from now on; what is on the screen stays as it is."""
         app = QCoreApplication.instance()
-        app.removeTranslator(self._translator)
+        for translator in (self._translator, self._qt_translator):
+            app.removeTranslator(translator)
         system = CZECH if QLocale.system().language() == QLocale.Czech else ENGLISH
         self.code = system if wanted == "system" else wanted
         if self.code != ENGLISH and self._translator.load(str(FOLDER / f"mtr_operator_{self.code}.qm")):
             app.installTranslator(self._translator)
+            # Names in the system's dialogs, where the installation of Qt has them.
+            if self._qt_translator.load(f"qtbase_{self.code}", QLibraryInfo.location(QLibraryInfo.TranslationsPath)):
+                app.installTranslator(self._qt_translator)
         QLocale.setDefault(QLocale(self.code))
+
+
+def language_code() -> str:
+    """Code of the language in use."""
+    return QLocale().name()[:2]
 
 
 def decimal_sign() -> str:

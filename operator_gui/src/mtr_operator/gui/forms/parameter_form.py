@@ -74,7 +74,8 @@ class ParameterForm(QWidget):
     def _show_rest(self, is_shown: bool) -> None:
         self._rest.setVisible(is_shown)
         sign = "\N{BLACK DOWN-POINTING SMALL TRIANGLE}" if is_shown else "\N{BLACK RIGHT-POINTING SMALL TRIANGLE}"
-        self.more.setText(f"{sign} {self.tr('Fewer parameters') if is_shown else self.tr('More parameters')}")
+        words = self.tr("Fewer parameters") if is_shown else self.tr("More parameters")
+        self.more.setText(f"{sign} {words}")
 
     @property
     def parameters(self) -> ParameterSet | None:

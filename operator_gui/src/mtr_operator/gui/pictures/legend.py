@@ -27,7 +27,7 @@ def legend_texts(sets: Sequence[PointSet]) -> list[str]:
     """Label and number of points of each set that has some, and the meaning of the bars."""
     texts = [f"{domain_word(points.label)} ({len(points.known)})" for points in sets if points.known]
     if any(points.bars for points in sets):
-        texts.append(translate("Picture", "uncertainty, \N{PLUS-MINUS SIGN}1 sigma"))
+        texts.append(translate("Picture", "uncertainty (1 sigma)"))
     return texts
 
 

@@ -6,12 +6,12 @@ import pathlib
 
 from PyQt5.QtCore import QSize, QTimer
 from PyQt5.QtGui import QCloseEvent
-from PyQt5.QtWidgets import QMainWindow, QMessageBox, QStackedWidget, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QMainWindow, QStackedWidget, QVBoxLayout, QWidget
 
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.readiness import Phase
 
-from ..dialogs import ask_folder, ask_progress_file
+from ..dialogs import ask_folder, ask_progress_file, confirm, tell
 from ..flow import Flow, Step
 from ..header.header_bar import HeaderBar
 from ..screens.measurement import MeasurementScreen
@@ -120,13 +120,13 @@ class MainWindow(QMainWindow):
         self.welcome.offer_unfinished(None)
 
     def _ask_progress_folder(self, text: str) -> None:
-        self._tell(text + " " + self.tr("Choose another folder; nothing is lost."))
+        tell(self, self.windowTitle(), translated(text) + " " + self.tr("Choose another folder; nothing is lost."))
         folder = ask_folder(self, self.tr("Folder for the progress of tests"), pathlib.Path.home())
         if folder is not None:
             self._flow.use_progress_folder(folder)
 
     def _tell(self, text: str) -> None:
-        QMessageBox.warning(self, self.windowTitle(), translated(text))
+        tell(self, self.windowTitle(), translated(text))
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Ask before a running test is ended."""
@@ -136,7 +136,6 @@ class MainWindow(QMainWindow):
         event.accept()
 
     def _is_to_be_ended(self) -> bool:
-        answer = QMessageBox.question(
-            self, self.windowTitle(), self.tr("A test is running. Stop the robot and close? What is measured is kept; "
-                                              "the next start offers to go on."))
-        return answer == QMessageBox.Yes
+        return confirm(self, self.windowTitle(), self.tr("A test is running. Stop the robot and close? What is measured "
+                                                         "is kept; the next start offers to go on."),
+                       (self.tr("Stop and close"), self.tr("Go on measuring")))
