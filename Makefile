@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup build demo test lint unit rostest system sim clean bench
+.PHONY: help setup build demo test lint unit rostest system sim gui screenshots translations clean bench
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -18,7 +18,7 @@ BUILD_INPUTS := $(shell find -L catkin_ws/src proto launch tests -not -path '*/.
 	-type f 2>/dev/null)
 
 help: ## List the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-13s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 setup: ## Install the missing Debian and Python packages
 	@setup/install.sh
@@ -37,6 +37,19 @@ sim: setup build ## Start the simulated robot and Car for an application on port
 	@$(RUN) roslaunch mtr_bringup sim.launch seed:=$(SEED) real_time_factor:=$(FACTOR) rviz:=$(RVIZ) \
 		car_port_link:=$(CURDIR)/out/sim/can truth_dir:=$(CURDIR)/out/sim
 
+gui: setup build ## Open the Operator's window, filled in for the robot and Car of `make sim`
+	@$(RUN) mtr-operator window --robot 127.0.0.1 --subscriber-port 3334 --publisher-port 3333 --can-interface slcan \
+		--can-channel $(CURDIR)/out/sim/can --can-bitrate 500000 --car-profile mtr_demo_car
+
+screenshots: setup build ## Picture of every window and screen in both themes, from a simulated run; in out/screenshots
+	@$(RUN) xvfb-run -a -s "-screen 0 1440x1000x24 -nolisten tcp" \
+		env QT_QPA_PLATFORM=xcb python tests/system/gui_screenshots.py out/screenshots
+
+translations: ## Collect the window's texts, compile the translations
+	@cd operator_gui/src/mtr_operator/gui && pylupdate5 -noobsolete $$(find . -name '*.py' | sort) \
+		-ts translations/mtr_operator_cs.ts 2>/dev/null
+	@cd operator_gui/src/mtr_operator/gui && lrelease -silent translations/mtr_operator_cs.ts
+
 test: setup build ## Lint, layer test, unit tests, rostest suites and system tests
 	@$(RUN) python setup/run_tests.py all
 
@@ -46,7 +59,20 @@ lint: setup build ## Only the lint
 unit: setup build ## Only the tests that need no ROS master
 	@$(RUN) python setup/run_tests.py lint unit gtest
 
-rostest: setup build ## Only the rostest suites
+rosgui: setup build ## Open the Operator's window, filled in for the robot and Car of `make sim`
+	@$(RUN) mtr-operator window --robot 127.0.0.1 --subscriber-port 3334 --publisher-port 3333 --can-interface slcan \
+		--can-channel $(CURDIR)/out/sim/can --can-bitrate 500000 --car-profile mtr_demo_car
+
+screenshots: setup build ## Picture of every window and screen in both themes, from a simulated run; in out/screenshots
+	@$(RUN) xvfb-run -a -s "-screen 0 1440x1000x24 -nolisten tcp" \
+		env QT_QPA_PLATFORM=xcb python tests/system/gui_screenshots.py out/screenshots
+
+translations: ## Collect the window's texts, compile the translations
+	@cd operator_gui/src/mtr_operator/gui && pylupdate5 -noobsolete $$(find . -name '*.py' | sort) \
+		-ts translations/mtr_operator_cs.ts 2>/dev/null
+	@cd operator_gui/src/mtr_operator/gui && lrelease -silent translations/mtr_operator_cs.ts
+
+test: setup build ## Only the rostest suites
 	@$(RUN) python setup/run_tests.py rostest
 
 system: setup build ## Only the tests of the whole stack

@@ -69,13 +69,19 @@ def _filled_in(connection: Connection, robot: Mapping[str, Any], can: Mapping[st
                       dataclasses.replace(former, **can) if can else connection.can)
 
 
-def run(robot: Mapping[str, Any], can: Mapping[str, Any]) -> int:
-    """Run the window until it is closed; the exit code."""
+def make_qt() -> QApplication:
+    """The Qt application; there is one per process."""
     QGuiApplication.setAttribute(Qt.AA_EnableHighDpiScaling)
     QGuiApplication.setAttribute(Qt.AA_UseHighDpiPixmaps)
     app = QApplication([NAME])
     app.setApplicationName(NAME)
     app.setStyle("Fusion")
+    return app
+
+
+def run(robot: Mapping[str, Any], can: Mapping[str, Any]) -> int:
+    """Run the window until it is closed; the exit code."""
+    app = make_qt()
     # Python sees Ctrl-C only when Qt lets it run; the heartbeat does.
     signal.signal(signal.SIGINT, lambda *_: app.quit())
     application = Application()

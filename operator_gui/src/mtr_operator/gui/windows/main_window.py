@@ -136,6 +136,6 @@ class MainWindow(QMainWindow):
         event.accept()
 
     def _is_to_be_ended(self) -> bool:
-        return confirm(self, self.windowTitle(), self.tr("A test is running. Stop the robot and close? What is measured "
-                                                         "is kept; the next start offers to go on."),
-                       (self.tr("Stop and close"), self.tr("Go on measuring")))
+        question = self.tr("A test is running. Stop the robot and close? What is measured is kept; the next start "
+                           "offers to go on.")
+        return confirm(self, self.windowTitle(), question, (self.tr("Stop and close"), self.tr("Go on measuring")))
