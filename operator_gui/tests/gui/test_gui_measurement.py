@@ -220,3 +220,18 @@ def test_test_that_measured_nothing_leaves_no_file(operator, opener):
     assert not operator.desk.results
     assert not list((operator.folder / "progress").glob("*.json"))
     assert operator.application.flow.store.settings.unfinished is None
+
+
+@pytest.mark.parametrize(("scenario", "are_shown"), [("key_press", True), ("autolock", False)])
+def test_lines_are_shown_for_key_press_only(operator, scenario, are_shown):
+    screen = operator.begin(scenario)
+    operator.wait(lambda: operator.desk.total > 0 and screen.picture.lines.stretches)
+    assert screen.picture.lines.is_visible is are_shown
+
+
+def test_waypoint_trail_and_robot_are_in_the_picture(operator):
+    screen = operator.begin()
+    operator.wait(lambda: operator.desk.done >= 1)
+    operator.wait(lambda: screen.picture.robot.waypoint is not None and screen.picture.robot.pose is not None)
+    assert len(screen.picture.trail.places) > 10
+    assert screen.picture.robot.key == (0.25, 0.0)

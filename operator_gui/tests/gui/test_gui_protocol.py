@@ -7,12 +7,21 @@ from PyQt5.QtCore import QByteArray
 from PyQt5.QtGui import QImage
 from PyQt5.QtSvg import QSvgRenderer
 
+from mtr_operator.gui.pictures.export import png
+from mtr_operator.gui.pictures.points_layer import PointsLayer
+from mtr_operator.gui.pictures.protocol_sheet import ProtocolSheet
+from mtr_operator.gui.theme.palette import LIGHT
+
 
 @pytest.fixture
 def protocol(operator, opener):
     opener.passive = True
     operator.begin("autolock")
     return operator.finish()
+
+
+def points_layer(protocol):
+    return next(layer for layer in protocol.panel.view.layers if isinstance(layer, PointsLayer))
 
 
 def test_table_holds_place_distance_and_uncertainty(protocol):
@@ -28,7 +37,7 @@ def test_table_holds_place_distance_and_uncertainty(protocol):
 
 def test_row_marks_its_points_and_point_selects_its_row(protocol, operator):
     protocol.table.selectRow(2)
-    marked = protocol.panel.view.layers[3].chosen
+    marked = points_layer(protocol).chosen
     assert len(marked) == 2
     other = protocol.protocol.picture_of(5).point_sets[0].known[0]
     protocol.panel.view.clicked.emit(*other)
@@ -76,7 +85,7 @@ def test_vanished_result_folder_is_asked_for_again(protocol, operator, monkeypat
 def test_reliable_range_of_each_angle_is_written_in_the_picture(operator):
     operator.begin("key_press")
     protocol = operator.finish()
-    layer = protocol.panel.view.layers[3]
+    layer = points_layer(protocol)
     assert layer.shows_distances
     assert len(layer.sets[0].known) == 4
 
@@ -85,3 +94,15 @@ def test_new_test_leads_to_the_beginning(protocol, operator):
     operator.click(protocol.done)
     assert operator.window.screen is operator.window.welcome
     assert operator.desk.test is None
+
+
+def test_sheet_is_painted_by_the_layers_of_the_screen(protocol):
+    on_screen = [type(layer) for layer in protocol.panel.view.layers]
+    in_file = [type(layer) for layer in ProtocolSheet(protocol.protocol).picture.layers]
+    assert in_file == on_screen
+
+
+def test_sheet_shows_what_was_measured(protocol):
+    image = QImage.fromData(png(ProtocolSheet(protocol.protocol)))
+    colours = {image.pixelColor(x, y).name() for x in range(0, image.width(), 3) for y in range(0, image.height(), 3)}
+    assert {LIGHT.first, LIGHT.second, LIGHT.body, LIGHT.surface} <= colours

@@ -13,7 +13,7 @@ from .car_layer import CarLayer
 from .glide import Glide
 from .lines_layer import LinesLayer
 from .picture_panel import PicturePanel
-from .points_layer import PointsLayer
+from .points_layer import AreasLayer, PointsLayer
 from .robot_layer import RobotLayer, TrailLayer
 from .surroundings import GridLayer, ScaleLayer
 
@@ -28,6 +28,7 @@ class MeasurementPicture:
         self._shown: tuple[Any, ...] = ()
         self.robot = RobotLayer()
         self.trail = TrailLayer()
+        self.areas = AreasLayer()
         self.points = PointsLayer()
         self.lines = LinesLayer()
 
@@ -65,12 +66,12 @@ class MeasurementPicture:
         mapped = desk.mapped_car
         car = mapped or USUAL_CAR
         picture = test.scenario.picture(test.parameters, car, desk.results)
-        self.points.sets = picture.point_sets
+        self.points.sets = self.areas.sets = picture.point_sets
         self.lines.is_visible = test.scenario.lines_stay
         self.lines.stretches = self._stretches(car)
         self._panel.legend.show_sets(picture.point_sets)
-        self._panel.view.show_layers([GridLayer(), self.lines, CarLayer(car, mapped is not None), self.points,
-                                      self.trail, self.robot, ScaleLayer()])
+        self._panel.view.show_layers([GridLayer(), self.lines, self.areas, CarLayer(car, mapped is not None),
+                                      self.points, self.trail, self.robot, ScaleLayer()])
 
     def _stretches(self, car: Any) -> tuple:
         test = self._desk.test

@@ -39,6 +39,19 @@ def draw_marker(painter: QPainter, look: Look, place: QPointF, radius: float) ->
             painter.drawLine(place - QPointF(dx, dy) * radius, place + QPointF(dx, dy) * radius)
 
 
+class AreasLayer(Layer):
+    """Attributes: sets: those that enclose an area are painted."""
+
+    def __init__(self, sets: Sequence[PointSet] = ()):
+        self.sets = tuple(sets)
+
+    def paint(self, canvas: Canvas) -> None:
+        """See Layer."""
+        for points in self.sets:
+            if points.is_outline and len(points.known) > 2:
+                _paint_outline(canvas, points)
+
+
 class PointsLayer(Layer):
     """Attributes: sets: what there is to show. chosen: points to be marked, e.g. those of a row of the table.
 
@@ -56,9 +69,6 @@ class PointsLayer(Layer):
 
     def paint(self, canvas: Canvas) -> None:
         """See Layer."""
-        for points in self.sets:
-            if points.is_outline and len(points.known) > 2:
-                _paint_outline(canvas, points)
         for points in self.sets:
             _paint_points(canvas, points)
         for point in self.chosen:

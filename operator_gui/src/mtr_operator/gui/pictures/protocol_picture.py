@@ -14,7 +14,7 @@ from ..names import domain_word
 from .car_layer import CarLayer
 from .layer import Layer
 from .lines_layer import LinesLayer
-from .points_layer import PointsLayer
+from .points_layer import AreasLayer, PointsLayer
 from .surroundings import GridLayer, ScaleLayer
 
 
@@ -43,5 +43,6 @@ class ProtocolPicture:
         picture = protocol.picture
         stretches = [Stretch(stretch.start, stretch.end, domain_word(stretch.label)) for stretch in picture.stretches]
         self.points = PointsLayer(picture.point_sets, shows_distances=len(protocol.scenario.measurements) == 1)
-        self.layers: Sequence[Layer] = (GridLayer(), LinesLayer(stretches), CarLayer(protocol.progress.car, True),
-                                        self.points, ScaleLayer())
+        self.layers: Sequence[Layer] = (
+            GridLayer(), LinesLayer(stretches), AreasLayer(picture.point_sets), CarLayer(protocol.progress.car, True),
+            self.points, ScaleLayer())

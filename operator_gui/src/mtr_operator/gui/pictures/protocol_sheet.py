@@ -27,11 +27,14 @@ _LONGEST_REASON = 90
 
 
 class ProtocolSheet:
-    """Paints itself on any painter whose window is WIDTH by HEIGHT."""
+    """Paints itself on any painter whose window is WIDTH by HEIGHT.
+
+    Attributes: picture: the layers on its left.
+    """
 
     def __init__(self, protocol: Protocol):
         self._protocol = protocol
-        self._picture = ProtocolPicture(protocol)
+        self.picture = ProtocolPicture(protocol)
 
     def paint(self, painter: QPainter) -> None:
         """Paint the sheet, always in the light colours."""
@@ -39,11 +42,11 @@ class ProtocolSheet:
         painter.fillRect(QRectF(0, 0, WIDTH, HEIGHT), QColor(LIGHT.surface))
         width, height = WIDTH - _PANEL - 3 * _MARGIN, HEIGHT - 2 * _MARGIN
         viewport = Viewport(width, height).fitted(
-            [point for layer in self._picture.layers for point in layer.points()], 40.0)
+            [point for layer in self.picture.layers for point in layer.points()], 40.0)
         painter.save()
         painter.translate(_MARGIN, _MARGIN)
         painter.setClipRect(QRectF(0, 0, width, height))
-        paint_all(self._picture.layers, Canvas(painter, viewport, LIGHT))
+        paint_all(self.picture.layers, Canvas(painter, viewport, LIGHT))
         painter.restore()
         painter.setBrush(Qt.NoBrush)
         painter.setPen(QColor(LIGHT.border))
