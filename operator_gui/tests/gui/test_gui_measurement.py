@@ -105,9 +105,7 @@ def test_vanished_progress_folder_is_asked_for_again_and_nothing_is_lost(operato
     assert operator.desk.test.path.parent == other
 
 
-def test_silent_robot_pauses_the_test_and_resume_goes_on(operator, opener, monkeypatch):
-    monkeypatch.setattr("mtr_operator.domain.session.SILENCE_LIMIT_S", 2.0)
-    monkeypatch.setattr("mtr_operator.domain.session.Session._exchange.__defaults__", (2.0,), raising=False)
+def test_silent_robot_pauses_the_test_and_resume_goes_on(operator, opener):
     screen = operator.begin()
     operator.wait(lambda: operator.desk.done >= 1)
     opener.is_silent = True

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import math
 import time
-from collections import deque
 from typing import Any, Callable, Mapping
 
 from mtr_operator.domain.errors import InvalidParameter
@@ -16,6 +16,8 @@ from .news import Acting, Ended, Measured, News, Outcome, Planned, RobotNews, Si
 from .readiness import Phase, Verdict, judge
 from .test import Test
 
+# The trail is kept at this spacing; one that gets too long loses every other place.
+TRAIL_SPACING_M = 0.1
 TRAIL_LENGTH = 4000
 
 
@@ -39,7 +41,7 @@ class Desk:
         self._time_left = TimeLeft(())
         self._car: CarDimensions | None = None
         self.robot: RobotNews | None = None
-        self.trail: deque[Point] = deque(maxlen=TRAIL_LENGTH)
+        self.trail: list[Point] = []
         self.test: Test | None = None
         self.phase = Phase.IDLE
         self.results: tuple[Mapping[str, Any], ...] = ()
@@ -87,7 +89,7 @@ class Desk:
         self.done, self.total = len(self.results), test.line_count
         self.action = self.trouble = ""
         self.outcome = self.newest = None
-        self.trail.clear()
+        self.trail = []
 
     def begin(self) -> None:
         """The test on the desk is started or continued now."""
@@ -103,9 +105,16 @@ class Desk:
         """Learn what has happened."""
         if batch.robot is not None:
             self.robot, self._heard_s = batch.robot, self._clock()
-        self.trail.extend(batch.trail if self.test is not None else ())
+        for place in batch.trail if self.test is not None else ():
+            self._pass(place)
         for event in batch.events:
             self._learn(event)
+
+    def _pass(self, place: Point) -> None:
+        if not self.trail or math.dist(self.trail[-1], place) >= TRAIL_SPACING_M:
+            self.trail.append(place)
+        if len(self.trail) > TRAIL_LENGTH:
+            self.trail = self.trail[::2]
 
     def _learn(self, event: News) -> None:
         if isinstance(event, Planned):

@@ -74,6 +74,9 @@ class Layer(ABC):
     def paint(self, canvas: Canvas) -> None:
         """Paint it; the painter's state need not be restored."""
 
+    def paint_news(self, canvas: Canvas) -> None:
+        """Paint what has been added since, over what is there already."""
+
     def points(self) -> Sequence[Point]:
         """Places that should be seen when everything is to be seen."""
         return ()

@@ -59,7 +59,10 @@ class MeasurementPicture:
             status.position_sigma_m
         goal = news.waypoint
         robot.waypoint = None if goal is None else Pose(goal.x, goal.y, goal.heading)
-        self.trail.places = list(self._desk.trail)
+        if self._desk.trail is not self.trail.places:
+            self.trail.places = self._desk.trail
+            self._panel.view.refresh()
+        self._panel.view.add_news(self.trail)
 
     def _arrange(self) -> None:
         desk, test = self._desk, self._desk.test

@@ -72,6 +72,14 @@ class PictureView(QWidget):
             self._fit()
         self.update()
 
+    def add_news(self, layer: Layer) -> None:
+        """Something was added to a layer that does not move; the rest is not painted anew."""
+        if self._still is not None:
+            painter = QPainter(self._still)
+            painter.setRenderHint(QPainter.Antialiasing)
+            layer.paint_news(Canvas(painter, self.viewport, self._appearance.palette))
+            painter.end()
+
     def fit(self) -> None:
         """Show everything, and go on doing so."""
         self._is_fitted = True

@@ -76,15 +76,25 @@ class RobotLayer(Layer):
 class TrailLayer(Layer):
     """Attributes: places: where the robot has been."""
 
-    is_moving = True
-
     def __init__(self) -> None:
         self.places: Sequence[Point] = ()
+        self._painted = 0
 
     def paint(self, canvas: Canvas) -> None:
         """See Layer."""
-        canvas.painter.setPen(canvas.pen(canvas.palette.trail, 1.6, alpha=0.8))
-        canvas.painter.drawPolyline(canvas.polygon(self.places))
+        self._painted = 0
+        self.paint_news(canvas)
+
+    def paint_news(self, canvas: Canvas) -> None:
+        """See Layer."""
+        news = self.places[max(self._painted - 1, 0):]
+        self._painted = len(self.places)
+        pen = canvas.pen(canvas.palette.trail, 1.5)
+        # Round joins of thousands of pieces take a whole frame.
+        pen.setJoinStyle(Qt.BevelJoin)
+        pen.setCapStyle(Qt.FlatCap)
+        canvas.painter.setPen(pen)
+        canvas.painter.drawPolyline(canvas.polygon(news))
 
 
 def _outline(pose: Pose) -> list[Point]:
