@@ -4,8 +4,8 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup build demo test lint unit firmware-test rostest system sim clean bench firmware flash
-.PHONY: help setup build demo test lint unit rostest system sim clean bench bench-motion
+.PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations clean \
+	bench bench-motion bench-localization firmware flash
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -44,6 +44,19 @@ sim: setup build $(if $(EMULATED),firmware) ## Start the simulated robot and Car
 	@mkdir -p out/sim
 	@$(RUN) roslaunch mtr_bringup sim.launch seed:=$(SEED) real_time_factor:=$(FACTOR) rviz:=$(RVIZ) \
 		car_port_link:=$(CURDIR)/out/sim/can truth_dir:=$(CURDIR)/out/sim $(if $(EMULATED),firmware_elf:=$(FIRMWARE_ELF))
+
+gui: setup build ## Open the Operator's window, filled in for the robot and Car of `make sim`
+	@$(RUN) mtr-operator window --robot 127.0.0.1 --subscriber-port 3334 --publisher-port 3333 --can-interface slcan \
+		--can-channel $(CURDIR)/out/sim/can --can-bitrate 500000 --car-profile mtr_demo_car
+
+screenshots: setup build ## Picture of every window and screen in both themes, from a simulated run; in out/screenshots
+	@$(RUN) xvfb-run -a -s "-screen 0 1440x1000x24 -nolisten tcp" \
+		env QT_QPA_PLATFORM=xcb python tests/system/gui_screenshots.py out/screenshots
+
+translations: ## Collect the window's texts, compile the translations
+	@cd operator_gui/src/mtr_operator/gui && pylupdate5 -noobsolete $$(find . -name '*.py' | sort) \
+		-ts translations/mtr_operator_cs.ts 2>/dev/null
+	@cd operator_gui/src/mtr_operator/gui && lrelease -silent translations/mtr_operator_cs.ts
 
 test: setup build ## Lint, layer test, unit tests, firmware, rostest suites and system tests
 	@$(RUN) python setup/run_tests.py all

@@ -11,8 +11,8 @@ from mtr_operator.domain.ports import CarDimensions
 from mtr_operator.domain.progress import Progress
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.report.files import write_report
-from mtr_operator.report.protocol_panel import date_text
 from mtr_operator.report.protocol_png import label_stretches
+from mtr_operator.report.protocol_rows import date_text
 from mtr_operator.report.results_csv import results_csv
 from mtr_operator.report.table import results_table
 

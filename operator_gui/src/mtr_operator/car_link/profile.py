@@ -85,6 +85,11 @@ def load_profile(name_or_path: str) -> CarProfile:
         sources=_table(path, content, "sources", _SOURCES) if "sources" in content else {})
 
 
+def profile_names() -> tuple[str, ...]:
+    """Names of the shipped profiles."""
+    return tuple(sorted(file.stem for file in PROFILE_FOLDER.glob("*.yaml")))
+
+
 def _find(name_or_path: str) -> pathlib.Path:
     shipped = PROFILE_FOLDER / f"{name_or_path}.yaml"
     if shipped.parent == PROFILE_FOLDER and shipped.is_file():
@@ -92,7 +97,7 @@ def _find(name_or_path: str) -> pathlib.Path:
     path = pathlib.Path(name_or_path)
     if path.is_file():
         return path
-    names = ", ".join(sorted(file.stem for file in PROFILE_FOLDER.glob("*.yaml")))
+    names = ", ".join(profile_names())
     raise ConnectionFailed(f"There is no car profile {name_or_path}; shipped are: {names}; "
                            "a path to a YAML file works too.")
 

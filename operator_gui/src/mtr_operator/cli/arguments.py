@@ -26,11 +26,23 @@ def argument_parser() -> argparse.ArgumentParser:
     """Parser of all commands."""
     parser = _Parser(prog="mtr-operator", description="Measures where a car's remote key works.")
     parser.add_argument("--version", action="version", version=__version__)
-    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND")
+    _add_window(commands.add_parser("window", help="open the window; so does no command at all"))
     _add_params(commands.add_parser("params", help="list the parameters of a scenario"))
     _add_run(commands.add_parser("run", help="run a test"))
     _add_check(commands.add_parser("check", help="look whether the Car still stands where it was measured"))
     return parser
+
+
+def _add_window(parser: argparse.ArgumentParser) -> None:
+    parser.description = "Opens the connection window, filled in with what is given here."
+    parser.add_argument("--robot", metavar="HOST", help="address of the robot")
+    parser.add_argument("--subscriber-port", type=_whole_number, metavar="N", help="TCP port of Status")
+    parser.add_argument("--publisher-port", type=_whole_number, metavar="N", help="TCP port of Command")
+    parser.add_argument("--can-interface", metavar="NAME", help="python-can interface, or simulated for a substitute")
+    parser.add_argument("--can-channel", metavar="NAME", help="channel or device of the adapter")
+    parser.add_argument("--can-bitrate", type=_whole_number, metavar="N", help="bit/s")
+    parser.add_argument("--car-profile", metavar="NAME_OR_PATH", help="how the Car's bus tells its lock state")
 
 
 def _add_params(parser: argparse.ArgumentParser) -> None:

@@ -14,6 +14,7 @@ from .arguments import argument_parser
 from .checking import check
 from .entry import EXIT_INTERRUPTED
 from .measuring import Measuring
+from .window import open_window
 
 EXIT_ERROR = 2
 
@@ -27,8 +28,10 @@ def run_command(arguments: list[str] | None = None) -> int:
             list_parameters(options)
         elif options.command == "check":
             check(options)
-        else:
+        elif options.command == "run":
             Measuring(options).run()
+        else:
+            return open_window(options)
     except OperatorError as error:
         print(error, file=sys.stderr)
         return EXIT_ERROR

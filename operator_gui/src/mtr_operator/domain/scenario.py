@@ -63,6 +63,7 @@ class Scenario(ABC, Generic[Parameters, Line]):
         parameters_type: its ParameterSet. It has to have key_height_m and maximum_speed_mps.
         columns: of results.csv.
         measurements: distances of a line, in the order of being measured.
+        lines_stay: the lines do not depend on the Car's size, so that they may be shown while it is still refined.
     """
 
     name: str
@@ -71,6 +72,7 @@ class Scenario(ABC, Generic[Parameters, Line]):
     parameters_type: type[Parameters]
     columns: tuple[Column, ...]
     measurements: tuple[Measurement, ...]
+    lines_stay: bool = False
 
     @abstractmethod
     def lines(self, parameters: Parameters, car: CarDimensions) -> list[Line]:
@@ -87,6 +89,15 @@ class Scenario(ABC, Generic[Parameters, Line]):
     @abstractmethod
     def place_of(self, result: Result) -> str:
         """Where the line of a result lies, for a person: "front right", "45°"."""
+
+    def reach(self, parameters: Parameters) -> tuple[float, float]:
+        """Nearest and farthest distance of the Remote key on each line, in m, for a preview before the test."""
+        return parameters.minimum_distance_m, parameters.maximum_distance_m
+
+    def expected_line_s(self, parameters: Parameters) -> float:
+        """How long measuring one line is likely to take, in s of robot time, without the way to its start."""
+        near_m, far_m = self.reach(parameters)
+        return (far_m - near_m) / parameters.maximum_speed_mps
 
     @property
     def status_columns(self) -> tuple[str, ...]:

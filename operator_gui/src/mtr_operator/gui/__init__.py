@@ -1,2 +1,2 @@
-"""Windows of the Operator's application, the only place for Qt; today a test is run from the command line."""
+"""Windows of the Operator's application, the only place for Qt."""
 # SPDX-License-Identifier: Apache-2.0

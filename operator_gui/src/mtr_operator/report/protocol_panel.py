@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import datetime
-
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from mtr_operator.domain.progress import Progress
-from mtr_operator.domain.scenario import LineStatus, Scenario
+from mtr_operator.domain.scenario import Scenario
+
+from .protocol_rows import Row, date_text, parameter_rows, session_rows, summary_rows
 
 INK = "#263238"
 BAR = {"linewidth": 5.0, "alpha": 0.3, "solid_capstyle": "butt"}
@@ -29,22 +29,12 @@ def write_panel(figure: Figure, axes: Axes, scenario: Scenario, progress: Progre
                            fontsize=10, labelcolor=INK, handletextpad=0.4)
     legend.set_in_layout(False)
     height = top - 0.12 - 0.032 * max(len(labels), 1)
-    for heading, rows in (("Result", _summary(scenario, progress)), ("Parameters", _parameter_rows(scenario, progress)),
-                          ("Test", _session_rows(progress))):
+    for heading, rows in (("Result", summary_rows(scenario, progress)),
+                          ("Parameters", parameter_rows(scenario, progress)), ("Test", session_rows(progress))):
         height = _write_table(figure, heading, rows, left, height) - 0.022
 
 
-def date_text(started: str) -> str:
-    """Local date and time of the test with its distance from UTC."""
-    try:
-        moment = datetime.datetime.fromisoformat(started)
-    except ValueError:
-        return started
-    zone = moment.strftime("%z")
-    return moment.strftime("%Y-%m-%d  %H:%M") + (f"  (UTC{zone[:3]}:{zone[3:]})" if zone else "")
-
-
-def _write_table(figure: Figure, heading: str, rows: list[tuple[str, str]], left: float, top: float) -> float:
+def _write_table(figure: Figure, heading: str, rows: list[Row], left: float, top: float) -> float:
     """Write rows below each other; the height at which the table ends."""
     figure.text(left, top, heading, fontsize=10, fontweight="bold", color=INK, va="top")
     for name, value in rows:
@@ -52,34 +42,3 @@ def _write_table(figure: Figure, heading: str, rows: list[tuple[str, str]], left
         figure.text(left, top, name, fontsize=8.5, color="#546e7a", va="top")
         figure.text(0.985, top, value, fontsize=8.5, color=INK, va="top", ha="right")
     return top - 0.0235
-
-
-def _summary(scenario: Scenario, progress: Progress) -> list[tuple[str, str]]:
-    rows = [("lines", str(len(progress.results)))]
-    for measurement in scenario.measurements:
-        states = [result[measurement.status] for result in progress.results]
-        counts = [(status, states.count(status.value)) for status in LineStatus]
-        told = ", ".join(f"{count} {status.value.replace('_', ' ')}" for status, count in counts if count)
-        rows.append((measurement.word, told or "nothing measured"))
-    return rows
-
-
-def _parameter_rows(scenario: Scenario, progress: Progress) -> list[tuple[str, str]]:
-    rows = []
-    for declared in scenario.parameters_type.declarations().values():
-        value = progress.parameters[declared.file_key]
-        if value is not None:
-            name, _, suffix = declared.file_key.rpartition("_")
-            shown = name if suffix in ("m", "s", "mps", "deg") else declared.file_key
-            rows.append((shown.replace("_", " "), declared.shown_text(value)))
-    return rows
-
-
-def _session_rows(progress: Progress) -> list[tuple[str, str]]:
-    car = progress.car
-    rows = [("Car measured", f"{car.length:.2f} m \N{MULTIPLICATION SIGN} {car.width:.2f} m")]
-    for name in ("car profile", "robot", "software", "robot software"):
-        value = str(progress.session.get(name, ""))
-        if value:
-            rows.append((name, value if len(value) <= 34 else "\N{HORIZONTAL ELLIPSIS}" + value[-33:]))
-    return rows

@@ -16,13 +16,16 @@ _SESSION_ID = 1
 class FakeRobotLink(RobotLink):
     """Each next_status lets 0.1 s of virtual time pass; deterministic for a seed.
 
-    time_factor: virtual seconds per second of wall time, 0 for as fast as the caller asks.
+    time_factor: virtual seconds per second of wall time, 0 for as fast as the caller asks. robot: one that has lived in
+    an earlier session already; session_id has to be another one then.
     """
 
     def __init__(self, seed: int = 1, time_factor: float = 0.0, world: VirtualWorld = DEFAULT_WORLD,
-                 sleep: Callable[[float], None] = time.sleep):
+                 sleep: Callable[[float], None] = time.sleep, *, robot: VirtualRobot | None = None,
+                 session_id: int = _SESSION_ID):
         self.statistics = LinkStatistics()
-        self._robot = VirtualRobot(seed, world)
+        self._robot = robot or VirtualRobot(seed, world)
+        self._session_id = session_id
         self._pause_s = STATUS_PERIOD_S / time_factor if time_factor > 0 else 0.0
         self._sleep = sleep
         self._connected = False
@@ -50,7 +53,7 @@ class FakeRobotLink(RobotLink):
         if desired != self._desired:
             self._command_id += 1
             self._desired = desired
-        self._robot.take(_SESSION_ID, self._command_id, desired)
+        self._robot.take(self._session_id, self._command_id, desired)
 
     def close(self) -> None:
         """See RobotLink."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import os
 import pathlib
-from typing import Any, NoReturn, Sequence
+from typing import Any, Mapping, NoReturn, Sequence
 
-from mtr_operator.domain.errors import OutputError, ProgressFileError
+from mtr_operator.domain.errors import InvalidParameter, OutputError, ProgressFileError
+from mtr_operator.domain.parameters import ParameterSet
 from mtr_operator.domain.progress import Progress, progress_from_document
 from mtr_operator.domain.scenario import Scenario
 
@@ -29,6 +30,22 @@ def load_progress(path: pathlib.Path, scenario: Scenario, parameters: dict[str, 
     try:
         return progress_from_document(_document(path), scenario, parameters)
     except ProgressFileError as error:
+        raise ProgressFileError(f"The test cannot be continued from {path}. {error}") from None
+
+
+def open_progress(path: pathlib.Path,
+                  scenarios: Mapping[str, Scenario]) -> tuple[Scenario, ParameterSet, Progress]:
+    """Scenario, parameters and progress in a file; ProgressFileError says what is wrong with the file."""
+    try:
+        document = _document(path)
+        parts = document if isinstance(document, dict) else {}
+        name, stored = parts.get("scenario"), parts.get("parameters")
+        if name not in scenarios or not isinstance(stored, dict):
+            raise ProgressFileError("It is not a progress file of this application, or of a scenario that it does not "
+                                    "know.")
+        parameters = scenarios[name].parameters_type.from_mapping(stored)
+        return scenarios[name], parameters, progress_from_document(document, scenarios[name], parameters.to_mapping())
+    except (InvalidParameter, ProgressFileError) as error:
         raise ProgressFileError(f"The test cannot be continued from {path}. {error}") from None
 
 

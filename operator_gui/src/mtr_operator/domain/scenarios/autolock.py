@@ -90,6 +90,12 @@ class Autolock(Scenario[AutolockParameters, Axis]):
         sets.append(PointSet("Invalid", Look.INVALID, invalid))
         return Picture(tuple(stretches), tuple(sets))
 
+    def expected_line_s(self, parameters: AutolockParameters) -> float:
+        """See Scenario: the Car is taken to unlock half way between the straightening's end and the minimum."""
+        straight_m = parameters.straightened_distance_m - parameters.minimum_distance_m
+        return (parameters.straightening_distance_m / parameters.maximum_speed_mps
+                + straight_m / parameters.speed_on_axis_mps)
+
     def place_of(self, result: Result) -> str:
         """See Scenario."""
         return str(result["side"]).replace("_", " ")

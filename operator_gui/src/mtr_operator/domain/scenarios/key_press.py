@@ -41,6 +41,7 @@ class KeyPress(Scenario[KeyPressParameters, Radial]):
     name = "key_press"
     title = "Key press"
     line_word = "radial"
+    lines_stay = True
     parameters_type = KeyPressParameters
     measurements = (Measurement("press", "status", "distance_m", "uncertainty_m"),)
     columns = (
@@ -99,6 +100,15 @@ class KeyPress(Scenario[KeyPressParameters, Radial]):
                      bars=bars_along(measured, "distance_m", "uncertainty_m")),
             PointSet("Press failed", Look.FAILED, _places(measured, "failed_distance_m")),
             PointSet("Invalid", Look.INVALID, invalid)))
+
+    def expected_line_s(self, parameters: KeyPressParameters) -> float:
+        """See Scenario: the Car is taken to obey at the middle one of the places."""
+        places = parameters.press_distances_m
+        failed = len(places) // 2
+        way_m = parameters.maximum_distance_m - places[failed]
+        press_s = parameters.settle_time_s + parameters.press_duration_s
+        waited_s = failed * parameters.attempts * (press_s + parameters.response_timeout_s) + press_s
+        return way_m / parameters.maximum_speed_mps + waited_s
 
     def place_of(self, result: Result) -> str:
         """See Scenario."""

@@ -1,0 +1,28 @@
+"""The command that opens the window."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import argparse
+
+from mtr_operator.domain.errors import OperatorError
+
+# Options of the command line by the name of what they fill in.
+_ROBOT = {"host": "robot", "subscriber_port": "subscriber_port", "publisher_port": "publisher_port"}
+_CAN = {"interface": "can_interface", "channel": "can_channel", "bitrate_bps": "can_bitrate", "profile": "car_profile"}
+
+
+def open_window(options: argparse.Namespace) -> int:
+    """Run the window until it is closed; the exit code."""
+    try:
+        from mtr_operator.gui.app import run
+    except ModuleNotFoundError as error:
+        if error.name is None or not error.name.startswith("PyQt5"):
+            raise
+        raise OperatorError("The window needs PyQt5, which is not installed; pip install PyQt5, or use the command "
+                            "run.") from None
+    return run(_given(options, _ROBOT), _given(options, _CAN))
+
+
+def _given(options: argparse.Namespace, names: dict[str, str]) -> dict[str, object]:
+    found = {name: getattr(options, option, None) for name, option in names.items()}
+    return {name: value for name, value in found.items() if value is not None}

@@ -1,0 +1,91 @@
+"""The application with its window: makes the parts, connects them, and runs until the window is closed."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import dataclasses
+import pathlib
+import signal
+from typing import Any, Mapping
+
+from PyQt5.QtCore import Qt
+from PyQt5.QtGui import QGuiApplication
+from PyQt5.QtWidgets import QApplication, QWidget
+
+from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
+from mtr_operator.station.desk import Desk
+from mtr_operator.station.settings_file import SettingsStore, default_path
+
+from .bridge import Bridge
+from .flow import Flow
+from .i18n import Language
+from .theme.appearance import Appearance
+from .windows.connection_window import ConnectionWindow
+from .windows.main_window import MainWindow
+
+NAME = "mtr-operator"
+
+
+class Application:
+    """Attributes: flow, appearance, language; window: the one that is shown."""
+
+    def __init__(self, settings_path: pathlib.Path | None = None, opener: LinkOpener | None = None):
+        self._store = SettingsStore(settings_path or default_path())
+        self.bridge = Bridge(Desk())
+        self.flow = Flow(self.bridge, self._store, opener or LinkOpener())
+        self.appearance = Appearance()
+        self.language = Language()
+        self.window: QWidget | None = None
+
+    def open(self, robot: Mapping[str, Any] | None = None, can: Mapping[str, Any] | None = None) -> None:
+        """Load the settings and show the connection window; robot, can: what to fill in instead of the last choice."""
+        self._store.load()
+        settings = self._store.settings
+        self.language.use(settings.language)
+        self.appearance.use(settings.theme)
+        self.bridge.start()
+        self.flow.connected.connect(self._show_main)
+        self._show(ConnectionWindow(self.flow, _filled_in(settings.connection, robot or {}, can or {})))
+
+    def close(self) -> None:
+        """Stop the robot, and disconnect."""
+        if self.window is not None:
+            self.window.hide()
+        self.flow.close()
+
+    def _show_main(self) -> None:
+        self._show(MainWindow(self.flow, self.appearance))
+
+    def _show(self, window: QWidget) -> None:
+        former, self.window = self.window, window
+        window.show()
+        if former is not None:
+            former.hide()
+            former.deleteLater()
+
+
+def _filled_in(connection: Connection, robot: Mapping[str, Any], can: Mapping[str, Any]) -> Connection:
+    former = connection.can or CanChoice("slcan")
+    return Connection(dataclasses.replace(connection.robot, **robot),
+                      dataclasses.replace(former, **can) if can else connection.can)
+
+
+def make_qt() -> QApplication:
+    """The Qt application; there is one per process."""
+    QGuiApplication.setAttribute(Qt.AA_EnableHighDpiScaling)
+    QGuiApplication.setAttribute(Qt.AA_UseHighDpiPixmaps)
+    app = QApplication([NAME])
+    app.setApplicationName(NAME)
+    app.setStyle("Fusion")
+    return app
+
+
+def run(robot: Mapping[str, Any], can: Mapping[str, Any]) -> int:
+    """Run the window until it is closed; the exit code."""
+    app = make_qt()
+    # Python sees Ctrl-C only when Qt lets it run; the heartbeat does.
+    signal.signal(signal.SIGINT, lambda *_: app.quit())
+    application = Application()
+    application.open(robot, can)
+    status = app.exec_()
+    application.close()
+    return status

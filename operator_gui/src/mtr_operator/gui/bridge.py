@@ -1,0 +1,60 @@
+"""The one hop from the thread of the links into the GUI thread, at most once per frame."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from PyQt5.QtCore import QObject, QTimer, pyqtSignal
+
+from mtr_operator.station.desk import Desk
+from mtr_operator.station.mailbox import Mailbox
+
+FRAME_MS = 33
+# Without any news the view still learns that the robot is silent, and time goes on.
+HEARTBEAT_MS = 500
+
+
+class Bridge(QObject):
+    """Empties the mailbox into the desk.
+
+    However often the mailbox wakes it, a frame passes between two batches; so the view's work does not grow with the
+    number of messages.
+
+    Attributes:
+        mailbox: to be filled by any thread. desk: to be read in the GUI thread.
+        frames: how often the view was told to look.
+    Signals:
+        happened: each event, in order, after the desk has learnt it.
+        changed: the desk is another one than before.
+    """
+
+    happened = pyqtSignal(object)
+    changed = pyqtSignal()
+    _woken = pyqtSignal()
+
+    def __init__(self, desk: Desk, parent: QObject | None = None):
+        super().__init__(parent)
+        self.desk = desk
+        self.mailbox = Mailbox(self._woken.emit)
+        self.frames = 0
+        self._frame = QTimer(self, interval=FRAME_MS, singleShot=True)
+        self._heartbeat = QTimer(self, interval=HEARTBEAT_MS)
+        self._frame.timeout.connect(self.deliver)
+        self._heartbeat.timeout.connect(self.deliver)
+        # Emitted in another thread: queued, and handled in this one.
+        self._woken.connect(self._schedule)
+
+    def start(self) -> None:
+        """Begin the heartbeat."""
+        self._heartbeat.start()
+
+    def deliver(self) -> None:
+        """Hand over what has come since."""
+        batch = self.mailbox.take()
+        self.desk.apply(batch)
+        self.frames += 1
+        for event in batch.events:
+            self.happened.emit(event)
+        self.changed.emit()
+
+    def _schedule(self) -> None:
+        if not self._frame.isActive():
+            self._frame.start()

@@ -1,0 +1,35 @@
+"""Questions and sentences in dialogs of their own."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import pathlib
+
+from PyQt5.QtWidgets import QFileDialog, QMessageBox, QWidget
+
+
+def ask_folder(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.Path | None:
+    """A folder that the Operator chooses; None when he does not."""
+    chosen = QFileDialog.getExistingDirectory(parent, title, str(start))
+    return pathlib.Path(chosen) if chosen else None
+
+
+def ask_progress_file(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.Path | None:
+    """A progress file that the Operator chooses; None when he does not."""
+    chosen, _ = QFileDialog.getOpenFileName(parent, title, str(start), "JSON (*.json)")
+    return pathlib.Path(chosen) if chosen else None
+
+
+def tell(parent: QWidget, title: str, sentence: str) -> None:
+    """Show a sentence until the Operator has read it."""
+    QMessageBox(QMessageBox.Warning, title, sentence, QMessageBox.Ok, parent).exec_()
+
+
+def confirm(parent: QWidget, title: str, question: str, answers: tuple[str, str]) -> bool:
+    """True when the Operator chooses the first answer; the second one is the safe one."""
+    box = QMessageBox(QMessageBox.Question, title, question, QMessageBox.NoButton, parent)
+    yes = box.addButton(answers[0], QMessageBox.AcceptRole)
+    no = box.addButton(answers[1], QMessageBox.RejectRole)
+    box.setDefaultButton(no)
+    box.setEscapeButton(no)
+    box.exec_()
+    return box.clickedButton() is yes

@@ -1,0 +1,213 @@
+"""What the Operator does, from connection to protocol: turns clicks into requests, and events into screens."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import dataclasses
+import enum
+import pathlib
+
+from PyQt5.QtCore import QObject, pyqtSignal
+
+from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.parameters import ParameterSet
+from mtr_operator.domain.scenario import Scenario
+from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
+from mtr_operator.station.idle import CalibrationOrder
+from mtr_operator.station.news import CarLinkOpened, Connected, Ended, Measured, News, Outcome, Refused, Saved
+from mtr_operator.station.readiness import Phase
+from mtr_operator.station.settings_file import SettingsStore
+from mtr_operator.station.test import Test, new_test, note_continued, open_test
+from mtr_operator.station.worker import Worker
+
+from .bridge import Bridge
+
+CLOSE_LIMIT_S = 8.0
+
+
+class Step(enum.Enum):
+    """The steps of the header bar."""
+
+    WELCOME = 0
+    TYPE = 1
+    MEASUREMENT = 2
+    PROTOCOL = 3
+
+
+class Flow(QObject):
+    """Knows no widget.
+
+    Attributes:
+        desk: what is known of robot, Car and test. store: settings. connection: in use.
+    Signals:
+        connected, refused(part, text): how an attempt to connect ended.
+        can_opened, can_refused(text): how a change of the CAN adapter ended.
+        step_changed(Step): another screen is due.
+        failed(text): the Operator has to know this sentence.
+        saved(text): the progress was written there.
+        folder_wanted(text): the folder of the progress cannot be written, for this reason; see use_progress_folder.
+    """
+
+    connected = pyqtSignal()
+    refused = pyqtSignal(str, str)
+    can_opened = pyqtSignal()
+    can_refused = pyqtSignal(str)
+    step_changed = pyqtSignal(object)
+    failed = pyqtSignal(str)
+    saved = pyqtSignal(str)
+    folder_wanted = pyqtSignal(str)
+
+    def __init__(self, bridge: Bridge, store: SettingsStore, opener: LinkOpener):
+        super().__init__()
+        self.bridge = bridge
+        self.desk = bridge.desk
+        self.store = store
+        self.connection = Connection()
+        self.step = Step.WELCOME
+        self._opener = opener
+        self._worker: Worker | None = None
+        self._is_connected = False
+        self._wanted_can: CanChoice | None = None
+        bridge.happened.connect(self._learn)
+
+    # Connection
+
+    def connect_to(self, connection: Connection) -> None:
+        """Try to connect; connected or refused follows."""
+        self.connection = connection
+        self._worker = Worker(connection, self._opener, self.bridge.mailbox)
+        self._worker.start()
+
+    def use_can(self, choice: CanChoice | None) -> None:
+        """Change the CAN adapter; can_opened or can_refused follows."""
+        self._wanted_can = choice
+        self._worker.use_can(choice)
+
+    def close(self) -> bool:
+        """Stop the robot and disconnect; True when that has succeeded in time."""
+        return self._worker is None or self._worker.close(CLOSE_LIMIT_S)
+
+    # Screens
+
+    def show(self, step: Step) -> None:
+        """Go to a step."""
+        self.step = step
+        self.step_changed.emit(step)
+
+    def to_welcome(self) -> None:
+        """Back to the beginning; an unfinished test stays on disk."""
+        self.desk.lay_aside()
+        self.show(Step.WELCOME)
+
+    # Test
+
+    def start(self, scenario: Scenario, parameters: ParameterSet) -> None:
+        """Begin a test."""
+        settings = self.store.settings.with_parameters(scenario.name, parameters.to_mapping())
+        self.store.change(settings)
+        self.desk.take_up(new_test(scenario, parameters, settings.progress_folder, self.connection))
+        self.resume()
+        self.show(Step.MEASUREMENT)
+
+    def resume(self) -> None:
+        """Measure what is left of the test on the desk."""
+        test = self.desk.test
+        if self.desk.results:
+            note_continued(test)
+        self.desk.begin()
+        self._worker.run_test(test)
+
+    def stop(self) -> None:
+        """Stop the robot; the line that is being measured is measured anew later."""
+        self.desk.phase = Phase.STOPPING
+        self._worker.stop_test()
+
+    def save_progress(self) -> None:
+        """Write the progress now; saved or folder_wanted follows."""
+        self._worker.save(self.desk.test)
+
+    def use_progress_folder(self, folder: pathlib.Path) -> None:
+        """Write the progress of this and later tests there."""
+        self.store.change(dataclasses.replace(self.store.settings, progress_folder=folder))
+        test = self.desk.test
+        test.path = folder / test.path.name
+        self.save_progress()
+
+    def open(self, path: pathlib.Path) -> None:
+        """Take up the test in a progress file; failed follows when it is none."""
+        try:
+            test = open_test(path)
+        except OperatorError as error:
+            self.failed.emit(str(error))
+            return
+        self.desk.take_up(test)
+        if test.is_complete:
+            self.desk.phase = Phase.FINISHED
+            self._forget_unfinished()
+            self.show(Step.PROTOCOL)
+        else:
+            self.show(Step.MEASUREMENT)
+
+    def unfinished_test(self) -> Test | None:
+        """The test that the last start of the application has not finished; None when there is none."""
+        path = self.store.settings.unfinished
+        try:
+            return None if path is None else open_test(path)
+        except OperatorError:
+            return None
+
+    def dismiss_unfinished(self) -> None:
+        """Offer it no more; its file stays."""
+        self._forget_unfinished()
+
+    def calibrate(self, order: CalibrationOrder) -> None:
+        """Have the robot try something."""
+        self._worker.calibrate(order)
+
+    # Events
+
+    def _learn(self, event: News) -> None:
+        if isinstance(event, Connected):
+            self._is_connected = True
+            self.store.change(self.store.settings.with_connection(self.connection))
+            self.connected.emit()
+        elif isinstance(event, Refused):
+            self._learn_refusal(event)
+        elif isinstance(event, CarLinkOpened):
+            self._use_connection(dataclasses.replace(self.connection, can=self._wanted_can))
+            self.can_opened.emit()
+        elif isinstance(event, Measured) and self.store.settings.unfinished != self.desk.test.path:
+            self.store.change(dataclasses.replace(self.store.settings, unfinished=self.desk.test.path))
+        elif isinstance(event, Ended):
+            self._learn_end(event)
+        elif isinstance(event, Saved):
+            self._learn_saved(event)
+
+    def _learn_refusal(self, event: Refused) -> None:
+        if not self._is_connected:
+            self.refused.emit(event.part, event.text)
+        else:
+            self.can_refused.emit(event.text)
+
+    def _learn_end(self, event: Ended) -> None:
+        if event.outcome is Outcome.COMPLETE:
+            self._forget_unfinished()
+            self.show(Step.PROTOCOL)
+        elif event.outcome is Outcome.NOT_SAVED:
+            self.folder_wanted.emit(event.text)
+
+    def _learn_saved(self, event: Saved) -> None:
+        test = self.desk.test
+        if event.text:
+            self.folder_wanted.emit(event.text)
+        elif test is not None:
+            if self.store.settings.unfinished is not None and test.progress.results:
+                self.store.change(dataclasses.replace(self.store.settings, unfinished=test.path))
+            self.saved.emit(str(test.path))
+
+    def _use_connection(self, connection: Connection) -> None:
+        self.connection = connection
+        self.store.change(self.store.settings.with_connection(connection))
+
+    def _forget_unfinished(self) -> None:
+        if self.store.settings.unfinished is not None:
+            self.store.change(dataclasses.replace(self.store.settings, unfinished=None))

@@ -1,0 +1,107 @@
+"""Choice of the CAN adapter and of the Car's profile, or none yet."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from PyQt5.QtCore import pyqtSignal
+from PyQt5.QtWidgets import QComboBox, QLabel, QVBoxLayout, QWidget
+
+from mtr_operator.car_link.profile import profile_names
+from mtr_operator.station.connection import DEFAULT_BITRATE_BPS, SIMULATED, CanChoice
+
+from ..theme.scale import XS, M
+from .field import Field
+
+# The usual ones; any other interface of python-can can be typed in.
+_INTERFACES = ("pcan", "socketcan", "slcan", "kvaser", "vector", "ixxat")
+_CHANNELS = {"pcan": "PCAN_USBBUS1", "socketcan": "can0", "slcan": "/dev/ttyACM0", "kvaser": "0", "vector": "0",
+             "ixxat": "0"}
+_BITRATES = ("125000", "250000", "500000", "1000000")
+
+
+class CanForm(QWidget):
+    """Attributes: interface, bitrate, profile: combo boxes. channel: field. Signals: submitted: Enter was pressed."""
+
+    submitted = pyqtSignal()
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.interface = QComboBox()
+        self.interface.setSizeAdjustPolicy(QComboBox.AdjustToMinimumContentsLengthWithIcon)
+        self.interface.setMinimumContentsLength(12)
+        self.interface.addItem(self.tr("None yet"), None)
+        for name in _INTERFACES:
+            self.interface.addItem(name, name)
+        self.interface.addItem(self.tr("Simulated Car (to try the application)"), SIMULATED)
+        self.channel = Field(self.tr("Channel"), self.tr("as the adapter's driver calls it"))
+        self.bitrate = self._editable(_BITRATES)
+        self.profile = self._editable(profile_names())
+        self.interface.currentIndexChanged.connect(self._suit_interface)
+        self.channel.edit.returnPressed.connect(self.submitted)
+        self._hint = QLabel(self.tr("Without an adapter everything but a test works."))
+        self._hint.setWordWrap(True)
+        self._hint.setProperty("role", "hint")
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(M)
+        self._add(layout, self.tr("CAN adapter"), self.interface, self._hint)
+        layout.addWidget(self.channel)
+        self._add(layout, self.tr("Bit rate in bit/s"), self.bitrate)
+        self._add(layout, self.tr("Car profile"), self.profile)
+        layout.addStretch(1)
+        self._suit_interface()
+
+    def _editable(self, entries: tuple[str, ...]) -> QComboBox:
+        box = QComboBox()
+        box.setEditable(True)
+        box.addItems(entries)
+        box.lineEdit().returnPressed.connect(self.submitted)
+        return box
+
+    @staticmethod
+    def _add(layout: QVBoxLayout, title: str, box: QComboBox, hint: QLabel | None = None) -> None:
+        label = QLabel(title)
+        label.setBuddy(box)
+        label.mousePressEvent = lambda _event: box.setFocus()
+        box.setAccessibleName(title)
+        group = QVBoxLayout()
+        group.setSpacing(XS)
+        for widget in (label, box, *([hint] if hint else [])):
+            group.addWidget(widget)
+        layout.addLayout(group)
+
+    def show_choice(self, choice: CanChoice | None) -> None:
+        """Fill the fields."""
+        self.interface.setCurrentIndex(self._index_of(None if choice is None else choice.interface))
+        if choice is None:
+            self.bitrate.setCurrentText(str(DEFAULT_BITRATE_BPS))
+            return
+        self.channel.edit.setText(choice.channel)
+        self.bitrate.setCurrentText(str(choice.bitrate_bps))
+        self.profile.setCurrentText(choice.profile)
+
+    @property
+    def choice(self) -> CanChoice | None:
+        """What is chosen; a bit rate that is no number becomes 0, which the adapter refuses with a sentence."""
+        interface = self.interface.currentData()
+        if interface is None:
+            return None
+        bitrate = self.bitrate.currentText().strip()
+        return CanChoice(interface, self.channel.text.strip(), int(bitrate) if bitrate.isdecimal() else 0,
+                         self.profile.currentText().strip())
+
+    def _index_of(self, interface: str | None) -> int:
+        index = self.interface.findData(interface)
+        if index < 0:
+            self.interface.insertItem(1, interface, interface)
+            index = 1
+        return index
+
+    def _suit_interface(self) -> None:
+        interface = self.interface.currentData()
+        needs_adapter = interface not in (None, SIMULATED)
+        for widget in (self.channel, self.bitrate, self.profile):
+            widget.setEnabled(needs_adapter)
+        self._hint.setVisible(interface is None)
+        known = self.channel.text in ("", *_CHANNELS.values())
+        if needs_adapter and known:
+            self.channel.edit.setText(_CHANNELS.get(interface, ""))

@@ -1,0 +1,124 @@
+"""All parameters of a scenario: those of every test at once, the rest on demand."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Any, Mapping
+
+from PyQt5.QtCore import Qt, pyqtSignal
+from PyQt5.QtWidgets import QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.parameters import ParameterSet
+
+from ..sentences import translated
+from ..theme.scale import L, M
+from .parameter_field import ParameterField
+
+# By convention a scenario declares the parameters that every test needs up to this one.
+_LAST_MAIN = "maximum_speed_mps"
+_COLUMNS = 2
+
+
+class ParameterForm(QWidget):
+    """Attributes: fields: by parameter. more, usual: buttons. fault: what does not fit together.
+
+    Signals: changed: something else was typed.
+    """
+
+    changed = pyqtSignal()
+
+    def __init__(self, parameters_type: type[ParameterSet], parent: QWidget | None = None):
+        super().__init__(parent)
+        self._type = parameters_type
+        self._is_filling = False
+        self.fields = {name: ParameterField(name, declared)
+                       for name, declared in parameters_type.declarations().items()}
+        self.usual = QPushButton(self.tr("Usual values"))
+        self.more = QPushButton()
+        self.more.setCheckable(True)
+        self.more.setProperty("role", "flat")
+        self.usual.setProperty("role", "flat")
+        self.fault = QLabel()
+        self.fault.setWordWrap(True)
+        self.fault.setProperty("role", "error")
+        self._rest = QWidget()
+        self.more.toggled.connect(self._show_rest)
+        self._show_rest(False)
+        self.usual.clicked.connect(lambda: self.show_mapping({}))
+        self._lay_out()
+        for field in self.fields.values():
+            field.changed.connect(self._check)
+        self.show_mapping({})
+
+    def _lay_out(self) -> None:
+        names = list(self.fields)
+        split = names.index(_LAST_MAIN) + 1 if _LAST_MAIN in names else len(names)
+        main = QWidget()
+        for page, part in ((main, names[:split]), (self._rest, names[split:])):
+            grid = QGridLayout(page)
+            grid.setContentsMargins(0, 0, 0, 0)
+            grid.setHorizontalSpacing(L)
+            grid.setVerticalSpacing(M)
+            for index, name in enumerate(part):
+                grid.addWidget(self.fields[name], index // _COLUMNS, index % _COLUMNS, Qt.AlignTop)
+            for column in range(_COLUMNS):
+                grid.setColumnStretch(column, 1)
+        self.more.setVisible(split < len(names))
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, M, 0)
+        layout.setSpacing(M)
+        for widget in (main, self.fault, self.more, self._rest, self.usual):
+            layout.addWidget(widget, 0, Qt.AlignLeft if isinstance(widget, QPushButton) else Qt.Alignment())
+        layout.addStretch(1)
+
+    def _show_rest(self, is_shown: bool) -> None:
+        self._rest.setVisible(is_shown)
+        sign = "\N{BLACK DOWN-POINTING SMALL TRIANGLE}" if is_shown else "\N{BLACK RIGHT-POINTING SMALL TRIANGLE}"
+        words = self.tr("Fewer parameters") if is_shown else self.tr("More parameters")
+        self.more.setText(f"{sign} {words}")
+
+    @property
+    def parameters(self) -> ParameterSet | None:
+        """What was typed; None while it is not valid."""
+        try:
+            return self._type(**{name: field.reading.value for name, field in self.fields.items()}) \
+                if not self._faulty_fields() else None
+        except InvalidParameter:
+            return None
+
+    def show_mapping(self, mapping: Mapping[str, Any]) -> None:
+        """Show parameters as in a parameter file; those that are missing or no longer allowed take their default."""
+        try:
+            values = self._type.from_mapping(mapping)
+        except InvalidParameter:
+            values = self._type()
+        self._is_filling = True
+        for name, field in self.fields.items():
+            field.show_value(getattr(values, name))
+        self._is_filling = False
+        self._check()
+
+    def show_fault(self, sentence: str) -> None:
+        """Say what does not fit together, e.g. with the Car's size."""
+        self.fault.setText(sentence)
+        self.fault.setVisible(bool(sentence))
+
+    def _faulty_fields(self) -> list[ParameterField]:
+        return [field for field in self.fields.values() if field.reading.fault is not None]
+
+    def _check(self) -> None:
+        if self._is_filling:
+            return
+        for field in self.fields.values():
+            field.check()
+        sentence = ""
+        faulty = self._faulty_fields()
+        if not faulty:
+            try:
+                self._type(**{name: field.reading.value for name, field in self.fields.items()})
+            except InvalidParameter as error:
+                sentence = translated(str(error))
+        elif any(self._rest.isAncestorOf(field) for field in faulty):
+            self.more.setChecked(True)
+        self.show_fault(sentence)
+        self.changed.emit()

@@ -1,0 +1,57 @@
+"""Verdict and reasons in words: what is the matter, and what to do about it."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from mtr_operator.station.readiness import Cause, Reason, Word
+
+from ..i18n import translate
+from ..sentences import translated
+
+
+def word_text(word: Word) -> str:
+    """The status word."""
+    return {
+        Word.READY: translate("Status", "Ready"),
+        Word.WARNINGS: translate("Status", "Ready with warnings"),
+        Word.NOT_READY: translate("Status", "Not ready"),
+        Word.MEASURING: translate("Status", "Measuring"),
+        Word.PAUSED: translate("Status", "Paused"),
+        Word.LOST: translate("Status", "Communication lost"),
+    }[word]
+
+
+def reason_text(reason: Reason) -> str:
+    """What is the matter."""
+    detail = translated(reason.detail)
+    return {
+        Cause.ROBOT_SILENT: translate("Status", "The robot has not answered for {detail} s."),
+        Cause.ROBOT_STARTING: translate("Status", "The robot is still starting."),
+        Cause.ROBOT_FAULT: detail or translate("Status", "The robot reports a fault."),
+        Cause.OTHER_OPERATOR: translate("Status", "Another application controls the robot."),
+        Cause.NOTIFICATION: detail,
+        Cause.BATTERY_EMPTY: translate("Status", "The robot's battery is nearly empty: {detail} %."),
+        Cause.BATTERY_LOW: translate("Status", "The robot's battery is low: {detail} %."),
+        Cause.NO_CAN: translate("Status", "No CAN adapter is chosen."),
+        Cause.CAN_PROBLEM: detail,
+        Cause.LOCKS_UNKNOWN: translate("Status", "The Car does not say whether it is locked."),
+        Cause.POSITION_LOST: detail or translate("Status", "The robot does not know its position."),
+    }[reason.cause].replace("{detail}", detail)
+
+
+def advice_text(reason: Reason) -> str:
+    """What to do about it; empty when the sentence says it already."""
+    return {
+        Cause.ROBOT_SILENT: translate("Status", "Check the Wi-Fi and that the robot is on. The robot stands still "
+                                                "meanwhile; the link comes back by itself."),
+        Cause.ROBOT_STARTING: translate("Status", "Wait a moment."),
+        Cause.ROBOT_FAULT: translate("Status", "Make sure that nothing blocks the robot; if the fault stays, switch "
+                                               "the robot off and on."),
+        Cause.OTHER_OPERATOR: translate("Status", "End the other application; control comes here by itself."),
+        Cause.BATTERY_EMPTY: translate("Status", "Charge the battery before the test."),
+        Cause.BATTERY_LOW: translate("Status", "Short tests are possible; charge the battery soon."),
+        Cause.NO_CAN: translate("Status", "Choose one under Settings, CAN adapter."),
+        Cause.CAN_PROBLEM: translate("Status", "If the adapter is the wrong one, choose another under Settings."),
+        Cause.LOCKS_UNKNOWN: translate("Status", "Wake the Car, e.g. open a door; check the car profile."),
+        Cause.POSITION_LOST: translate("Status", "Let it see the Car; if it stays lost, begin a new test, which maps "
+                                                 "the Car again."),
+    }.get(reason.cause, "")

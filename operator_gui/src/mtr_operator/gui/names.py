@@ -1,0 +1,62 @@
+"""What the domain calls by names in files, in words of the Operator; what is not listed follows from its name."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from mtr_operator.domain.parameters import Declaration
+from mtr_operator.domain.scenario import Scenario
+
+from .i18n import translate
+
+_SUFFIXES = ("_m", "_mps", "_s", "_rad", "_deg")
+
+
+def parameter_title(name: str, declared: Declaration) -> str:
+    """Label of a parameter's field; the words are those of the thesis where it has some."""
+    titles = {
+        "minimum_distance_m": translate("Parameter", "Minimum distance"),
+        "maximum_distance_m": translate("Parameter", "Starting distance"),
+        "straightening_distance_m": translate("Parameter", "Straightening distance"),
+        "measurements_distance_m": translate("Parameter", "Measurements distance"),
+        "approach_distance_m": translate("Parameter", "Approach distance"),
+        "angle_between_radials_rad": translate("Parameter", "Degrees between radials"),
+        "key_height_m": translate("Parameter", "Device height"),
+        "maximum_speed_mps": translate("Parameter", "Maximum speed"),
+        "measuring_speed_mps": translate("Parameter", "Measuring speed"),
+        "clearance_m": translate("Parameter", "Clearance"),
+        "response_timeout_s": translate("Parameter", "Response time"),
+        "lock_timeout_s": translate("Parameter", "Locking time"),
+        "press_strength": translate("Parameter", "Press strength"),
+        "press_duration_s": translate("Parameter", "Press duration"),
+        "settle_time_s": translate("Parameter", "Standstill before a press"),
+        "attempts": translate("Parameter", "Attempts"),
+    }
+    return titles.get(name) or plain_words(name, declared)
+
+
+def plain_words(name: str, declared: Declaration) -> str:
+    """Words of a parameter of a scenario that came later."""
+    for suffix in _SUFFIXES:
+        if declared.unit and name.endswith(suffix):
+            name = name[:-len(suffix)]
+            break
+    return name.replace("_", " ").capitalize()
+
+
+def parameter_doc(declared: Declaration) -> str:
+    """Tool tip of a parameter's field."""
+    return translate("ParameterDoc", declared.doc)
+
+
+def scenario_title(scenario: Scenario) -> str:
+    """Name of a scenario."""
+    return translate("Scenario", scenario.title)
+
+
+def scenario_doc(scenario: Scenario) -> str:
+    """One sentence on a scenario."""
+    return translate("Scenario", " ".join((type(scenario).__doc__ or "").split()))
+
+
+def domain_word(word: str) -> str:
+    """Translation of one of the domain's words: "axis", "unlock", "not reached", "front left"."""
+    return translate("Word", word)

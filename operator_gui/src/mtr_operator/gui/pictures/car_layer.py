@@ -1,0 +1,66 @@
+"""The Car from above, in the size that the robot has measured."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Sequence
+
+from PyQt5.QtCore import QPointF, QRectF, Qt
+from PyQt5.QtGui import QBrush, QColor
+
+from mtr_operator.domain.ports import CarDimensions
+from mtr_operator.domain.pose import Point
+from mtr_operator.report.car_shape import (
+    HEADLAMP,
+    REAR_WINDOW,
+    ROUNDING_PART,
+    SIDE_WINDOW,
+    TAIL,
+    WINDSCREEN,
+    mirrored,
+    scaled,
+)
+
+from ..i18n import translate
+from .layer import Canvas, Layer
+
+_LAMP, _TAIL_LAMP = "#f7e7a1", "#c0392b"
+_LEAST_TEXT_PX = 9.0
+
+
+class CarLayer(Layer):
+    """Attributes: car: its dimensions. is_measured: False paints its border dashed, for its size is a guess."""
+
+    def __init__(self, car: CarDimensions, is_measured: bool):
+        self.car = car
+        self.is_measured = is_measured
+
+    def points(self) -> Sequence[Point]:
+        """See Layer."""
+        return ((self.car.length / 2.0, self.car.width / 2.0),)
+
+    def paint(self, canvas: Canvas) -> None:
+        """See Layer."""
+        painter, palette, car = canvas.painter, canvas.palette, self.car
+        half_length, half_width = car.length / 2.0, car.width / 2.0
+        rounding = ROUNDING_PART * car.width * canvas.viewport.px_per_m
+        painter.setPen(canvas.pen(palette.edge, 1.8, Qt.SolidLine if self.is_measured else Qt.DashLine))
+        painter.setBrush(QBrush(QColor(palette.body)))
+        body = QRectF(canvas.at((half_length, half_width)), canvas.at((-half_length, -half_width)))
+        painter.drawRoundedRect(body, rounding, rounding)
+        painter.setPen(canvas.pen(palette.edge, 0.8))
+        for parts, colour in (((WINDSCREEN, REAR_WINDOW, SIDE_WINDOW, mirrored(SIDE_WINDOW)), palette.glass),
+                              ((HEADLAMP, mirrored(HEADLAMP)), _LAMP), ((TAIL, mirrored(TAIL)), _TAIL_LAMP)):
+            painter.setBrush(QBrush(QColor(colour)))
+            for part in parts:
+                painter.drawPolygon(canvas.polygon(scaled(part, half_length, half_width)))
+        self._write_front(canvas, half_length)
+
+    def _write_front(self, canvas: Canvas, half_length: float) -> None:
+        size = min(15.0, 0.13 * self.car.width * canvas.viewport.px_per_m / canvas.unit)
+        if size < _LEAST_TEXT_PX:
+            return
+        canvas.painter.setPen(QColor(canvas.palette.ink))
+        canvas.painter.setFont(canvas.font(size, True))
+        middle = canvas.at((0.66 * half_length, 0.0))
+        room = QPointF(0.5 * self.car.width * canvas.viewport.px_per_m, 12.0 * canvas.unit)
+        canvas.painter.drawText(QRectF(middle - room, middle + room), Qt.AlignCenter, translate("Picture", "FRONT"))

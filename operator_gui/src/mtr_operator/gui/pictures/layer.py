@@ -1,0 +1,91 @@
+"""What a picture consists of: layers that paint themselves, on a screen or into a file."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Sequence
+
+from PyQt5.QtCore import QPointF, QRectF, Qt
+from PyQt5.QtGui import QColor, QFont, QPainter, QPen, QPolygonF
+
+from mtr_operator.domain.pose import Point
+
+from ..theme.palette import Palette
+from .viewport import Viewport
+
+
+@dataclass(frozen=True)
+class Canvas:
+    """What a layer paints on. unit: length of one screen pixel in the painter's units, for lines and letters."""
+
+    painter: QPainter
+    viewport: Viewport
+    palette: Palette
+    unit: float = 1.0
+
+    def at(self, point: Point) -> QPointF:
+        """Place of a point of the Car coordinate system."""
+        return QPointF(*self.viewport.to_screen(point))
+
+    def polygon(self, points: Sequence[Point]) -> QPolygonF:
+        """Places of points."""
+        return QPolygonF([self.at(point) for point in points])
+
+    def pen(self, colour: str, width: float = 1.0, style: Qt.PenStyle = Qt.SolidLine, alpha: float = 1.0) -> QPen:
+        """Pen of a width in pixels."""
+        shade = QColor(colour)
+        shade.setAlphaF(alpha)
+        return QPen(shade, width * self.unit, style, Qt.RoundCap, Qt.RoundJoin)
+
+    def font(self, pixels: float, is_bold: bool = False) -> QFont:
+        """Font of a height in pixels."""
+        font = QFont(self.painter.font())
+        font.setPixelSize(max(1, round(pixels * self.unit)))
+        font.setBold(is_bold)
+        return font
+
+    def label(self, place: QPointF, text: str, colour: str) -> None:
+        """Text centred at a place, legible on whatever is below it. The painter's font is used."""
+        rect = self.painter.fontMetrics().boundingRect(text)
+        box = QRectF(0, 0, rect.width() + 8 * self.unit, rect.height() + 2 * self.unit)
+        box.moveCenter(place)
+        ground = QColor(self.palette.surface)
+        ground.setAlphaF(0.85)
+        self.painter.setPen(Qt.NoPen)
+        self.painter.setBrush(ground)
+        self.painter.drawRoundedRect(box, 3 * self.unit, 3 * self.unit)
+        self.painter.setPen(QColor(colour))
+        self.painter.drawText(box, Qt.AlignCenter, text)
+
+
+class Layer(ABC):
+    """One kind of thing in a picture.
+
+    Attributes:
+        is_moving: it changes with every Status; the others are painted once and kept.
+        is_visible: it is painted.
+    """
+
+    is_moving = False
+    is_visible = True
+
+    @abstractmethod
+    def paint(self, canvas: Canvas) -> None:
+        """Paint it; the painter's state need not be restored."""
+
+    def paint_news(self, canvas: Canvas) -> None:
+        """Paint what has been added since, over what is there already."""
+
+    def points(self) -> Sequence[Point]:
+        """Places that should be seen when everything is to be seen."""
+        return ()
+
+
+def paint_all(layers: Sequence[Layer], canvas: Canvas) -> None:
+    """Paint visible layers over each other."""
+    for layer in layers:
+        if layer.is_visible:
+            canvas.painter.save()
+            layer.paint(canvas)
+            canvas.painter.restore()

@@ -1,0 +1,107 @@
+"""What the markers of a picture mean."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Sequence
+
+from PyQt5.QtCore import QPointF, QRectF, QSize, Qt
+from PyQt5.QtGui import QColor, QPainter, QPaintEvent
+from PyQt5.QtWidgets import QSizePolicy, QWidget
+
+from mtr_operator.domain.picture import PointSet
+
+from ..i18n import translate
+from ..names import domain_word
+from ..theme.appearance import Appearance
+from ..theme.scale import XS, M
+from .layer import Canvas
+from .points_layer import colour_of, draw_marker
+from .viewport import Viewport
+
+ROW_PX = 24.0
+_TEXT_LEFT_PX = 26.0
+_FONT_PX = 15.0
+
+
+def legend_texts(sets: Sequence[PointSet]) -> list[str]:
+    """Label and number of points of each set that has some, and the meaning of the bars."""
+    texts = [f"{domain_word(points.label)} ({len(points.known)})" for points in sets if points.known]
+    if any(points.bars for points in sets):
+        texts.append(translate("Picture", "uncertainty (1 sigma)"))
+    return texts
+
+
+def paint_entry(canvas: Canvas, sets: Sequence[PointSet], index: int, corner: QPointF) -> None:
+    """One row with the painter's font; corner: its upper left."""
+    shown = [points for points in sets if points.known]
+    unit, painter = canvas.unit, canvas.painter
+    middle = corner + QPointF(10.0, ROW_PX / 2.0) * unit
+    if index < len(shown):
+        colour = colour_of(shown[index].look, canvas.palette)
+        painter.setPen(canvas.pen(colour, 2.2))
+        painter.setBrush(QColor(colour))
+        draw_marker(painter, shown[index].look, middle, 5.5 * unit)
+    else:
+        bar = canvas.pen(canvas.palette.ink_soft, 7.0, alpha=0.5)
+        bar.setCapStyle(Qt.FlatCap)
+        painter.setPen(bar)
+        painter.drawLine(middle - QPointF(8, 0) * unit, middle + QPointF(8, 0) * unit)
+    painter.setPen(QColor(canvas.palette.ink))
+    box = QRectF(corner.x() + _TEXT_LEFT_PX * unit, corner.y(), 600 * unit, ROW_PX * unit)
+    painter.drawText(box, Qt.AlignLeft | Qt.AlignVCenter, legend_texts(sets)[index])
+
+
+class LegendStrip(QWidget):
+    """The legend above a picture, in as many rows as it takes."""
+
+    def __init__(self, appearance: Appearance, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._appearance = appearance
+        self._sets: tuple[PointSet, ...] = ()
+        policy = QSizePolicy(QSizePolicy.Expanding, QSizePolicy.Minimum)
+        policy.setHeightForWidth(True)
+        self.setSizePolicy(policy)
+        font = self.font()
+        font.setPixelSize(round(_FONT_PX))
+        self.setFont(font)
+        appearance.changed.connect(self.update)
+
+    def show_sets(self, sets: Sequence[PointSet]) -> None:
+        """Explain these."""
+        self._sets = tuple(sets)
+        self.setAccessibleName(", ".join(legend_texts(self._sets)))
+        self.updateGeometry()
+        self.update()
+
+    def hasHeightForWidth(self) -> bool:
+        """See QWidget."""
+        return True
+
+    def heightForWidth(self, width: int) -> int:
+        """See QWidget."""
+        places = self._places(width)
+        return round(places[-1].y() + ROW_PX) + XS if places else 0
+
+    def sizeHint(self) -> QSize:
+        """See QWidget."""
+        return QSize(400, self.heightForWidth(max(self.width(), 400)))
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """See QWidget."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.Antialiasing)
+        painter.setFont(self.font())
+        canvas = Canvas(painter, Viewport(self.width(), self.height()), self._appearance.palette)
+        for index, place in enumerate(self._places(self.width())):
+            paint_entry(canvas, self._sets, index, place)
+
+    def _places(self, width: int) -> list[QPointF]:
+        places: list[QPointF] = []
+        left = top = 0.0
+        for text in legend_texts(self._sets):
+            wide = _TEXT_LEFT_PX + self.fontMetrics().horizontalAdvance(text) + M
+            if left and left + wide > width:
+                left, top = 0.0, top + ROW_PX
+            places.append(QPointF(left, top))
+            left += wide
+        return places

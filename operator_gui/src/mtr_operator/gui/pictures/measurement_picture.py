@@ -1,0 +1,84 @@
+"""The picture of the measurement screen, from what is on the desk."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Any
+
+from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.pose import Pose
+from mtr_operator.station.desk import Desk
+from mtr_operator.station.estimate import USUAL_CAR, plan_of
+
+from .car_layer import CarLayer
+from .glide import Glide
+from .lines_layer import LinesLayer
+from .picture_panel import PicturePanel
+from .points_layer import AreasLayer, PointsLayer
+from .robot_layer import RobotLayer, TrailLayer
+from .surroundings import GridLayer, ScaleLayer
+
+
+class MeasurementPicture:
+    """Paints what stands still only when it has changed, and the robot thirty times a second."""
+
+    def __init__(self, desk: Desk, panel: PicturePanel):
+        self._desk = desk
+        self._panel = panel
+        self._glide = Glide()
+        self._shown: tuple[Any, ...] = ()
+        self.robot = RobotLayer()
+        self.trail = TrailLayer()
+        self.areas = AreasLayer()
+        self.points = PointsLayer()
+        self.lines = LinesLayer()
+
+    def show_desk(self, now_s: float) -> None:
+        """Something is another one."""
+        desk = self._desk
+        shown = (id(desk.test), desk.mapped_car, len(desk.results), id(desk.results))
+        if shown != self._shown:
+            self._shown = shown
+            self._arrange()
+        self._show_robot(now_s)
+        self._panel.view.update()
+
+    def glide(self, now_s: float) -> None:
+        """The next frame is due."""
+        if self._glide.is_moving(now_s):
+            self.robot.pose = self._glide.at(now_s)
+            self._panel.view.update()
+
+    def _show_robot(self, now_s: float) -> None:
+        news = self._desk.robot
+        if news is None:
+            return
+        status = news.status
+        self._glide.put(Pose(status.x, status.y, status.heading) if status.pose_valid else None, now_s)
+        robot = self.robot
+        robot.pose, robot.key, robot.sigma_m = self._glide.at(now_s), (status.key_x, status.key_y), \
+            status.position_sigma_m
+        goal = news.waypoint
+        robot.waypoint = None if goal is None else Pose(goal.x, goal.y, goal.heading)
+        if self._desk.trail is not self.trail.places:
+            self.trail.places = self._desk.trail
+            self._panel.view.refresh()
+        self._panel.view.add_news(self.trail)
+
+    def _arrange(self) -> None:
+        desk, test = self._desk, self._desk.test
+        mapped = desk.mapped_car
+        car = mapped or USUAL_CAR
+        picture = test.scenario.picture(test.parameters, car, desk.results)
+        self.points.sets = self.areas.sets = picture.point_sets
+        self.lines.is_visible = test.scenario.lines_stay
+        self.lines.stretches = self._stretches(car)
+        self._panel.legend.show_sets(picture.point_sets)
+        self._panel.view.show_layers([GridLayer(), self.lines, self.areas, CarLayer(car, mapped is not None),
+                                      self.points, self.trail, self.robot, ScaleLayer()])
+
+    def _stretches(self, car: Any) -> tuple:
+        test = self._desk.test
+        try:
+            return plan_of(test.scenario, test.parameters, car, True).stretches
+        except InvalidParameter:  # the runner says it
+            return ()

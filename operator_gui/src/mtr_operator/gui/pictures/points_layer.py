@@ -1,0 +1,119 @@
+"""What was measured: points with their uncertainty, and the areas that they enclose."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from typing import Sequence
+
+from PyQt5.QtCore import QPointF, QRectF, Qt
+from PyQt5.QtGui import QColor, QPainter
+
+from mtr_operator.domain.picture import Look, PointSet
+from mtr_operator.domain.pose import Point
+
+from ..theme.palette import Palette
+from .layer import Canvas, Layer
+
+_RADIUS_PX = 5.5
+_AREA_ALPHA = 0.12
+_BAR_ALPHA = 0.35
+
+
+def colour_of(look: Look, palette: Palette) -> str:
+    """Colour of a role."""
+    return {Look.FIRST: palette.first, Look.FIRST_FAILED: palette.first, Look.SECOND: palette.second,
+            Look.SECOND_FAILED: palette.second, Look.FAILED: palette.failed, Look.INVALID: palette.invalid}[look]
+
+
+def draw_marker(painter: QPainter, look: Look, place: QPointF, radius: float) -> None:
+    """Marker of a role: told apart by shape too. Pen and brush are the painter's."""
+    if look is Look.FIRST:
+        painter.drawEllipse(place, radius, radius)
+    elif look is Look.SECOND:
+        painter.drawRect(QRectF(place.x() - 0.9 * radius, place.y() - 0.9 * radius, 1.8 * radius, 1.8 * radius))
+    elif look is Look.INVALID:
+        painter.drawPolygon(place + QPointF(0, -1.2 * radius), place + QPointF(1.2 * radius, 0),
+                            place + QPointF(0, 1.2 * radius), place + QPointF(-1.2 * radius, 0))
+    else:
+        for dx, dy in ((1, 1), (1, -1)):
+            painter.drawLine(place - QPointF(dx, dy) * radius, place + QPointF(dx, dy) * radius)
+
+
+class AreasLayer(Layer):
+    """Attributes: sets: those that enclose an area are painted."""
+
+    def __init__(self, sets: Sequence[PointSet] = ()):
+        self.sets = tuple(sets)
+
+    def paint(self, canvas: Canvas) -> None:
+        """See Layer."""
+        for points in self.sets:
+            if points.is_outline and len(points.known) > 2:
+                _paint_outline(canvas, points)
+
+
+class PointsLayer(Layer):
+    """Attributes: sets: what there is to show. chosen: points to be marked, e.g. those of a row of the table.
+
+    shows_distances: writes the distance from the Car's centre beside the points of an outline that is the only one.
+    """
+
+    def __init__(self, sets: Sequence[PointSet] = (), shows_distances: bool = False):
+        self.sets = tuple(sets)
+        self.chosen: tuple[Point, ...] = ()
+        self.shows_distances = shows_distances
+
+    def points(self) -> Sequence[Point]:
+        """See Layer."""
+        return [point for points in self.sets for point in points.known]
+
+    def paint(self, canvas: Canvas) -> None:
+        """See Layer."""
+        for points in self.sets:
+            _paint_points(canvas, points)
+        for point in self.chosen:
+            canvas.painter.setBrush(Qt.NoBrush)
+            canvas.painter.setPen(canvas.pen(canvas.palette.ink, 3.0))
+            canvas.painter.drawEllipse(canvas.at(point), 12.0 * canvas.unit, 12.0 * canvas.unit)
+        if self.shows_distances:
+            self._write_distances(canvas)
+
+    def _write_distances(self, canvas: Canvas) -> None:
+        canvas.painter.setFont(canvas.font(14.0, True))
+        for points in self.sets:
+            if points.look is Look.FIRST:
+                for x, y in points.known:
+                    distance = math.hypot(x, y)
+                    inward = 1.0 - 26.0 * canvas.unit / max(distance * canvas.viewport.px_per_m, 1.0)
+                    canvas.label(canvas.at((x * inward, y * inward)), f"{distance:.2f} m",
+                                 colour_of(points.look, canvas.palette))
+
+
+def _paint_outline(canvas: Canvas, points: PointSet) -> None:
+    colour = colour_of(points.look, canvas.palette)
+    pieces = list(points.pieces())
+    for start, end, is_known in pieces:
+        # A piece that bridges a line without a point is a guess.
+        canvas.painter.setPen(canvas.pen(colour, 2.0 if is_known else 1.2, Qt.SolidLine if is_known else Qt.DotLine))
+        canvas.painter.drawLine(canvas.at(start), canvas.at(end))
+    if all(is_known for _, _, is_known in pieces):
+        fill = QColor(colour)
+        fill.setAlphaF(_AREA_ALPHA)
+        canvas.painter.setPen(Qt.NoPen)
+        canvas.painter.setBrush(fill)
+        canvas.painter.drawPolygon(canvas.polygon(points.known))
+
+
+def _paint_points(canvas: Canvas, points: PointSet) -> None:
+    colour = colour_of(points.look, canvas.palette)
+    painter = canvas.painter
+    bar = canvas.pen(colour, 6.0, alpha=_BAR_ALPHA)
+    bar.setCapStyle(Qt.FlatCap)
+    painter.setPen(bar)
+    for start, end in points.bars:
+        painter.drawLine(canvas.at(start), canvas.at(end))
+    painter.setPen(canvas.pen(colour if points.look.value.endswith("failed") else canvas.palette.surface,
+                              2.2 if points.look.value.endswith("failed") else 1.0))
+    painter.setBrush(QColor(colour))
+    for point in points.known:
+        draw_marker(painter, points.look, canvas.at(point), _RADIUS_PX * canvas.unit)

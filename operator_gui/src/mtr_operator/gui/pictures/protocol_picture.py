@@ -1,0 +1,48 @@
+"""Layers of a protocol: the same ones on the screen and in files."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Sequence
+
+from mtr_operator.domain.parameters import ParameterSet
+from mtr_operator.domain.picture import Picture, Stretch
+from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.scenario import Scenario
+
+from ..names import domain_word
+from .car_layer import CarLayer
+from .layer import Layer
+from .lines_layer import LinesLayer
+from .points_layer import AreasLayer, PointsLayer
+from .surroundings import GridLayer, ScaleLayer
+
+
+@dataclass(frozen=True)
+class Protocol:
+    """What a finished test has measured."""
+
+    scenario: Scenario
+    parameters: ParameterSet
+    progress: Progress
+
+    @property
+    def picture(self) -> Picture:
+        """All lines and points."""
+        return self.scenario.picture(self.parameters, self.progress.car, self.progress.results)
+
+    def picture_of(self, index: int) -> Picture:
+        """Line and points of one result."""
+        return self.scenario.picture(self.parameters, self.progress.car, [self.progress.results[index]])
+
+
+class ProtocolPicture:
+    """Attributes: layers: from low to high. points: the layer with what was measured."""
+
+    def __init__(self, protocol: Protocol):
+        picture = protocol.picture
+        stretches = [Stretch(stretch.start, stretch.end, domain_word(stretch.label)) for stretch in picture.stretches]
+        self.points = PointsLayer(picture.point_sets, shows_distances=len(protocol.scenario.measurements) == 1)
+        self.layers: Sequence[Layer] = (
+            GridLayer(), LinesLayer(stretches), AreasLayer(picture.point_sets), CarLayer(protocol.progress.car, True),
+            self.points, ScaleLayer())

@@ -1,0 +1,129 @@
+"""A protocol as one sheet: the picture, and beside it legend, result, parameters and circumstances."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from PyQt5.QtCore import QPointF, QRectF, Qt
+from PyQt5.QtGui import QColor, QPainter
+
+from mtr_operator.domain.scenario import REASON
+from mtr_operator.report.protocol_rows import Row, date_text, session_rows, summary_rows
+
+from ..i18n import translate
+from ..names import domain_word, parameter_title, scenario_title
+from ..sentences import translated
+from ..theme.palette import LIGHT
+from .layer import Canvas, paint_all
+from .legend import ROW_PX, legend_texts, paint_entry
+from .protocol_picture import Protocol, ProtocolPicture
+from .viewport import Viewport
+
+# A4 landscape in units of a quarter of a millimetre, nearly those of a 96 dpi screen.
+WIDTH, HEIGHT = 1188.0, 840.0
+_MARGIN = 36.0
+_PANEL = 380.0
+_ROW = 18.0
+_TEXT_PX = 12.5
+_LONGEST_REASON = 90
+
+
+class ProtocolSheet:
+    """Paints itself on any painter whose window is WIDTH by HEIGHT.
+
+    Attributes: picture: the layers on its left.
+    """
+
+    def __init__(self, protocol: Protocol):
+        self._protocol = protocol
+        self.picture = ProtocolPicture(protocol)
+
+    def paint(self, painter: QPainter) -> None:
+        """Paint the sheet, always in the light colours."""
+        painter.setRenderHint(QPainter.Antialiasing)
+        painter.fillRect(QRectF(0, 0, WIDTH, HEIGHT), QColor(LIGHT.surface))
+        width, height = WIDTH - _PANEL - 3 * _MARGIN, HEIGHT - 2 * _MARGIN
+        viewport = Viewport(width, height).fitted(
+            [point for layer in self.picture.layers for point in layer.points()], 40.0)
+        painter.save()
+        painter.translate(_MARGIN, _MARGIN)
+        painter.setClipRect(QRectF(0, 0, width, height))
+        paint_all(self.picture.layers, Canvas(painter, viewport, LIGHT))
+        painter.restore()
+        painter.setBrush(Qt.NoBrush)
+        painter.setPen(QColor(LIGHT.border))
+        painter.drawRect(QRectF(_MARGIN, _MARGIN, width, height))
+        self._paint_panel(Canvas(painter, viewport, LIGHT), WIDTH - _PANEL - _MARGIN)
+
+    def _paint_panel(self, canvas: Canvas, left: float) -> None:
+        protocol, painter = self._protocol, canvas.painter
+        progress = protocol.progress
+        top = _MARGIN
+        title = translate("Protocol", "{scenario} protocol").format(scenario=scenario_title(protocol.scenario))
+        for text, pixels, is_bold in ((title, 24.0, True), (date_text(str(progress.session.get("started", ""))), 14.0,
+                                                            False)):
+            painter.setFont(canvas.font(pixels, is_bold))
+            painter.setPen(QColor(LIGHT.ink))
+            painter.drawText(QRectF(left, top, _PANEL, pixels + 8), Qt.AlignLeft | Qt.AlignVCenter, text)
+            top += pixels + 10
+        painter.setFont(canvas.font(14.0))
+        sets = protocol.picture.point_sets
+        for index in range(len(legend_texts(sets))):
+            paint_entry(canvas, sets, index, QPointF(left, top))
+            top += ROW_PX
+        top += 10
+        for heading, rows in ((translate("Protocol", "Result"), self._result_rows()),
+                              (translate("Protocol", "Parameters"), self._parameter_rows()),
+                              (translate("Protocol", "Test"), _in_words(session_rows(progress)))):
+            top = _paint_table(canvas, heading, rows, (left, top)) + 12
+        self._paint_reasons(canvas, left, top)
+
+    def _result_rows(self) -> list[Row]:
+        rows = summary_rows(self._protocol.scenario, self._protocol.progress)
+        return [(domain_word(name), ", ".join(_count(part) for part in value.split(", "))) for name, value in rows]
+
+    def _parameter_rows(self) -> list[Row]:
+        protocol = self._protocol
+        rows = []
+        for name, declared in protocol.scenario.parameters_type.declarations().items():
+            value = protocol.progress.parameters[declared.file_key]
+            if value is not None:
+                rows.append((parameter_title(name, declared), declared.shown_text(value)))
+        return rows
+
+    def _paint_reasons(self, canvas: Canvas, left: float, top: float) -> None:
+        scenario = self._protocol.scenario
+        canvas.painter.setFont(canvas.font(10.5))
+        canvas.painter.setPen(QColor(LIGHT.invalid))
+        for result in self._protocol.progress.results:
+            if result[REASON] and top + 2 * _ROW < HEIGHT - _MARGIN:
+                text = f"{scenario.number_of(result)}: {translated(result[REASON])}"
+                if len(text) > _LONGEST_REASON:
+                    text = text[:_LONGEST_REASON - 1] + "\N{HORIZONTAL ELLIPSIS}"
+                canvas.painter.drawText(QRectF(left, top, _PANEL, 2 * _ROW), Qt.TextWordWrap | Qt.AlignLeft, text)
+                top += 2 * _ROW
+
+
+def _in_words(rows: list[Row]) -> list[Row]:
+    return [(domain_word(name), value) for name, value in rows]
+
+
+def _count(part: str) -> str:
+    """Such as "3 not reached", in the language in use."""
+    count, _, words = part.partition(" ")
+    return f"{count} {domain_word(words)}" if words and count.isdecimal() else domain_word(part)
+
+
+def _paint_table(canvas: Canvas, heading: str, rows: list[Row], corner: tuple[float, float]) -> float:
+    """Paint rows below each other; the height at which the table ends."""
+    (left, top), painter = corner, canvas.painter
+    painter.setFont(canvas.font(14.0, True))
+    painter.setPen(QColor(LIGHT.ink))
+    painter.drawText(QRectF(left, top, _PANEL, _ROW + 2), Qt.AlignLeft | Qt.AlignVCenter, heading)
+    top += _ROW + 4
+    painter.setFont(canvas.font(_TEXT_PX))
+    for name, value in rows:
+        painter.setPen(QColor(LIGHT.ink_soft))
+        painter.drawText(QRectF(left, top, _PANEL, _ROW), Qt.AlignLeft | Qt.AlignVCenter, name)
+        painter.setPen(QColor(LIGHT.ink))
+        painter.drawText(QRectF(left, top, _PANEL, _ROW), Qt.AlignRight | Qt.AlignVCenter, value)
+        top += _ROW
+    return top

@@ -1,0 +1,103 @@
+"""The robot with the Remote key, where it is going, and where it has been."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from typing import Sequence
+
+from PyQt5.QtCore import QPointF, Qt
+from PyQt5.QtGui import QColor
+
+from mtr_operator.domain.pose import Point, Pose
+
+from .layer import Canvas, Layer
+
+# Clearpath's data sheet of the Jackal: 508 mm x 430 mm.
+_LENGTH_M, _WIDTH_M = 0.508, 0.430
+_KEY_RADIUS_PX = 5.0
+_SIGMA_ALPHA = 0.2
+
+
+class RobotLayer(Layer):
+    """Attributes: pose: None while it is not known. key: the key in base_link. sigma_m: of the position. waypoint."""
+
+    is_moving = True
+
+    def __init__(self) -> None:
+        self.pose: Pose | None = None
+        self.key: Point = (0.0, 0.0)
+        self.sigma_m = math.nan
+        self.waypoint: Pose | None = None
+
+    def points(self) -> Sequence[Point]:
+        """See Layer."""
+        return () if self.pose is None else ((self.pose.x, self.pose.y),)
+
+    def paint(self, canvas: Canvas) -> None:
+        """See Layer."""
+        if self.waypoint is not None:
+            self._paint_waypoint(canvas, self.waypoint)
+        if self.pose is not None:
+            self._paint_robot(canvas, self.pose)
+
+    def _paint_waypoint(self, canvas: Canvas, goal: Pose) -> None:
+        painter = canvas.painter
+        painter.setBrush(Qt.NoBrush)
+        painter.setPen(canvas.pen(canvas.palette.waypoint, 2.0, Qt.DashLine))
+        painter.drawPolygon(canvas.polygon(_outline(goal)))
+        place = canvas.at((goal.x, goal.y))
+        painter.setPen(canvas.pen(canvas.palette.waypoint, 2.0))
+        painter.drawEllipse(place, 5.0 * canvas.unit, 5.0 * canvas.unit)
+        painter.drawLine(place, canvas.at(goal.apply((_LENGTH_M / 2.0, 0.0))))
+
+    def _paint_robot(self, canvas: Canvas, pose: Pose) -> None:
+        painter, palette = canvas.painter, canvas.palette
+        place = canvas.at((pose.x, pose.y))
+        if self.sigma_m == self.sigma_m:
+            haze = QColor(palette.robot)
+            haze.setAlphaF(_SIGMA_ALPHA)
+            painter.setPen(Qt.NoPen)
+            painter.setBrush(haze)
+            radius = 2.0 * self.sigma_m * canvas.viewport.px_per_m
+            painter.drawEllipse(place, radius, radius)
+        painter.setPen(canvas.pen(palette.ink, 1.8))
+        painter.setBrush(QColor(palette.robot))
+        painter.drawPolygon(canvas.polygon(_outline(pose)))
+        painter.setBrush(QColor(palette.ink))
+        tip, back = 0.42 * _LENGTH_M, -0.1 * _LENGTH_M
+        painter.drawPolygon(canvas.polygon([pose.apply((tip, 0.0)), pose.apply((back, 0.14)),
+                                            pose.apply((back, -0.14))]))
+        key: QPointF = canvas.at(pose.apply(self.key))
+        painter.setPen(canvas.pen(palette.surface, 1.5))
+        painter.setBrush(QColor(palette.key))
+        painter.drawEllipse(key, _KEY_RADIUS_PX * canvas.unit, _KEY_RADIUS_PX * canvas.unit)
+
+
+class TrailLayer(Layer):
+    """Attributes: places: where the robot has been."""
+
+    def __init__(self) -> None:
+        self.places: Sequence[Point] = ()
+        self._painted = 0
+
+    def paint(self, canvas: Canvas) -> None:
+        """See Layer."""
+        self._painted = 0
+        self.paint_news(canvas)
+
+    def paint_news(self, canvas: Canvas) -> None:
+        """See Layer."""
+        news = self.places[max(self._painted - 1, 0):]
+        self._painted = len(self.places)
+        pen = canvas.pen(canvas.palette.trail, 1.5)
+        # Round joins of thousands of pieces take a whole frame.
+        pen.setJoinStyle(Qt.BevelJoin)
+        pen.setCapStyle(Qt.FlatCap)
+        canvas.painter.setPen(pen)
+        canvas.painter.drawPolyline(canvas.polygon(news))
+
+
+def _outline(pose: Pose) -> list[Point]:
+    half_length, half_width = _LENGTH_M / 2.0, _WIDTH_M / 2.0
+    return [pose.apply(corner) for corner in ((half_length, half_width), (half_length, -half_width),
+                                              (-half_length, -half_width), (-half_length, half_width))]

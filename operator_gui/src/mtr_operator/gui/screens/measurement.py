@@ -1,0 +1,111 @@
+"""The measurement screen: where the robot is, what it does, what is measured, and the way to stop it."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import time
+
+from PyQt5.QtCore import QTimer, pyqtSignal
+from PyQt5.QtGui import QHideEvent, QShowEvent
+from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from mtr_operator.station.desk import Desk
+from mtr_operator.station.readiness import Phase, can_resume
+
+from ..bridge import FRAME_MS
+from ..pictures.measurement_picture import MeasurementPicture
+from ..pictures.picture_panel import PicturePanel
+from ..sentences import translated
+from ..theme.appearance import Appearance
+from ..theme.scale import L, M
+from .measurement_facts import MeasurementFacts
+
+_SIDE_WIDTH = 400
+
+
+class MeasurementScreen(QWidget):
+    """Attributes: panel: the picture. facts: progress and state in words. stop, resume, save, leave: buttons.
+
+    Signals: stop_wanted, resume_wanted, save_wanted, leave_wanted.
+    """
+
+    stop_wanted = pyqtSignal()
+    resume_wanted = pyqtSignal()
+    save_wanted = pyqtSignal()
+    leave_wanted = pyqtSignal()
+
+    def __init__(self, desk: Desk, appearance: Appearance, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setObjectName("page")
+        self._desk = desk
+        self.panel = PicturePanel(appearance)
+        self.picture = MeasurementPicture(desk, self.panel)
+        self.facts = MeasurementFacts()
+        self.trouble = QLabel()
+        self.trouble.setWordWrap(True)
+        self.trouble.setProperty("role", "banner")
+        self.note = QLabel()
+        self.note.setWordWrap(True)
+        self.note.setProperty("role", "soft")
+        self.stop = self._button(self.tr("Stop"), "danger", self.stop_wanted)
+        self.resume = self._button(self.tr("Resume"), "primary", self.resume_wanted)
+        self.save = self._button(self.tr("Save progress"), "", self.save_wanted)
+        self.leave = self._button(self.tr("Back to the beginning"), "", self.leave_wanted)
+        self._frames = QTimer(self, interval=FRAME_MS)
+        self._frames.timeout.connect(lambda: self.picture.glide(time.monotonic()))
+        self._lay_out()
+
+    @staticmethod
+    def _button(text: str, role: str, signal: pyqtSignal) -> QPushButton:
+        button = QPushButton(text)
+        button.setProperty("role", role)
+        button.clicked.connect(signal)
+        return button
+
+    def _lay_out(self) -> None:
+        side = QVBoxLayout()
+        side.setSpacing(M)
+        side.addWidget(self.trouble)
+        side.addWidget(self.facts, 1)
+        side.addWidget(self.note)
+        for button in (self.stop, self.resume, self.save, self.leave):
+            side.addWidget(button)
+        holder = QWidget()
+        holder.setFixedWidth(_SIDE_WIDTH)
+        side.setContentsMargins(0, 0, 0, 0)
+        holder.setLayout(side)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(L, L, L, L)
+        layout.setSpacing(L)
+        layout.addWidget(self.panel, 1)
+        layout.addWidget(holder)
+
+    def show_desk(self) -> None:
+        """Something of robot, Car or test is another one."""
+        desk = self._desk
+        if desk.test is None:
+            return
+        self.picture.show_desk(time.monotonic())
+        self.facts.show_desk(desk)
+        self.trouble.setVisible(bool(desk.trouble) and desk.phase is Phase.PAUSED)
+        self.trouble.setText(translated(desk.trouble))
+        self.stop.setVisible(desk.phase in (Phase.MEASURING, Phase.STOPPING))
+        self.stop.setEnabled(desk.phase is Phase.MEASURING)
+        self.resume.setVisible(desk.phase is Phase.PAUSED)
+        self.resume.setEnabled(can_resume(desk.verdict))
+        self.leave.setVisible(desk.phase is Phase.PAUSED)
+
+    def say(self, sentence: str) -> None:
+        """Show a sentence above the buttons."""
+        self.note.setText(sentence)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """See QWidget."""
+        self._frames.start()
+        self.say("")
+        self.stop.setFocus()
+        super().showEvent(event)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """See QWidget."""
+        self._frames.stop()
+        super().hideEvent(event)

@@ -1,0 +1,110 @@
+"""Progress of a test and state of robot and Car, in words and numbers."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+
+from PyQt5.QtWidgets import QFormLayout, QFrame, QLabel, QProgressBar, QVBoxLayout, QWidget
+
+from mtr_operator.domain.ports import LockState
+from mtr_operator.station.desk import Desk
+from mtr_operator.station.news import RobotNews
+from mtr_operator.station.readiness import Phase
+
+from ..i18n import duration, number
+from ..names import domain_word, scenario_title
+from ..sentences import translated
+from ..theme.scale import M, S
+
+_CM_PER_M, _KMH_PER_MPS = 100.0, 3.6
+_UNKNOWN = "\N{EN DASH}"
+
+
+class MeasurementFacts(QFrame):
+    """Attributes: percent, bar, left, action: of the test. values: labels by name of what they tell."""
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setObjectName("card")
+        self.title, self.percent, self.count = QLabel(), QLabel(), QLabel()
+        self.left, self.action = QLabel(), QLabel()
+        self.bar = QProgressBar()
+        self.bar.setAccessibleName(self.tr("Progress of the test"))
+        for label, role in ((self.title, "large"), (self.percent, "title"), (self.count, "soft"), (self.left, "soft"),
+                            (self.action, "")):
+            label.setProperty("role", role)
+            label.setWordWrap(True)
+        self.values = {name: QLabel() for name in ("car", "locks", "key", "speed", "position", "newest")}
+        names = {"car": self.tr("Car"), "locks": self.tr("Locks"), "key": self.tr("Key height"),
+                 "speed": self.tr("Speed"), "position": self.tr("Position"), "newest": self.tr("Last result")}
+        rows = QFormLayout()
+        rows.setHorizontalSpacing(M)
+        rows.setVerticalSpacing(S)
+        for name, label in self.values.items():
+            label.setWordWrap(True)
+            heading = QLabel(names[name])
+            heading.setProperty("role", "soft")
+            rows.addRow(heading, label)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(M, M, M, M)
+        layout.setSpacing(S)
+        for widget in (self.title, self.percent, self.bar, self.count, self.left, self.action):
+            layout.addWidget(widget)
+        layout.addSpacing(M)
+        layout.addLayout(rows)
+        layout.addStretch(1)
+
+    def show_desk(self, desk: Desk) -> None:
+        """Show the newest."""
+        scenario = desk.test.scenario
+        self.title.setText(scenario_title(scenario))
+        self.percent.setText(f"{desk.percent} %")
+        self.bar.setValue(desk.percent)
+        self.count.setText(self.tr("{done} of {total} lines measured").format(done=desk.done, total=desk.total))
+        self.left.setText(self._left_text(desk))
+        self.action.setText(self._action_text(desk))
+        self.values["newest"].setText(newest_text(desk))
+        car = desk.mapped_car
+        self.values["car"].setText(_UNKNOWN if car is None else
+                                   f"{number(car.length, 2)} m \N{MULTIPLICATION SIGN} {number(car.width, 2)} m")
+        if desk.robot is not None:
+            self._show_robot(desk.robot)
+
+    def _show_robot(self, robot: RobotNews) -> None:
+        status = robot.status
+        locks = {LockState.LOCKED: self.tr("locked"), LockState.UNLOCKED: self.tr("unlocked"),
+                 LockState.UNKNOWN: self.tr("unknown")}
+        self.values["locks"].setText(locks[robot.lock_state])
+        self.values["key"].setText(_measure(status.key_height_m, _CM_PER_M, 0, "cm"))
+        self.values["speed"].setText(_measure(abs(status.speed_mps), _KMH_PER_MPS, 1, "km/h"))
+        self.values["position"].setText(
+            f"\N{PLUS-MINUS SIGN}{_measure(status.position_sigma_m, _CM_PER_M, 0, 'cm')}" if status.pose_valid
+            else self.tr("not known"))
+
+    def _left_text(self, desk: Desk) -> str:
+        left_s = desk.left_s
+        return "" if left_s is None else self.tr("about {time} left").format(time=duration(left_s))
+
+    def _action_text(self, desk: Desk) -> str:
+        if desk.phase is Phase.STOPPING:
+            return self.tr("The robot is being stopped.")
+        if desk.phase is Phase.PAUSED:
+            return self.tr("Paused. The line at hand is measured anew after Resume.")
+        return translated(desk.action)
+
+
+def newest_text(desk: Desk) -> str:
+    """The newest result: place and distances."""
+    if not desk.results or desk.newest is None:
+        return _UNKNOWN
+    scenario, result = desk.test.scenario, desk.newest
+    told = []
+    for measurement in scenario.measurements:
+        distance, status = result[measurement.distance], result[measurement.status]
+        value = f"{number(distance * _CM_PER_M, 0)} cm" if status == "ok" else domain_word(status.replace("_", " "))
+        told.append(f"{domain_word(measurement.word)} {value}")
+    return f"{scenario.number_of(result)} ({domain_word(scenario.place_of(result))}): {', '.join(told)}"
+
+
+def _measure(value: float, per_si: float, digits: int, unit: str) -> str:
+    return _UNKNOWN if math.isnan(value) else f"{number(value * per_si, digits)} {unit}"

@@ -1,0 +1,185 @@
+"""The protocol screen: areas and points around the Car, the table beside them, and files of both."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import dataclasses
+import math
+import pathlib
+
+from PyQt5.QtCore import Qt, QTimer, QUrl, pyqtSignal
+from PyQt5.QtGui import QDesktopServices
+from PyQt5.QtWidgets import QHBoxLayout, QHeaderView, QLabel, QPushButton, QTableView, QVBoxLayout, QWidget
+
+from mtr_operator.domain.progress import Progress
+from mtr_operator.report.protocol_rows import date_text
+
+from ..dialogs import ask_folder
+from ..flow import Flow
+from ..names import scenario_title
+from ..pictures.picture_panel import PicturePanel
+from ..pictures.protocol_picture import Protocol, ProtocolPicture
+from ..report_writer import CSV, PDF, PNG, SVG, ReportWriter
+from ..sentences import translated
+from ..theme.appearance import Appearance
+from ..theme.scale import L, M, S
+from .results_model import ResultsModel
+
+_SIDE_WIDTH = 560
+_CLICK_PX = 18.0
+
+
+class ProtocolScreen(QWidget):
+    """Attributes: protocol: what is shown. panel: the picture. table: the results. told: what was saved.
+
+    save, save_pdf, save_svg, show_folder, done: buttons.
+
+    Signals: closed: the Operator is done with it.
+    """
+
+    closed = pyqtSignal()
+
+    def __init__(self, flow: Flow, appearance: Appearance, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setObjectName("page")
+        self._flow = flow
+        self.protocol: Protocol | None = None
+        self._picture: ProtocolPicture | None = None
+        self._writer: ReportWriter | None = None
+        self._saved: set[str] = set()
+        self._folder: pathlib.Path | None = None
+        self.panel = PicturePanel(appearance)
+        self.panel.view.clicked.connect(self._choose_point)
+        self.title, self.date, self.told = QLabel(), QLabel(), QLabel()
+        self.title.setProperty("role", "heading")
+        self.date.setProperty("role", "soft")
+        self.told.setWordWrap(True)
+        self.table = QTableView()
+        self.table.setAccessibleName(self.tr("Results; choose a row to see its points"))
+        self.table.setSelectionBehavior(QTableView.SelectRows)
+        self.table.setSelectionMode(QTableView.SingleSelection)
+        self.table.setAlternatingRowColors(True)
+        self.table.setTabKeyNavigation(False)
+        self.table.verticalHeader().hide()
+        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeToContents)
+        self.table.horizontalHeader().setStretchLastSection(True)
+        self.table.setHorizontalScrollBarPolicy(Qt.ScrollBarAlwaysOff)
+        self.save = self._button(self.tr("Save"), "primary", lambda: self._write((CSV, PNG)))
+        self.save.setToolTip(self.tr("Save as CSV and PNG"))
+        self.save_pdf = self._button(self.tr("Save PDF"), "", lambda: self._write((PDF,)))
+        self.save_svg = self._button(self.tr("Save SVG"), "", lambda: self._write((SVG,)))
+        self.show_folder = self._button(self.tr("Show folder"), "", self._open_folder)
+        self.done = self._button(self.tr("New test"), "", self.closed.emit)
+        self._lay_out()
+
+    @staticmethod
+    def _button(text: str, role: str, act) -> QPushButton:
+        button = QPushButton(text)
+        button.setProperty("role", role)
+        button.clicked.connect(lambda _checked: act())
+        return button
+
+    def _lay_out(self) -> None:
+        first, second = QHBoxLayout(), QHBoxLayout()
+        for row, buttons in ((first, (self.save, self.save_pdf, self.save_svg)),
+                             (second, (self.show_folder, self.done))):
+            row.setSpacing(S)
+            for button in buttons:
+                row.addWidget(button, 1)
+        side = QVBoxLayout()
+        side.setContentsMargins(0, 0, 0, 0)
+        side.setSpacing(M)
+        side.addWidget(self.title)
+        side.addWidget(self.date)
+        side.addWidget(self.table, 1)
+        side.addWidget(self.told)
+        side.addLayout(first)
+        side.addLayout(second)
+        holder = QWidget()
+        holder.setFixedWidth(_SIDE_WIDTH)
+        holder.setLayout(side)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(L, L, L, L)
+        layout.setSpacing(L)
+        layout.addWidget(self.panel, 1)
+        layout.addWidget(holder)
+
+    def show_test(self) -> None:
+        """Show the test on the desk."""
+        desk = self._flow.desk
+        test = desk.test
+        progress: Progress = dataclasses.replace(test.progress, results=[dict(result) for result in desk.results])
+        self.protocol = Protocol(test.scenario, test.parameters, progress)
+        self._picture = ProtocolPicture(self.protocol)
+        self._saved.clear()
+        self._folder = None
+        self.title.setText(self.tr("{scenario} protocol").format(scenario=scenario_title(test.scenario)))
+        self.date.setText(date_text(str(progress.session.get("started", ""))))
+        self.table.setModel(ResultsModel(self.protocol, self))
+        self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
+        self.panel.legend.show_sets(self.protocol.picture.point_sets)
+        self.panel.view.show_layers(self._picture.layers)
+        self._tell(self._summary())
+        self.show_folder.setEnabled(False)
+        self.save.setFocus()
+
+    def _summary(self) -> str:
+        scenario, results = self.protocol.scenario, self.protocol.progress.results
+        invalid = sum(1 for result in results if scenario.invalid_count(result))
+        if invalid:
+            return self.tr("{count} lines, {invalid} of them invalid. Not saved as CSV and PNG yet.").format(
+                count=len(results), invalid=invalid)
+        return self.tr("{count} lines. Not saved as CSV and PNG yet.").format(count=len(results))
+
+    def _mark(self, row: int) -> None:
+        points = self.protocol.picture_of(row).point_sets if row >= 0 else ()
+        self._picture.points.chosen = tuple(point for each in points for point in each.known)
+        self.panel.view.refresh()
+
+    def _choose_point(self, x: float, y: float) -> None:
+        """Select the row of the point that was clicked."""
+        reach_m = _CLICK_PX / self.panel.view.viewport.px_per_m
+        distances = [(min((math.dist((x, y), point) for each in self.protocol.picture_of(row).point_sets
+                           for point in each.known), default=math.inf), row)
+                     for row in range(len(self.protocol.progress.results))]
+        nearest_m, row = min(distances, default=(math.inf, -1))
+        if nearest_m <= reach_m:
+            self.table.selectRow(row)
+
+    def _write(self, kinds: tuple[str, ...]) -> None:
+        folder = self._flow.store.settings.result_folder / self._flow.desk.test.name
+        self._folder = folder
+        self._set_saving(True)
+        self._writer = ReportWriter(self.protocol, folder, kinds, self)
+        self._writer.written.connect(self._tell_written)
+        self._writer.refused.connect(lambda text: self._tell_refused(text, kinds))
+        self._writer.start()
+
+    def _set_saving(self, is_saving: bool) -> None:
+        for button in (self.save, self.save_pdf, self.save_svg):
+            button.setEnabled(not is_saving)
+
+    def _tell_written(self, paths: list) -> None:
+        self._set_saving(False)
+        self._saved |= {path.name for path in paths}
+        files = ", ".join(sorted(self._saved))
+        self._tell(self.tr("Saved {files} to {folder}").format(files=files, folder=self._folder))
+        self.show_folder.setEnabled(True)
+
+    def _tell_refused(self, text: str, kinds: tuple[str, ...]) -> None:
+        self._set_saving(False)
+        self._tell(translated(text) + " " + self.tr("Choose another folder; nothing is lost."))
+        QTimer.singleShot(0, lambda: self._ask_folder(kinds))
+
+    def _ask_folder(self, kinds: tuple[str, ...]) -> None:
+        folder = ask_folder(self, self.tr("Folder for results"), pathlib.Path.home())
+        if folder is not None:
+            store = self._flow.store
+            store.change(dataclasses.replace(store.settings, result_folder=folder))
+            self._write(kinds)
+
+    def _open_folder(self) -> None:
+        QDesktopServices.openUrl(QUrl.fromLocalFile(str(self._folder)))
+
+    def _tell(self, sentence: str) -> None:
+        self.told.setText(sentence)
+        self.told.setTextInteractionFlags(Qt.TextSelectableByMouse)

@@ -1,0 +1,136 @@
+"""The settings screen of a scenario: its parameters, and what the robot will do with them."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from PyQt5.QtCore import Qt, pyqtSignal
+from PyQt5.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+
+from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.scenario import Scenario
+from mtr_operator.station.desk import Desk
+from mtr_operator.station.estimate import USUAL_CAR, Plan, plan_of
+
+from ..forms.parameter_form import ParameterForm
+from ..header.reasons import reason_text
+from ..i18n import duration
+from ..names import domain_word, scenario_title
+from ..pictures.car_layer import CarLayer
+from ..pictures.lines_layer import LinesLayer
+from ..pictures.picture_panel import PicturePanel
+from ..pictures.surroundings import GridLayer, ScaleLayer
+from ..sentences import translated
+from ..theme.appearance import Appearance
+from ..theme.scale import L, M, S
+
+
+class SettingsScreen(QWidget):
+    """Attributes: form: the parameters. picture: preview. start: the button. told: sentence on duration and battery.
+
+    Signals: started(parameters), back.
+    """
+
+    started = pyqtSignal(object)
+    back = pyqtSignal()
+
+    def __init__(self, scenario: Scenario, desk: Desk, appearance: Appearance, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setObjectName("page")
+        self._scenario = scenario
+        self._desk = desk
+        self._plan: Plan | None = None
+        self._shown: tuple = ()
+        # Without a valid plan the view stays as it was.
+        self._lines = LinesLayer()
+        self.form = ParameterForm(scenario.parameters_type)
+        self.picture = PicturePanel(appearance)
+        self.told = QLabel()
+        self.told.setWordWrap(True)
+        self.start = QPushButton(self.tr("Start"))
+        self.start.setProperty("role", "primary")
+        self.start.clicked.connect(self._start)
+        self._hindrance = QLabel()
+        self._hindrance.setWordWrap(True)
+        self._hindrance.setProperty("role", "error")
+        self._lay_out()
+        self.form.changed.connect(self._preview)
+        self._preview()
+
+    def _lay_out(self) -> None:
+        title = QLabel(scenario_title(self._scenario))
+        title.setProperty("role", "heading")
+        scroll = QScrollArea()
+        scroll.setWidgetResizable(True)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarAlwaysOff)
+        scroll.setFrameShape(QFrame.NoFrame)
+        scroll.setWidget(self.form)
+        back = QPushButton(self.tr("Back"))
+        back.clicked.connect(self.back)
+        buttons = QHBoxLayout()
+        buttons.setSpacing(M)
+        buttons.addWidget(back)
+        buttons.addWidget(self._hindrance, 1)
+        buttons.addWidget(self.start)
+        left = QVBoxLayout()
+        left.setSpacing(M)
+        left.addWidget(title)
+        left.addWidget(scroll, 1)
+        left.addLayout(buttons)
+        right = QVBoxLayout()
+        right.setSpacing(S)
+        right.addWidget(self.picture, 1)
+        right.addWidget(self.told)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(L, L, L, L)
+        layout.setSpacing(L)
+        layout.addLayout(left, 11)
+        layout.addLayout(right, 10)
+
+    def show_desk(self) -> None:
+        """Something of robot or Car is another one."""
+        status = self._desk.robot.status if self._desk.robot else None
+        shown = (self._desk.mapped_car, self._desk.verdict, status and status.battery_percent)
+        if shown != self._shown:
+            self._shown = shown
+            self._preview()
+
+    def _preview(self) -> None:
+        parameters, mapped = self.form.parameters, self._desk.mapped_car
+        car = mapped or USUAL_CAR
+        self._plan = None
+        self._lines.is_visible = False
+        if parameters is not None:
+            try:
+                self._plan = plan_of(self._scenario, parameters, car, mapped is not None)
+                self.form.show_fault("")
+                self._lines.stretches, self._lines.is_visible = self._plan.stretches, True
+            except InvalidParameter as error:
+                self.form.show_fault(translated(str(error)))
+        self.picture.view.show_layers([GridLayer(), self._lines, CarLayer(car, mapped is not None), ScaleLayer()])
+        self.told.setText(self._forecast(mapped is not None))
+        self._judge()
+
+    def _forecast(self, is_mapped: bool) -> str:
+        plan = self._plan
+        if plan is None:
+            return ""
+        lines = self.tr("{count} lines ({word}), about {time}.").format(
+            count=len(plan.stretches), word=domain_word(self._scenario.line_word), time=duration(plan.duration_s))
+        if not is_mapped:
+            lines += " " + self.tr("The Car is not measured yet; its size is a guess.")
+        battery = self._desk.robot.status.battery_percent if self._desk.robot else None
+        if battery is None:
+            return lines
+        if plan.suffices(battery):
+            return lines + " " + self.tr("The battery, at {percent} %, suffices.").format(percent=battery)
+        warning = self.tr("The battery, at {percent} %, may not suffice: the test takes about {need} %.")
+        return lines + " " + warning.format(percent=battery, need=round(plan.battery_percent))
+
+    def _judge(self) -> None:
+        verdict = self._desk.verdict
+        hindrance = "" if verdict.can_start else " ".join(reason_text(reason) for reason in verdict.reasons
+                                                           if reason.is_blocking)
+        self._hindrance.setText(hindrance)
+        self.start.setEnabled(self._plan is not None and verdict.can_start)
+
+    def _start(self) -> None:
+        self.started.emit(self.form.parameters)

@@ -1,0 +1,84 @@
+"""The first screen: a new test, one to go on with, or calibration."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from PyQt5.QtCore import Qt, pyqtSignal
+from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from mtr_operator.station.test import Test
+
+from ..names import scenario_title
+from ..theme.scale import XL, L, M, S
+from .tile import Tile
+
+_WIDTH = 620
+
+
+class WelcomeScreen(QWidget):
+    """Signals: new_test, continue_test, calibrate; go_on, dismiss: what to do with the unfinished test."""
+
+    new_test = pyqtSignal()
+    continue_test = pyqtSignal()
+    calibrate = pyqtSignal()
+    go_on = pyqtSignal()
+    dismiss = pyqtSignal()
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setObjectName("page")
+        title = QLabel(self.tr("What would you like to do?"))
+        title.setProperty("role", "title")
+        self.new = Tile(self.tr("New test"), self.tr("Choose scenario and parameters, and let the robot measure."))
+        self.open = Tile(self.tr("Continue test"), self.tr("Go on with a test whose progress was saved to a file."))
+        self.calibration = Tile(self.tr("Calibrate"), self.tr("Try lift and buttons of the robot."))
+        for tile, signal in ((self.new, self.new_test), (self.open, self.continue_test),
+                             (self.calibration, self.calibrate)):
+            tile.clicked.connect(signal)
+        self.offer = self._make_offer()
+        column = QVBoxLayout()
+        column.setSpacing(M)
+        column.addStretch(2)
+        column.addWidget(title)
+        column.addSpacing(S)
+        for widget in (self.offer, self.new, self.open, self.calibration):
+            widget.setFixedWidth(_WIDTH)
+            column.addWidget(widget)
+        column.addStretch(3)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(XL, L, XL, L)
+        layout.addStretch(1)
+        layout.addLayout(column)
+        layout.addStretch(1)
+
+    def offer_unfinished(self, test: Test | None) -> None:
+        """Offer to go on with a test that the last start has not finished; None offers nothing."""
+        self.offer.setVisible(test is not None)
+        if test is not None:
+            self._told.setText(self.tr("The {scenario} test of {moment} is not finished: {done} of {total} lines are "
+                                       "measured.").format(
+                scenario=scenario_title(test.scenario),
+                moment=str(test.progress.session.get("started", "")).replace("T", " ")[:16],
+                done=len(test.progress.results), total=test.line_count))
+
+    def _make_offer(self) -> QWidget:
+        offer = QWidget()
+        self._told = QLabel()
+        self._told.setWordWrap(True)
+        self._told.setProperty("role", "notice")
+        go_on = QPushButton(self.tr("Go on with it"))
+        go_on.setProperty("role", "primary")
+        go_on.clicked.connect(self.go_on)
+        dismiss = QPushButton(self.tr("Not now"))
+        dismiss.clicked.connect(self.dismiss)
+        row = QHBoxLayout()
+        row.setSpacing(M)
+        row.addWidget(go_on)
+        row.addWidget(dismiss)
+        row.addStretch(1)
+        column = QVBoxLayout(offer)
+        column.setContentsMargins(0, 0, 0, M)
+        column.setSpacing(S)
+        column.addWidget(self._told)
+        column.addLayout(row)
+        column.setAlignment(Qt.AlignTop)
+        return offer

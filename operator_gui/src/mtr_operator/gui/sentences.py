@@ -1,0 +1,43 @@
+"""Sentences that come from below the window, in the language in use: by template, with the values put in.
+
+The domain, the links and the robot speak English, and know no Qt. texts/ lists their sentences with {} for what varies;
+one that is not listed is shown as it is.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import functools
+import re
+
+from .i18n import ENGLISH, decimal_sign, language_code, translate
+from .names import domain_word
+from .texts import application, robot
+
+_DECIMAL = re.compile(r"[+-]?\d+\.\d+")
+
+
+def translated(sentence: str) -> str:
+    """The sentence in the language in use."""
+    if not sentence or language_code() == ENGLISH:
+        return sentence
+    for template, pattern in _patterns():
+        match = pattern.fullmatch(sentence)
+        if match is not None:
+            return translate("Sentence", template).format(*map(_value, match.groups()))
+    return sentence
+
+
+def _value(text: str) -> str:
+    """What varies may be a sentence, a word of the domain, or a number."""
+    if _DECIMAL.fullmatch(text):
+        return text.replace(".", decimal_sign())
+    word = domain_word(text)
+    return translated(text) if word == text else word
+
+
+@functools.lru_cache(maxsize=1)
+def _patterns() -> list[tuple[str, re.Pattern]]:
+    # The one with the most fixed text says most.
+    templates = sorted((*application.SENTENCES, *robot.SENTENCES), key=lambda text: -len(text.replace("{}", "")))
+    return [(template, re.compile("(.+?)".join(map(re.escape, template.split("{}"))), re.DOTALL))
+            for template in templates]

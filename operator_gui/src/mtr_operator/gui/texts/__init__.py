@@ -1,0 +1,2 @@
+"""What the parts below the window say, listed for translation."""
+# SPDX-License-Identifier: Apache-2.0

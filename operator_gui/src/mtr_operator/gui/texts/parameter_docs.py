@@ -1,0 +1,29 @@
+"""What the scenarios' parameters mean, as they declare it."""
+# SPDX-License-Identifier: Apache-2.0
+from PyQt5.QtCore import QT_TRANSLATE_NOOP
+
+SENTENCES = (
+    QT_TRANSLATE_NOOP("ParameterDoc", "Where the approach ends if the Car stays locked."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Starting distance of each axis."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "First piece of the approach, to correct the heading; the retreat ends where "
+                                      "it ended."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Distance between neighbouring axes of a side."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Height of the Remote key above ground."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Speed limit on the whole way."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Speed limit while approaching and retreating; default: the maximum speed."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Gap that has to remain between Remote key and Car."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "How long the Car may take to react at the end of the approach and of the "
+                                      "retreat."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "How long to wait at the starting distance for the Car to be locked."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Nearest place at which the button is pressed."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Starting distance of each radial."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "First piece of the approach, to correct the heading; the first press is at "
+                                      "its end."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Step towards the Car after a press without success."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Angle between neighbouring radials."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Travel of the button: 1 is pressed down fully."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "How long the button is held down."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Standstill before each press."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "How long after the beginning of a press the Car may take to react."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Presses at each place before it counts as failed."),
+)

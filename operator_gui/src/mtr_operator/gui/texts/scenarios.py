@@ -1,0 +1,10 @@
+"""Names of the scenarios, and a sentence on each."""
+# SPDX-License-Identifier: Apache-2.0
+from PyQt5.QtCore import QT_TRANSLATE_NOOP
+
+SENTENCES = (
+    QT_TRANSLATE_NOOP("Scenario", "Autolock"),
+    QT_TRANSLATE_NOOP("Scenario", "Approach until the Car unlocks, retreat backwards until it locks, on every axis."),
+    QT_TRANSLATE_NOOP("Scenario", "Key press"),
+    QT_TRANSLATE_NOOP("Scenario", "Press a button from far to near until the Car obeys, on every radial."),
+)

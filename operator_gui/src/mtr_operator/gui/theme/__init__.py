@@ -1,0 +1,2 @@
+"""Colours, sizes and style sheet."""
+# SPDX-License-Identifier: Apache-2.0

@@ -1,0 +1,2235 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="cs_CZ" sourcelanguage="en">
+<context>
+    <name>BatterySymbol</name>
+    <message>
+        <location filename="../header/symbols.py" line="33"/>
+        <source>Battery of the robot: unknown</source>
+        <translation>Baterie robotu: neznámá</translation>
+    </message>
+    <message>
+        <location filename="../header/symbols.py" line="34"/>
+        <source>Battery of the robot: {percent} %</source>
+        <translation>Baterie robotu: {percent} %</translation>
+    </message>
+</context>
+<context>
+    <name>CalibrationWindow</name>
+    <message>
+        <location filename="../windows/calibration_window.py" line="35"/>
+        <source>Calibration</source>
+        <translation>Kalibrace</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="42"/>
+        <source>Lock</source>
+        <translation>Zamknout</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="42"/>
+        <source>Unlock</source>
+        <translation>Odemknout</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="47"/>
+        <source>Send</source>
+        <translation>Odeslat</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="64"/>
+        <source>Wanted</source>
+        <translation>Požadováno</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="64"/>
+        <source>Reported by the robot</source>
+        <translation>Hlášeno robotem</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="68"/>
+        <source>Buttons to press</source>
+        <translation>Tlačítka ke stisknutí</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="76"/>
+        <source>Key height</source>
+        <translation>Výška klíče</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="76"/>
+        <source>Buttons pressed</source>
+        <translation>Stisknutá tlačítka</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="77"/>
+        <source>Press strength ordered</source>
+        <translation>Požadovaná síla stisku</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="90"/>
+        <source>Close</source>
+        <translation>Zavřít</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="118"/>
+        <source>none</source>
+        <translation>žádné</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="127"/>
+        <source>Pressed for {duration} s.</source>
+        <translation>Stisknuto po dobu {duration} s.</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="141"/>
+        <source>Sent.</source>
+        <translation>Odesláno.</translation>
+    </message>
+</context>
+<context>
+    <name>CanForm</name>
+    <message>
+        <location filename="../forms/can_form.py" line="31"/>
+        <source>None yet</source>
+        <translation>Zatím žádný</translation>
+    </message>
+    <message>
+        <location filename="../forms/can_form.py" line="34"/>
+        <source>Simulated Car (to try the application)</source>
+        <translation>Simulované auto (na vyzkoušení aplikace)</translation>
+    </message>
+    <message>
+        <location filename="../forms/can_form.py" line="35"/>
+        <source>Channel</source>
+        <translation>Kanál</translation>
+    </message>
+    <message>
+        <location filename="../forms/can_form.py" line="35"/>
+        <source>as the adapter&apos;s driver calls it</source>
+        <translation>jak jej nazývá ovladač adaptéru</translation>
+    </message>
+    <message>
+        <location filename="../forms/can_form.py" line="40"/>
+        <source>Without an adapter everything but a test works.</source>
+        <translation>Bez adaptéru funguje vše kromě testu.</translation>
+    </message>
+    <message>
+        <location filename="../forms/can_form.py" line="46"/>
+        <source>CAN adapter</source>
+        <translation>Adaptér CAN</translation>
+    </message>
+    <message>
+        <location filename="../forms/can_form.py" line="48"/>
+        <source>Bit rate in bit/s</source>
+        <translation>Přenosová rychlost v bit/s</translation>
+    </message>
+    <message>
+        <location filename="../forms/can_form.py" line="49"/>
+        <source>Car profile</source>
+        <translation>Profil auta</translation>
+    </message>
+</context>
+<context>
+    <name>CogwheelButton</name>
+    <message>
+        <location filename="../header/symbols.py" line="102"/>
+        <source>Settings</source>
+        <translation>Nastavení</translation>
+    </message>
+</context>
+<context>
+    <name>ConnectionWindow</name>
+    <message>
+        <location filename="../windows/connection_window.py" line="24"/>
+        <source>Connect to the robot</source>
+        <translation>Připojení k robotu</translation>
+    </message>
+    <message>
+        <location filename="../windows/connection_window.py" line="45"/>
+        <source>Connect</source>
+        <translation>Připojit</translation>
+    </message>
+    <message>
+        <location filename="../windows/connection_window.py" line="49"/>
+        <source>Robot</source>
+        <translation>Robot</translation>
+    </message>
+    <message>
+        <location filename="../windows/connection_window.py" line="49"/>
+        <source>Car</source>
+        <translation>Auto</translation>
+    </message>
+    <message>
+        <location filename="../windows/connection_window.py" line="89"/>
+        <source>The IP address or port provided is invalid.</source>
+        <translation>Zadaná IP adresa nebo port je neplatný.</translation>
+    </message>
+    <message>
+        <location filename="../windows/connection_window.py" line="82"/>
+        <source>Connecting to {host} ...</source>
+        <translation>Připojuji se k {host} ...</translation>
+    </message>
+    <message>
+        <location filename="../windows/connection_window.py" line="90"/>
+        <source>Connection failed, check the parameters.</source>
+        <translation>Připojení selhalo, zkontrolujte parametry.</translation>
+    </message>
+    <message>
+        <location filename="../windows/connection_window.py" line="91"/>
+        <source>The CAN adapter cannot be used.</source>
+        <translation>Adaptér CAN nelze použít.</translation>
+    </message>
+</context>
+<context>
+    <name>Duration</name>
+    <message>
+        <location filename="../i18n.py" line="59"/>
+        <source>{seconds} s</source>
+        <translation>{seconds} s</translation>
+    </message>
+    <message>
+        <location filename="../i18n.py" line="62"/>
+        <source>{minutes} min</source>
+        <translation>{minutes} min</translation>
+    </message>
+    <message>
+        <location filename="../i18n.py" line="63"/>
+        <source>{hours} h {minutes:02d} min</source>
+        <translation>{hours} h {minutes:02d} min</translation>
+    </message>
+</context>
+<context>
+    <name>HeaderBar</name>
+    <message>
+        <location filename="../header/header_bar.py" line="27"/>
+        <source>Welcome</source>
+        <translation>Úvod</translation>
+    </message>
+    <message>
+        <location filename="../header/header_bar.py" line="27"/>
+        <source>Measurement type</source>
+        <translation>Typ měření</translation>
+    </message>
+    <message>
+        <location filename="../header/header_bar.py" line="27"/>
+        <source>Measurement</source>
+        <translation>Měření</translation>
+    </message>
+    <message>
+        <location filename="../header/header_bar.py" line="27"/>
+        <source>Protocol</source>
+        <translation>Protokol</translation>
+    </message>
+</context>
+<context>
+    <name>LockSymbol</name>
+    <message>
+        <location filename="../header/symbols.py" line="72"/>
+        <source>The link to the robot is encrypted.</source>
+        <translation>Spojení s robotem je šifrované.</translation>
+    </message>
+    <message>
+        <location filename="../header/symbols.py" line="73"/>
+        <source>The link to the robot is not encrypted.</source>
+        <translation>Spojení s robotem není šifrované.</translation>
+    </message>
+</context>
+<context>
+    <name>MainWindow</name>
+    <message>
+        <location filename="../windows/main_window.py" line="36"/>
+        <source>Mobile testing robot</source>
+        <translation>Mobilní testovací robot</translation>
+    </message>
+    <message>
+        <location filename="../windows/main_window.py" line="72"/>
+        <source>Saved to {path}</source>
+        <translation>Uloženo do {path}</translation>
+    </message>
+    <message>
+        <location filename="../windows/main_window.py" line="114"/>
+        <source>Continue test</source>
+        <translation>Pokračovat v testu</translation>
+    </message>
+    <message>
+        <location filename="../windows/main_window.py" line="123"/>
+        <source>Choose another folder; nothing is lost.</source>
+        <translation>Vyberte jinou složku; nic se neztratilo.</translation>
+    </message>
+    <message>
+        <location filename="../windows/main_window.py" line="124"/>
+        <source>Folder for the progress of tests</source>
+        <translation>Složka pro průběh testů</translation>
+    </message>
+    <message>
+        <location filename="../windows/main_window.py" line="139"/>
+        <source>A test is running. Stop the robot and close? What is measured is kept; the next start offers to go on.</source>
+        <translation>Test běží. Zastavit robot a zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
+    </message>
+    <message>
+        <location filename="../windows/main_window.py" line="139"/>
+        <source>Stop and close</source>
+        <translation>Zastavit a zavřít</translation>
+    </message>
+    <message>
+        <location filename="../windows/main_window.py" line="139"/>
+        <source>Go on measuring</source>
+        <translation>Měřit dál</translation>
+    </message>
+</context>
+<context>
+    <name>MeasurementFacts</name>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="32"/>
+        <source>Progress of the test</source>
+        <translation>Průběh testu</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="38"/>
+        <source>Car</source>
+        <translation>Auto</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="38"/>
+        <source>Locks</source>
+        <translation>Zámky</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="38"/>
+        <source>Key height</source>
+        <translation>Výška klíče</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="39"/>
+        <source>Speed</source>
+        <translation>Rychlost</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="39"/>
+        <source>Position</source>
+        <translation>Poloha</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="39"/>
+        <source>Last result</source>
+        <translation>Poslední výsledek</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="63"/>
+        <source>{done} of {total} lines measured</source>
+        <translation>změřeno {done} z {total} přímek</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="75"/>
+        <source>locked</source>
+        <translation>zamčeno</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="75"/>
+        <source>unlocked</source>
+        <translation>odemčeno</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="76"/>
+        <source>unknown</source>
+        <translation>neznámý stav</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="80"/>
+        <source>not known</source>
+        <translation>není známa</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="86"/>
+        <source>about {time} left</source>
+        <translation>zbývá asi {time}</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="90"/>
+        <source>The robot is being stopped.</source>
+        <translation>Robot se zastavuje.</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="92"/>
+        <source>Paused. The line at hand is measured anew after Resume.</source>
+        <translation>Pozastaveno. Rozpracovaná přímka se po pokračování změří znovu.</translation>
+    </message>
+</context>
+<context>
+    <name>MeasurementScreen</name>
+    <message>
+        <location filename="../screens/measurement.py" line="49"/>
+        <source>Stop</source>
+        <translation>Zastavit</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="50"/>
+        <source>Resume</source>
+        <translation>Pokračovat</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="51"/>
+        <source>Save progress</source>
+        <translation>Uložit průběh</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="52"/>
+        <source>Back to the beginning</source>
+        <translation>Zpět na začátek</translation>
+    </message>
+</context>
+<context>
+    <name>MeasurementTypeScreen</name>
+    <message>
+        <location filename="../screens/measurement_type.py" line="28"/>
+        <source>What is to be measured?</source>
+        <translation>Co se má měřit?</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_type.py" line="42"/>
+        <source>Back</source>
+        <translation>Zpět</translation>
+    </message>
+</context>
+<context>
+    <name>Parameter</name>
+    <message>
+        <location filename="../names.py" line="16"/>
+        <source>Minimum distance</source>
+        <translation>Nejmenší vzdálenost</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="17"/>
+        <source>Starting distance</source>
+        <translation>Počáteční vzdálenost</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="18"/>
+        <source>Straightening distance</source>
+        <translation>Srovnávací vzdálenost</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="19"/>
+        <source>Measurements distance</source>
+        <translation>Rozteč měření</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="20"/>
+        <source>Approach distance</source>
+        <translation>Krok přiblížení</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="21"/>
+        <source>Degrees between radials</source>
+        <translation>Stupně mezi paprsky</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="22"/>
+        <source>Device height</source>
+        <translation>Výška zařízení</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="23"/>
+        <source>Maximum speed</source>
+        <translation>Nejvyšší rychlost</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="24"/>
+        <source>Measuring speed</source>
+        <translation>Rychlost měření</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="25"/>
+        <source>Clearance</source>
+        <translation>Odstup</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="26"/>
+        <source>Response time</source>
+        <translation>Doba odezvy</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="27"/>
+        <source>Locking time</source>
+        <translation>Doba zamčení</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="28"/>
+        <source>Press strength</source>
+        <translation>Síla stisku</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="29"/>
+        <source>Press duration</source>
+        <translation>Délka stisku</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="30"/>
+        <source>Standstill before a press</source>
+        <translation>Klid před stiskem</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="31"/>
+        <source>Attempts</source>
+        <translation>Počet pokusů</translation>
+    </message>
+</context>
+<context>
+    <name>ParameterDoc</name>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Where the approach ends if the Car stays locked.</source>
+        <translation>Kde přibližování skončí, zůstane-li auto zamčené.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Starting distance of each axis.</source>
+        <translation>Počáteční vzdálenost na každé ose.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>First piece of the approach, to correct the heading; the retreat ends where it ended.</source>
+        <translation>První úsek přiblížení na srovnání směru; kde skončil, tam skončí i couvání.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Distance between neighbouring axes of a side.</source>
+        <translation>Vzdálenost sousedních os jedné strany.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Height of the Remote key above ground.</source>
+        <translation>Výška klíče nad zemí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Speed limit on the whole way.</source>
+        <translation>Omezení rychlosti na celé cestě.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Speed limit while approaching and retreating; default: the maximum speed.</source>
+        <translation>Omezení rychlosti při přibližování a couvání; jinak nejvyšší rychlost.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Gap that has to remain between Remote key and Car.</source>
+        <translation>Mezera, která musí zůstat mezi klíčem a autem.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>How long the Car may take to react at the end of the approach and of the retreat.</source>
+        <translation>Jak dlouho smí auto na konci přibližování a couvání otálet s reakcí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>How long to wait at the starting distance for the Car to be locked.</source>
+        <translation>Jak dlouho čekat v počáteční vzdálenosti, než se auto zamkne.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Nearest place at which the button is pressed.</source>
+        <translation>Nejbližší místo, kde se tlačítko stiskne.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Starting distance of each radial.</source>
+        <translation>Počáteční vzdálenost na každém paprsku.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>First piece of the approach, to correct the heading; the first press is at its end.</source>
+        <translation>První úsek přiblížení na srovnání směru; na jeho konci je první stisk.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Step towards the Car after a press without success.</source>
+        <translation>Krok k autu po neúspěšném stisku.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Angle between neighbouring radials.</source>
+        <translation>Úhel mezi sousedními paprsky.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Travel of the button: 1 is pressed down fully.</source>
+        <translation>Zdvih tlačítka: 1 je úplné stisknutí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>How long the button is held down.</source>
+        <translation>Jak dlouho se tlačítko drží.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Standstill before each press.</source>
+        <translation>Doba klidu před každým stiskem.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>How long after the beginning of a press the Car may take to react.</source>
+        <translation>Jak dlouho po začátku stisku smí auto otálet s reakcí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Presses at each place before it counts as failed.</source>
+        <translation>Počet stisků na místě, než platí za neúspěšné.</translation>
+    </message>
+</context>
+<context>
+    <name>ParameterField</name>
+    <message>
+        <location filename="../forms/parameter_field.py" line="44"/>
+        <source>{low} to {high} {unit}; may be empty</source>
+        <translation>{low} až {high} {unit}; smí být prázdné</translation>
+    </message>
+    <message>
+        <location filename="../forms/parameter_field.py" line="46"/>
+        <source>{low} to {high} {unit}, usually {default}</source>
+        <translation>{low} až {high} {unit}, obvykle {default}</translation>
+    </message>
+    <message>
+        <location filename="../forms/parameter_field.py" line="53"/>
+        <source>Enter a value from {low} to {high} {unit}.</source>
+        <translation>Zadejte hodnotu od {low} do {high} {unit}.</translation>
+    </message>
+    <message>
+        <location filename="../forms/parameter_field.py" line="54"/>
+        <source>This is not a number; allowed is {low} to {high} {unit}.</source>
+        <translation>Toto není číslo; povoleno je {low} až {high} {unit}.</translation>
+    </message>
+    <message>
+        <location filename="../forms/parameter_field.py" line="55"/>
+        <source>Only whole numbers are allowed, {low} to {high} {unit}.</source>
+        <translation>Povolena jsou jen celá čísla, {low} až {high} {unit}.</translation>
+    </message>
+    <message>
+        <location filename="../forms/parameter_field.py" line="56"/>
+        <source>Allowed is {low} to {high} {unit}.</source>
+        <translation>Povoleno je {low} až {high} {unit}.</translation>
+    </message>
+</context>
+<context>
+    <name>ParameterForm</name>
+    <message>
+        <location filename="../forms/parameter_form.py" line="36"/>
+        <source>Usual values</source>
+        <translation>Obvyklé hodnoty</translation>
+    </message>
+    <message>
+        <location filename="../forms/parameter_form.py" line="77"/>
+        <source>Fewer parameters</source>
+        <translation>Méně parametrů</translation>
+    </message>
+    <message>
+        <location filename="../forms/parameter_form.py" line="77"/>
+        <source>More parameters</source>
+        <translation>Více parametrů</translation>
+    </message>
+</context>
+<context>
+    <name>Picture</name>
+    <message>
+        <location filename="../pictures/car_layer.py" line="66"/>
+        <source>FRONT</source>
+        <translation>PŘEDEK</translation>
+    </message>
+    <message>
+        <location filename="../pictures/legend.py" line="30"/>
+        <source>uncertainty (1 sigma)</source>
+        <translation>nejistota (1 sigma)</translation>
+    </message>
+</context>
+<context>
+    <name>PicturePanel</name>
+    <message>
+        <location filename="../pictures/picture_panel.py" line="25"/>
+        <source>Ruler</source>
+        <translation>Pravítko</translation>
+    </message>
+    <message>
+        <location filename="../pictures/picture_panel.py" line="25"/>
+        <source>Ruler: drag from one place to another (R)</source>
+        <translation>Pravítko: táhněte z jednoho místa na druhé (R)</translation>
+    </message>
+    <message>
+        <location filename="../pictures/picture_panel.py" line="34"/>
+        <source>Zoom in</source>
+        <translation>Přiblížit</translation>
+    </message>
+    <message>
+        <location filename="../pictures/picture_panel.py" line="34"/>
+        <source>Zoom out</source>
+        <translation>Oddálit</translation>
+    </message>
+    <message>
+        <location filename="../pictures/picture_panel.py" line="34"/>
+        <source>Show all</source>
+        <translation>Zobrazit vše</translation>
+    </message>
+</context>
+<context>
+    <name>PictureView</name>
+    <message>
+        <location filename="../pictures/picture_view.py" line="52"/>
+        <source>Car and robot from above; plus and minus zoom, arrows move the picture</source>
+        <translation>Auto a robot shora; plus a minus mění zvětšení, šipky posouvají obraz</translation>
+    </message>
+</context>
+<context>
+    <name>Protocol</name>
+    <message>
+        <location filename="../pictures/protocol_sheet.py" line="57"/>
+        <source>{scenario} protocol</source>
+        <translation>Protokol {scenario}</translation>
+    </message>
+    <message>
+        <location filename="../pictures/protocol_sheet.py" line="70"/>
+        <source>Result</source>
+        <translation>Výsledek</translation>
+    </message>
+    <message>
+        <location filename="../pictures/protocol_sheet.py" line="70"/>
+        <source>Parameters</source>
+        <translation>Parametry</translation>
+    </message>
+    <message>
+        <location filename="../pictures/protocol_sheet.py" line="70"/>
+        <source>Test</source>
+        <translation>Test</translation>
+    </message>
+</context>
+<context>
+    <name>ProtocolScreen</name>
+    <message>
+        <location filename="../screens/protocol.py" line="57"/>
+        <source>Results; choose a row to see its points</source>
+        <translation>Výsledky; vyberte řádek a uvidíte jeho body</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="66"/>
+        <source>Save</source>
+        <translation>Uložit</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="67"/>
+        <source>Save as CSV and PNG</source>
+        <translation>Uložit jako CSV a PNG</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="68"/>
+        <source>Save PDF</source>
+        <translation>Uložit PDF</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="69"/>
+        <source>Save SVG</source>
+        <translation>Uložit SVG</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="70"/>
+        <source>Show folder</source>
+        <translation>Ukázat složku</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="71"/>
+        <source>New test</source>
+        <translation>Nový test</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="115"/>
+        <source>{scenario} protocol</source>
+        <translation>Protokol {scenario}</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="129"/>
+        <source>{count} lines, {invalid} of them invalid. Not saved as CSV and PNG yet.</source>
+        <translation>Počet přímek: {count}, z toho neplatných: {invalid}. Zatím neuloženo jako CSV a PNG.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="131"/>
+        <source>{count} lines. Not saved as CSV and PNG yet.</source>
+        <translation>Počet přímek: {count}. Zatím neuloženo jako CSV a PNG.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="165"/>
+        <source>Saved {files} to {folder}</source>
+        <translation>Uloženo: {files}, složka {folder}</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="170"/>
+        <source>Choose another folder; nothing is lost.</source>
+        <translation>Vyberte jinou složku; nic se neztratilo.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="174"/>
+        <source>Folder for results</source>
+        <translation>Složka pro výsledky</translation>
+    </message>
+</context>
+<context>
+    <name>RobotForm</name>
+    <message>
+        <location filename="../forms/robot_form.py" line="25"/>
+        <source>IP address</source>
+        <translation>IP adresa</translation>
+    </message>
+    <message>
+        <location filename="../forms/robot_form.py" line="25"/>
+        <source>of the robot, e.g. 192.168.0.10</source>
+        <translation>robotu, např. 192.168.0.10</translation>
+    </message>
+    <message>
+        <location filename="../forms/robot_form.py" line="26"/>
+        <source>Subscriber port</source>
+        <translation>Port odběratele</translation>
+    </message>
+    <message>
+        <location filename="../forms/robot_form.py" line="26"/>
+        <source>where this laptop hears the robot, usually 3334</source>
+        <translation>zde počítač slyší robot, obvykle 3334</translation>
+    </message>
+    <message>
+        <location filename="../forms/robot_form.py" line="28"/>
+        <source>Publisher port</source>
+        <translation>Port vydavatele</translation>
+    </message>
+    <message>
+        <location filename="../forms/robot_form.py" line="28"/>
+        <source>where the robot hears this laptop, usually 3333</source>
+        <translation>zde robot slyší počítač, obvykle 3333</translation>
+    </message>
+</context>
+<context>
+    <name>Scenario</name>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Autolock</source>
+        <translation>Autolock</translation>
+    </message>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Approach until the Car unlocks, retreat backwards until it locks, on every axis.</source>
+        <translation>Na každé ose přibližovat, dokud se auto neodemkne, a couvat, dokud se nezamkne.</translation>
+    </message>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Key press</source>
+        <translation>Stisk klíče</translation>
+    </message>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Press a button from far to near until the Car obeys, on every radial.</source>
+        <translation>Na každém paprsku tisknout tlačítko z dálky stále blíž, dokud auto neposlechne.</translation>
+    </message>
+</context>
+<context>
+    <name>Sentence</name>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>wait for robot and Car</source>
+        <translation>čekám na robot a auto</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>move the key to {} cm</source>
+        <translation>klíč jede do výšky {} cm</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>map the Car</source>
+        <translation>robot mapuje auto</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>the robot stands still</source>
+        <translation>robot stojí</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>the robot does not confirm that it stands still; without an application it stops by itself</source>
+        <translation>robot nepotvrdil, že stojí; bez aplikace se zastaví sám</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>axis {} ({}): go to the start</source>
+        <translation>osa {} ({}): jízda na začátek</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>approach until the Car unlocks</source>
+        <translation>přibližování, dokud se auto neodemkne</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>retreat until the Car locks</source>
+        <translation>couvání, dokud se auto nezamkne</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>radial {} ({}): go to the start</source>
+        <translation>paprsek {} ({}): jízda na začátek</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>press at {} m</source>
+        <translation>stisk ve vzdálenosti {} m</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The Car&apos;s lock state is unknown: {}</source>
+        <translation>Stav zámků auta není znám: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The bus does not carry it.</source>
+        <translation>Sběrnice jej nepřenáší.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The Car fell silent: {}</source>
+        <translation>Auto se odmlčelo: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot did not start within {} s. {}</source>
+        <translation>Robot se do {} s nespustil. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot did not start within {} s.</source>
+        <translation>Robot se do {} s nespustil.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot did not find the Car within {} s. {}</source>
+        <translation>Robot do {} s nenašel auto. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot did not find the Car within {} s.</source>
+        <translation>Robot do {} s nenašel auto.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot is controlled by another application; end that one, then start again.</source>
+        <translation>Robot ovládá jiná aplikace; ukončete ji a začněte znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The Remote key did not reach the height of {} cm within {} s; it is at {} cm.</source>
+        <translation>Klíč nedosáhl výšky {} cm do {} s; je ve výšce {} cm.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot refused the waypoint: {}</source>
+        <translation>Robot odmítl cílový bod: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot did not reach the waypoint within {} s. {}</source>
+        <translation>Robot nedojel do cílového bodu do {} s. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot did not reach the waypoint within {} s.</source>
+        <translation>Robot nedojel do cílového bodu do {} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The button could not be pressed: {}</source>
+        <translation>Tlačítko nešlo stisknout: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot did not confirm a button press within {} s.</source>
+        <translation>Robot do {} s nepotvrdil stisk tlačítka.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>No poses of the robot enclose the instant {} s.</source>
+        <translation>Kolem okamžiku {} s nejsou známy polohy robotu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot&apos;s pose is unknown for {} s around the instant {} s.</source>
+        <translation>Poloha robotu není po dobu {} s kolem okamžiku {} s známa.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The progress file holds {} {}; this test has {}.</source>
+        <translation>Soubor průběhu obsahuje číslo {1} ({0}); tento test jich má {2}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The Car was still unlocked {} s after the robot had reached the starting distance of {} m; lock it with its key, or increase maximum_distance_m if it locks farther away.</source>
+        <translation>Auto bylo ještě {} s po dosažení počáteční vzdálenosti {} m odemčené; zamkněte je klíčem, nebo zvětšete počáteční vzdálenost, zamyká-li dále.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The Car was {} by the button of a key, not by the Remote key&apos;s vicinity; leave the keys alone during the test.</source>
+        <translation>Stav auta („{}“) způsobilo tlačítko klíče, ne blízkost klíče; během testu na klíče nesahejte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The Car was {} by the vicinity of a key, not by the press at {} m; switch passive entry off, or increase minimum_distance_m.</source>
+        <translation>Stav auta („{}“) způsobila blízkost klíče, ne stisk ve vzdálenosti {} m; vypněte bezklíčový přístup, nebo zvětšete nejmenší vzdálenost.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot has been silent for {} s; check the Wi-Fi and that its software runs.</source>
+        <translation>Robot mlčí {} s; zkontrolujte Wi-Fi a zda běží jeho software.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot&apos;s ports are open, but no Status has come for {} s; check that both ports are the robot&apos;s. {}</source>
+        <translation>Porty robotu jsou otevřené, ale {} s nepřišla zpráva o stavu; zkontrolujte, zda oba porty patří robotu. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot&apos;s ports are open, but no Status has come for {} s; check that both ports are the robot&apos;s.</source>
+        <translation>Porty robotu jsou otevřené, ale {} s nepřišla zpráva o stavu; zkontrolujte, zda oba porty patří robotu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot started anew during the test; the measured lines are kept, go on with a continued test.</source>
+        <translation>Robot se během testu spustil znovu; změřené přímky zůstaly uloženy, pokračujte v testu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Another application has taken over the control of the robot.</source>
+        <translation>Řízení robotu převzala jiná aplikace.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The test was interrupted.</source>
+        <translation>Test byl přerušen.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The link to the robot was interrupted for {} s.</source>
+        <translation>Spojení s robotem bylo na {} s přerušeno.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The link to the robot was interrupted: {}</source>
+        <translation>Spojení s robotem bylo přerušeno: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot does not know its position relative to the Car.</source>
+        <translation>Robot nezná svou polohu vůči autu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The Car does not say whether it is locked.</source>
+        <translation>Auto nesděluje, zda je zamčené.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot has restarted; the present order was sent to it again.</source>
+        <translation>Robot se spustil znovu; současný příkaz mu byl odeslán ještě jednou.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot is not connected.</source>
+        <translation>Robot není připojen.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Parameter {} is {}; it has to be below {}, {}.</source>
+        <translation>Parametr {} je {}; musí být menší než {}, {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Parameter {} is {}; allowed is at most {}, {}.</source>
+        <translation>Parametr {} je {}; povoleno je nejvýše {}, {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Parameter {} is {}; allowed is clearance_m, {}, and more.</source>
+        <translation>Parametr {} je {}; povolen je odstup, {}, a více.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Parameter {} is {}; allowed is {}.</source>
+        <translation>Parametr {} je {}; povoleno je {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Parameter {} is {}; allowed are {}.</source>
+        <translation>Parametr {} je {}; povoleno je {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Parameter {} is {}; {}</source>
+        <translation>Parametr {} je {}; {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Parameter {} is unknown; {}</source>
+        <translation>Parametr {} není znám; {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>allowed is a number, {}.</source>
+        <translation>povoleno je číslo, {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>write a decimal point: {}.</source>
+        <translation>pište desetinnou tečku: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>did you mean {}?</source>
+        <translation>nemá to být {}?</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>known are {}.</source>
+        <translation>známé jsou {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Parameter minimum_distance_m is {} m; on the radial of {} degrees that leaves {} m between Remote key and Car, and clearance_m, {} m, has to remain.</source>
+        <translation>Nejmenší vzdálenost je {} m; na paprsku {} stupňů tak mezi klíčem a autem zbude {} m, zůstat ale musí odstup {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The test cannot be continued from {}. {}</source>
+        <translation>V testu ze souboru {} nelze pokračovat. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>It is not a progress file of this application.</source>
+        <translation>Není to soubor průběhu této aplikace.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>It is not a progress file of this application, or of a scenario that it does not know.</source>
+        <translation>Není to soubor průběhu této aplikace, nebo patří ke scénáři, který aplikace nezná.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>It has version {}; this application reads version {}.</source>
+        <translation>Má verzi {}; tato aplikace čte verzi {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>It belongs to the scenario {}, not to {}.</source>
+        <translation>Patří ke scénáři {}, ne k {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>It is damaged: the parameters are missing.</source>
+        <translation>Je poškozený: chybí parametry.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>It is damaged: parts of it are missing or of the wrong kind.</source>
+        <translation>Je poškozený: části chybí nebo jsou nesprávného druhu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>It was measured with other parameters: {} was {}, now it is {}.</source>
+        <translation>Byl změřen s jinými parametry: {} bylo {}, nyní je {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>It is larger than {} MiB.</source>
+        <translation>Je větší než {} MiB.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>It cannot be read: {}.</source>
+        <translation>Nelze jej přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>It is truncated or not a JSON file.</source>
+        <translation>Je useknutý, nebo to není soubor JSON.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The progress file belongs to another Car: its {} was {} m, now it measures {} m.</source>
+        <translation>Soubor průběhu patří k jinému autu: {} byla {} m, nyní je {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The file {} cannot be written: {}.</source>
+        <translation>Soubor {} nelze zapsat: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Results cannot be written to the folder {}: {}.</source>
+        <translation>Výsledky nelze zapsat do složky {}: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The settings in {} were not used. {}</source>
+        <translation>Nastavení v souboru {} nebylo použito. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The settings cannot be kept: {}</source>
+        <translation>Nastavení nelze uložit: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>They are of another format or version.</source>
+        <translation>Má jiný formát nebo verzi.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>They are damaged.</source>
+        <translation>Je poškozené.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>They cannot be read.</source>
+        <translation>Nelze je přečíst.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The application has a defect: {}: {}</source>
+        <translation>Aplikace má chybu: {}: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Robot address is {}; allowed is an IPv4 address or a host name.</source>
+        <translation>Adresa robotu je {}; povolena je adresa IPv4 nebo jméno počítače.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Robot address is {}; an IPv4 address is four numbers from 0 to 255 with dots between them.</source>
+        <translation>Adresa robotu je {}; adresa IPv4 jsou čtyři čísla od 0 do 255 oddělená tečkami.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The {} is {}; allowed is a whole number from {} to {}.</source>
+        <translation>Pole „{}“ obsahuje {}; povoleno je celé číslo od {} do {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The {} is {}; allowed is a whole number.</source>
+        <translation>Pole „{}“ obsahuje {}; povoleno je celé číslo.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Subscriber port and publisher port are both {}; the robot uses two different ones.</source>
+        <translation>Port odběratele i vydavatele je {}; robot používá dva různé.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>No host of the name {} is known; check the robot&apos;s address.</source>
+        <translation>Počítač jménem {} není znám; zkontrolujte adresu robotu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>No answer from {} within {} s; check the address, the Wi-Fi and that the robot is on.</source>
+        <translation>{} do {} s neodpovídá; zkontrolujte adresu, Wi-Fi a zda je robot zapnutý.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Nothing listens on {}; check the port and that the robot&apos;s software runs.</source>
+        <translation>Na adrese {} nic neposlouchá; zkontrolujte port a zda běží software robotu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Cannot reach {}: {}.</source>
+        <translation>{} není dosažitelný: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The {} port {} is open, but not the robot&apos;s; subscriber and publisher port may be swapped, or another program listens there.</source>
+        <translation>Port {1} ({0}) je otevřený, ale nepatří robotu; porty odběratele a vydavatele jsou možná zaměněny, nebo tam poslouchá jiný program.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>CAN interface is {}; allowed are {}.</source>
+        <translation>Rozhraní CAN je {}; povolena jsou {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>CAN channel is empty; give the adapter&apos;s port, e.g. /dev/ttyACM0, can0 or PCAN_USBBUS1.</source>
+        <translation>Kanál CAN je prázdný; zadejte port adaptéru, např. /dev/ttyACM0, can0 nebo PCAN_USBBUS1.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>CAN bit rate is {}; allowed is {} to {} bit/s.</source>
+        <translation>Přenosová rychlost CAN je {}; povoleno je {} až {} bit/s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>There is no CAN adapter at {}; check the channel and the USB plug.</source>
+        <translation>Na {} není adaptér CAN; zkontrolujte kanál a zástrčku USB.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>{} is no serial port; give the CAN adapter&apos;s, e.g. /dev/ttyACM0.</source>
+        <translation>{} není sériový port; zadejte port adaptéru CAN, např. /dev/ttyACM0.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Cannot open the {} at {} bit/s: {}.</source>
+        <translation>Nelze otevřít {} při {} bit/s: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The {} has gone: {}.</source>
+        <translation>Zařízení zmizelo ({}): {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The {} sends something else than the slcan protocol; check the channel, and that the device is a CAN adapter.</source>
+        <translation>Zařízení ({}) neposílá protokol slcan; zkontrolujte kanál a zda jde o adaptér CAN.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The {} does not answer; check the channel, and that the device is a CAN adapter.</source>
+        <translation>Zařízení ({}) neodpovídá; zkontrolujte kanál a zda jde o adaptér CAN.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>CAN adapter {} ({})</source>
+        <translation>adaptér CAN {} ({})</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>another program uses it</source>
+        <translation>používá jej jiný program</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The CAN bus has errors ({} error frames); check bit rate, plug and termination.</source>
+        <translation>Na sběrnici CAN jsou chyby (chybových rámců: {}); zkontrolujte rychlost, zástrčku a zakončení.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The Car&apos;s CAN bus is not connected.</source>
+        <translation>Sběrnice CAN auta není připojena.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>No CAN adapter is chosen.</source>
+        <translation>Není vybrán adaptér CAN.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>No CAN frame for {} s; check the plug, the bit rate and that the Car is awake.</source>
+        <translation>Už {} s nepřišel rámec CAN; zkontrolujte zástrčku, rychlost a zda je auto probuzené.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>No message {} (id 0x{}) for {} s although the CAN bus is alive; check the car profile.</source>
+        <translation>Zpráva {} (id 0x{}) už {} s nepřišla, ačkoli sběrnice CAN žije; zkontrolujte profil auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The clock of the CAN frames is not mapped to the robot&apos;s yet; this takes about two seconds.</source>
+        <translation>Hodiny rámců CAN ještě nejsou přepočteny na hodiny robotu; trvá to asi dvě sekundy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The CAN adapter reports errors on the bus or has left it (bus-off); check bit rate, plug and termination.</source>
+        <translation>Adaptér CAN hlásí chyby na sběrnici, nebo se odpojil (bus-off); zkontrolujte rychlost, zástrčku a zakončení.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The CAN adapter is error-passive; check bit rate, plug and termination.</source>
+        <translation>Adaptér CAN je ve stavu error-passive; zkontrolujte rychlost, zástrčku a zakončení.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The CAN adapter has failed: {}.</source>
+        <translation>Adaptér CAN selhal: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>There is no car profile {}; shipped are: {}; a path to a YAML file works too.</source>
+        <translation>Profil auta {} neexistuje; dodávané jsou: {}; lze zadat i cestu k souboru YAML.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Car profile {}: states must name a value for locked and one for unlocked.</source>
+        <translation>Profil auta {}: states musí uvést hodnotu pro locked a pro unlocked.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Car profile {} is no table of names and values.</source>
+        <translation>Profil auta {} není tabulka jmen a hodnot.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Car profile {}: source_signal and sources belong together; give both or none.</source>
+        <translation>Profil auta {}: source_signal a sources patří k sobě; uveďte obojí, nebo nic.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Car profile {}: {} must be a table from raw value to {}.</source>
+        <translation>Profil auta {}: {} musí být tabulka, která hodnotám přiřadí {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Car profile {}: cycle_time_s is {}; allowed is {} to {} s.</source>
+        <translation>Profil auta {}: cycle_time_s je {}; povoleno je {} až {} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Car profile {} cannot be read: {}.</source>
+        <translation>Profil auta {} nelze přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Car profile {} is not valid YAML; a profile is a YAML file that names the CAN database.</source>
+        <translation>Profil auta {} není platný YAML; profil je soubor YAML, který uvádí databázi CAN.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Car profile {}: unknown entry {}; allowed are {}.</source>
+        <translation>Profil auta {}: neznámá položka {}; povoleny jsou {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Car profile {} lacks the entry {}.</source>
+        <translation>V profilu auta {} chybí položka {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Car profile {}: {} has {}: {}; allowed is a whole number with {}.</source>
+        <translation>Profil auta {}: {} obsahuje {}: {}; povoleno je celé číslo a k němu {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Message {} of CAN database {} has no signal {}.</source>
+        <translation>Zpráva {} databáze CAN {} nemá signál {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>CAN database {} has no message {}.</source>
+        <translation>Databáze CAN {} nemá zprávu {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>CAN database {} cannot be read: {}.</source>
+        <translation>Databázi CAN {} nelze přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>A message of {} bytes was ignored; allowed is at most {} bytes.</source>
+        <translation>Zpráva o {} bajtech byla ignorována; povoleno je nejvýše {} bajtů.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>A message was ignored: {}</source>
+        <translation>Zpráva byla ignorována: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>No application controls the robot.</source>
+        <translation>Robot neovládá žádná aplikace.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The application has been silent for more than {} s.</source>
+        <translation>Aplikace mlčí déle než {} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Command refused: {}</source>
+        <translation>Příkaz odmítnut: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Command {} was refused: {}</source>
+        <translation>Příkaz {} byl odmítnut: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Application {} controls the robot; Commands of application {} are ignored.</source>
+        <translation>Robot ovládá aplikace {}; příkazy aplikace {} se ignorují.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Operator stopped the robot.</source>
+        <translation>Obsluha robot zastavila.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot&apos;s state machine is silent; the robot stands still.</source>
+        <translation>Stavový automat robotu mlčí; robot stojí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The node of lift and buttons is silent.</source>
+        <translation>Uzel zdvihu a tlačítek mlčí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The battery is at {} %.</source>
+        <translation>Baterie je na {} %.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot does not know its position.</source>
+        <translation>Robot nezná svou polohu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Localization is lost. {}</source>
+        <translation>Lokalizace se ztratila. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Localization is lost.</source>
+        <translation>Lokalizace se ztratila.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The position of the Car is no longer known; order the robot to map the Car again.</source>
+        <translation>Poloha auta už není známa; nechte robot auto znovu zmapovat.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Waits for the first waypoint to map the Car.</source>
+        <translation>Robot čeká na první cílový bod, aby zmapoval auto.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The {} has not reported yet.</source>
+        <translation>Část „{}“ se ještě nehlásila.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The {} has been silent for {} s.</source>
+        <translation>Část „{}“ mlčí {} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>There is nothing of a Car&apos;s size where the Car should stand; check the starting place.</source>
+        <translation>Kde má stát auto, není nic jeho velikosti; zkontrolujte výchozí místo.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Not enough of the Car was seen: one long side and one end are needed at least.</source>
+        <translation>Z auta bylo vidět málo: třeba je aspoň jedna dlouhá strana a jeden konec.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>What was found is {} m away from where the Car should stand; allowed is {} m.</source>
+        <translation>Nalezený objekt je {} m od místa, kde má auto stát; povoleno je {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>What was found has a {} of {} m; expected is {} m, at most {} m off.</source>
+        <translation>Nalezený objekt: {} {} m; očekává se {} m s odchylkou nejvýše {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car was found: {} m long, {} m wide.</source>
+        <translation>Auto nalezeno: délka {} m, šířka {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car was not found. {} Put the robot at the starting place and map again.</source>
+        <translation>Auto nebylo nalezeno. {} Postavte robot na výchozí místo a mapujte znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot goes round the Car: place {} of {}.</source>
+        <translation>Robot objíždí auto: místo {} z {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot looks at the Car from where it stands.</source>
+        <translation>Robot si prohlíží auto z místa, kde stojí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot stands before it touches the Car.</source>
+        <translation>Robot zastavil, než by se dotkl auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot is told to drive and does not move.</source>
+        <translation>Robot má jet, ale nehýbe se.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot stands so close to the Car that it cannot drive straight out; move it by hand.</source>
+        <translation>Robot stojí tak blízko auta, že nemůže rovně odjet; přesuňte jej ručně.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>At the goal the robot would leave {} m to the Car; at least {} m must be left.</source>
+        <translation>V cíli by robotu k autu zbývalo {} m; zbýt musí aspoň {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot stands too close to the Car to plan; move it away by hand.</source>
+        <translation>Robot stojí pro plánování příliš blízko auta; odsuňte jej ručně.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>No straight piece leads to the goal past the Car without getting too close to it.</source>
+        <translation>K cíli nevede rovný úsek, který by neprocházel příliš blízko auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>After {} corrections the robot stands {} m and {} deg off its goal.</source>
+        <translation>Robot po {} opravách stojí {} m a {} stupňů mimo cíl.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Key height {} m was refused; allowed is {} to {} m.</source>
+        <translation>Výška klíče {} m byla odmítnuta; povoleno je {} až {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>A press without a button was refused.</source>
+        <translation>Stisk bez tlačítka byl odmítnut.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Strength {} was refused; allowed is {} to {}.</source>
+        <translation>Síla {} byla odmítnuta; povoleno je {} až {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Duration {} s was refused; allowed is above 0 to {} s.</source>
+        <translation>Délka {} s byla odmítnuta; povoleno je více než 0 až {} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Button {} was refused; this key&apos;s mount has servos for {}.</source>
+        <translation>Tlačítko {} bylo odmítnuto; držák klíče má serva pro {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The firmware of lift and buttons has not reported yet.</source>
+        <translation>Firmware zdvihu a tlačítek se ještě nehlásil.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The firmware of lift and buttons is silent.</source>
+        <translation>Firmware zdvihu a tlačítek mlčí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The firmware of lift and buttons has been silent for {} s; check cable and power.</source>
+        <translation>Firmware zdvihu a tlačítek mlčí {} s; zkontrolujte kabel a napájení.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The firmware reports fault {}.</source>
+        <translation>Firmware hlásí poruchu {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The lift is jammed.</source>
+        <translation>Zdvih se zasekl.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The position sensor of the lift is broken.</source>
+        <translation>Snímač polohy zdvihu je vadný.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The firmware hears no commands.</source>
+        <translation>Firmware neslyší příkazy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The firmware did not report the press as done in time.</source>
+        <translation>Firmware včas neohlásil vykonání stisku.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The firmware started again during the press.</source>
+        <translation>Firmware se během stisku spustil znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The firmware refused the press.</source>
+        <translation>Firmware stisk odmítl.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The waypoint ({} m, {} m) is too close to the Car.</source>
+        <translation>Cílový bod ({} m, {} m) je příliš blízko auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The waypoint is not a number.</source>
+        <translation>Cílový bod není číslo.</translation>
+    </message>
+</context>
+<context>
+    <name>SettingsScreen</name>
+    <message>
+        <location filename="../screens/settings.py" line="48"/>
+        <source>Start</source>
+        <translation>Spustit</translation>
+    </message>
+    <message>
+        <location filename="../screens/settings.py" line="66"/>
+        <source>Back</source>
+        <translation>Zpět</translation>
+    </message>
+    <message>
+        <location filename="../screens/settings.py" line="116"/>
+        <source>{count} lines ({word}), about {time}.</source>
+        <translation>Počet přímek ({word}): {count}, asi {time}.</translation>
+    </message>
+    <message>
+        <location filename="../screens/settings.py" line="119"/>
+        <source>The Car is not measured yet; its size is a guess.</source>
+        <translation>Auto ještě není změřeno; jeho rozměry jsou odhad.</translation>
+    </message>
+    <message>
+        <location filename="../screens/settings.py" line="124"/>
+        <source>The battery, at {percent} %, suffices.</source>
+        <translation>Baterie ({percent} %) stačí.</translation>
+    </message>
+    <message>
+        <location filename="../screens/settings.py" line="125"/>
+        <source>The battery, at {percent} %, may not suffice: the test takes about {need} %.</source>
+        <translation>Baterie ({percent} %) nemusí stačit: test spotřebuje asi {need} %.</translation>
+    </message>
+</context>
+<context>
+    <name>SettingsWindow</name>
+    <message>
+        <location filename="../windows/settings_window.py" line="35"/>
+        <source>Settings</source>
+        <translation>Nastavení</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="39"/>
+        <source>Results</source>
+        <translation>Výsledky</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="40"/>
+        <source>Progress of tests</source>
+        <translation>Průběh testů</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="41"/>
+        <source>IP address</source>
+        <translation>IP adresa</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="42"/>
+        <source>Subscriber port</source>
+        <translation>Port odběratele</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="43"/>
+        <source>Publisher port</source>
+        <translation>Port vydavatele</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="46"/>
+        <source>As the system</source>
+        <translation>Podle systému</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="44"/>
+        <source>Light</source>
+        <translation>Světlý</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="44"/>
+        <source>Dark</source>
+        <translation>Tmavý</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="50"/>
+        <source>Use this adapter</source>
+        <translation>Použít tento adaptér</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="58"/>
+        <source>The CAN adapter is in use.</source>
+        <translation>Adaptér CAN se používá.</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="80"/>
+        <source>Folders</source>
+        <translation>Složky</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="80"/>
+        <source>Robot</source>
+        <translation>Robot</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="84"/>
+        <source>Appearance</source>
+        <translation>Vzhled</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="85"/>
+        <source>Theme</source>
+        <translation>Motiv</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="85"/>
+        <source>Language</source>
+        <translation>Jazyk</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="101"/>
+        <source>Car</source>
+        <translation>Auto</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="105"/>
+        <source>Close</source>
+        <translation>Zavřít</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="122"/>
+        <source>Change</source>
+        <translation>Změnit</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="123"/>
+        <source>Change the folder: {what}</source>
+        <translation>Změnit složku: {what}</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="136"/>
+        <source>Folder for results</source>
+        <translation>Složka pro výsledky</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="143"/>
+        <source>Folder for the progress of tests</source>
+        <translation>Složka pro průběh testů</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="154"/>
+        <source>The language changes when the application is started next.</source>
+        <translation>Jazyk se změní při příštím spuštění aplikace.</translation>
+    </message>
+</context>
+<context>
+    <name>Status</name>
+    <message>
+        <location filename="../header/reasons.py" line="14"/>
+        <source>Ready</source>
+        <translation>Připraveno</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="15"/>
+        <source>Ready with warnings</source>
+        <translation>Připraveno s výhradami</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="16"/>
+        <source>Not ready</source>
+        <translation>Nepřipraveno</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="17"/>
+        <source>Measuring</source>
+        <translation>Měří se</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="18"/>
+        <source>Paused</source>
+        <translation>Pozastaveno</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="19"/>
+        <source>Communication lost</source>
+        <translation>Spojení ztraceno</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="27"/>
+        <source>The robot has not answered for {detail} s.</source>
+        <translation>Robot neodpovídá {detail} s.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="28"/>
+        <source>The robot is still starting.</source>
+        <translation>Robot se ještě spouští.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="29"/>
+        <source>The robot reports a fault.</source>
+        <translation>Robot hlásí poruchu.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="30"/>
+        <source>Another application controls the robot.</source>
+        <translation>Robot ovládá jiná aplikace.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="32"/>
+        <source>The robot&apos;s battery is nearly empty: {detail} %.</source>
+        <translation>Baterie robotu je téměř vybitá: {detail} %.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="33"/>
+        <source>The robot&apos;s battery is low: {detail} %.</source>
+        <translation>Baterie robotu je slabá: {detail} %.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="34"/>
+        <source>No CAN adapter is chosen.</source>
+        <translation>Není vybrán adaptér CAN.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="36"/>
+        <source>The Car does not say whether it is locked.</source>
+        <translation>Auto nesděluje, zda je zamčené.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="37"/>
+        <source>The robot does not know its position.</source>
+        <translation>Robot nezná svou polohu.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="44"/>
+        <source>Check the Wi-Fi and that the robot is on. The robot stands still meanwhile; the link comes back by itself.</source>
+        <translation>Zkontrolujte Wi-Fi a zda je robot zapnutý. Robot zatím stojí; spojení se obnoví samo.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="46"/>
+        <source>Wait a moment.</source>
+        <translation>Chvíli počkejte.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="47"/>
+        <source>Make sure that nothing blocks the robot; if the fault stays, switch the robot off and on.</source>
+        <translation>Ujistěte se, že robotu nic nebrání; pokud porucha trvá, robot vypněte a zapněte.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="49"/>
+        <source>End the other application; control comes here by itself.</source>
+        <translation>Ukončete druhou aplikaci; řízení přejde sem samo.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="50"/>
+        <source>Charge the battery before the test.</source>
+        <translation>Před testem nabijte baterii.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="51"/>
+        <source>Short tests are possible; charge the battery soon.</source>
+        <translation>Krátké testy jsou možné; baterii brzy nabijte.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="52"/>
+        <source>Choose one under Settings, CAN adapter.</source>
+        <translation>Vyberte jej v Nastavení, Adaptér CAN.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="53"/>
+        <source>If the adapter is the wrong one, choose another under Settings.</source>
+        <translation>Pokud je adaptér nesprávný, vyberte v Nastavení jiný.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="54"/>
+        <source>Wake the Car, e.g. open a door; check the car profile.</source>
+        <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="55"/>
+        <source>Let it see the Car; if it stays lost, begin a new test, which maps the Car again.</source>
+        <translation>Umožněte robotu vidět auto; pokud se nenajde, začněte nový test, který auto zmapuje znovu.</translation>
+    </message>
+</context>
+<context>
+    <name>StatusWord</name>
+    <message>
+        <location filename="../header/status_word.py" line="40"/>
+        <source>Status: {word}</source>
+        <translation>Stav: {word}</translation>
+    </message>
+    <message>
+        <location filename="../header/status_word.py" line="42"/>
+        <source>Everything is ready for a test.</source>
+        <translation>Vše je připraveno k testu.</translation>
+    </message>
+    <message>
+        <location filename="../header/status_word.py" line="53"/>
+        <source>Nothing stands against it.</source>
+        <translation>Nic tomu nebrání.</translation>
+    </message>
+</context>
+<context>
+    <name>StepBar</name>
+    <message>
+        <location filename="../header/step_bar.py" line="94"/>
+        <source>Step {number} of {count}: {title}</source>
+        <translation>Krok {number} z {count}: {title}</translation>
+    </message>
+</context>
+<context>
+    <name>WarningSymbol</name>
+    <message>
+        <location filename="../header/warning_symbol.py" line="45"/>
+        <source>Notifications of the robot</source>
+        <translation>Upozornění robotu</translation>
+    </message>
+    <message>
+        <location filename="../header/warning_symbol.py" line="99"/>
+        <source>The robot says</source>
+        <translation>Robot sděluje</translation>
+    </message>
+</context>
+<context>
+    <name>WelcomeScreen</name>
+    <message>
+        <location filename="../screens/welcome.py" line="29"/>
+        <source>What would you like to do?</source>
+        <translation>Co chcete udělat?</translation>
+    </message>
+    <message>
+        <location filename="../screens/welcome.py" line="31"/>
+        <source>New test</source>
+        <translation>Nový test</translation>
+    </message>
+    <message>
+        <location filename="../screens/welcome.py" line="31"/>
+        <source>Choose scenario and parameters, and let the robot measure.</source>
+        <translation>Vyberte scénář a parametry a nechte robot měřit.</translation>
+    </message>
+    <message>
+        <location filename="../screens/welcome.py" line="32"/>
+        <source>Continue test</source>
+        <translation>Pokračovat v testu</translation>
+    </message>
+    <message>
+        <location filename="../screens/welcome.py" line="32"/>
+        <source>Go on with a test whose progress was saved to a file.</source>
+        <translation>Pokračujte v testu, jehož průběh byl uložen do souboru.</translation>
+    </message>
+    <message>
+        <location filename="../screens/welcome.py" line="33"/>
+        <source>Calibrate</source>
+        <translation>Kalibrovat</translation>
+    </message>
+    <message>
+        <location filename="../screens/welcome.py" line="33"/>
+        <source>Try lift and buttons of the robot.</source>
+        <translation>Vyzkoušejte zdvih a tlačítka robotu.</translation>
+    </message>
+    <message>
+        <location filename="../screens/welcome.py" line="57"/>
+        <source>The {scenario} test of {moment} is not finished: {done} of {total} lines are measured.</source>
+        <translation>Test {scenario} z {moment} není dokončen: změřeno {done} z {total} přímek.</translation>
+    </message>
+    <message>
+        <location filename="../screens/welcome.py" line="68"/>
+        <source>Go on with it</source>
+        <translation>Pokračovat v něm</translation>
+    </message>
+    <message>
+        <location filename="../screens/welcome.py" line="71"/>
+        <source>Not now</source>
+        <translation>Teď ne</translation>
+    </message>
+</context>
+<context>
+    <name>Word</name>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>axis</source>
+        <translation>osa</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>radial</source>
+        <translation>paprsek</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>unlock</source>
+        <translation>odemčení</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>lock</source>
+        <translation>zamčení</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>press</source>
+        <translation>stisk</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>front</source>
+        <translation>vpředu</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>rear</source>
+        <translation>vzadu</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>left</source>
+        <translation>vlevo</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>right</source>
+        <translation>vpravo</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>front left</source>
+        <translation>vpředu vlevo</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>front right</source>
+        <translation>vpředu vpravo</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>rear left</source>
+        <translation>vzadu vlevo</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>rear right</source>
+        <translation>vzadu vpravo</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>ok</source>
+        <translation>změřeno</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>not reached</source>
+        <translation>nedosaženo</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>invalid</source>
+        <translation>neplatné</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>locked</source>
+        <translation>zamčeno</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>unlocked</source>
+        <translation>odemčeno</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Unlocked</source>
+        <translation>Odemčeno</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Locked</source>
+        <translation>Zamčeno</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Unlock not reached</source>
+        <translation>Odemčení nedosaženo</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Lock not reached</source>
+        <translation>Zamčení nedosaženo</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Invalid</source>
+        <translation>Neplatné</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Press worked</source>
+        <translation>Stisk zabral</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Press failed</source>
+        <translation>Stisk nezabral</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>lines</source>
+        <translation>přímky</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>nothing measured</source>
+        <translation>nic nezměřeno</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Car measured</source>
+        <translation>změřené auto</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>car profile</source>
+        <translation>profil auta</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>robot</source>
+        <translation>robot</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>software</source>
+        <translation>software</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>robot software</source>
+        <translation>software robotu</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>length</source>
+        <translation>délka</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>width</source>
+        <translation>šířka</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>subscriber port</source>
+        <translation>port odběratele</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>publisher port</source>
+        <translation>port vydavatele</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>subscriber</source>
+        <translation>odběratel</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>publisher</source>
+        <translation>vydavatel</translation>
+    </message>
+</context>
+</TS>

@@ -1,0 +1,2 @@
+"""Windows of their own."""
+# SPDX-License-Identifier: Apache-2.0

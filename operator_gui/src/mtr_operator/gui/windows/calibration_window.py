@@ -1,0 +1,141 @@
+"""The calibration window: what lift and buttons do, beside what they should do."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from typing import Sequence
+
+from PyQt5.QtWidgets import QCheckBox, QDialog, QGridLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from mtr_operator.domain.parameters import Declaration
+from mtr_operator.domain.ports import PressConfirmation
+from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
+from mtr_operator.station.idle import CalibrationOrder
+from mtr_operator.station.readiness import Word
+
+from ..flow import Flow
+from ..forms.parameter_field import ParameterField
+from ..i18n import number
+from ..sentences import translated
+from ..theme.scale import L, M, S
+from .card import Card
+
+_CM_PER_M = 100.0
+_UNKNOWN = "\N{EN DASH}"
+
+
+class CalibrationWindow(QDialog):
+    """Attributes: key_height, strength, press_s: fields. buttons: check boxes by number. send: button.
+
+    reported: labels by name of what they tell. told: what became of the order.
+    """
+
+    def __init__(self, flow: Flow, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Calibration"))
+        self._flow = flow
+        self._sent: CalibrationOrder | None = None
+        declared = KeyPressParameters.declarations()
+        self.key_height = self._field("key_height_m", declared)
+        self.strength = self._field("press_strength", declared)
+        self.press_s = self._field("press_duration_s", declared)
+        self.buttons = {1: QCheckBox(self.tr("Lock")), 2: QCheckBox(self.tr("Unlock"))}
+        self.reported = {name: QLabel(_UNKNOWN) for name in ("height", "buttons", "strength")}
+        self.told = QLabel()
+        self.told.setWordWrap(True)
+        self.told.setProperty("role", "soft")
+        self.send = QPushButton(self.tr("Send"))
+        self.send.setProperty("role", "primary")
+        self.send.clicked.connect(self._send)
+        self._lay_out()
+        for field in (self.key_height, self.strength, self.press_s):
+            field.changed.connect(self._check)
+        flow.bridge.changed.connect(self.show_desk)
+        self.show_desk()
+        self.setMinimumWidth(820)
+
+    @staticmethod
+    def _field(name: str, declared: dict[str, Declaration]) -> ParameterField:
+        field = ParameterField(name, declared[name])
+        field.show_value(declared[name].default)
+        return field
+
+    def _lay_out(self) -> None:
+        wanted_card, reported_card = Card(self.tr("Wanted")), Card(self.tr("Reported by the robot"))
+        wanted, reported = wanted_card.column, reported_card.column
+        for field in (self.key_height, self.strength, self.press_s):
+            wanted.addWidget(field)
+        wanted.addWidget(QLabel(self.tr("Buttons to press")))
+        boxes = QHBoxLayout()
+        boxes.setSpacing(L)
+        for box in self.buttons.values():
+            boxes.addWidget(box)
+        boxes.addStretch(1)
+        wanted.addLayout(boxes)
+        wanted.addStretch(1)
+        titles = {"height": self.tr("Key height"), "buttons": self.tr("Buttons pressed"),
+                  "strength": self.tr("Press strength ordered")}
+        grid = QGridLayout()
+        grid.setVerticalSpacing(S)
+        for row, (name, label) in enumerate(self.reported.items()):
+            label.setProperty("role", "heading")
+            label.setAccessibleName(titles[name])
+            heading = QLabel(titles[name])
+            heading.setProperty("role", "soft")
+            grid.addWidget(heading, 2 * row, 0)
+            grid.addWidget(label, 2 * row + 1, 0)
+        reported.addLayout(grid)
+        reported.addWidget(self.told)
+        reported.addStretch(1)
+        close = QPushButton(self.tr("Close"))
+        close.clicked.connect(self.reject)
+        row = QHBoxLayout()
+        row.addStretch(1)
+        row.setSpacing(M)
+        row.addWidget(close)
+        row.addWidget(self.send)
+        cards = QHBoxLayout()
+        cards.setSpacing(M)
+        for card in (wanted_card, reported_card):
+            cards.addWidget(card, 1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(L, L, L, L)
+        layout.setSpacing(M)
+        layout.addLayout(cards, 1)
+        layout.addLayout(row)
+        self.send.setDefault(True)
+
+    def show_desk(self) -> None:
+        """Show what the robot says now."""
+        robot = self._flow.desk.robot
+        if robot is None:
+            return
+        status = robot.status
+        height_m = status.key_height_m
+        self.reported["height"].setText(_UNKNOWN if math.isnan(height_m) else f"{number(height_m * _CM_PER_M, 1)} cm")
+        names = [self.buttons[button].text() if button in self.buttons else str(button)
+                 for button in status.pressed_buttons]
+        self.reported["buttons"].setText(", ".join(names) or self.tr("none"))
+        self._tell_press(status.presses)
+        self._check()
+
+    def _tell_press(self, presses: Sequence[PressConfirmation]) -> None:
+        order = self._sent
+        if order is None or not order.buttons or not presses:
+            return
+        newest = presses[-1]
+        self.told.setText(translated(newest.error) if newest.error else
+                          self.tr("Pressed for {duration} s.").format(
+                              duration=number(newest.end_s - newest.start_s, 2)))
+
+    def _check(self) -> None:
+        is_valid = all([field.check() for field in (self.key_height, self.strength, self.press_s)])
+        self.send.setEnabled(is_valid and self._flow.desk.verdict.word is not Word.LOST)
+
+    def _send(self) -> None:
+        buttons = tuple(number for number, box in self.buttons.items() if box.isChecked())
+        self._sent = CalibrationOrder(self.key_height.reading.value, buttons, self.strength.reading.value,
+                                      self.press_s.reading.value)
+        self._flow.calibrate(self._sent)
+        self.reported["strength"].setText(f"{number(100.0 * self._sent.strength, 0)} %" if buttons else _UNKNOWN)
+        self.told.setText(self.tr("Sent."))

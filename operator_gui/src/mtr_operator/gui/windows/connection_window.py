@@ -1,0 +1,97 @@
+"""The connection window: address and ports of the robot, CAN adapter of the Car."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from PyQt5.QtGui import QCloseEvent
+from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from mtr_operator.station.connection import Connection
+
+from ..flow import Flow
+from ..forms.can_form import CanForm
+from ..forms.robot_form import RobotForm
+from ..sentences import translated
+from ..theme.scale import L, M, S
+from .card import Card
+
+
+class ConnectionWindow(QWidget):
+    """Attributes: robot, can: the forms. button: Connect. message, detail: what went wrong."""
+
+    def __init__(self, flow: Flow, proposed: Connection, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setObjectName("page")
+        self.setWindowTitle(self.tr("Connect to the robot"))
+        self._flow = flow
+        self.robot = RobotForm()
+        self.can = CanForm()
+        self.message, self.detail = QLabel(), QLabel()
+        self.message.setProperty("role", "error")
+        self.detail.setProperty("role", "hint")
+        self.button = QPushButton(self.tr("Connect"))
+        self.button.setProperty("role", "primary")
+        self.button.setDefault(True)
+        self._lay_out()
+        self.button.clicked.connect(self._connect)
+        self.robot.submitted.connect(self._connect)
+        self.can.submitted.connect(self._connect)
+        flow.refused.connect(self._tell_refusal)
+        self.robot.show_choice(proposed.robot, flow.store.settings.hosts)
+        self.can.show_choice(proposed.can)
+        self._say(flow.store.problem, "")
+        self.setMinimumWidth(960)
+
+    def _lay_out(self) -> None:
+        title = QLabel(self.tr("Connect"))
+        title.setProperty("role", "title")
+        cards = QHBoxLayout()
+        cards.setSpacing(M)
+        for heading, form in ((self.tr("Robot"), self.robot), (self.tr("Car"), self.can)):
+            card = Card(heading)
+            card.column.addWidget(form, 1)
+            cards.addWidget(card, 1)
+        told = QVBoxLayout()
+        told.setSpacing(0)
+        for label in (self.message, self.detail):
+            label.setWordWrap(True)
+            told.addWidget(label)
+        row = QHBoxLayout()
+        row.setSpacing(M)
+        row.addLayout(told, 1)
+        row.addWidget(self.button)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(L, L, L, L)
+        layout.setSpacing(M)
+        layout.addWidget(title)
+        layout.addLayout(cards, 1)
+        layout.addSpacing(S)
+        layout.addLayout(row)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """See QWidget."""
+        self._flow.close()
+        super().closeEvent(event)
+
+    def _connect(self) -> None:
+        if not self.button.isEnabled():
+            return
+        robot = self.robot.choice
+        if robot is None:
+            self._say(self.tr("The IP address or port provided is invalid."), "")
+            return
+        self._say("", self.tr("Connecting to {host} ...").format(host=robot.host))
+        self.button.setEnabled(False)
+        self._flow.connect_to(Connection(robot, self.can.choice))
+
+    def _tell_refusal(self, part: str, text: str) -> None:
+        self.button.setEnabled(True)
+        message = {
+            "address": self.tr("The IP address or port provided is invalid."),
+            "robot": self.tr("Connection failed, check the parameters."),
+            "car": self.tr("The CAN adapter cannot be used."),
+        }[part]
+        self._say(message, translated(text))
+
+    def _say(self, message: str, detail: str) -> None:
+        self.message.setText(message)
+        self.detail.setText(detail)

@@ -1,0 +1,141 @@
+"""The main window: header bar, and below it one screen at a time."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import pathlib
+
+from PyQt5.QtCore import QSize, QTimer
+from PyQt5.QtGui import QCloseEvent
+from PyQt5.QtWidgets import QMainWindow, QStackedWidget, QVBoxLayout, QWidget
+
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.station.readiness import Phase
+
+from ..dialogs import ask_folder, ask_progress_file, confirm, tell
+from ..flow import Flow, Step
+from ..header.header_bar import HeaderBar
+from ..screens.measurement import MeasurementScreen
+from ..screens.measurement_type import MeasurementTypeScreen
+from ..screens.protocol import ProtocolScreen
+from ..screens.settings import SettingsScreen
+from ..screens.welcome import WelcomeScreen
+from ..sentences import translated
+from ..theme.appearance import Appearance
+from .calibration_window import CalibrationWindow
+from .settings_window import SettingsWindow
+
+_SIZE = QSize(1360, 860)
+_LEAST_SIZE = QSize(1080, 680)
+
+
+class MainWindow(QMainWindow):
+    """Attributes: header; welcome, types, settings (by scenario), measurement, protocol: the screens."""
+
+    def __init__(self, flow: Flow, appearance: Appearance):
+        super().__init__()
+        self.setWindowTitle(self.tr("Mobile testing robot"))
+        self._flow = flow
+        self._appearance = appearance
+        self.header = HeaderBar(appearance)
+        self.welcome = WelcomeScreen()
+        self.types = MeasurementTypeScreen(SCENARIOS)
+        self.settings = {name: SettingsScreen(scenario, flow.desk, appearance) for name, scenario in SCENARIOS.items()}
+        self.measurement = MeasurementScreen(flow.desk, appearance)
+        self.protocol = ProtocolScreen(flow, appearance)
+        self._screens = QStackedWidget()
+        for screen in (self.welcome, self.types, *self.settings.values(), self.measurement, self.protocol):
+            self._screens.addWidget(screen)
+        page = QWidget()
+        page.setObjectName("page")
+        layout = QVBoxLayout(page)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.header)
+        layout.addWidget(self._screens, 1)
+        self.setCentralWidget(page)
+        self.setMinimumSize(_LEAST_SIZE)
+        self.resize(_SIZE)
+        self._connect()
+        self._show_step(Step.WELCOME)
+
+    @property
+    def screen(self) -> QWidget:
+        """What is shown below the header."""
+        return self._screens.currentWidget()
+
+    def _connect(self) -> None:
+        flow = self._flow
+        flow.bridge.changed.connect(self._show_desk)
+        flow.step_changed.connect(self._show_step)
+        # Later: a dialog within the delivery of events would let the later ones pass the earlier ones.
+        flow.failed.connect(lambda text: QTimer.singleShot(0, lambda: self._tell(text)))
+        flow.saved.connect(lambda path: self.measurement.say(self.tr("Saved to {path}").format(path=path)))
+        flow.folder_wanted.connect(lambda text: QTimer.singleShot(0, lambda: self._ask_progress_folder(text)))
+        self.header.settings_wanted.connect(lambda: SettingsWindow(flow, self._appearance, self).exec_())
+        self.welcome.new_test.connect(lambda: flow.show(Step.TYPE))
+        self.welcome.continue_test.connect(self._open)
+        self.welcome.calibrate.connect(lambda: CalibrationWindow(flow, self).exec_())
+        self.welcome.go_on.connect(lambda: flow.open(flow.store.settings.unfinished))
+        self.welcome.dismiss.connect(self._dismiss)
+        self.types.back.connect(flow.to_welcome)
+        self.types.chosen.connect(self._show_settings)
+        for name, screen in self.settings.items():
+            screen.back.connect(lambda: flow.show(Step.TYPE))
+            screen.started.connect(lambda parameters, name=name: flow.start(SCENARIOS[name], parameters))
+        self.measurement.stop_wanted.connect(flow.stop)
+        self.measurement.resume_wanted.connect(flow.resume)
+        self.measurement.save_wanted.connect(flow.save_progress)
+        self.measurement.leave_wanted.connect(flow.to_welcome)
+        self.protocol.closed.connect(flow.to_welcome)
+
+    def _show_desk(self) -> None:
+        self.header.show_desk(self._flow.desk)
+        if isinstance(self.screen, (MeasurementScreen, SettingsScreen)):
+            self.screen.show_desk()
+
+    def _show_step(self, step: Step) -> None:
+        self.header.steps.select(step.value)
+        if step is Step.WELCOME:
+            self.welcome.offer_unfinished(self._flow.unfinished_test())
+            self.welcome.new.setFocus()
+        elif step is Step.PROTOCOL:
+            self.protocol.show_test()
+        self._screens.setCurrentWidget({Step.WELCOME: self.welcome, Step.TYPE: self.types,
+                                        Step.MEASUREMENT: self.measurement, Step.PROTOCOL: self.protocol}[step])
+        self._show_desk()
+
+    def _show_settings(self, name: str) -> None:
+        screen = self.settings[name]
+        screen.form.show_mapping(self._flow.store.settings.parameters.get(name, {}))
+        self._screens.setCurrentWidget(screen)
+        screen.show_desk()
+
+    def _open(self) -> None:
+        path = ask_progress_file(self, self.tr("Continue test"), self._flow.store.settings.progress_folder)
+        if path is not None:
+            self._flow.open(path)
+
+    def _dismiss(self) -> None:
+        self._flow.dismiss_unfinished()
+        self.welcome.offer_unfinished(None)
+
+    def _ask_progress_folder(self, text: str) -> None:
+        tell(self, self.windowTitle(), translated(text) + " " + self.tr("Choose another folder; nothing is lost."))
+        folder = ask_folder(self, self.tr("Folder for the progress of tests"), pathlib.Path.home())
+        if folder is not None:
+            self._flow.use_progress_folder(folder)
+
+    def _tell(self, text: str) -> None:
+        tell(self, self.windowTitle(), translated(text))
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Ask before a running test is ended."""
+        if self._flow.desk.phase is Phase.MEASURING and not self._is_to_be_ended():
+            event.ignore()
+            return
+        event.accept()
+
+    def _is_to_be_ended(self) -> bool:
+        question = self.tr("A test is running. Stop the robot and close? What is measured is kept; the next start "
+                           "offers to go on.")
+        return confirm(self, self.windowTitle(), question, (self.tr("Stop and close"), self.tr("Go on measuring")))

@@ -1,0 +1,166 @@
+"""The settings window: folders, theme, language; the connection is shown, the CAN adapter can be changed."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import dataclasses
+import pathlib
+
+from PyQt5.QtCore import Qt
+from PyQt5.QtWidgets import QComboBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from mtr_operator.station.readiness import Phase
+from mtr_operator.station.settings import LANGUAGES, THEMES
+
+from ..dialogs import ask_folder
+from ..flow import Flow
+from ..forms.can_form import CanForm
+from ..forms.field import Field
+from ..sentences import translated
+from ..theme.appearance import Appearance
+from ..theme.scale import XS, L, M, S
+from .card import Card
+
+# Languages are named in themselves.
+_CZECH = "\u010ce\u0161tina"
+
+
+class SettingsWindow(QDialog):
+    """Attributes: results, progress: folders. host, subscriber_port, publisher_port: read-only.
+
+    theme, language: combo boxes. can, use_can: the adapter. message: what became of it.
+    """
+
+    def __init__(self, flow: Flow, appearance: Appearance, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Settings"))
+        self._flow = flow
+        self._appearance = appearance
+        settings, robot = flow.store.settings, flow.connection.robot
+        self.results = self._read_only(self.tr("Results"), str(settings.result_folder))
+        self.progress = self._read_only(self.tr("Progress of tests"), str(settings.progress_folder))
+        self.host = self._read_only(self.tr("IP address"), robot.host)
+        self.subscriber_port = self._read_only(self.tr("Subscriber port"), str(robot.subscriber_port))
+        self.publisher_port = self._read_only(self.tr("Publisher port"), str(robot.publisher_port))
+        self.theme = self._box({"system": self.tr("As the system"), "light": self.tr("Light"), "dark": self.tr("Dark")},
+                               THEMES, settings.theme)
+        self.language = self._box({"system": self.tr("As the system"), "en": "English", "cs": _CZECH},
+                                  LANGUAGES, settings.language)
+        self.can = CanForm()
+        self.can.show_choice(flow.connection.can)
+        self.use_can = QPushButton(self.tr("Use this adapter"))
+        self.message = QLabel()
+        self.message.setWordWrap(True)
+        self.message.setProperty("role", "soft")
+        self._lay_out()
+        self.theme.currentIndexChanged.connect(self._change_theme)
+        self.language.currentIndexChanged.connect(self._change_language)
+        self.use_can.clicked.connect(self._change_can)
+        flow.can_opened.connect(lambda: self._tell_can(self.tr("The CAN adapter is in use.")))
+        flow.can_refused.connect(lambda text: self._tell_can(translated(text)))
+        self.use_can.setEnabled(flow.desk.phase not in (Phase.MEASURING, Phase.STOPPING))
+        self.setMinimumWidth(900)
+
+    @staticmethod
+    def _read_only(title: str, text: str) -> Field:
+        field = Field(title)
+        field.edit.setText(text)
+        field.edit.setReadOnly(True)
+        field.note.hide()
+        return field
+
+    @staticmethod
+    def _box(names: dict[str, str], values: tuple[str, ...], chosen: str) -> QComboBox:
+        box = QComboBox()
+        for value in values:
+            box.addItem(names[value], value)
+        box.setCurrentIndex(values.index(chosen))
+        return box
+
+    def _lay_out(self) -> None:
+        left_card, right_card = Card(self.tr("Folders")), Card(self.tr("Robot"))
+        left, right = left_card.column, right_card.column
+        for field, choose in ((self.results, self.choose_results), (self.progress, self.choose_progress)):
+            left.addLayout(self._folder_row(field, choose))
+        left_card.add_heading(self.tr("Appearance"))
+        for title, box in ((self.tr("Theme"), self.theme), (self.tr("Language"), self.language)):
+            label = QLabel(title)
+            label.setBuddy(box)
+            box.setAccessibleName(title)
+            group = QVBoxLayout()
+            group.setSpacing(XS)
+            group.addWidget(label)
+            group.addWidget(box)
+            left.addLayout(group)
+        left.addStretch(1)
+        right.addWidget(self.host)
+        ports = QHBoxLayout()
+        ports.setSpacing(M)
+        ports.addWidget(self.subscriber_port)
+        ports.addWidget(self.publisher_port)
+        right.addLayout(ports)
+        right_card.add_heading(self.tr("Car"))
+        right.addWidget(self.can)
+        right.addWidget(self.use_can)
+        right.addStretch(1)
+        close = QPushButton(self.tr("Close"))
+        close.setDefault(True)
+        close.clicked.connect(self.accept)
+        row = QHBoxLayout()
+        row.addWidget(self.message, 1)
+        row.addWidget(close)
+        cards = QHBoxLayout()
+        cards.setSpacing(M)
+        cards.addWidget(left_card, 1, Qt.AlignTop)
+        cards.addWidget(right_card, 1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(L, L, L, L)
+        layout.setSpacing(M)
+        layout.addLayout(cards, 1)
+        layout.addLayout(row)
+
+    def _folder_row(self, field: Field, choose) -> QHBoxLayout:
+        button = QPushButton(self.tr("Change"))
+        button.setAccessibleName(self.tr("Change the folder: {what}").format(what=field.label.text()))
+        button.clicked.connect(choose)
+        row = QHBoxLayout()
+        row.setSpacing(S)
+        row.addWidget(field, 1)
+        column = QVBoxLayout()
+        column.addStretch(1)
+        column.addWidget(button)
+        row.addLayout(column)
+        return row
+
+    def choose_results(self) -> None:
+        """Ask for another folder of the results."""
+        folder = ask_folder(self, self.tr("Folder for results"), pathlib.Path(self.results.text))
+        if folder is not None:
+            self.results.edit.setText(str(folder))
+            self._change(result_folder=folder)
+
+    def choose_progress(self) -> None:
+        """Ask for another folder of the progress."""
+        folder = ask_folder(self, self.tr("Folder for the progress of tests"), pathlib.Path(self.progress.text))
+        if folder is not None:
+            self.progress.edit.setText(str(folder))
+            self._change(progress_folder=folder)
+
+    def _change_theme(self) -> None:
+        self._change(theme=self.theme.currentData())
+        self._appearance.use(self.theme.currentData())
+
+    def _change_language(self) -> None:
+        self._change(language=self.language.currentData())
+        self.message.setText(self.tr("The language changes when the application is started next."))
+
+    def _change_can(self) -> None:
+        self.use_can.setEnabled(False)
+        self._flow.use_can(self.can.choice)
+
+    def _tell_can(self, sentence: str) -> None:
+        self.use_can.setEnabled(True)
+        self.message.setText(sentence)
+
+    def _change(self, **changes) -> None:
+        self._flow.store.change(dataclasses.replace(self._flow.store.settings, **changes))
+        self.message.setText(self._flow.store.problem)

@@ -1,0 +1,55 @@
+"""Content of the panel beside the drawing of a protocol: names and values, for whoever writes them."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import datetime
+from typing import Tuple
+
+from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.scenario import LineStatus, Scenario
+
+Row = Tuple[str, str]
+
+
+def date_text(started: str) -> str:
+    """Local date and time of the test with its distance from UTC."""
+    try:
+        moment = datetime.datetime.fromisoformat(started)
+    except ValueError:
+        return started
+    zone = moment.strftime("%z")
+    return moment.strftime("%Y-%m-%d  %H:%M") + (f"  (UTC{zone[:3]}:{zone[3:]})" if zone else "")
+
+
+def summary_rows(scenario: Scenario, progress: Progress) -> list[Row]:
+    """How many of the lines came to which end."""
+    rows = [("lines", str(len(progress.results)))]
+    for measurement in scenario.measurements:
+        states = [result[measurement.status] for result in progress.results]
+        counts = [(status, states.count(status.value)) for status in LineStatus]
+        told = ", ".join(f"{count} {status.value.replace('_', ' ')}" for status, count in counts if count)
+        rows.append((measurement.word, told or "nothing measured"))
+    return rows
+
+
+def parameter_rows(scenario: Scenario, progress: Progress) -> list[Row]:
+    """Every parameter that was set, as a person reads it."""
+    rows = []
+    for declared in scenario.parameters_type.declarations().values():
+        value = progress.parameters[declared.file_key]
+        if value is not None:
+            name, _, suffix = declared.file_key.rpartition("_")
+            shown = name if suffix in ("m", "s", "mps", "deg") else declared.file_key
+            rows.append((shown.replace("_", " "), declared.shown_text(value)))
+    return rows
+
+
+def session_rows(progress: Progress) -> list[Row]:
+    """The Car, and with what it was measured."""
+    car = progress.car
+    rows = [("Car measured", f"{car.length:.2f} m \N{MULTIPLICATION SIGN} {car.width:.2f} m")]
+    for name in ("car profile", "robot", "software", "robot software"):
+        value = str(progress.session.get(name, ""))
+        if value:
+            rows.append((name, value if len(value) <= 34 else "\N{HORIZONTAL ELLIPSIS}" + value[-33:]))
+    return rows

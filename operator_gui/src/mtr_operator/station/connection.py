@@ -1,0 +1,77 @@
+"""What the Operator chooses to connect to: the robot's address, and a CAN adapter or none yet."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.ports import CarLink, RobotLink
+from mtr_operator.robot_link.address import PUBLISHER_PORT, SUBSCRIBER_PORT, RobotAddress
+
+DEFAULT_BITRATE_BPS = 500_000
+DEFAULT_PROFILE = "mtr_demo_car"
+# Interface name of the Car's substitute inside the application.
+SIMULATED = "simulated"
+
+
+@dataclass(frozen=True)
+class RobotChoice:
+    """Address of the robot; the ports are named from the Operator's side."""
+
+    host: str = "127.0.0.1"
+    subscriber_port: int = SUBSCRIBER_PORT
+    publisher_port: int = PUBLISHER_PORT
+
+
+@dataclass(frozen=True)
+class CanChoice:
+    """Adapter on the Car's bus and the profile of the Car; interface as python-can names it, or SIMULATED."""
+
+    interface: str
+    channel: str = ""
+    bitrate_bps: int = DEFAULT_BITRATE_BPS
+    profile: str = DEFAULT_PROFILE
+
+
+@dataclass(frozen=True)
+class Connection:
+    """Everything that the connection window asks for. can: None when no adapter is chosen yet."""
+
+    robot: RobotChoice = RobotChoice()
+    can: CanChoice | None = None
+
+
+def whole_number(text: str, name: str) -> int:
+    """Number in a field; InvalidParameter names the field."""
+    try:
+        return int(text.strip())
+    except ValueError:
+        raise InvalidParameter(f"The {name} is {text.strip()!r}; allowed is a whole number.") from None
+
+
+def robot_choice(host: str, subscriber_port: str, publisher_port: str) -> RobotChoice:
+    """Choice from what stands in the fields; InvalidParameter says which one is wrong."""
+    choice = RobotChoice(host.strip(), whole_number(subscriber_port, "subscriber port"),
+                         whole_number(publisher_port, "publisher port"))
+    RobotAddress(choice.host, choice.subscriber_port, choice.publisher_port)
+    return choice
+
+
+class LinkOpener:
+    """Makes the links for a choice; drivers are imported when they are used first."""
+
+    def robot(self, choice: RobotChoice) -> RobotLink:
+        """A new link of a new session, not connected yet."""
+        from mtr_operator.robot_link.client import ZmqRobotLink
+        return ZmqRobotLink(choice.host, choice.subscriber_port, choice.publisher_port)
+
+    def car(self, choice: CanChoice | None) -> CarLink:
+        """A new link, not connected yet."""
+        if choice is None:
+            from .no_car import NoCarLink
+            return NoCarLink()
+        if choice.interface == SIMULATED:
+            from mtr_operator.car_link.fake import FakeCarLink
+            return FakeCarLink()
+        from mtr_operator.car_link.bus import CanCarLink
+        return CanCarLink(choice.interface, choice.channel, choice.bitrate_bps, choice.profile)

@@ -1,0 +1,142 @@
+"""What the view knows: the newest of robot and Car, and the test at hand. Fed with batches, read by widgets."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+import time
+from typing import Any, Callable, Mapping
+
+from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.ports import CarDimensions, Notification
+from mtr_operator.domain.pose import Point
+
+from .estimate import USUAL_CAR, TimeLeft, plan_of
+from .mailbox import Batch
+from .news import Acting, Ended, Measured, News, Outcome, Planned, RobotNews, Silence
+from .readiness import Phase, Verdict, judge
+from .test import Test
+
+# The trail is kept at this spacing; one that gets too long loses every other place.
+TRAIL_SPACING_M = 0.1
+TRAIL_LENGTH = 4000
+
+
+class Desk:
+    """Belongs to the view's thread.
+
+    Attributes:
+        robot: newest news of robot and Car, None before.
+        trail: places that the robot has passed during the test.
+        test: the test at hand, None before one is started or opened.
+        phase: what is done with it.
+        results: of the test so far. newest: the one measured last, None before.
+        done, total: lines; total is 0 before it is known.
+        action: what the robot does now. trouble: why the test was interrupted; empty when the Operator did it.
+        outcome: how measuring ended last, None while it has not.
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic):
+        self._clock = clock
+        self._heard_s = clock()
+        self._time_left = TimeLeft(())
+        self._car: CarDimensions | None = None
+        self.robot: RobotNews | None = None
+        self.trail: list[Point] = []
+        self.test: Test | None = None
+        self.phase = Phase.IDLE
+        self.results: tuple[Mapping[str, Any], ...] = ()
+        self.newest: Mapping[str, Any] | None = None
+        self.done = self.total = 0
+        self.action = self.trouble = ""
+        self.outcome: Outcome | None = None
+
+    @property
+    def silent_s(self) -> float:
+        """Wall time since the last Status."""
+        return self._clock() - self._heard_s
+
+    @property
+    def verdict(self) -> Verdict:
+        """Whether a test can be started now."""
+        return judge(self.robot, self.silent_s, self.phase)
+
+    @property
+    def notifications(self) -> tuple[Notification, ...]:
+        """Sentences of the robot that hold now."""
+        return () if self.robot is None else self.robot.status.notifications
+
+    @property
+    def mapped_car(self) -> CarDimensions | None:
+        """The Car of the test, else the one that the robot sees; None when none was measured."""
+        if self.test is not None and self._car is not None:
+            return self._car
+        return None if self.robot is None else self.robot.status.car
+
+    @property
+    def left_s(self) -> float | None:
+        """Expected time to the end of the test."""
+        return self._time_left.left_s(self._clock()) if self.phase is Phase.MEASURING else None
+
+    @property
+    def percent(self) -> int:
+        """Part of the lines that are measured."""
+        return 100 * self.done // self.total if self.total else 0
+
+    def take_up(self, test: Test) -> None:
+        """Lay a test on the desk, before it is started or continued."""
+        self.test, self.phase, self._car = test, Phase.PAUSED, test.progress.car
+        self.results = tuple(dict(result) for result in test.progress.results)
+        self.done, self.total = len(self.results), test.line_count
+        self.action = self.trouble = ""
+        self.outcome = self.newest = None
+        self.trail = []
+
+    def begin(self) -> None:
+        """The test on the desk is started or continued now."""
+        self.phase, self.trouble, self.outcome = Phase.MEASURING, "", None
+        self._expect()
+
+    def lay_aside(self) -> None:
+        """No test is at hand any more."""
+        self.test, self.phase, self.results = None, Phase.IDLE, ()
+        self.done = self.total = 0
+
+    def apply(self, batch: Batch) -> None:
+        """Learn what has happened."""
+        if batch.robot is not None:
+            self.robot, self._heard_s = batch.robot, self._clock()
+        for place in batch.trail if self.test is not None else ():
+            self._pass(place)
+        for event in batch.events:
+            self._learn(event)
+
+    def _pass(self, place: Point) -> None:
+        if not self.trail or math.dist(self.trail[-1], place) >= TRAIL_SPACING_M:
+            self.trail.append(place)
+        if len(self.trail) > TRAIL_LENGTH:
+            self.trail = self.trail[::2]
+
+    def _learn(self, event: News) -> None:
+        if isinstance(event, Planned):
+            self.done, self.total, self._car = event.done, event.total, event.car
+            self._expect()
+        elif isinstance(event, Acting):
+            self.action = event.text
+        elif isinstance(event, Measured):
+            self.results, self.newest = event.results, event.newest
+            self.done, self.total = event.done, event.total
+            self._time_left.advance(event.done, self._clock())
+        elif isinstance(event, Ended):
+            self.results, self.outcome, self.trouble = event.results, event.outcome, event.text
+            self.phase = Phase.FINISHED if event.outcome is Outcome.COMPLETE else Phase.PAUSED
+        elif isinstance(event, Silence):
+            self._heard_s = min(self._heard_s, self._clock() - event.silent_s)
+
+    def _expect(self) -> None:
+        test = self.test
+        try:
+            plan = plan_of(test.scenario, test.parameters, self.mapped_car or USUAL_CAR, True)
+            self._time_left = TimeLeft(plan.lines_s)
+        except InvalidParameter:  # the runner will say it
+            self._time_left = TimeLeft(())
+        self._time_left.begin(self.done, self._clock())

@@ -1,0 +1,104 @@
+"""How long a test is likely to take, and what it takes out of the battery."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Sequence
+
+from mtr_operator.domain.parameters import ParameterSet
+from mtr_operator.domain.picture import Stretch
+from mtr_operator.domain.ports import CarDimensions
+from mtr_operator.domain.pose import wrap_angle
+from mtr_operator.domain.ray import Ray
+from mtr_operator.domain.scenario import Scenario
+
+# Before the robot has measured the Car: a middle-sized one.
+USUAL_CAR = CarDimensions(4.5, 1.8, math.nan, math.nan)
+# Measured in the simulation: from the order to map to a mapped Car, and what stops, turns on the spot and gentle
+# accelerations add to each line.
+MAPPING_S = 60.0
+MANOEUVRES_S = 9.0
+# Clearpath's data sheet of the Jackal: 2 h of heavy use.
+HEAVY_USE_S = 2.0 * 3600.0
+# What should be left at the end.
+RESERVE_PERCENT = 15.0
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a test with some parameters would do around a Car.
+
+    Attributes:
+        stretches: where the key would be carried. mapping_s, lines_s: expected robot times.
+    """
+
+    stretches: tuple[Stretch, ...]
+    mapping_s: float
+    lines_s: tuple[float, ...]
+
+    @property
+    def duration_s(self) -> float:
+        """Of the whole test."""
+        return self.mapping_s + sum(self.lines_s)
+
+    @property
+    def battery_percent(self) -> float:
+        """What the whole test takes."""
+        return 100.0 * self.duration_s / HEAVY_USE_S
+
+    def suffices(self, battery_percent: float) -> bool:
+        """True when this charge lasts to the end, with a reserve."""
+        return battery_percent - self.battery_percent >= RESERVE_PERCENT
+
+
+def plan_of(scenario: Scenario, parameters: ParameterSet, car: CarDimensions, is_mapped: bool) -> Plan:
+    """Plan of a test; InvalidParameter when the parameters do not suit a Car of this size."""
+    lines = scenario.lines(parameters, car)
+    near_m, far_m = scenario.reach(parameters)
+    rays = [line.ray for line in lines]
+    own_s = scenario.expected_line_s(parameters)
+    ways = _ways(rays, near_m, far_m)
+    return Plan(
+        tuple(Stretch(ray.point(near_m), ray.point(far_m), str(line.number)) for line, ray in zip(lines, rays)),
+        0.0 if is_mapped else MAPPING_S,
+        tuple(own_s + MANOEUVRES_S + way_m / parameters.maximum_speed_mps for way_m in ways))
+
+
+def _ways(rays: Sequence[Ray], near_m: float, far_m: float) -> list[float]:
+    """Way from a line to the start of the next one, in m: from its middle, on an arc around the Car."""
+    middle_m = (near_m + far_m) / 2.0
+    return [_way(before.point(middle_m), after.point(far_m)) for before, after in zip([*rays[:1], *rays], rays)]
+
+
+def _way(start: tuple[float, float], goal: tuple[float, float]) -> float:
+    turn = abs(wrap_angle(math.atan2(goal[1], goal[0]) - math.atan2(start[1], start[0])))
+    inner, outer = sorted((math.hypot(*start), math.hypot(*goal)))
+    return max(math.dist(start, goal), turn * inner + outer - inner)
+
+
+class TimeLeft:
+    """Time to the end, from the expected times of the lines and how well they have held so far."""
+
+    def __init__(self, expected_s: Sequence[float]):
+        self._expected_s = tuple(expected_s)
+        self._begun_with = self._done = 0
+        self._begun_s = self._done_s = math.nan
+
+    def begin(self, done: int, now_s: float) -> None:
+        """The test starts or goes on with so many lines done."""
+        self._begun_with = self._done = done
+        self._begun_s = self._done_s = now_s
+
+    def advance(self, done: int, now_s: float) -> None:
+        """A line was measured."""
+        self._done, self._done_s = done, now_s
+
+    def left_s(self, now_s: float) -> float | None:
+        """Time from now on; None when nothing is known."""
+        rest_s = sum(self._expected_s[self._done:])
+        if math.isnan(self._begun_s) or not self._expected_s:
+            return None
+        measured_s = sum(self._expected_s[self._begun_with:self._done])
+        pace = (self._done_s - self._begun_s) / measured_s if measured_s else 1.0
+        return max(0.0, rest_s * pace - (now_s - self._done_s))

@@ -1,0 +1,68 @@
+"""From the thread of the links to the view: every event in order, and of the Statuses only what is still of interest.
+
+However many Statuses come, the view gets one batch whenever it asks for one: it is never flooded, and never late.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+from typing import Callable
+
+from mtr_operator.domain.pose import Point
+
+from .news import News, RobotNews
+
+# Points of the way between two batches; more than that is thinned out.
+MAXIMUM_TRAIL = 512
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Everything since the batch before. robot: newest, None when no Status came. trail: places passed."""
+
+    events: tuple[News, ...]
+    robot: RobotNews | None
+    trail: tuple[Point, ...]
+
+
+class Mailbox:
+    """Thread-safe. wake is called, in the putting thread, when the first thing comes into an empty mailbox."""
+
+    def __init__(self, wake: Callable[[], None] = lambda: None):
+        self._wake = wake
+        self._lock = threading.Lock()
+        self._events: list[News] = []
+        self._robot: RobotNews | None = None
+        self._trail: list[Point] = []
+
+    def put(self, event: News) -> None:
+        """An event; none is lost."""
+        with self._lock:
+            first = self._is_empty()
+            self._events.append(event)
+        if first:
+            self._wake()
+
+    def put_robot(self, news: RobotNews) -> None:
+        """A Status; it takes the place of the one before."""
+        status = news.status
+        with self._lock:
+            first = self._is_empty()
+            self._robot = news
+            if status.pose_valid:
+                self._trail.append((status.x, status.y))
+                if len(self._trail) > MAXIMUM_TRAIL:
+                    self._trail = self._trail[::2]
+        if first:
+            self._wake()
+
+    def take(self) -> Batch:
+        """Empty the mailbox."""
+        with self._lock:
+            batch = Batch(tuple(self._events), self._robot, tuple(self._trail))
+            self._events, self._robot, self._trail = [], None, []
+        return batch
+
+    def _is_empty(self) -> bool:
+        return not self._events and self._robot is None

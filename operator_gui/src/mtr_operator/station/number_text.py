@@ -1,0 +1,67 @@
+"""Numbers as the Operator types and reads them: comma or point, in the unit that a person uses."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import enum
+import re
+from dataclasses import dataclass
+from typing import Any
+
+from mtr_operator.domain.parameters import Declaration
+
+_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d{1,3})?")
+_ROUNDING_DIGITS = 9
+
+
+class Fault(enum.Enum):
+    """What is wrong with a text."""
+
+    EMPTY = "empty"
+    NOT_A_NUMBER = "not a number"
+    NOT_WHOLE = "not whole"
+    OUT_OF_RANGE = "out of range"
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What a text says: an SI value, or a fault. An empty text of an optional parameter is None without a fault."""
+
+    value: float | None
+    fault: Fault | None = None
+
+
+def parse_number(text: str) -> float | None:
+    """Number with a decimal point or comma; None when it is none."""
+    text = text.strip()
+    return float(text.replace(",", ".")) if _NUMBER.fullmatch(text) else None
+
+
+def read(declared: Declaration, text: str) -> Reading:
+    """What stands in the field of a parameter, in the unit that a person reads."""
+    if not text.strip():
+        return Reading(None, Fault.EMPTY if declared.default is not None else None)
+    number = parse_number(text)
+    if number is None:
+        return Reading(None, Fault.NOT_A_NUMBER)
+    value = round(number / declared.shown[1], _ROUNDING_DIGITS)
+    if not declared.low <= value <= declared.high:
+        return Reading(None, Fault.OUT_OF_RANGE)
+    if declared.is_integer and value != int(value):
+        return Reading(None, Fault.NOT_WHOLE)
+    return Reading(declared.to_si(int(value) if declared.is_integer else value))
+
+
+def shown_range(declared: Declaration) -> tuple[float, float]:
+    """Lowest and highest value in the unit that a person reads."""
+    return tuple(round(limit * declared.shown[1], _ROUNDING_DIGITS) for limit in (declared.low, declared.high))
+
+
+def shown_number(declared: Declaration, value: Any) -> float | None:
+    """SI value in the unit that a person reads."""
+    in_file = declared.to_unit(value)
+    return None if in_file is None else round(in_file * declared.shown[1], _ROUNDING_DIGITS)
+
+
+def written(number: float | None, decimal_sign: str = ".") -> str:
+    """A number without needless digits."""
+    return "" if number is None else f"{number:.6g}".replace(".", decimal_sign)

@@ -1,0 +1,52 @@
+"""What a running test tells the view, put into the mailbox."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Any, Callable, Iterable, Mapping
+
+from mtr_operator.domain.observer import RunObserver
+from mtr_operator.domain.ports import CarLink, RobotStatus
+from mtr_operator.domain.progress import Progress
+
+from .mailbox import Mailbox
+from .news import Acting, Measured, Planned, RobotNews, Silence
+from .watched_link import WatchedRobotLink
+
+
+class Reporter(RunObserver):
+    """Observer of one test; calls after_status when a Status has been told."""
+
+    def __init__(self, mailbox: Mailbox, robot: WatchedRobotLink, car: CarLink, progress: Progress,
+                 after_status: Callable[[], None]):
+        self._mailbox = mailbox
+        self._robot = robot
+        self._car = car
+        self._progress = progress
+        self._after_status = after_status
+
+    def on_status(self, status: RobotStatus) -> None:
+        """See RunObserver."""
+        self._mailbox.put_robot(RobotNews(status, self._car.lock_state, self._car.problem, self._robot.waypoint,
+                                          self._robot.is_secret))
+        self._after_status()
+
+    def on_plan(self, done: int, total: int) -> None:
+        """See RunObserver."""
+        self._mailbox.put(Planned(done, total, self._progress.car))
+
+    def on_action(self, text: str) -> None:
+        """See RunObserver."""
+        self._mailbox.put(Acting(text))
+
+    def on_result(self, result: Mapping[str, Any], done: int, total: int) -> None:
+        """See RunObserver."""
+        self._mailbox.put(Measured(copied(self._progress.results), dict(result), done, total))
+
+    def on_link_silent(self, silent_s: float) -> None:
+        """See RunObserver."""
+        self._mailbox.put(Silence(silent_s))
+
+
+def copied(results: Iterable[Mapping[str, Any]]) -> tuple[Mapping[str, Any], ...]:
+    """Results that the thread of the links does not change any more."""
+    return tuple(dict(result) for result in results)

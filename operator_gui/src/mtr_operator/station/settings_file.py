@@ -1,0 +1,64 @@
+"""The settings' file, in the folder that the system keeps for it."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import sys
+from typing import Any
+
+from mtr_operator.domain.errors import OutputError
+from mtr_operator.storage.atomic import write_bytes
+
+from .settings import NotSettings, Settings, settings_from_document
+
+FOLDER_NAME = "mtr-operator"
+FILE_NAME = "settings.json"
+
+
+def default_path() -> pathlib.Path:
+    """%APPDATA% on Windows, XDG's configuration folder elsewhere."""
+    if sys.platform == "win32":
+        base = pathlib.Path(os.environ.get("APPDATA") or pathlib.Path.home() / "AppData" / "Roaming")
+    else:
+        base = pathlib.Path(os.environ.get("XDG_CONFIG_HOME") or pathlib.Path.home() / ".config")
+    return base / FOLDER_NAME / FILE_NAME
+
+
+class SettingsStore:
+    """Settings that are on disk after each change.
+
+    Attributes:
+        settings: the present ones.
+        problem: one sentence on a file that could not be read or written; empty when all is well.
+    """
+
+    def __init__(self, path: pathlib.Path):
+        self._path = path
+        self.settings = Settings()
+        self.problem = ""
+
+    def load(self) -> None:
+        """Read the file; without a good one the defaults stay, and a bad one is not overwritten before a change."""
+        try:
+            self.settings = settings_from_document(json.loads(self._path.read_text(encoding="utf-8")))
+        except FileNotFoundError:
+            pass
+        except (OSError, ValueError, RecursionError) as error:
+            reason = str(error) if isinstance(error, NotSettings) else "They cannot be read."
+            self.problem = f"The settings in {self._path} were not used. {reason}"
+
+    def change(self, settings: Settings) -> None:
+        """Use these from now on, and write them; a failure is told in `problem` and stops nobody."""
+        self.settings = settings
+        self.problem = ""
+        try:
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            write_bytes(self._path, _text(settings.to_document()).encode("utf-8"))
+        except (OSError, OutputError) as error:
+            self.problem = f"The settings cannot be kept: {error}"
+
+
+def _text(document: dict[str, Any]) -> str:
+    return json.dumps(document, indent=1, ensure_ascii=False) + "\n"

@@ -1,0 +1,44 @@
+"""A robot link that remembers where it has sent the robot, for those who draw it."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from mtr_operator.domain.ports import DesiredState, LinkStatistics, RobotLink, RobotStatus, Waypoint
+
+
+class WatchedRobotLink(RobotLink):
+    """Hands everything on.
+
+    Attributes:
+        waypoint: the newest one that was sent, None before.
+    """
+
+    def __init__(self, link: RobotLink):
+        self._link = link
+        self.waypoint: Waypoint | None = None
+
+    @property
+    def statistics(self) -> LinkStatistics:
+        """See RobotLink."""
+        return self._link.statistics
+
+    @property
+    def is_secret(self) -> bool:
+        """True when the link is encrypted."""
+        return bool(getattr(self._link, "is_secret", False))
+
+    def connect(self) -> None:
+        """See RobotLink."""
+        self._link.connect()
+
+    def next_status(self, timeout_s: float) -> RobotStatus | None:
+        """See RobotLink."""
+        return self._link.next_status(timeout_s)
+
+    def send(self, desired: DesiredState) -> None:
+        """See RobotLink."""
+        self.waypoint = desired.waypoint
+        self._link.send(desired)
+
+    def close(self) -> None:
+        """See RobotLink."""
+        self._link.close()

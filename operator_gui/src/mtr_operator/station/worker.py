@@ -1,0 +1,202 @@
+"""The thread that owns both links: it keeps the robot answered, runs tests and calibration, and tells the mailbox."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import contextlib
+import logging
+import queue
+import threading
+from typing import Callable
+
+from mtr_operator.domain.errors import InvalidParameter, OperatorError, OutputError
+from mtr_operator.domain.ports import CarLink
+from mtr_operator.domain.runner import Runner
+from mtr_operator.domain.session import Session
+from mtr_operator.domain.trouble import Cancelled
+
+from .connection import CanChoice, Connection, LinkOpener
+from .idle import CalibrationOrder, IdleSession
+from .mailbox import Mailbox
+from .news import CarLinkOpened, Connected, Ended, Outcome, Refused, Saved, Silence
+from .reporter import Reporter, copied
+from .test import Test
+from .watched_link import WatchedRobotLink
+
+# Wall time between two attempts to open the robot's link again.
+RETRY_S = 1.0
+# Silence of the robot that is told.
+SILENCE_TOLD_S = 1.0
+
+
+class Worker:
+    """Everything that waits for robot or Car happens in its thread; requests are taken between two Statuses."""
+
+    def __init__(self, connection: Connection, opener: LinkOpener, mailbox: Mailbox):
+        self._connection = connection
+        self._opener = opener
+        self._mailbox = mailbox
+        self._requests: queue.Queue[Callable[[], None]] = queue.Queue()
+        # Short ones, which a running test does not put off.
+        self._errands: queue.Queue[Callable[[], None]] = queue.Queue()
+        self._closing = threading.Event()
+        self._stopping = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="links", daemon=True)
+        self._robot: WatchedRobotLink | None = None
+        self._car: CarLink | None = None
+        self._idle: IdleSession | None = None
+
+    def start(self) -> None:
+        """Open the links and go on until close(); Connected or Refused comes into the mailbox."""
+        self._thread.start()
+
+    def close(self, timeout_s: float | None = None) -> bool:
+        """Stop the robot, end a running test, disconnect; True when that is done."""
+        self._closing.set()
+        self._stopping.set()
+        if self._thread.is_alive():
+            self._thread.join(timeout_s)
+        return not self._thread.is_alive()
+
+    def run_test(self, test: Test) -> None:
+        """Measure what is left of a test; Ended comes into the mailbox."""
+        self._stopping.clear()
+        self._requests.put(lambda: self._measure(test))
+
+    def stop_test(self) -> None:
+        """Stop the robot and end the running test; what is measured is kept."""
+        self._stopping.set()
+
+    def save(self, test: Test) -> None:
+        """Write a test's progress; Saved comes into the mailbox."""
+        self._errands.put(lambda: self._save(test))
+
+    def calibrate(self, order: CalibrationOrder) -> None:
+        """Have the robot try something."""
+        self._requests.put(lambda: self._idle.order(order) if self._idle else None)
+
+    def use_can(self, choice: CanChoice | None) -> None:
+        """Change the CAN adapter; CarLinkOpened or Refused comes into the mailbox."""
+        self._requests.put(lambda: self._change_car(choice))
+
+    def _run(self) -> None:
+        if self._open():
+            self._mailbox.put(Connected())
+            while not self._closing.is_set():
+                self._turn()
+        self._close_links()
+
+    def _run_errands(self) -> None:
+        with contextlib.suppress(queue.Empty):
+            while True:
+                self._errands.get_nowait()()
+
+    def _turn(self) -> None:
+        self._run_errands()
+        with contextlib.suppress(queue.Empty):
+            self._requests.get_nowait()()
+            return
+        if self._robot is None and not self._open_robot():
+            self._closing.wait(RETRY_S)
+            return
+        news = self._idle.step()
+        if news is not None:
+            self._mailbox.put_robot(news)
+        elif self._idle.silent_s >= SILENCE_TOLD_S:
+            self._mailbox.put(Silence(self._idle.silent_s))
+
+    def _open(self) -> bool:
+        part = "car"
+        try:
+            self._car = self._opener.car(self._connection.can)
+            part = "robot"
+            self._robot = self._new_robot()
+            self._robot.connect()
+            part = "car"
+            self._car.connect()
+        except InvalidParameter as error:
+            self._mailbox.put(Refused("address" if part == "robot" else part, str(error)))
+            return False
+        except OperatorError as error:
+            self._mailbox.put(Refused(part, str(error)))
+            return False
+        self._idle = IdleSession(self._robot, self._car)
+        return True
+
+    def _new_robot(self) -> WatchedRobotLink:
+        return WatchedRobotLink(self._opener.robot(self._connection.robot))
+
+    def _open_robot(self) -> bool:
+        """A session of its own for each purpose: ids of orders begin anew."""
+        robot = self._new_robot()
+        try:
+            robot.connect()
+        except OperatorError:
+            self._mailbox.put(Silence(SILENCE_TOLD_S))
+            return False
+        self._robot, self._idle = robot, IdleSession(robot, self._car)
+        return True
+
+    def _change_car(self, choice: CanChoice | None) -> None:
+        # The new one may be the same adapter.
+        self._car.close()
+        self._car = self._opener.car(None)
+        try:
+            car = self._opener.car(choice)
+            car.connect()
+        except OperatorError as error:
+            self._mailbox.put(Refused("car", str(error)))
+        else:
+            self._car = car
+            self._mailbox.put(CarLinkOpened())
+        if self._idle is not None:
+            self._idle.use_car(self._car)
+
+    def _save(self, test: Test) -> None:
+        try:
+            test.save()
+        except OutputError as error:
+            self._mailbox.put(Saved(str(error)))
+        else:
+            self._mailbox.put(Saved(""))
+
+    def _measure(self, test: Test) -> None:
+        outcome, text = self._outcome_of(test)
+        test.discard_if_empty()
+        self._mailbox.put(Ended(outcome, text, copied(test.progress.results)))
+
+    def _outcome_of(self, test: Test) -> tuple[Outcome, str]:
+        try:
+            # Also proves, before the robot moves, that results can be written.
+            test.save()
+            self._run_runner(test)
+        except Cancelled:
+            return Outcome.STOPPED, ""
+        except OutputError as error:
+            return Outcome.NOT_SAVED, str(error)
+        except OperatorError as error:
+            return Outcome.FAILED, str(error)
+        # A defect must not take the window, and what was measured, with it.
+        except Exception as error:
+            logging.exception("The test ended by a defect of the application.")
+            return Outcome.FAILED, f"The application has a defect: {type(error).__name__}: {error}"
+        return Outcome.COMPLETE, ""
+
+    def _run_runner(self, test: Test) -> None:
+        self._close_robot()
+        with contextlib.closing(self._new_robot()) as robot:
+            robot.connect()
+            reporter = Reporter(self._mailbox, robot, self._car, test.progress, self._run_errands)
+            session = Session(robot, self._car, reporter, self._stopping.is_set)
+            test.progress.session["robot software"] = session.status.software_version
+            Runner(test.scenario, test.parameters, session, test.progress, lambda progress: test.save()).run()
+            test.save()
+
+    def _close_robot(self) -> None:
+        robot, self._robot, self._idle = self._robot, None, None
+        if robot is not None:
+            robot.close()
+
+    def _close_links(self) -> None:
+        self._close_robot()
+        if self._car is not None:
+            self._car.close()

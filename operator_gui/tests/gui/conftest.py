@@ -1,0 +1,230 @@
+"""The application on an offscreen screen, with the robot's fake and a Car that reacts to the key's place."""
+# SPDX-License-Identifier: Apache-2.0
+import dataclasses
+import math
+import os
+import threading
+
+os.environ["QT_QPA_PLATFORM"] = "offscreen"
+
+import pytest
+from PyQt5.QtCore import Qt
+
+from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.ports import CarEvent, CarLink, LockState
+from mtr_operator.gui.app import Application
+from mtr_operator.robot_link.fake import FakeRobotLink
+from mtr_operator.robot_link.virtual_robot import VirtualRobot, VirtualWorld
+from mtr_operator.station.connection import SIMULATED, CanChoice, LinkOpener
+from mtr_operator.station.no_car import NoCarLink
+
+TIME_FACTOR = 150.0
+WORLD = VirtualWorld()
+UNLOCK_M, LOCK_M, PRESS_M = 1.5, 2.2, 5.2
+LIMIT_MS = 15_000
+
+
+class KeyCar(CarLink):
+    """Unlocks when the key is near, locks when it goes away; obeys buttons within a distance from its centre."""
+
+    def __init__(self, opener):
+        self._opener = opener
+        self._state = LockState.LOCKED
+        self._answered = 0
+
+    def connect(self):
+        if self._opener.car_refusal:
+            raise ConnectionFailed(self._opener.car_refusal)
+
+    def observe(self, status):
+        if not status.pose_valid:
+            return []
+        key_x = status.x + status.key_x * math.cos(status.heading)
+        key_y = status.y + status.key_x * math.sin(status.heading)
+        gap_m = math.hypot(max(abs(key_x) - WORLD.car_length_m / 2, 0.0), max(abs(key_y) - WORLD.car_width_m / 2, 0.0))
+        wanted = self._state
+        if self._opener.passive and gap_m < UNLOCK_M:
+            wanted = LockState.UNLOCKED
+        elif self._opener.passive and gap_m > LOCK_M:
+            wanted = LockState.LOCKED
+        for press in status.presses:
+            if press.start_s > self._answered and math.hypot(key_x, key_y) < PRESS_M:
+                self._answered = press.start_s
+                wanted = LockState.UNLOCKED if self._state is LockState.LOCKED else LockState.LOCKED
+        if wanted is self._state:
+            return []
+        self._state = wanted
+        return [CarEvent(status.stamp_s, 0.005, wanted)]
+
+    @property
+    def lock_state(self):
+        return LockState.UNKNOWN if self.problem else self._state
+
+    @property
+    def problem(self):
+        return self._opener.car_problem
+
+    def close(self):
+        pass
+
+
+class Spoilt(FakeRobotLink):
+    """Fake whose Statuses the test may change or lose."""
+
+    def __init__(self, opener, **arguments):
+        super().__init__(**arguments)
+        self._opener = opener
+
+    def connect(self):
+        self._opener.connecting.wait(10.0)
+        if self._opener.robot_refusal:
+            raise ConnectionFailed(self._opener.robot_refusal)
+        super().connect()
+
+    def next_status(self, timeout_s):
+        status = super().next_status(timeout_s)
+        return None if self._opener.is_silent else self._opener.spoil(status)
+
+    def send(self, desired):
+        self._opener.sent.append(desired)
+        super().send(desired)
+
+
+class FakeOpener(LinkOpener):
+    """Opens fakes.
+
+    Attributes:
+        robot_refusal, car_refusal: why a link cannot be opened. is_silent: the robot says nothing any more.
+        car_problem: sentence of the Car's bus. spoil: changes a Status. passive: the Car reacts to the key's vicinity.
+        sent: desired states. connecting: while it is clear, connecting takes time.
+    """
+
+    def __init__(self):
+        self.robot_refusal = self.car_refusal = self.car_problem = ""
+        self.is_silent = self.passive = False
+        self.spoil = lambda status: status
+        self.sent = []
+        self.connecting = threading.Event()
+        self.connecting.set()
+        self._robot = VirtualRobot(1, WORLD)
+        self._sessions = 0
+
+    def robot(self, choice):
+        self._sessions += 1
+        return Spoilt(self, time_factor=TIME_FACTOR, robot=self._robot, session_id=self._sessions)
+
+    def car(self, choice):
+        return NoCarLink() if choice is None else KeyCar(self)
+
+    def spoil_with(self, **changes):
+        """Change each Status from now on."""
+        self.spoil = lambda status: dataclasses.replace(status, **changes)
+
+
+@pytest.fixture
+def opener():
+    """Links of the application."""
+    return FakeOpener()
+
+
+@pytest.fixture
+def settings_path(tmp_path):
+    """File of the settings."""
+    return tmp_path / "settings.json"
+
+
+@pytest.fixture
+def start(qtbot, opener, settings_path, tmp_path):
+    """start() opens the application with its connection window; it is closed after the test."""
+    started = []
+
+    def begin():
+        application = Application(settings_path, opener)
+        started.append(application)
+        application.open()
+        application.language.use("en")
+        store = application.flow.store
+        if not settings_path.exists():
+            store.settings = dataclasses.replace(store.settings, result_folder=tmp_path / "results",
+                                                 progress_folder=tmp_path / "progress")
+        return application
+    yield begin
+    for application in started:
+        application.close()
+        application.window.deleteLater()
+
+
+class Operator:
+    """Does with the window what a person does.
+
+    Attributes:
+        application, bot: as given. folder: where files go.
+    """
+
+    def __init__(self, application, bot, folder):
+        self.application, self.bot, self.folder = application, bot, folder
+
+    @property
+    def window(self):
+        return self.application.window
+
+    @property
+    def desk(self):
+        return self.application.flow.desk
+
+    def connect(self):
+        """Connect with the simulated Car, and wait for the main window."""
+        window = self.window
+        window.can.interface.setCurrentIndex(window.can.interface.findData(SIMULATED))
+        self.click(window.button)
+        self.wait(lambda: self.window is not window and self.desk.robot is not None)
+        return self
+
+    def click(self, button):
+        """Click a button that can be clicked."""
+        assert button.isEnabled(), button.text()
+        self.bot.mouseClick(button, Qt.LeftButton)
+
+    def wait(self, condition):
+        """Let time pass until the condition holds."""
+        self.bot.waitUntil(lambda: bool(condition()), timeout=LIMIT_MS)
+
+    def choose(self, scenario):
+        """Go to the settings screen of a scenario."""
+        self.click(self.window.welcome.new)
+        self.click(self.window.types.tiles[scenario])
+        return self.window.settings[scenario]
+
+    def begin(self, scenario="key_press", **values):
+        """Start a short test."""
+        screen = self.choose(scenario)
+        short = {"angle_between_radials_rad": "90"} if scenario == "key_press" else \
+            {"measurements_distance_m": "10", "maximum_distance_m": "3"}
+        for name, text in {**short, **values}.items():
+            screen.form.fields[name].edit.setText(text)
+        self.wait(screen.start.isEnabled)
+        self.click(screen.start)
+        return self.window.measurement
+
+    def finish(self):
+        """Wait for the protocol."""
+        self.wait(lambda: self.window.screen is self.window.protocol)
+        return self.window.protocol
+
+
+@pytest.fixture
+def operator(start, qtbot, tmp_path):
+    """A person at the main window, connected to the fakes."""
+    return Operator(start(), qtbot, tmp_path).connect()
+
+
+@pytest.fixture
+def newcomer(start, qtbot, tmp_path):
+    """A person at the connection window."""
+    return Operator(start(), qtbot, tmp_path)
+
+
+@pytest.fixture
+def can_choice():
+    """The simulated Car."""
+    return CanChoice(SIMULATED)

@@ -1,0 +1,99 @@
+"""The hop into the GUI thread: nothing is lost, nothing is flooded, and the window never waits for links."""
+# SPDX-License-Identifier: Apache-2.0
+import threading
+
+from mtr_operator.domain.ports import LockState, RobotStatus
+from mtr_operator.gui.bridge import FRAME_MS, Bridge
+from mtr_operator.gui.pictures.layer import Layer
+from mtr_operator.gui.pictures.picture_view import PictureView
+from mtr_operator.gui.theme.appearance import Appearance
+from mtr_operator.station.desk import Desk
+from mtr_operator.station.news import Acting, RobotNews
+
+STATUSES = 5000
+
+
+def news(number):
+    return RobotNews(RobotStatus(id=number, robot_session_id=1, stamp_s=number / 10.0, x=1.0, y=2.0, heading=0.0,
+                                 pose_valid=True), LockState.LOCKED, "")
+
+
+def test_flood_of_statuses_is_one_batch_per_frame_and_the_newest_wins(qtbot):
+    bridge, frames, threads = Bridge(Desk()), [], set()
+    bridge.changed.connect(lambda: (frames.append(bridge.desk.robot.status.id), threads.add(threading.get_ident())))
+
+    def flood():
+        for number in range(1, STATUSES + 1):
+            bridge.mailbox.put_robot(news(number))
+    thread = threading.Thread(target=flood)
+    thread.start()
+    thread.join()
+    qtbot.waitUntil(lambda: bool(frames) and frames[-1] == STATUSES)
+    assert len(frames) == 1
+    assert threads == {threading.get_ident()}
+
+
+def test_events_keep_their_order_and_none_is_lost(qtbot):
+    bridge, told = Bridge(Desk()), []
+    bridge.happened.connect(lambda event: told.append(event.text))
+
+    def talk():
+        for number in range(200):
+            bridge.mailbox.put(Acting(str(number)))
+            bridge.mailbox.put_robot(news(number))
+    thread = threading.Thread(target=talk)
+    thread.start()
+    qtbot.waitUntil(lambda: len(told) == 200)
+    thread.join()
+    assert told == [str(number) for number in range(200)]
+    assert bridge.frames <= 200
+
+
+def test_frames_are_thirty_a_second():
+    assert round(1000 / FRAME_MS) == 30
+
+
+class Counting(Layer):
+    """Counts how often it is painted."""
+
+    def __init__(self, is_moving):
+        self.is_moving, self.count = is_moving, 0
+
+    def paint(self, canvas):
+        self.count += 1
+
+
+def test_what_stands_still_is_painted_once(qtbot):
+    view, still, moving = PictureView(Appearance()), Counting(False), Counting(True)
+    qtbot.addWidget(view)
+    view.show()
+    view.show_layers([still, moving])
+    for _ in range(30):
+        view.grab()
+    assert (still.count, moving.count) == (1, 30)
+    view.refresh()
+    view.grab()
+    assert still.count == 2
+
+
+def test_full_can_bus_is_read_outside_the_gui_thread(operator, monkeypatch):
+    """At 500 kbit/s some 4000 frames come per second; not one of them may cost the window anything."""
+    threads = set()
+    car_type = type(operator.application.flow._worker._car)
+    observe = car_type.observe
+
+    def seen(self, status):
+        threads.add(threading.current_thread().name)
+        return observe(self, status)
+    monkeypatch.setattr(car_type, "observe", seen)
+    operator.wait(lambda: threads)
+    operator.begin()
+    operator.finish()
+    assert threads == {"links"}
+
+
+def test_measurement_repaints_the_still_part_only_for_results(operator):
+    screen = operator.begin()
+    operator.finish()
+    # Once when shown, once for the mapped Car and the plan, once per line, and for layout changes of the legend.
+    assert screen.panel.view.still_paints <= 4 + 3 * len(operator.desk.results)

@@ -1,0 +1,59 @@
+"""The calibration window."""
+# SPDX-License-Identifier: Apache-2.0
+import pytest
+
+from mtr_operator.domain.ports import PressConfirmation
+from mtr_operator.gui.windows.calibration_window import CalibrationWindow
+
+
+@pytest.fixture
+def window(operator, qtbot):
+    made = CalibrationWindow(operator.application.flow)
+    qtbot.addWidget(made)
+    made.show()
+    return made
+
+
+def test_height_is_ordered_and_the_reported_one_follows(window, operator, opener):
+    window.key_height.edit.setText("72,5")
+    operator.click(window.send)
+    operator.wait(lambda: window.reported["height"].text() == "72.5 cm")
+    assert opener.sent[-1].key_height_m == pytest.approx(0.725)
+
+
+def test_buttons_are_pressed_once_with_the_strength(window, operator, opener):
+    window.strength.edit.setText("0.6")
+    window.press_s.edit.setText("1")
+    window.buttons[2].setChecked(True)
+    operator.click(window.send)
+    operator.wait(lambda: "Pressed for 1.00 s" in window.told.text())
+    operator.wait(lambda: opener.sent[-1].press is None)
+    presses = {desired.press for desired in opener.sent if desired.press is not None}
+    assert [(press.buttons, press.strength) for press in presses] == [((2,), 0.6)]
+    assert window.reported["strength"].text() == "60 %"
+
+
+def test_buttons_held_down_are_shown(window, operator, opener):
+    assert window.reported["buttons"].text() == "none"
+    opener.spoil_with(pressed_buttons=(1, 2))
+    operator.wait(lambda: window.reported["buttons"].text() == "Lock, Unlock")
+
+
+def test_failed_press_is_told(window, operator, opener):
+    opener.spoil_with(presses=(PressConfirmation(1, 1.0, 1.0, "The servo does not answer."),))
+    window.buttons[1].setChecked(True)
+    operator.click(window.send)
+    operator.wait(lambda: window.told.text() == "The servo does not answer.")
+
+
+@pytest.mark.parametrize(("field", "text"), [("key_height", "20"), ("key_height", "x"), ("strength", "2"),
+                                             ("press_s", "")])
+def test_invalid_value_is_told_and_cannot_be_sent(window, field, text):
+    getattr(window, field).edit.setText(text)
+    assert getattr(window, field).fault
+    assert not window.send.isEnabled()
+
+
+def test_silent_robot_gets_no_order(window, operator, opener):
+    opener.is_silent = True
+    operator.wait(lambda: not window.send.isEnabled())

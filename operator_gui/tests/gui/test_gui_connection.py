@@ -1,0 +1,117 @@
+"""The connection window."""
+# SPDX-License-Identifier: Apache-2.0
+import pytest
+from PyQt5.QtCore import Qt, QTimer
+
+from mtr_operator.gui.windows.connection_window import ConnectionWindow
+from mtr_operator.gui.windows.main_window import MainWindow
+
+INVALID = "The IP address or port provided is invalid."
+FAILED = "Connection failed, check the parameters."
+
+
+@pytest.mark.parametrize(("field", "text", "part"), [
+    ("host", "", "address"), ("host", "300.1.1.1", "four numbers from 0 to 255"), ("host", "a b", "host name"),
+    ("subscriber_port", "", "subscriber port"), ("subscriber_port", "abc", "whole number"),
+    ("publisher_port", "-1", "1 to 65535"), ("publisher_port", "70000", "1 to 65535"),
+    ("publisher_port", "3334", "two different"),
+])
+def test_invalid_address_or_port_is_told_at_the_field_and_nothing_is_tried(newcomer, opener, field, text, part):
+    window = newcomer.window
+    getattr(window.robot, field).edit.setText(text)
+    newcomer.click(window.button)
+    assert window.message.text() == INVALID
+    faults = [each.fault for each in (window.robot.host, window.robot.subscriber_port, window.robot.publisher_port)]
+    assert any(part in fault for fault in faults), faults
+    assert window.button.isEnabled()
+    assert not opener.sent
+
+
+def test_refused_connection_says_so_and_why(newcomer, opener):
+    opener.robot_refusal = "Nothing listens on the subscriber port."
+    window = newcomer.window
+    newcomer.click(window.button)
+    newcomer.wait(window.button.isEnabled)
+    assert window.message.text() == FAILED
+    assert window.detail.text() == opener.robot_refusal
+    opener.robot_refusal = ""
+    newcomer.connect()
+    assert isinstance(newcomer.window, MainWindow)
+
+
+def test_can_adapter_that_cannot_be_opened_is_not_taken_for_the_robot(newcomer, opener):
+    opener.car_refusal = "There is no CAN adapter at /dev/ttyACM0; check the channel and the USB plug."
+    window = newcomer.window
+    window.can.interface.setCurrentIndex(window.can.interface.findData("slcan"))
+    newcomer.click(window.button)
+    newcomer.wait(window.button.isEnabled)
+    assert window.message.text() == "The CAN adapter cannot be used."
+    assert window.detail.text() == opener.car_refusal
+
+
+def test_enter_connects(newcomer):
+    newcomer.bot.keyClick(newcomer.window.robot.host.edit, Qt.Key_Return)
+    newcomer.wait(lambda: isinstance(newcomer.window, MainWindow))
+
+
+def test_window_lives_while_connecting_takes_long(newcomer, opener):
+    opener.connecting.clear()
+    window, turns = newcomer.window, []
+    newcomer.click(window.button)
+    assert not window.button.isEnabled()
+    QTimer.singleShot(0, lambda: turns.append(1))
+    newcomer.wait(lambda: turns)
+    assert newcomer.window is window
+    opener.connecting.set()
+    newcomer.wait(lambda: newcomer.window is not window)
+
+
+@pytest.mark.parametrize("field", ["host", "subscriber_port", "publisher_port"])
+def test_click_on_a_label_focuses_its_field(newcomer, field):
+    window = newcomer.window
+    window.button.setFocus()
+    newcomer.bot.mouseClick(getattr(window.robot, field).label, Qt.LeftButton)
+    assert window.focusWidget() is getattr(window.robot, field).edit
+
+
+def test_last_success_is_filled_in_at_the_next_start(newcomer, start):
+    newcomer.window.robot.host.edit.setText("127.0.0.7")
+    newcomer.window.robot.subscriber_port.edit.setText("4444")
+    newcomer.connect()
+    window = start().window
+    assert isinstance(window, ConnectionWindow)
+    assert window.robot.host.text == "127.0.0.7"
+    assert window.robot.subscriber_port.text == "4444"
+    assert window.can.choice.interface == "simulated"
+
+
+def test_failure_is_not_remembered(newcomer, opener, start):
+    opener.robot_refusal = "Nothing listens there."
+    newcomer.window.robot.host.edit.setText("127.0.0.9")
+    newcomer.click(newcomer.window.button)
+    newcomer.wait(newcomer.window.button.isEnabled)
+    assert start().window.robot.host.text == "127.0.0.1"
+
+
+def test_without_can_adapter_everything_but_a_test_works(newcomer):
+    window = newcomer.window
+    window.can.interface.setCurrentIndex(0)
+    newcomer.click(window.button)
+    newcomer.wait(lambda: newcomer.desk.robot is not None)
+    screen = newcomer.choose("autolock")
+    newcomer.wait(lambda: "Not ready" in newcomer.window.header.status.text())
+    assert not screen.start.isEnabled()
+    assert "No CAN adapter is chosen." in newcomer.window.header.status.toolTip()
+
+
+def test_driver_settings_follow_the_interface(newcomer):
+    can = newcomer.window.can
+    can.interface.setCurrentIndex(can.interface.findData("pcan"))
+    assert can.channel.text == "PCAN_USBBUS1"
+    can.interface.setCurrentIndex(can.interface.findData("socketcan"))
+    assert can.channel.text == "can0"
+    can.channel.edit.setText("can7")
+    can.interface.setCurrentIndex(can.interface.findData("slcan"))
+    assert can.channel.text == "can7"
+    assert can.choice.bitrate_bps == 500_000
+    assert can.choice.profile == "mtr_demo_car"

@@ -1,0 +1,137 @@
+"""The settings screens: what may be typed, what is said about the rest, and the preview."""
+# SPDX-License-Identifier: Apache-2.0
+import pytest
+
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.gui.forms.parameter_form import ParameterForm
+
+ALL = [(name, field) for name, scenario in SCENARIOS.items() for field in scenario.parameters_type.declarations()]
+
+
+@pytest.fixture
+def form_of(qtbot):
+    def make(name):
+        form = ParameterForm(SCENARIOS[name].parameters_type)
+        qtbot.addWidget(form)
+        return form
+    return make
+
+
+@pytest.mark.parametrize("name", list(SCENARIOS))
+def test_every_parameter_has_a_field_with_unit_range_default_and_tool_tip(form_of, name):
+    form = form_of(name)
+    declarations = SCENARIOS[name].parameters_type.declarations()
+    assert list(form.fields) == list(declarations)
+    for field, declared in zip(form.fields.values(), declarations.values()):
+        assert declared.shown[0] in field.note.text()
+        assert field.toolTip() == declared.doc
+        assert field.edit.accessibleName()
+    assert form.parameters == SCENARIOS[name].parameters_type()
+
+
+@pytest.mark.parametrize(("name", "field"), ALL)
+@pytest.mark.parametrize("text", ["abc", "-1", "1e300", "nan", "1,2,3"])
+def test_bad_text_is_told_at_the_field_with_the_range(form_of, name, field, text):
+    form = form_of(name)
+    form.fields[field].edit.setText(text)
+    fault = form.fields[field].fault
+    assert "llowed" in fault
+    assert " to " in fault
+    assert form.parameters is None
+    form.fields[field].edit.setText("")
+    optional = SCENARIOS[name].parameters_type.declarations()[field].default is None
+    assert form.fields[field].fault.startswith("Enter a value") is not optional
+
+
+def test_comma_is_a_decimal_sign(form_of):
+    form = form_of("autolock")
+    form.fields["maximum_distance_m"].edit.setText("3,25")
+    assert form.parameters.maximum_distance_m == 3.25
+
+
+def test_centimetres_and_kilometres_per_hour_become_si(form_of):
+    form = form_of("autolock")
+    form.fields["key_height_m"].edit.setText("85")
+    form.fields["maximum_speed_mps"].edit.setText("1.8")
+    assert form.parameters.key_height_m == pytest.approx(0.85)
+    assert form.parameters.maximum_speed_mps == pytest.approx(0.5)
+
+
+def test_whole_number_is_asked_for(form_of):
+    form = form_of("key_press")
+    form.fields["attempts"].edit.setText("2.5")
+    assert form.fields["attempts"].fault.startswith("Only whole numbers")
+
+
+@pytest.mark.parametrize(("name", "values", "part"), [
+    ("autolock", {"minimum_distance_m": "5"}, "has to be below"),
+    ("autolock", {"straightening_distance_m": "3.6"}, "has to be below"),
+    ("autolock", {"minimum_distance_m": "0.1"}, "clearance"),
+    ("autolock", {"measuring_speed_mps": "7"}, "at most"),
+    ("key_press", {"minimum_distance_m": "7"}, "at most"),
+    ("key_press", {"straightening_distance_m": "4"}, "at most"),
+])
+def test_parameters_that_contradict_each_other_are_told(form_of, name, values, part):
+    form = form_of(name)
+    for field, text in values.items():
+        form.fields[field].edit.setText(text)
+    assert part in form.fault.text()
+    assert form.parameters is None
+
+
+def test_fault_in_a_hidden_field_shows_it(form_of):
+    form = form_of("autolock")
+    assert not form.more.isChecked()
+    form.fields["clearance_m"].edit.setText("x")
+    assert form.more.isChecked()
+
+
+def test_usual_values_come_back(form_of, qtbot):
+    form = form_of("autolock")
+    form.fields["maximum_distance_m"].edit.setText("9")
+    form.usual.click()
+    assert form.parameters == SCENARIOS["autolock"].parameters_type()
+
+
+def test_preview_shows_lines_duration_and_battery(operator, opener):
+    screen = operator.choose("autolock")
+    assert screen.told.text().startswith("28 lines (axis), about 8 min.")
+    assert "its size is a guess" in screen.told.text()
+    assert "at 80 %, suffices" in screen.told.text()
+    screen.form.fields["measurements_distance_m"].edit.setText("1")
+    assert screen.told.text().startswith("16 lines")
+    opener.spoil_with(battery_percent=16)
+    operator.wait(lambda: "may not suffice" in screen.told.text())
+
+
+def test_parameters_that_do_not_suit_the_car_are_told_before_the_start(operator):
+    screen = operator.choose("key_press")
+    screen.form.fields["minimum_distance_m"].edit.setText("2")
+    assert "Remote key and Car" in screen.form.fault.text()
+    assert not screen.start.isEnabled()
+    assert screen.told.text() == ""
+
+
+def test_used_parameters_are_remembered(operator, start):
+    operator.begin("key_press", maximum_distance_m="6")
+    operator.finish()
+    application = start()
+    stored = application.flow.store.settings.parameters["key_press"]
+    assert (stored["maximum_distance_m"], stored["angle_between_radials_deg"]) == (6.0, 90.0)
+    operator.click(operator.window.protocol.done)
+    assert operator.choose("key_press").form.fields["maximum_distance_m"].text == "6"
+
+
+def test_third_scenario_appears_by_itself(qtbot):
+    from mtr_operator.domain.scenarios.key_press import KeyPress
+    from mtr_operator.gui.screens.measurement_type import MeasurementTypeScreen
+
+    class Trunk(KeyPress):
+        """Open the trunk."""
+        name, title = "trunk", "Trunk"
+    screen = MeasurementTypeScreen({**SCENARIOS, "trunk": Trunk()})
+    qtbot.addWidget(screen)
+    assert [tile.title for tile in screen.tiles.values()] == ["Autolock", "Key press", "Trunk"]
+    with qtbot.waitSignal(screen.chosen) as chosen:
+        screen.tiles["trunk"].click()
+    assert chosen.args == ["trunk"]

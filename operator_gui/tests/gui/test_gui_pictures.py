@@ -1,0 +1,124 @@
+"""Pictures: places on the screen, zoom, pan, ruler, the gliding robot."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+import pytest
+from PyQt5.QtCore import QEvent, QPoint, QPointF, Qt
+from PyQt5.QtGui import QMouseEvent
+from PyQt5.QtTest import QTest
+from PyQt5.QtWidgets import QApplication
+
+from mtr_operator.domain.pose import Pose
+from mtr_operator.gui.pictures.glide import Glide
+from mtr_operator.gui.pictures.picture_panel import PicturePanel
+from mtr_operator.gui.pictures.surroundings import step_for
+from mtr_operator.gui.pictures.viewport import Viewport
+from mtr_operator.gui.theme.appearance import Appearance
+
+VIEW = Viewport(400.0, 300.0, 50.0)
+
+
+@pytest.fixture
+def panel(qtbot):
+    made = PicturePanel(Appearance())
+    qtbot.addWidget(made)
+    made.resize(500, 560)
+    made.show()
+    return made
+
+
+def drag(view, pixel):
+    """QTest.mouseMove moves the pointer of a screen, which there is none of."""
+    event = QMouseEvent(QEvent.MouseMove, QPointF(pixel), Qt.NoButton, Qt.LeftButton, Qt.NoModifier)
+    QApplication.sendEvent(view, event)
+
+
+def test_front_is_up_and_left_is_left():
+    assert VIEW.to_screen((0.0, 0.0)) == (200.0, 150.0)
+    assert VIEW.to_screen((1.0, 0.0)) == (200.0, 100.0)
+    assert VIEW.to_screen((0.0, 1.0)) == (150.0, 150.0)
+
+
+@pytest.mark.parametrize("pixel", [(0.0, 0.0), (123.0, 45.0), (400.0, 300.0)])
+def test_place_and_pixel_are_inverse_after_zoom_and_pan(pixel):
+    view = VIEW.panned(30.0, -20.0).zoomed(1.7, (10.0, 20.0))
+    assert view.to_screen(view.to_car(pixel)) == pytest.approx(pixel)
+
+
+def test_place_under_the_mouse_stays_when_zooming():
+    place = VIEW.to_car((321.0, 99.0))
+    assert VIEW.zoomed(3.0, (321.0, 99.0)).to_screen(place) == pytest.approx((321.0, 99.0))
+
+
+def test_zoom_has_limits():
+    assert VIEW.zoomed(1e9, (0.0, 0.0)).px_per_m == 800.0
+    assert VIEW.zoomed(1e-9, (0.0, 0.0)).px_per_m == 4.0
+
+
+def test_fit_shows_all_points():
+    view = VIEW.fitted([(6.0, 0.0), (-2.0, 8.0)], 20.0)
+    for point in ((6.0, 0.0), (-2.0, 8.0), (-6.0, -8.0)):
+        x, y = view.to_screen(point)
+        assert -1e-6 <= x - 20.0 <= 360.0 + 1e-6
+        assert -1e-6 <= y - 20.0 <= 260.0 + 1e-6
+
+
+def test_drag_pans(panel):
+    view = panel.view
+    before = view.viewport
+    QTest.mousePress(view, Qt.LeftButton, pos=QPoint(100, 100))
+    drag(view, QPoint(150, 130))
+    QTest.mouseRelease(view, Qt.LeftButton, pos=QPoint(150, 130))
+    assert view.viewport.to_screen((0.0, 0.0)) == pytest.approx(
+        (before.to_screen((0.0, 0.0))[0] + 50.0, before.to_screen((0.0, 0.0))[1] + 30.0))
+
+
+@pytest.mark.parametrize(("key", "attribute", "sign"), [
+    (Qt.Key_Plus, "px_per_m", 1), (Qt.Key_Minus, "px_per_m", -1), (Qt.Key_Left, "middle_y", 1),
+    (Qt.Key_Right, "middle_y", -1), (Qt.Key_Up, "middle_x", 1), (Qt.Key_Down, "middle_x", -1)])
+def test_keyboard_zooms_and_pans(panel, key, attribute, sign):
+    before = getattr(panel.view.viewport, attribute)
+    QTest.keyClick(panel.view, key)
+    assert (getattr(panel.view.viewport, attribute) - before) * sign > 0
+    QTest.keyClick(panel.view, Qt.Key_0)
+    assert getattr(panel.view.viewport, attribute) == pytest.approx(before)
+
+
+def test_ruler_measures_between_two_places(panel):
+    view = panel.view
+    panel.ruler.setChecked(True)
+    start, end = (QPoint(round(x), round(y)) for x, y in (view.viewport.to_screen(place)
+                                                           for place in ((0.0, 0.0), (0.3, -0.4))))
+    QTest.mousePress(view, Qt.LeftButton, pos=start)
+    drag(view, end)
+    assert view.ruler.length_m == pytest.approx(0.5, abs=0.02)
+    assert panel.length.text().endswith(" m")
+    panel.ruler.setChecked(False)
+    assert view.ruler.length_m is None
+
+
+def test_scale_has_a_round_length():
+    assert step_for(50.0, 90.0) == 2.0
+    assert step_for(200.0, 90.0) == 0.5
+
+
+def test_robot_glides_from_one_status_to_the_next():
+    glide = Glide()
+    glide.put(Pose(0.0, 0.0, 3.1), 10.0)
+    glide.put(Pose(0.1, 0.0, -3.1), 10.1)
+    assert glide.at(10.1).x == pytest.approx(0.0)
+    middle = glide.at(10.15)
+    assert middle.x == pytest.approx(0.05)
+    assert abs(middle.heading) == pytest.approx(math.pi, abs=0.01)
+    assert glide.at(10.3).x == pytest.approx(0.1)
+    assert glide.is_moving(10.15)
+    assert not glide.is_moving(10.3)
+
+
+def test_robot_jumps_after_a_gap_and_vanishes_when_lost():
+    glide = Glide()
+    glide.put(Pose(0.0, 0.0, 0.0), 10.0)
+    glide.put(Pose(0.5, 0.0, 0.0), 12.0)
+    assert glide.at(12.0).x == 0.5
+    glide.put(None, 12.1)
+    assert glide.at(12.1) is None

@@ -1,0 +1,70 @@
+"""Colours can be read (WCAG 2.1 AA), and no control is nameless or out of the keyboard's reach."""
+# SPDX-License-Identifier: Apache-2.0
+import pytest
+from PyQt5.QtCore import Qt
+from PyQt5.QtWidgets import QAbstractButton, QComboBox, QLineEdit, QTableView
+
+from mtr_operator.gui.theme.palette import THEMES, contrast
+from mtr_operator.gui.windows.calibration_window import CalibrationWindow
+from mtr_operator.gui.windows.settings_window import SettingsWindow
+
+TEXT = 4.5
+GRAPHICS = 3.0
+PAIRS = [(ink, ground) for ink in ("ink", "ink_soft", "ok", "warning", "danger", "accent")
+         for ground in ("window", "surface")] + [
+    ("ink", "raised"), ("ink_soft", "raised"), ("on_accent", "accent"), ("on_tint", "tint"), ("on_signal", "ok"),
+    ("on_signal", "warning"), ("on_signal", "danger"), ("ink", "body"), ("first", "surface"), ("second", "surface"),
+    ("failed", "surface"), ("invalid", "surface"), ("surface", "ink")]
+SHAPES = [(colour, "surface") for colour in ("border", "edge", "trail", "waypoint", "key")] + [("border", "window")]
+
+
+def test_contrast_of_black_and_white_is_the_largest():
+    assert contrast("#000000", "#ffffff") == pytest.approx(21.0)
+    assert contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.01)
+
+
+@pytest.mark.parametrize("theme", list(THEMES))
+@pytest.mark.parametrize(("ink", "ground"), PAIRS)
+def test_text_can_be_read(theme, ink, ground):
+    palette = THEMES[theme]
+    assert contrast(getattr(palette, ink), getattr(palette, ground)) >= TEXT
+
+
+@pytest.mark.parametrize("theme", list(THEMES))
+@pytest.mark.parametrize(("shape", "ground"), SHAPES)
+def test_shapes_can_be_told_from_their_ground(theme, shape, ground):
+    palette = THEMES[theme]
+    assert contrast(getattr(palette, shape), getattr(palette, ground)) >= GRAPHICS
+
+
+def controls(window):
+    """Controls of the window; parts of combo boxes and tables belong to these."""
+    kinds = (QAbstractButton, QComboBox, QLineEdit, QTableView)
+    return [widget for kind in kinds for widget in window.findChildren(kind)
+            if not isinstance(widget.parent(), (QComboBox, QTableView))]
+
+
+def assert_reachable(window):
+    found = controls(window)
+    assert len(found) > 3
+    for control in found:
+        name = control.accessibleName() or (control.text() if isinstance(control, QAbstractButton) else "")
+        assert name.strip(), f"{control} of {window} has no name"
+        assert control.focusPolicy() & Qt.TabFocus, f"{name} cannot be reached with the keyboard"
+
+
+def test_every_control_has_a_name_and_is_reached_with_the_keyboard(operator, qtbot):
+    flow, appearance = operator.application.flow, operator.application.appearance
+    windows = [operator.window, CalibrationWindow(flow), SettingsWindow(flow, appearance)]
+    for window in windows[1:]:
+        qtbot.addWidget(window)
+    for window in windows:
+        assert_reachable(window)
+
+
+def test_connection_window_is_usable_with_the_keyboard_alone(newcomer):
+    assert_reachable(newcomer.window)
+    window = newcomer.window
+    window.robot.host.edit.setFocus()
+    newcomer.bot.keyClick(window.robot.host.edit, Qt.Key_Tab)
+    assert window.focusWidget() is window.robot.subscriber_port.edit

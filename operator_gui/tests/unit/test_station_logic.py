@@ -1,0 +1,208 @@
+"""The station's decisions: numbers, settings, readiness, estimates, the mailbox."""
+# SPDX-License-Identifier: Apache-2.0
+import dataclasses
+import json
+import math
+import pathlib
+
+import pytest
+
+from mtr_operator.domain.ports import LockState, Mode, Notification, RobotStatus
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.station.connection import CanChoice, Connection, RobotChoice
+from mtr_operator.station.estimate import USUAL_CAR, TimeLeft, plan_of
+from mtr_operator.station.mailbox import MAXIMUM_TRAIL, Mailbox
+from mtr_operator.station.news import Acting, RobotNews
+from mtr_operator.station.no_car import NO_ADAPTER
+from mtr_operator.station.number_text import Fault, parse_number, read, shown_number, written
+from mtr_operator.station.readiness import Cause, Phase, Word, can_resume, judge
+from mtr_operator.station.settings import Settings
+from mtr_operator.station.settings_file import SettingsStore
+
+KEY_PRESS = SCENARIOS["key_press"].parameters_type.declarations()
+
+
+@pytest.mark.parametrize(("text", "value"), [
+    ("1.5", 1.5), ("1,5", 1.5), (" 2 ", 2.0), (",5", 0.5), ("-3", -3.0), ("1e2", 100.0), ("1,2,3", None), ("", None),
+    ("nan", None), ("inf", None), ("0x10", None), ("1 m", None), ("1_0", None)])
+def test_number_with_comma_or_point(text, value):
+    assert parse_number(text) == value
+
+
+@pytest.mark.parametrize(("name", "text", "fault"), [
+    ("attempts", "1.5", Fault.NOT_WHOLE), ("attempts", "0", Fault.OUT_OF_RANGE), ("attempts", "", Fault.EMPTY),
+    ("maximum_distance_m", "1e300", Fault.OUT_OF_RANGE), ("maximum_distance_m", "x", Fault.NOT_A_NUMBER),
+    ("key_height_m", "34", Fault.OUT_OF_RANGE), ("key_height_m", "35", None), ("maximum_speed_mps", "7,2", None)])
+def test_faults_of_a_field(name, text, fault):
+    assert read(KEY_PRESS[name], text).fault is fault
+
+
+def test_values_survive_being_shown_and_read():
+    for declared in KEY_PRESS.values():
+        for limit in (declared.low, declared.high, declared.default):
+            value = declared.to_si(int(limit) if declared.is_integer else limit)
+            reading = read(declared, written(shown_number(declared, value), ","))
+            assert reading.fault is None
+            assert reading.value == pytest.approx(value, rel=1e-5)
+
+
+def test_settings_survive_a_restart(tmp_path):
+    store = SettingsStore(tmp_path / "deep" / "settings.json")
+    connection = Connection(RobotChoice("10.0.0.7", 5, 6), CanChoice("slcan", "/dev/x", 250_000, "other"))
+    wanted = dataclasses.replace(Settings(), theme="dark", language="cs", unfinished=tmp_path / "p.json") \
+        .with_connection(connection).with_parameters("autolock", {"clearance_m": 0.4})
+    store.change(wanted)
+    assert store.problem == ""
+    later = SettingsStore(tmp_path / "deep" / "settings.json")
+    later.load()
+    assert later.settings == wanted
+
+
+def test_hosts_are_remembered_newest_first_and_once():
+    settings = Settings()
+    for host in ("a", "b", "a"):
+        settings = settings.with_connection(Connection(RobotChoice(host)))
+    assert settings.hosts == ("a", "b")
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"format": "mtr-operator settings", "version": 2}', "null"])
+def test_bad_settings_leave_the_defaults_and_the_file(tmp_path, text):
+    path = tmp_path / "settings.json"
+    path.write_text(text, encoding="utf-8")
+    store = SettingsStore(path)
+    store.load()
+    assert store.settings == Settings()
+    assert "were not used" in store.problem
+    assert path.read_text(encoding="utf-8") == text
+
+
+def test_each_damaged_entry_is_refused(tmp_path):
+    path = tmp_path / "settings.json"
+    whole = Settings().to_document()
+    for name in set(whole) - {"unfinished"}:
+        path.write_text(json.dumps({**whole, name: 5}), encoding="utf-8")
+        store = SettingsStore(path)
+        store.load()
+        assert store.problem, name
+
+
+def test_settings_that_cannot_be_written_are_told(tmp_path):
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    store = SettingsStore(tmp_path / "file" / "settings.json")
+    store.change(Settings(theme="dark"))
+    assert store.settings.theme == "dark"
+    assert "cannot be kept" in store.problem
+
+
+STATUS = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, pose_valid=True, mode=Mode.FOLLOWING_WAYPOINT,
+                     battery_percent=80)
+
+
+def news(lock=LockState.LOCKED, problem="", **changes):
+    return RobotNews(dataclasses.replace(STATUS, **changes), lock, problem)
+
+
+def test_nothing_heard_is_communication_lost():
+    assert judge(None, 0.0, Phase.IDLE).word is Word.LOST
+    assert judge(news(), 1.6, Phase.MEASURING).word is Word.LOST
+
+
+@pytest.mark.parametrize(("robot", "word", "cause"), [
+    (news(), Word.READY, None),
+    (news(mode=Mode.READY_TO_MAP_CAR, pose_valid=False), Word.READY, None),
+    (news(battery_percent=20), Word.WARNINGS, Cause.BATTERY_LOW),
+    (news(battery_percent=9), Word.NOT_READY, Cause.BATTERY_EMPTY),
+    (news(battery_percent=None), Word.READY, None),
+    (news(mode=Mode.STARTING), Word.NOT_READY, Cause.ROBOT_STARTING),
+    (news(mode=Mode.FAULT), Word.NOT_READY, Cause.ROBOT_FAULT),
+    (news(controlled_by_other=True), Word.NOT_READY, Cause.OTHER_OPERATOR),
+    (news(pose_valid=False), Word.NOT_READY, Cause.POSITION_LOST),
+    (news(notifications=(Notification("x", 2, "Slow."),)), Word.WARNINGS, Cause.NOTIFICATION),
+    (news(notifications=(Notification("x", 3, "Broken."),)), Word.NOT_READY, Cause.NOTIFICATION),
+    (news(notifications=(Notification("mode", 1, "Waits."),)), Word.READY, None),
+    (news(LockState.UNKNOWN, NO_ADAPTER), Word.NOT_READY, Cause.NO_CAN),
+    (news(LockState.UNKNOWN, "No CAN frame."), Word.NOT_READY, Cause.CAN_PROBLEM),
+    (news(LockState.UNKNOWN), Word.NOT_READY, Cause.LOCKS_UNKNOWN),
+])
+def test_each_cause_has_its_word(robot, word, cause):
+    verdict = judge(robot, 0.0, Phase.IDLE)
+    assert verdict.word is word
+    assert [reason.cause for reason in verdict.reasons] == ([] if cause is None else [cause])
+    assert verdict.can_start is (word in (Word.READY, Word.WARNINGS))
+
+
+def test_blocking_reasons_come_first():
+    reasons = judge(news(LockState.UNKNOWN, battery_percent=20), 0.0, Phase.IDLE).reasons
+    assert [reason.is_blocking for reason in reasons] == [True, False]
+
+
+def test_paused_test_goes_on_only_when_nothing_stands_against_it():
+    assert can_resume(judge(news(), 0.0, Phase.PAUSED))
+    assert not can_resume(judge(news(problem="No CAN frame."), 0.0, Phase.PAUSED))
+    assert not can_resume(judge(news(), 5.0, Phase.PAUSED))
+
+
+@pytest.mark.parametrize("name", list(SCENARIOS))
+def test_plan_has_a_stretch_and_a_time_for_each_line(name):
+    scenario = SCENARIOS[name]
+    parameters = scenario.parameters_type()
+    plan = plan_of(scenario, parameters, USUAL_CAR, False)
+    assert len(plan.stretches) == len(plan.lines_s) == len(scenario.lines(parameters, USUAL_CAR))
+    assert all(seconds > 0.0 for seconds in plan.lines_s)
+    assert plan.duration_s > plan_of(scenario, parameters, USUAL_CAR, True).duration_s
+    for stretch in plan.stretches:
+        assert math.dist(stretch.start, stretch.end) == pytest.approx(
+            parameters.maximum_distance_m - parameters.minimum_distance_m)
+
+
+def test_slower_and_more_lines_take_longer():
+    scenario = SCENARIOS["autolock"]
+    usual = plan_of(scenario, scenario.parameters_type(), USUAL_CAR, True).duration_s
+    slow = plan_of(scenario, scenario.parameters_type(measuring_speed_mps=0.2), USUAL_CAR, True).duration_s
+    dense = plan_of(scenario, scenario.parameters_type(measurements_distance_m=0.2), USUAL_CAR, True).duration_s
+    assert slow > usual
+    assert dense > usual
+
+
+def test_battery_has_to_leave_a_reserve():
+    scenario = SCENARIOS["autolock"]
+    plan = plan_of(scenario, scenario.parameters_type(), USUAL_CAR, False)
+    assert plan.suffices(plan.battery_percent + 15.0)
+    assert not plan.suffices(plan.battery_percent + 14.9)
+
+
+def test_time_left_learns_from_the_pace():
+    left = TimeLeft((10.0, 10.0, 10.0, 10.0))
+    assert left.left_s(0.0) is None
+    left.begin(0, 100.0)
+    assert left.left_s(105.0) == pytest.approx(35.0)
+    left.advance(1, 120.0)  # twice as slow as expected
+    assert left.left_s(120.0) == pytest.approx(60.0)
+    assert left.left_s(130.0) == pytest.approx(50.0)
+    assert left.left_s(1000.0) == 0.0
+
+
+def test_time_of_a_pause_does_not_count():
+    left = TimeLeft((10.0, 10.0, 10.0))
+    left.begin(1, 5000.0)
+    assert left.left_s(5000.0) == pytest.approx(20.0)
+
+
+def test_mailbox_wakes_once_and_thins_out_the_trail():
+    woken = []
+    mailbox = Mailbox(lambda: woken.append(1))
+    for number in range(3 * MAXIMUM_TRAIL):
+        mailbox.put_robot(news(x=float(number), y=0.0))
+    mailbox.put(Acting("a"))
+    batch = mailbox.take()
+    assert len(woken) == 1
+    assert len(batch.trail) <= MAXIMUM_TRAIL
+    assert (batch.trail[0], batch.trail[-1]) == ((0.0, 0.0), (3.0 * MAXIMUM_TRAIL - 1, 0.0))
+    assert batch.events == (Acting("a"),)
+    assert mailbox.take().robot is None
+    mailbox.put(Acting("b"))
+    assert len(woken) == 2
+
+
+def test_default_folders_are_the_operators_own():
+    assert Settings().result_folder.is_relative_to(pathlib.Path.home())

@@ -1,0 +1,188 @@
+"""A person at the Operator's window: reads what is visible, moves the mouse of the X server, types on its keyboard."""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+import subprocess
+import sys
+import threading
+import time
+import traceback
+from typing import Any, Callable, List, Optional
+
+from PyQt5.QtCore import QObject, QPoint, pyqtSignal
+from PyQt5.QtGui import QPixmap
+from PyQt5.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QWidget
+
+from mtr_operator.gui.app import Application, make_qt
+
+POLL_S = 0.05
+# Repainting a window in other colours.
+SETTLE_S = 0.5
+
+
+class GuiThread(QObject):
+    """Runs functions in the GUI thread for another thread, also while a dialog is open."""
+
+    _wanted = pyqtSignal(object)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._wanted.connect(lambda run: run())
+
+    def ask(self, function: Callable[[], Any]) -> Any:
+        """Result of the function."""
+        done, results = threading.Event(), []
+
+        def run() -> None:
+            try:
+                results.append(function())
+            finally:
+                done.set()
+        self._wanted.emit(run)
+        done.wait()
+        if not results:
+            raise RuntimeError("The question to the window failed; see above.")
+        return results[0]
+
+
+class Person:
+    """Looks for visible texts only, and knows nothing of the code behind them.
+
+    Attributes: application: what the person sits at.
+    """
+
+    def __init__(self, application: Application, gui: GuiThread, limit_s: float):
+        self.application = application
+        self._gui = gui
+        self._limit_s = limit_s
+
+    def until(self, what: str, function: Callable[[], Any], limit_s: Optional[float] = None) -> Any:
+        """The first true result of a function that is asked in the GUI thread."""
+        deadline = time.monotonic() + (limit_s or self._limit_s)
+        while time.monotonic() < deadline:
+            result = self._gui.ask(function)
+            if result:
+                return result
+            time.sleep(POLL_S)
+        raise TimeoutError(f"{what} did not appear; visible is: {self._gui.ask(visible_texts)}")
+
+    def click(self, text: str) -> None:
+        """Click the button with this text."""
+        self._click_at(self.until(f"The button {text!r}", lambda: place_of(button_of(text))))
+
+    def wait_for(self, text: str, limit_s: Optional[float] = None) -> None:
+        """Wait until a text with this part is visible."""
+        self.until(f"{text!r}", lambda: any(text in shown for shown in visible_texts()), limit_s)
+
+    def type_into(self, label: str, text: str) -> None:
+        """Replace what stands in the field with this label."""
+        self._click_at(self.until(f"The field {label!r}", lambda: place_of(field_of(label, QLineEdit))))
+        focus = self._gui.ask(lambda: int(QApplication.activeWindow().winId()) if QApplication.activeWindow() else 0)
+        if focus:
+            xdotool("windowfocus", "--sync", str(focus))
+        xdotool("key", "ctrl+a", "type", "--delay", "1", text)
+        self.until(f"{text!r} in {label!r}", lambda: field_of(label, QLineEdit).text() == text)
+
+    def choose(self, label: str, entry: str) -> None:
+        """Choose an entry of the list with this label."""
+        self._click_at(self.until(f"The list {label!r}", lambda: place_of(field_of(label, QComboBox))))
+        self._click_at(self.until(f"The entry {entry!r}", lambda: place_of_entry(label, entry)))
+        self.until(f"{entry!r} chosen", lambda: entry in field_of(label, QComboBox).currentText())
+
+    def look(self, folder: pathlib.Path, name: str) -> None:
+        """Keep a picture of what the screen shows where the window is, in both themes."""
+        for theme in ("dark", "light"):
+            self._gui.ask(lambda theme=theme: self.application.appearance.use(theme) or True)
+            time.sleep(SETTLE_S)
+            self._gui.ask(lambda theme=theme: _grab(self.application.window).save(str(folder / f"{name}_{theme}.png")))
+
+    def press(self, key: str) -> None:
+        """Press a key."""
+        xdotool("key", key)
+
+    @staticmethod
+    def _click_at(place: QPoint) -> None:
+        xdotool("mousemove", str(place.x()), str(place.y()), "click", "1")
+
+
+def _grab(window: QWidget) -> QPixmap:
+    """The part of the screen that the window and its dialog cover."""
+    front = QApplication.activeModalWidget()
+    area = window.frameGeometry() if front is None else window.frameGeometry().united(front.frameGeometry())
+    return QApplication.primaryScreen().grabWindow(0, area.x(), area.y(), area.width(), area.height())
+
+
+def xdotool(*words: str) -> None:
+    """Move, click or type on the X server."""
+    subprocess.run(["xdotool", *words], check=True, timeout=20)
+
+
+def shown(kind: type) -> List[QWidget]:
+    """Visible widgets of a kind in the window in front, a dialog before all others."""
+    front = QApplication.activePopupWidget() or QApplication.activeModalWidget()
+    windows = [front] if front else QApplication.topLevelWidgets()
+    return [widget for window in windows for widget in [window, *window.findChildren(QWidget)]
+            if isinstance(widget, kind) and widget.isVisible()]
+
+
+def text_of(widget: QWidget) -> str:
+    """What a person reads on it; a symbol is called by its name."""
+    return getattr(widget, "title", None) or widget.text() or widget.accessibleName()
+
+
+def visible_texts() -> List[str]:
+    """Everything that can be read."""
+    return [text for text in map(text_of, [*shown(QLabel), *shown(QAbstractButton)]) if text]
+
+
+def button_of(text: str) -> Optional[QWidget]:
+    """Enabled button that ends with this text; signs may precede it."""
+    found = [button for button in shown(QAbstractButton) if text_of(button).endswith(text) and button.isEnabled()]
+    return found[0] if found else None
+
+
+def field_of(label: str, kind: type) -> Optional[QWidget]:
+    """Field that belongs to a label."""
+    found = [each.buddy() for each in shown(QLabel) if each.text() == label and isinstance(each.buddy(), kind)]
+    return found[0] if found else None
+
+
+def place_of(widget: Optional[QWidget]) -> Optional[QPoint]:
+    """Middle of a widget on the screen."""
+    return None if widget is None else widget.mapToGlobal(widget.rect().center())
+
+
+def place_of_entry(label: str, entry: str) -> Optional[QPoint]:
+    """Middle of an entry of a list that is open."""
+    boxes = [widget for window in QApplication.topLevelWidgets() for widget in window.findChildren(QComboBox)]
+    for box in boxes:
+        view = box.view()
+        if box.accessibleName() == label and view.isVisible():
+            index = box.findText(entry)
+            if index >= 0:
+                return view.viewport().mapToGlobal(view.visualRect(box.model().index(index, 0)).center())
+    return None
+
+
+def run(script: Callable[[Person], None], settings_path: pathlib.Path, limit_s: float) -> int:
+    """Open the application and let a person follow the script; the exit code."""
+    app = make_qt()
+    application, gui = Application(settings_path), GuiThread()
+    application.open()
+    status = [1]
+
+    def follow() -> None:
+        person = Person(application, gui, limit_s)
+        try:
+            script(person)
+            status[0] = 0
+        # Whatever goes wrong must end the application, or nobody would.
+        except Exception:
+            traceback.print_exc(file=sys.stderr)
+            gui.ask(lambda: app.primaryScreen().grabWindow(0).save(str(settings_path.with_name("failure.png"))))
+        gui.ask(lambda: app.quit() or True)
+    thread = threading.Thread(target=follow, daemon=True)
+    thread.start()
+    app.exec_()
+    application.close()
+    thread.join(limit_s)
+    return status[0]

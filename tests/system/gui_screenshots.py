@@ -1,0 +1,97 @@
+"""Keeps a picture of every window and screen in both themes, while a person tests the simulated robot and Car.
+
+Usage: gui_screenshots.py FOLDER
+"""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+import shutil
+import sys
+
+from gui_person import Person, run
+from gui_session import LIMIT_S, MEASURING_LIMIT_S, connect, prepare
+
+from mtr_bringup.stack import Stack, StackOptions
+
+
+def main(folder: pathlib.Path) -> int:
+    """Take all pictures; the exit code."""
+    shutil.rmtree(folder, ignore_errors=True)
+    work = folder / "run"
+    work.mkdir(parents=True)
+    with Stack(StackOptions(work)) as stack:
+        def script(person: Person) -> None:
+            take_connection(person, folder)
+            connect(person, str(stack.status_port), str(stack.command_port), str(stack.can_link))
+            take_beginning(person, folder)
+            take_autolock(person, folder)
+            take_key_press(person, folder)
+        status = run(script, prepare(work), LIMIT_S)
+    print(f"{len(list(folder.glob('*.png')))} pictures are in {folder}.")
+    return status
+
+
+def take_connection(person: Person, folder: pathlib.Path) -> None:
+    """The connection window, also with a wrong address."""
+    person.wait_for("Publisher port")
+    person.look(folder, "01_connection")
+    person.type_into("IP address", "192.168.0.300")
+    person.click("Connect")
+    person.wait_for("The IP address or port provided is invalid.")
+    person.look(folder, "02_connection_invalid")
+
+
+def take_beginning(person: Person, folder: pathlib.Path) -> None:
+    """Welcome, calibration, settings, measurement types."""
+    person.wait_for("Ready")
+    person.look(folder, "03_welcome")
+    person.click("Calibrate")
+    person.click("Lock")
+    person.click("Send")
+    person.wait_for("Pressed for")
+    person.look(folder, "04_calibration")
+    person.click("Close")
+    person.click("Settings")
+    person.look(folder, "05_settings_window")
+    person.click("Close")
+    person.click("New test")
+    person.look(folder, "06_measurement_type")
+
+
+def take_autolock(person: Person, folder: pathlib.Path) -> None:
+    """The Autolock scenario from its settings to its protocol."""
+    person.click("Autolock")
+    person.type_into("Measurements distance", "1")
+    person.look(folder, "07_autolock_settings")
+    person.type_into("Starting distance", "0,4")
+    person.look(folder, "08_autolock_settings_invalid")
+    person.type_into("Starting distance", "4")
+    person.click("Start")
+    person.wait_for("7 of 16 lines measured", MEASURING_LIMIT_S)
+    person.look(folder, "09_autolock_measurement")
+    person.click("Stop")
+    person.wait_for("Paused.")
+    person.click("Paused")
+    person.look(folder, "10_autolock_paused")
+    person.press("Escape")
+    person.click("Resume")
+    person.wait_for("Autolock protocol", MEASURING_LIMIT_S)
+    person.click("Save")
+    person.wait_for("Saved protocol.png, results.csv to")
+    person.look(folder, "11_autolock_protocol")
+    person.click("New test")
+
+
+def take_key_press(person: Person, folder: pathlib.Path) -> None:
+    """The Key press scenario from its settings to its protocol."""
+    person.click("New test")
+    person.click("Key press")
+    person.look(folder, "12_key_press_settings")
+    person.click("Start")
+    person.wait_for("4 of 8 lines measured", MEASURING_LIMIT_S)
+    person.look(folder, "13_key_press_measurement")
+    person.wait_for("Key press protocol", MEASURING_LIMIT_S)
+    person.look(folder, "14_key_press_protocol")
+
+
+if __name__ == "__main__":
+    sys.exit(main(pathlib.Path(sys.argv[1])))
