@@ -84,6 +84,7 @@ firmware: setup ## Build the firmware of both boards and its emulator; prints si
 
 flash: setup ## Write the firmware to a board: BOARD=mega|uno PORT=/dev/serial/by-id/...
 	@$(MAKE) --no-print-directory -s -C firmware flash BOARD=$(BOARD) PORT=$(PORT)
+
 bench-motion: setup build ## Benchmark of the robot's motion; figures in out/bench/motion.json
 	@$(RUN) python -m mtr_bringup.bench_motion --seed $(SEED) --out out/bench
 
