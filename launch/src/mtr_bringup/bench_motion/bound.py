@@ -17,6 +17,8 @@ travelling  base_link stays at least (half the width + margin) away from the Car
 
             The angle counts from the front or the rear, whichever is nearer. Curvature limits at corners, lateral
             acceleration, and the detour that turning while moving makes, are left out.
+straight    Where nothing is in the way, a robot that begins with its front and ends with its rear ahead, or the
+            other way round, also has to turn around in between; see straight_bound.py.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -29,6 +31,8 @@ from shapely.geometry import Point as ShapelyPoint
 
 from mtr_core.se2 import Pose2, wrap_angle
 from mtr_motion_planner.limits import MotionLimits, rest_to_rest_time
+
+from .straight_bound import StraightBound
 
 Point = Tuple[float, float]
 STEP_S = 0.01
@@ -52,7 +56,11 @@ def lower_bound(ends: Ends, hull: Polygon, gap_m: float, limits: MotionLimits, s
     turn = abs(wrap_angle(end.heading - start.heading))
     turning = rest_to_rest_time(turn, limits.max_angular_radps, limits.angular_acceleration_radps2,
                                 limits.angular_ramp_s)
-    return max(turning, travelling(way, start.heading, end.heading, limits, speed))
+    bound = max(turning, travelling(way, start.heading, end.heading, limits, speed))
+    if len(way) > 2:
+        return bound
+    line = math.atan2(end.y - start.y, end.x - start.x)
+    return max(bound, StraightBound(limits, speed).time(math.dist(*way), start.heading - line, end.heading - line))
 
 
 def shortest_way(start: Point, end: Point, zone: Polygon) -> List[Point]:

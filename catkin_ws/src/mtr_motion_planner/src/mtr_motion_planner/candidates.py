@@ -21,6 +21,8 @@ from .shaping import Shape, route_of
 TIGHT_RADII_M = (0.2, 0.45)
 LARGEST_RING_M = 1.5
 MOVING_MPS = 0.02
+# A robot that moves has no time to build up a high yaw rate in a short turn: radii, as shares of that at full speed.
+MOVING_SHARES = (1.0, 2.0, 5.0)
 
 
 @dataclass(frozen=True)
@@ -73,6 +75,8 @@ class Candidates:
         lead = facing(start.pose if joined_out else begin, sign)
         end = facing(goal if joined_in else finish, sign)
         firsts = self._signed_radii(on_the_spot=from_speed == 0.0 and not joined_out)
+        if from_speed:
+            firsts = [share * radius for radius in (self._radii[-1], -self._radii[-1]) for share in MOVING_SHARES]
         lasts = self._signed_radii(on_the_spot=not joined_in)
         for ring, side in self._ways(begin, finish):
             for first, last in itertools.product(firsts, lasts):

@@ -12,8 +12,8 @@ def time_of(route: Route, shape: Shape, limits: MotionLimits, speed: float, star
     total = limits.ramp_s
     entry = start_speed
     legs = route.legs
-    for index, leg in enumerate(legs):
-        corner = _corner_speed(leg, limits, speed)
+    corners = [_corner_speed(leg, limits, speed, index in (0, len(legs) - 1)) for index, leg in enumerate(legs)]
+    for index, (leg, corner) in enumerate(zip(legs, corners)):
         if leg.radius == 0.0:
             total += limits.turn_time(leg.turn)
         else:
@@ -23,7 +23,7 @@ def time_of(route: Route, shape: Shape, limits: MotionLimits, speed: float, star
                                              limits.angular_acceleration_radps2 * abs(leg.radius)))
             entry = corner
         if index + 1 < len(legs):
-            leave = _corner_speed(legs[index + 1], limits, speed)
+            leave = corners[index + 1]
             straight = leg.line + (shape.way_out if index == 0 else 0.0) + (
                 shape.run_in if index + 2 == len(legs) else 0.0)
             total += _line_time(straight, entry, leave, speed, limits.acceleration_mps2)
@@ -31,10 +31,14 @@ def time_of(route: Route, shape: Shape, limits: MotionLimits, speed: float, star
     return total
 
 
-def _corner_speed(leg: Leg, limits: MotionLimits, speed: float) -> float:
+def _corner_speed(leg: Leg, limits: MotionLimits, speed: float, at_an_end: bool) -> float:
     if leg.radius == 0.0:
         return 0.0
-    return min(speed, limits.corner_speed(1.0 / leg.radius))
+    corner = min(speed, limits.corner_speed(1.0 / leg.radius))
+    if not at_an_end:
+        return corner
+    # There is no straight line to make a short turn longer: the yaw rate builds up within the turn.
+    return min(corner, abs(leg.radius) * math.sqrt(limits.angular_acceleration_radps2 * max(abs(leg.turn), 0.01)))
 
 
 def _line_time(length: float, entry: float, leave: float, speed: float, acceleration: float) -> float:

@@ -12,7 +12,8 @@ class MotionLimits(ParameterSet):
 
     Attributes:
         acceleration_mps2: of the linear speed, also when braking; drive control allows 1.0 and 1.5.
-        jerk_mps3: of the linear speed; a mast swings less.
+        jerk_mps3: of the linear speed, from constant speed; twice that from getting faster to braking at once. A mast
+            swings less.
         max_angular_radps: yaw rate; drive control allows 1.5.
         angular_acceleration_radps2: of the yaw rate; drive control allows 2.0.
         angular_jerk_radps3: of the yaw rate on the spot.

@@ -33,13 +33,13 @@ class Trajectory:
     Attributes:
         duration_s: until the robot is to stand.
         length_m: way of the turn centre.
-        ways, poses, linear: at each sample; poses are rows of x, y, heading.
+        ways, poses, linear, angular: at each sample; poses are rows of x, y, heading.
     """
 
     def __init__(self, ways: np.ndarray, poses: np.ndarray, linear: np.ndarray, angular: np.ndarray, length_m: float):
         self.duration_s = SAMPLE_S * (len(ways) - 1)
         self.length_m = length_m
-        self.ways, self.poses, self.linear = ways, poses, linear
+        self.ways, self.poses, self.linear, self.angular = ways, poses, linear, angular
         self._rows: List[List[float]] = np.column_stack((ways, poses, linear, angular)).tolist()
 
     def at(self, time_s: float) -> Reference:

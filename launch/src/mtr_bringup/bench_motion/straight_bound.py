@@ -1,0 +1,83 @@
+"""The quickest way to get along a straight line for a robot that is turned by any angle at its ends.
+
+The state is the angle between heading and line, and the speed, negative backwards; the progress is the integral of
+speed times cosine of the angle. Dynamic programming over a grid whose steps are the largest changes that the limits
+allow in STEP_S (rounded up, so that the grid is rather quicker than the robot) gives the largest progress in a time.
+Angle and speed start and end as they must, and near both ends stay within the jerk-limited turn and S-curve from rest.
+Where the robot gets to across the line is left out: it may only make the way longer.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+import numpy as np
+
+from mtr_core.se2 import wrap_angle
+from mtr_motion_planner.limits import MotionLimits
+
+STEP_S = 0.05
+LONGEST_S = 120.0
+
+
+class StraightBound:
+    """Grid for one set of limits and one speed limit."""
+
+    def __init__(self, limits: MotionLimits, speed: float):
+        self._limits, self._speed = limits, speed
+        angles = math.floor(2.0 * math.pi / (limits.max_angular_radps * STEP_S))
+        speeds = max(1, math.floor(speed / (limits.acceleration_mps2 * STEP_S)))
+        self._angles = 2.0 * math.pi / angles * np.arange(angles)
+        self._speeds = speed / speeds * np.arange(-speeds, speeds + 1)
+        self._gain = 0.5 * STEP_S * np.outer(np.cos(self._angles), self._speeds)
+
+    def time(self, length: float, first_angle: float, last_angle: float) -> float:
+        """Least time in s for a length, between headings that are off the line by the angles."""
+        start, end = self._begun(first_angle), self._begun(last_angle)
+        gone_before = 0.0
+        for step in range(1, round(0.5 * LONGEST_S / STEP_S)):
+            start, end = self._after(start, first_angle, step), self._after(end, last_angle, step)
+            gone = float((start + end).max())
+            if gone >= length:
+                share = (length - gone_before) / (gone - gone_before)
+                return 2.0 * STEP_S * (step - 1 + share)
+            gone_before = max(gone, 0.0)
+        return LONGEST_S
+
+    def _begun(self, angle: float) -> np.ndarray:
+        """Progress at a state at the end where the robot stands: 0 there, impossible elsewhere."""
+        best = np.full(self._gain.shape, -np.inf)
+        best[self._near(angle, 0.0), len(self._speeds) // 2] = 0.0
+        return best
+
+    def _after(self, best: np.ndarray, angle: float, step: int) -> np.ndarray:
+        best = best + self._gain
+        best = np.maximum(best, np.maximum(np.roll(best, 1, axis=0), np.roll(best, -1, axis=0)))
+        faster, slower = np.full_like(best, -np.inf), np.full_like(best, -np.inf)
+        faster[:, 1:], slower[:, :-1] = best[:, :-1], best[:, 1:]
+        best = np.maximum(best, np.maximum(faster, slower)) + self._gain
+        passed = step * STEP_S
+        best[~self._near(angle, turned_from_rest(passed, self._limits))] = -np.inf
+        best[:, np.abs(self._speeds) > speed_from_rest(passed, self._limits) + self._grain] = -np.inf
+        return best
+
+    @property
+    def _grain(self) -> float:
+        return float(self._speeds[1] - self._speeds[0])
+
+    def _near(self, angle: float, reach: float) -> np.ndarray:
+        off = np.abs(np.vectorize(wrap_angle)(self._angles - angle))
+        return off <= reach + 0.5 * float(self._angles[1]) + 1e-9
+
+
+def speed_from_rest(passed: float, limits: MotionLimits) -> float:
+    """Highest speed at a time after standstill, without its own limit."""
+    ramp = limits.ramp_s
+    return 0.5 * limits.jerk_mps3 * min(passed, ramp) ** 2 + limits.acceleration_mps2 * max(passed - ramp, 0.0)
+
+
+def turned_from_rest(passed: float, limits: MotionLimits) -> float:
+    """Largest angle turned at a time after standstill."""
+    ramp, jerk = limits.angular_ramp_s, limits.angular_jerk_radps3
+    first = jerk * min(passed, ramp) ** 3 / 6.0
+    later = max(passed - ramp, 0.0)
+    rate = 0.5 * jerk * min(passed, ramp) ** 2
+    return first + rate * later + 0.5 * limits.angular_acceleration_radps2 * later ** 2
