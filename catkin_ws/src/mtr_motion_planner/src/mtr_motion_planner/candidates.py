@@ -5,12 +5,11 @@ from dataclasses import dataclass
 from typing import Iterator, List, Optional, Sequence, Tuple
 
 from mtr_core.se2 import Pose2
-from mtr_core.states import Direction
 
 from .estimate import time_of
 from .keep_out import KeepOut
 from .limits import MotionLimits, rest_to_rest_time
-from .options import NEAR_M, Straight, arrivals, departures
+from .options import Goal, Straight, arrivals, departures
 from .parameters import MotionParameters
 from .plan import Moving
 from .route import Ring, facing, moved
@@ -47,13 +46,12 @@ class Candidates:
         sizes = {gap, min(LARGEST_RING_M, max(gap, cruise)), min(LARGEST_RING_M, max(gap, 0.6 * cruise))}
         self._rings = [Ring(keep_out.centres(size, gap), size) for size in sorted(sizes)]
 
-    def between(self, start: Moving, goal: Pose2, direction: Direction) -> List[Candidate]:
+    def between(self, start: Moving, goal: Goal) -> List[Candidate]:
         """Candidates, the quickest first; PlanRefused when start or goal lies too close to the Car."""
-        is_near = start.pose.distance_to(goal) < NEAR_M
         outs = departures(start.pose, self._keep_out, self._parameters)
-        ins = arrivals(goal, direction, is_near, self._keep_out, self._parameters)
+        ins = arrivals(goal, self._keep_out, self._parameters)
         found = [candidate for out, into, sign in itertools.product(outs, ins, (1, -1))
-                 for candidate in self._transits(start, goal, out, into, sign)]
+                 for candidate in self._transits(start, goal.pose, out, into, sign)]
         return sorted(found, key=lambda candidate: candidate.time_s)
 
     def _transits(self, start: Moving, goal: Pose2, out: Straight, into: Straight, sign: int) -> Iterator[Candidate]:

@@ -17,8 +17,8 @@ from .route import moved
 STEP_M = 0.05
 LONGEST_STRAIGHT_M = 6.0
 ROUNDING_M = 0.005
-# A goal this close is also tried with a straight piece into it, which takes out what is left across its axis.
-NEAR_M, NEAR_RUN_IN_M = 1.0, 0.5
+# A correction comes to the goal on a straight piece, which takes out what is left across its axis.
+CORRECTION_RUN_IN_M = 0.5
 SIGNS = {Direction.ANY: (1, -1), Direction.FORWARD: (1,), Direction.BACKWARD: (-1,)}
 
 
@@ -33,6 +33,15 @@ class Straight:
 NONE = Straight()
 
 
+@dataclass(frozen=True)
+class Goal:
+    """Pose of the turn centre to come to; a correction comes from close by."""
+
+    pose: Pose2
+    direction: Direction = Direction.ANY
+    is_correction: bool = False
+
+
 def departures(start: Pose2, keep_out: KeepOut, parameters: MotionParameters) -> List[Straight]:
     """None needed where the robot may turn, else the shortest ways straight out; PlanRefused when there is none."""
     if keep_out.distance(start) >= parameters.pivot_gap_m:
@@ -45,19 +54,17 @@ def departures(start: Pose2, keep_out: KeepOut, parameters: MotionParameters) ->
     return found
 
 
-def arrivals(goal: Pose2, direction: Direction, is_near: bool, keep_out: KeepOut, parameters: MotionParameters
-             ) -> List[Straight]:
+def arrivals(goal: Goal, keep_out: KeepOut, parameters: MotionParameters) -> List[Straight]:
     """Straight pieces into the goal, none where the robot may turn at it; PlanRefused when no way leads there."""
-    may_turn = keep_out.distance(goal) >= parameters.pivot_gap_m
-    found = [NONE] if may_turn and direction == Direction.ANY else []
-    if may_turn:
-        length = max(parameters.run_in_m, NEAR_RUN_IN_M) if is_near else parameters.run_in_m
-        if is_near or direction != Direction.ANY:
-            found += [Straight(sign, length) for sign in SIGNS[direction]]
-        return found
+    if keep_out.distance(goal.pose) >= parameters.pivot_gap_m:
+        if goal.is_correction:
+            return [Straight(sign, max(parameters.run_in_m, CORRECTION_RUN_IN_M)) for sign in (1, -1)]
+        if goal.direction == Direction.ANY:
+            return [NONE]
+        return [Straight(sign, parameters.run_in_m) for sign in SIGNS[goal.direction]]
     least = parameters.margins.keep_out_m - ROUNDING_M
-    found = [Straight(sign, length + parameters.run_in_m) for sign in SIGNS[direction]
-             for length in _free_after(goal, -sign, least, keep_out, parameters)]
+    found = [Straight(sign, length + parameters.run_in_m) for sign in SIGNS[goal.direction]
+             for length in _free_after(goal.pose, -sign, least, keep_out, parameters)]
     if not found:
         raise PlanRefused("No straight piece leads to the goal past the Car without getting too close to it.")
     return found

@@ -9,6 +9,7 @@ from mtr_core.states import Result
 
 from .follower import Follower, Wanted
 from .inputs import NO_GOAL, Car, Inputs, Order, Point, RobotState, Zone, fault_of
+from .options import Goal
 from .parameters import MotionParameters
 from .plan import Moving
 from .planning import Planning
@@ -140,7 +141,8 @@ class MotionPlanner:
         """Make a plan that goes on from the present motion; False when the robot must stay."""
         planning = Planning(self.site.keep_out, self.site.fence, self._parameters, speed)
         try:
-            plan = planning.plan(self._present(pose, robot), self.site.goal, self._goal.direction)
+            goal = Goal(self.site.goal, self._goal.direction, is_correction=self._corrections > 0)
+            plan = planning.plan(self._present(pose, robot), goal)
         except RobotError as refusal:
             self._settle(Result.REFUSED, str(refusal), pose)
             return False
@@ -191,7 +193,8 @@ class MotionPlanner:
             self._settle(Result.REACHED, "", pose)
         elif self._corrections < self._parameters.arrival.corrections:
             self._corrections += 1
-            self._must_plan = True
+            # From where the robot is: its reference has arrived.
+            self.follower, self._must_plan = None, True
         else:
             result = Result.REACHED if miss.is_near else Result.REFUSED
             self._settle(result, sentence_about(miss, self._corrections), pose)

@@ -10,7 +10,7 @@ from .assembly import Assembly, line, pivot
 from .candidates import MOVING_MPS, Candidates
 from .fence import Fence
 from .keep_out import KeepOut
-from .options import Straight
+from .options import Goal, Straight
 from .parameters import MotionParameters
 from .plan import Moving, Part, Plan, PlanRefused
 from .route import moved
@@ -39,24 +39,24 @@ class Planning:
         self._candidates = Candidates(keep_out, parameters, speed)
         self._assembly = Assembly(keep_out, fence, parameters, speed)
 
-    def plan(self, start: Moving, goal: Pose2, direction: Direction) -> Plan:
+    def plan(self, start: Moving, goal: Goal) -> Plan:
         """The quickest plan found that goes on from the present motion, with a stop first if need be."""
-        self._check(start.pose, goal)
+        self._check(start.pose, goal.pose)
         turns_on_the_spot = _moves(start) and abs(start.linear_mps) <= MOVING_MPS
-        parts = None if turns_on_the_spot else self._parts(start, goal, direction)
-        if _moves(start) and self._may_gain_by_a_stop(parts, start, goal):
+        parts = None if turns_on_the_spot else self._parts(start, goal)
+        if _moves(start) and self._may_gain_by_a_stop(parts, start.pose, goal.pose):
             brake = self._assembly.brake(start)
-            stopped = self._parts(Moving(brake.trajectory.at(math.inf).pose), goal, direction)
+            stopped = self._parts(Moving(brake.trajectory.at(math.inf).pose), goal)
             parts = quicker(parts, None if stopped is None else [brake, *stopped])
         if parts is None:
             raise PlanRefused("No way to the goal was found that keeps the robot away from the Car"
                               f"{' and inside the test area' if self._fence else ''}.")
-        return Plan(goal, tuple(parts))
+        return Plan(goal.pose, tuple(parts))
 
-    def _may_gain_by_a_stop(self, parts: Optional[List[Part]], start: Moving, goal: Pose2) -> bool:
+    def _may_gain_by_a_stop(self, parts: Optional[List[Part]], start: Pose2, goal: Pose2) -> bool:
         """False for a plan without a stop that is hardly longer than the straight line."""
         return parts is None or sum(part.trajectory.length_m for part in parts) > (
-            DETOUR_SHARE * start.pose.distance_to(goal) + DETOUR_M)
+            DETOUR_SHARE * start.distance_to(goal) + DETOUR_M)
 
     def _check(self, start: Pose2, goal: Pose2) -> None:
         keep_out = self._parameters.margins.keep_out_m
@@ -71,9 +71,9 @@ class Planning:
         if self._fence and not self._fence.holds_pose(start):
             raise PlanRefused("The robot stands outside the test area; move it back by hand.")
 
-    def _parts(self, start: Moving, goal: Pose2, direction: Direction) -> Optional[List[Part]]:
-        parts = self._straight(start, goal, direction)
-        return self._quickest(start, goal, direction) if parts is None else parts
+    def _parts(self, start: Moving, goal: Goal) -> Optional[List[Part]]:
+        parts = self._straight(start, goal.pose, goal.direction)
+        return self._quickest(start, goal) if parts is None else parts
 
     def _straight(self, start: Moving, goal: Pose2, direction: Direction) -> Optional[List[Part]]:
         """The straight piece when the goal lies ahead or behind on the robot's own axis; no parts when it is there."""
@@ -92,13 +92,13 @@ class Planning:
         drive = line(moved(goal, offset.x), Straight(sign, way))
         return self._assembly.timed([(drive, sign * start.linear_mps)], start.pose)
 
-    def _quickest(self, start: Moving, goal: Pose2, direction: Direction) -> Optional[List[Part]]:
+    def _quickest(self, start: Moving, goal: Goal) -> Optional[List[Part]]:
         best: Optional[List[Part]] = None
         compared = 0
-        for candidate in self._candidates.between(start, goal, direction)[:TRIED]:
+        for candidate in self._candidates.between(start, goal)[:TRIED]:
             if compared == COMPARED or best is not None and candidate.time_s >= duration_of(best):
                 break
-            parts = self._assembly.work_out(candidate, start, goal)
+            parts = self._assembly.work_out(candidate, start, goal.pose)
             if parts is not None:
                 compared += 1
                 best = quicker(best, parts)

@@ -8,7 +8,7 @@ from shapely.geometry import Polygon
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
-from mtr_motion_planner.inputs import Car, Goal, Inputs, Order, RobotState
+from mtr_motion_planner.inputs import Car, Drive, Goal, Inputs, Order, RobotState
 from mtr_motion_planner.parameters import MotionParameters, Slip
 from mtr_motion_planner.planner import MotionPlanner, Output
 
@@ -29,10 +29,13 @@ def car_at(pose: Pose2 = ORIGIN, located: bool = True, outline=OUTLINE) -> Car:
 class SimulatedRobot:
     """Robot, planner and Car; `run` steps them until the goal is settled."""
 
-    def __init__(self, pose: Pose2, car: Optional[Car] = None, held: bool = False, slip: Slip = EXPECTED_SLIP):
+    def __init__(self, pose: Pose2, car: Optional[Car] = None, held: bool = False, slip: Slip = EXPECTED_SLIP,
+                 parameters: MotionParameters = PARAMETERS):
         self.pose, self.car, self.held, self.slip = pose, car or car_at(), held, slip
         self.speed = self.yaw_rate = 0.0
-        self.planner = MotionPlanner(PARAMETERS)
+        self.planner = MotionPlanner(parameters)
+        self.drive: Optional[Drive] = None
+        self.speed_cap, self.is_degenerate = math.inf, False
         self.ticks = 0
         self.goal = Goal(0, True, Pose2(0, 0, 0), Direction.ANY)
         self.max_speed = 0.5
@@ -53,9 +56,9 @@ class SimulatedRobot:
 
     def tick(self) -> Output:
         """One period."""
-        robot = RobotState(self.now, True, self.pose, self.speed, self.yaw_rate)
+        robot = RobotState(self.now, True, self.pose, self.speed, self.yaw_rate, "", self.is_degenerate)
         car = Car(self.now, self.car.located, self.car.pose, self.car.outline)
-        output = self.planner.step(Inputs(self.now, Order(self.now, self.goal, self.max_speed), robot, car))
+        output = self.planner.step(Inputs(self.now, Order(self.now, self.goal, self.max_speed), robot, car, self.drive))
         self.outputs.append(output)
         self._move(output)
         self.ticks += 1
@@ -75,6 +78,11 @@ class SimulatedRobot:
             output = self.tick()
         return output
 
+    def planner_says(self, result: Result, word: str) -> bool:
+        """True when the goal is settled so, with the word in the sentence, and still is a second later."""
+        first, later = self.run(), self.run_for(1.0)
+        return all(output.result == result and word in output.message for output in (first, later))
+
     def goal_in_map(self) -> Pose2:
         """Where the robot should stand."""
         return self.car.pose @ self.goal.pose if self.goal.in_car_frame else self.goal.pose
@@ -91,6 +99,7 @@ class SimulatedRobot:
     def _move(self, output: Output) -> None:
         self._queue.append((output.linear_mps, output.angular_radps))
         linear, angular = (0.0, 0.0) if self.held else self._queue[0]
+        linear = limited(linear, self.speed_cap)
         dt = PERIOD_S / SUBSTEPS
         for _ in range(SUBSTEPS):
             acceleration = limited((linear - self.speed) / LAG_S, BASE_ACCELERATION_MPS2)
@@ -104,6 +113,8 @@ class SimulatedRobot:
 
     def clearance(self) -> float:
         """Distance of the footprint from the Car, computed apart from the planner's."""
+        if len(self.car.outline) < 3:
+            return math.inf
         corners = [self.pose.apply(x, y) for x, y in ((.255, .215), (-.255, .215), (-.255, -.215), (.255, -.215))]
         car = Polygon([self.car.pose.apply(x, y) for x, y in self.car.outline])
         return Polygon(corners).distance(car)

@@ -17,7 +17,8 @@ LIMITS = MotionLimits()
 NO_SLIP = Slip(0.0, 0.0, 0.0)
 # End, and the senses of the turns out of the start and into it.
 ENDS = {Pose2(3.0, 0.5, 0.0): (1, -1), Pose2(3.0, 3.0, 1.5): (1, 1), Pose2(2.0, -2.0, -0.4): (-1, 1),
-        Pose2(4.0, 0.2, 0.1): (1, 1), Pose2(3.0, 1.5, 0.0): (1, -1), Pose2(3.0, 0.0, 0.0): (1, 1), Pose2(0.5, 0.0, 0.0): (1, 1)}
+        Pose2(4.0, 0.2, 0.1): (1, 1), Pose2(3.0, 1.5, 0.0): (1, -1), Pose2(3.0, 0.0, 0.0): (1, 1),
+        Pose2(0.5, 0.0, 0.0): (1, 1)}
 
 
 def curve_to(end, start=None, slip=NO_SLIP, speed=0.5, radius=0.45):
