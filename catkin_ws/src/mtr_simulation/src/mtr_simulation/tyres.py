@@ -89,6 +89,10 @@ class Tyres:
                 self._bristles[index][:] = (0.0, 0.0)
                 self._forces[self._bodies[index]] = 0.0
 
+    def loads_n(self) -> List[float]:
+        """Force of the ground on each wheel, upwards; 0 in the air."""
+        return [float(self._forces[body][2]) for body in self._bodies]
+
     def lift_off(self) -> None:
         """The robot has been lifted: nothing is bent any more."""
         self._bristles = [[0.0, 0.0] for _ in robot.WHEELS]
@@ -97,11 +101,6 @@ class Tyres:
         return self._ground.height_m(base.position[0] + arm[0], base.position[1] + arm[1]) if self._ground else 0.0
 
     def _wrench(self, index: int, base: BaseState, plane: _WheelPlane, arm: Vector, depth: float) -> tuple:
-    def loads_n(self) -> List[float]:
-        """Force of the ground on each wheel, upwards; 0 in the air."""
-        return [float(self._forces[body][2]) for body in self._bodies]
-
-    def _wrench(self, index: int, base: BaseState, plane: _WheelPlane, arm: Vector) -> tuple:
         """Force and torque at a wheel's centre, in world; arm is the way from base_link to its lowest point."""
         parameters = self._parameters
         (vx, vy, vz), (ox, oy, oz) = base.velocity, base.angular_velocity
