@@ -1,9 +1,17 @@
-"""Deflections of a manual controller to a velocity, only while a dead-man button is held."""
+"""The manual controller: what a person holds in the hand becomes a velocity, a motion lock and a way of the lift."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import NamedTuple, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple, Optional, Sequence, Tuple
 
 from .parameters import Parameters
+
+
+class Joy(NamedTuple):
+    """State of all axes (-1 to 1) and buttons (1: held) of the controller."""
+
+    axes: Tuple[float, ...]
+    buttons: Tuple[int, ...]
 
 
 class Velocity(NamedTuple):
@@ -17,10 +25,79 @@ class Velocity(NamedTuple):
 RELEASED = Velocity(0.0, 0.0, False)
 
 
-def velocity(parameters: Parameters, axes: Sequence[float], buttons: Sequence[int], age_s: float) -> Velocity:
-    """Velocity that the controller's newest state asks for. An input that the controller lacks counts as released."""
-    if not 0.0 <= age_s <= parameters.silent_after_s:
-        return RELEASED
+@dataclass(frozen=True)
+class Outcome:
+    """What the person wants at a tick; lock_reason is empty when the robot may move."""
+
+    velocity: Velocity = RELEASED
+    lift_mps: float = 0.0
+    lock_reason: str = ""
+
+
+class Controller:
+    """Decides at each tick; remembers whether the controller is lost or its emergency stop pressed.
+
+    A controller that was never heard of locks nothing. One that was is a source of the emergency stop: when it is lost
+    the robot stands until it is back with no button held.
+    """
+
+    def __init__(self, parameters: Parameters):
+        self._parameters = parameters
+        self._joy: Optional[Joy] = None
+        self._heard_s = self._changed_s = 0.0
+        self._is_stopped = False
+        self._release_since_s: Optional[float] = None
+        self._lost = ""
+
+    def take(self, joy: Joy, now_s: float) -> None:
+        """Next message of the controller's driver."""
+        if joy != self._joy:
+            self._changed_s = now_s
+        self._joy, self._heard_s = joy, now_s
+        # Not at the next tick: a short press must not be missed.
+        if _is_held(joy.buttons, self._parameters.e_stop_button):
+            self._is_stopped = True
+
+    def step(self, now_s: float, is_present: bool = True) -> Outcome:
+        """Decide at a tick; is_present: its device exists."""
+        if self._joy is None:
+            return Outcome()
+        wanted = velocity(self._parameters, self._joy.axes, self._joy.buttons)
+        self._watch(now_s, is_present, wanted)
+        self._watch_release(now_s)
+        if self._is_stopped:
+            return Outcome(lock_reason="The emergency stop of the manual controller is pressed.")
+        if self._lost:
+            return Outcome(lock_reason=self._lost)
+        return Outcome(wanted, self._lift(self._joy.axes) if wanted.active else 0.0)
+
+    def _watch(self, now_s: float, is_present: bool, wanted: Velocity) -> None:
+        if not is_present or not 0.0 <= now_s - self._heard_s <= self._parameters.silent_after_s:
+            self._lost = "The manual controller is lost; the robot stands until it is back and released."
+        elif self._moves(wanted) and now_s - self._changed_s > self._parameters.frozen_after_s:
+            self._lost = "The manual controller does not change any more; release it to go on."
+        elif not wanted.active:
+            self._lost = ""
+
+    def _moves(self, wanted: Velocity) -> bool:
+        lift_mps = self._lift(self._joy.axes)
+        return wanted.active and (wanted.linear_mps, wanted.angular_radps, lift_mps) != (0.0, 0.0, 0.0)
+
+    def _watch_release(self, now_s: float) -> None:
+        held = {index for index, value in enumerate(self._joy.buttons) if value == 1}
+        if self._lost or held != set(self._parameters.release_buttons):
+            self._release_since_s = None
+        elif self._release_since_s is None:
+            self._release_since_s = now_s
+        elif now_s - self._release_since_s >= self._parameters.release_after_s:
+            self._is_stopped = False
+
+    def _lift(self, axes: Sequence[float]) -> float:
+        return self._parameters.lift_mps * _deflection(self._parameters, axes, self._parameters.lift_axis)
+
+
+def velocity(parameters: Parameters, axes: Sequence[float], buttons: Sequence[int]) -> Velocity:
+    """Velocity that the controller's state asks for. An input that the controller lacks counts as released."""
     if _is_held(buttons, parameters.fast_button):
         linear_mps, angular_radps = parameters.fast_mps, parameters.fast_radps
     elif _is_held(buttons, parameters.slow_button):

@@ -1,29 +1,36 @@
-"""The manual controller's node: sensor_msgs/Joy in, velocity for drive control out."""
+"""The manual controller's node: sensor_msgs/Joy in; velocity, motion lock and way of the lift out."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Tuple
+import collections
+import os
+from typing import Deque, Tuple
 
 import rospy
-from sensor_msgs.msg import Joy
+import sensor_msgs.msg
 
 from mtr_core import names, schedule
 from mtr_lockstep import Ticker, clock, publisher, run_node
-from mtr_msgs.msg import VelocityCommand
+from mtr_msgs.msg import LiftCommand, MotionLock, VelocityCommand
 
-from .core import velocity
+from .core import RELEASED, Controller, Joy, Outcome
 from .parameters import Parameters
 
 NS = 1e-9
+OWNER = "controller_input"
 
 
 class ControllerInputNode:
-    """Publishes the wanted velocity while a dead-man button is held, and once more when it is released."""
+    """Publishes the lock at each tick, and what is wanted while a dead-man button is held and once after."""
 
     def __init__(self, parameters: Parameters):
         self._parameters = parameters
-        self._joy: Tuple[int, Joy] = (0, Joy())
-        self._was_active = False
+        self._core = Controller(parameters)
+        self._messages: Deque[Tuple[int, sensor_msgs.msg.Joy]] = collections.deque(maxlen=100)
+        self._before = Outcome()
         self._velocity = publisher(names.MANUAL_VELOCITY, VelocityCommand)
-        self._subscriber = rospy.Subscriber(names.JOY, Joy, self._take, queue_size=1, tcp_nodelay=True)
+        self._lift = publisher(names.MANUAL_LIFT, LiftCommand)
+        self._lock = publisher(names.MOTION_LOCK, MotionLock)
+        self._subscriber = rospy.Subscriber(names.JOY, sensor_msgs.msg.Joy, self._take, queue_size=50,
+                                            tcp_nodelay=True)
         self._ticker = Ticker(schedule.CONTROLLER_INPUT)
 
     def spin(self) -> None:
@@ -32,19 +39,38 @@ class ControllerInputNode:
             self._step(self._ticker.sleep())
 
     def _step(self, tick: int) -> None:
-        taken_ns, joy = self._joy
-        wanted = velocity(self._parameters, joy.axes, joy.buttons, max(tick - taken_ns, 0) * NS)
-        if wanted.active != self._was_active:
-            rospy.loginfo("Manual control %s.", "begins" if wanted.active else "ends")
-        if wanted.active or self._was_active:
-            message = VelocityCommand(None, *wanted)
-            message.header.stamp, message.header.frame_id = clock.stamp_of(tick), names.BASE
-            self._velocity.publish(message)
-        self._was_active = wanted.active
+        while self._messages:
+            taken_ns, joy = self._messages.popleft()
+            self._core.take(Joy(tuple(joy.axes), tuple(joy.buttons)), taken_ns * NS)
+        device = self._parameters.device
+        outcome = self._core.step(tick * NS, not device or os.path.exists(device))
+        self._publish(outcome, tick)
+        self._log(outcome)
+        self._before = outcome
 
-    def _take(self, message: Joy) -> None:
+    def _publish(self, outcome: Outcome, tick: int) -> None:
+        stamp = clock.stamp_of(tick)
+        lock = MotionLock(owner=OWNER, engaged=bool(outcome.lock_reason), reason=outcome.lock_reason)
+        lock.header.stamp = stamp
+        self._lock.publish(lock)
+        if outcome.velocity.active or self._before.velocity.active:
+            message = VelocityCommand(None, *outcome.velocity)
+            message.header.stamp, message.header.frame_id = stamp, names.BASE
+            self._velocity.publish(message)
+        if outcome.lift_mps or self._before.lift_mps:
+            lift = LiftCommand(rate_mps=outcome.lift_mps)
+            lift.header.stamp = stamp
+            self._lift.publish(lift)
+
+    def _log(self, outcome: Outcome) -> None:
+        if outcome.lock_reason != self._before.lock_reason:
+            rospy.logwarn(outcome.lock_reason or "The manual controller locks the robot no longer.")
+        if outcome.velocity.active != self._before.velocity.active:
+            rospy.loginfo("Manual control %s.", "ends" if outcome.velocity == RELEASED else "begins")
+
+    def _take(self, message: sensor_msgs.msg.Joy) -> None:
         # The time of arrival: a receiver whose clock is wrong must not keep an old deflection alive.
-        self._joy = (clock.now_ns(), message)
+        self._messages.append((clock.now_ns(), message))
 
 
 def main() -> int:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mtr_drive_control/tip_over.hpp"
 #include "scene.hpp"
 
 namespace mtr_drive_control {
@@ -36,6 +37,7 @@ class DriveControlTest : public ::testing::Test {
     return decision;
   }
 
+  const Parameters limits = limits_at(Parameters{}, 0.35);
   DriveControl control{Parameters{}, CollisionParameters{}, false, 0.02};
 };
 
@@ -72,7 +74,7 @@ TEST_F(DriveControlTest, LockStopsEverySourceAndIsNamed) {
 }
 
 TEST_F(DriveControlTest, LockAtFullSpeedIsZeroAfterHalfASecond) {
-  ASSERT_DOUBLE_EQ(drive_at_full_speed().velocity.linear_mps, 1.5);
+  ASSERT_DOUBLE_EQ(drive_at_full_speed().velocity.linear_mps, limits.max_linear_mps);
   Decision decision;
   for (int tick = 0; tick < 25; ++tick) {
     decision = step({{"dispatcher", "Stop."}}, std::nullopt, command(1.5));
@@ -84,7 +86,8 @@ TEST_F(DriveControlTest, SilentPlannerIsAnEmergencyStop) {
   drive_at_full_speed();
   const Decision decision = step({}, std::nullopt, command(1.5, true, kTickNs - 160 * kMs));
   EXPECT_EQ(decision.source, "none");
-  EXPECT_NEAR(decision.velocity.linear_mps, 1.5 - 3.0 * 0.02, 1e-9);
+  EXPECT_NEAR(decision.velocity.linear_mps, limits.max_linear_mps - limits.emergency_linear_deceleration_mps2 * 0.02,
+              1e-9);
   EXPECT_EQ(decision.message, "The motion planner is silent.");
 }
 
@@ -92,7 +95,7 @@ TEST_F(DriveControlTest, PlannerWithoutAWishIsBrakedForAtTheNormalLimit) {
   drive_at_full_speed();
   const Decision decision = step({}, std::nullopt, command(1.5, false));
   EXPECT_EQ(decision.source, "none");
-  EXPECT_NEAR(decision.velocity.linear_mps, 1.5 - 1.5 * 0.02, 1e-9);
+  EXPECT_NEAR(decision.velocity.linear_mps, limits.max_linear_mps - 1.5 * 0.02, 1e-9);
   EXPECT_EQ(decision.message, "");
 }
 
@@ -117,8 +120,8 @@ TEST_F(DriveControlTest, UnknownKeyHeightLowersTheSpeedToThatOfTheRaisedKey) {
     decision = control.step(
         kTickNs, {{}, std::nullopt, command(1.5), {sweep, nullptr, Motion{kTickNs, Pose(), {}}}, std::nullopt});
   }
-  EXPECT_LT(decision.velocity.linear_mps, 1.45);
-  EXPECT_GT(decision.velocity.linear_mps, 1.0);
+  EXPECT_DOUBLE_EQ(decision.velocity.linear_mps, limits_at(Parameters{}, 1.55).max_linear_mps);
+  EXPECT_LT(decision.velocity.linear_mps, limits.max_linear_mps);
 }
 
 TEST_F(DriveControlTest, WrongParameterIsRefusedAtConstruction) {

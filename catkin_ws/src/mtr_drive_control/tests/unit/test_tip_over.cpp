@@ -18,9 +18,16 @@ TEST(TipOver, RaisedKeyLowersTheEmergencyDecelerationToItsShareOfTheStaticLimit)
               1e-9);
 }
 
-TEST(TipOver, LowKeyLeavesTheParametersAsTheyAre) {
-  EXPECT_DOUBLE_EQ(limits_at(Parameters{}, 0.35).emergency_linear_deceleration_mps2, 3.0);
-  EXPECT_DOUBLE_EQ(limits_at(Parameters{}, 0.35).max_linear_mps, 1.5);
+TEST(TipOver, FlatRobotKeepsTheParametersAsTheyAre) {
+  Parameters flat;
+  flat.centre_of_mass_m = 0.1;
+  EXPECT_DOUBLE_EQ(limits_at(flat, 0.35).emergency_linear_deceleration_mps2, 3.0);
+  EXPECT_DOUBLE_EQ(limits_at(flat, 0.35).max_linear_mps, 1.5);
+}
+
+TEST(TipOver, LowerKeyAllowsAQuickerStop) {
+  EXPECT_GT(limits_at(Parameters{}, 0.35).emergency_linear_deceleration_mps2,
+            limits_at(Parameters{}, 1.55).emergency_linear_deceleration_mps2 + 0.2);
 }
 
 TEST(TipOver, UnknownOrImpossibleHeightCountsAsRaised) {
@@ -41,7 +48,7 @@ TEST(TipOver, TopHeavyRobotIsLimitedInEveryAcceleration) {
   Parameters parameters;
   parameters.centre_of_mass_m = 1.5;
   const Parameters limits = limits_at(parameters, 0.35);
-  EXPECT_LT(limits.linear_acceleration_mps2, 0.65);
+  EXPECT_LT(limits.linear_acceleration_mps2, 0.55);
   EXPECT_DOUBLE_EQ(limits.linear_deceleration_mps2, limits.linear_acceleration_mps2);
   EXPECT_LT(limits.lateral_acceleration_mps2, 0.9);
 }

@@ -1,4 +1,4 @@
-"""A person who walks to and fro; the robot pushes nobody away, so a contact counts as a collision."""
+"""A person who stands, then walks to and fro; the robot pushes nobody away, so a contact counts as a collision."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -24,7 +24,7 @@ class Person:
 
     def move(self, elapsed_s: float) -> None:
         """Put the person where it is after that time."""
-        walked = self._walk.speed_mps * elapsed_s
+        walked = self._walk.speed_mps * max(0.0, elapsed_s - self._walk.stands_s)
         along = walked % (2.0 * self._length_m)
         along = min(along, 2.0 * self._length_m - along)
         (x, y), (dx, dy) = self._walk.start, self._direction

@@ -158,6 +158,10 @@ class Sim:
             touched |= {self._model.body(self._model.body_rootid[body]).name for body in bodies}
         return touched - {"base_link"}
 
+    def wheel_loads_n(self) -> List[float]:
+        """Force of the ground on each wheel in the last physics step, upwards."""
+        return self._tyres.loads_n()
+
     def _elapsed_s(self) -> float:
         return (self.time_ns - SIMULATION_START_NS) * 1e-9
 
@@ -181,12 +185,12 @@ class Sim:
 
     def _settle(self) -> None:
         self.set_lift(0.0)
+        if self._person:
+            self._person.move(0.0)
         for _ in range(round(SETTLING_S / self._model.opt.timestep)):
             self._physics(self._base())
         self._wheels.odometry(TICK_S)
         self._data.time = 0.0
-        if self._person:
-            self._person.move(0.0)
 
     def _sense(self, quaternion: List[float], velocity: List[float]) -> Sensors:
         """Readings for the tick that began with this orientation and velocity."""

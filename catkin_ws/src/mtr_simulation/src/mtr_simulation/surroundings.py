@@ -48,11 +48,12 @@ class ParkedCar:
 
 @dataclass(frozen=True)
 class Walk:
-    """A person who walks to and fro between two points in world."""
+    """A person who stands for a while and then walks to and fro between two points in world."""
 
     start: Tuple[float, float]
     end: Tuple[float, float]
     speed_mps: float = 1.2
+    stands_s: float = 0.0
 
 
 # Lengths of the ground's waves: long against the wheelbase of 0.26 m, so that the robot tilts as the ground does.

@@ -89,6 +89,10 @@ class Tyres:
                 self._bristles[index][:] = (0.0, 0.0)
                 self._forces[self._bodies[index]] = 0.0
 
+    def loads_n(self) -> List[float]:
+        """Force of the ground on each wheel, upwards; 0 in the air."""
+        return [float(self._forces[body][2]) for body in self._bodies]
+
     def lift_off(self) -> None:
         """The robot has been lifted: nothing is bent any more."""
         self._bristles = [[0.0, 0.0] for _ in robot.WHEELS]

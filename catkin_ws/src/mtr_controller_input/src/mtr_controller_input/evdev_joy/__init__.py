@@ -1,0 +1,1 @@
+"""Driver of a game controller for machines without the ROS package joy."""

@@ -1,0 +1,116 @@
+"""Drives beside the Car and in the rain where nobody is in the way: every stop is a false one."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass, replace
+from typing import Any, Dict, List
+
+from mtr_core.se2 import Pose2, wrap_angle
+from mtr_simulation import robot
+from mtr_simulation.scenario import CarShape, Scenario, named_scenario
+
+from .rig import FRONT_M, Rig, Wish
+
+NEAREST_M, FARTHEST_M = 0.3, 2.5
+MEASURING_MPS = 0.4
+LAP_MPS = 0.8
+LIMIT_S = 40.0
+TICK_S = 0.02
+SETTLING_S, TURNING_S = 0.2, 1.0
+# States of the zone in DriveStatus: from this on it stands.
+SLOWED, STOPPED = 1, 2
+HALF_WIDTH_M = 0.215
+SITE = replace(named_scenario("lot"), start_offset_m=0.0, start_offset_rad=0.0)
+
+
+@dataclass(frozen=True)
+class Drive:
+    """From a pose in frame car straight ahead and back again.
+
+    Attributes:
+        name: what it is.
+        start: in frame car.
+        length_m: of the straight way.
+        speed_mps: in both directions.
+        rain: share of beams that end on a drop.
+        rear_lidar: the robot has one.
+    """
+
+    name: str
+    start: Pose2
+    length_m: float
+    speed_mps: float
+    rain: float
+    rear_lidar: bool
+    seed: int
+
+
+def drives(car: CarShape) -> List[Drive]:
+    """All axes of the Car and ways along its sides, dry and in the rain, and a long way in the rain alone."""
+    places = [*_axes(car), *_sides(car)]
+    found = [Drive(name, start, length, speed, rain, rear, seed)
+             for seed, (name, start, length, speed) in enumerate(places) for rain in (0.0, 0.01)
+             for rear in (True, False)]
+    alone = Pose2(6.0, -6.0, math.pi / 2.0)
+    return [*found, *(Drive("rain", alone, 8.0, 1.0, 0.02, True, 1000 + seed) for seed in range(10))]
+
+
+def simulate(drive: Drive) -> Dict[str, Any]:
+    """How often drive control stopped it for nothing, and whether it got to both ends."""
+    rig = Rig(replace(SITE, start_in_car=drive.start), drive.seed, drive.rear_lidar, drive.rain, robot.LIFT_STROKE_M)
+    slowed_s, was_blocked = 0.0, False
+    ends, sentences = [], []
+    _stand(rig, SETTLING_S)
+    for sign in (1.0, -1.0):
+        for _ in range(round(LIMIT_S / TICK_S)):
+            along, wish = _wish(drive, rig.sim.truth().car_from_base, sign)
+            if (along >= drive.length_m) if sign > 0.0 else (along <= 0.0):
+                ends.append(along)
+                break
+            blocked = rig.step(wish).zone >= STOPPED
+            if blocked and not was_blocked:
+                sentences.append(rig.decision.message)
+            slowed_s += TICK_S if rig.decision.zone == SLOWED else 0.0
+            was_blocked = blocked
+        _stand(rig, TURNING_S)
+    return {"stops": sentences, "slowed_s": slowed_s, "ends": len(ends)}
+
+
+def _stand(rig: Rig, duration_s: float) -> None:
+    for _ in range(round(duration_s / TICK_S)):
+        rig.step((0.0, 0.0))
+
+
+def _wish(drive: Drive, pose: Pose2, sign: float) -> tuple:
+    """Way along the line, and the velocity that keeps to it."""
+    off = drive.start.inverse() @ pose
+    speed = sign * drive.speed_mps if rig_may_move(off) else 0.0
+    turn = -1.5 * wrap_angle(off.heading) - sign * 2.0 * off.y
+    wish: Wish = (speed, max(-0.5, min(0.5, turn)))
+    return off.x, wish
+
+
+def rig_may_move(off: Pose2) -> bool:
+    """False when it has lost its line, which would make contacts of the drive's own."""
+    return abs(off.y) < 0.1 and abs(wrap_angle(off.heading)) < 0.2
+
+
+def _axes(car: CarShape) -> List[tuple]:
+    """Axes of all sides and corners, facing the Car, up to the nearest distance of the key."""
+    half_length, half_width = car.length_m / 2.0, car.width_m / 2.0
+    feet = [(half_length, y, 0.0) for y in (-0.6, 0.0, 0.6)] + [(-half_length, y, math.pi) for y in (-0.6, 0.0, 0.6)]
+    feet += [(x, side * half_width, side * math.pi / 2.0) for side in (1.0, -1.0) for x in (-1.5, -0.5, 0.5, 1.5)]
+    feet += [(x * half_length, y * half_width, math.atan2(y, x)) for x in (1.0, -1.0) for y in (1.0, -1.0)]
+    found = []
+    for x, y, outward in feet:
+        far = FARTHEST_M + FRONT_M
+        start = Pose2(x + far * math.cos(outward), y + far * math.sin(outward), outward + math.pi)
+        found.append(("axis", start, FARTHEST_M - NEAREST_M, MEASURING_MPS))
+    return found
+
+
+def _sides(car: CarShape) -> List[tuple]:
+    """Ways along each side, the footprint at the nearest distance."""
+    x, y = car.length_m / 2.0 + NEAREST_M + HALF_WIDTH_M, car.width_m / 2.0 + NEAREST_M + HALF_WIDTH_M
+    return [("along", Pose2(-3.5, y, 0.0), 7.0, LAP_MPS), ("along", Pose2(3.5, -y, math.pi), 7.0, LAP_MPS),
+            ("across", Pose2(x, -2.5, math.pi / 2.0), 5.0, LAP_MPS),
+            ("across", Pose2(-x, 2.5, -math.pi / 2.0), 5.0, LAP_MPS)]

@@ -1,0 +1,130 @@
+"""One person who walks up to the moving robot, drawn by lot and simulated with the physics."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import Any, Dict, List, Tuple
+
+import numpy as np
+
+from mtr_core.se2 import Pose2
+from mtr_simulation import robot
+from mtr_simulation.scenario import Scenario, Walk
+
+from .rig import PERSON, Rig, Wish
+
+TICK_S = 0.02
+# Below this nothing moves; the wheels' encoders see as much at rest.
+STANDING_MPS = 0.02
+# The person walks on for so long after the place of the meeting.
+AFTER_S = 2.5
+BEYOND_M = 8.0
+# The front LiDAR sees 135 degrees to each side; a person who comes from behind that is not seen without a rear LiDAR.
+WATCHED_TO_RAD = math.radians(125.0)
+RAIN = 0.01
+BEARINGS = {"front": (0.0, 35.0), "side": (55.0, 125.0), "rear": (145.0, 180.0)}
+# The Car is out of sight.
+FAR_AWAY = Pose2(60.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Encounter:
+    """What happens.
+
+    Attributes:
+        seed: of the sensors' noise.
+        motion: forward, backward, arc or spin.
+        approach: front, side or rear, against the direction of motion.
+        rear_lidar: the robot has one.
+        watched: the person comes from where the robot can see.
+        wishes: what the planner wants and for how long.
+        walk: of the person.
+        rain: share of beams that end on a drop.
+        lift_m: height of the lift.
+    """
+
+    seed: int
+    motion: str
+    approach: str
+    rear_lidar: bool
+    watched: bool
+    wishes: Tuple[Tuple[float, Wish], ...]
+    walk: Walk
+    rain: float
+    lift_m: float
+
+
+def draw(seed: int) -> Encounter:
+    """The encounter of this number."""
+    random = np.random.default_rng([seed, 4])
+    rear_lidar = bool(random.random() < 0.7)
+    motion = str(random.choice(["forward", "backward", "arc", "spin"]))
+    approach = str(random.choice(list(BEARINGS)))
+    meeting_s = float(random.uniform(1.5, 3.5))
+    wishes = _wishes(random, motion, rear_lidar, meeting_s + AFTER_S)
+    meeting_s = sum(duration for duration, _ in wishes) - AFTER_S
+    place, wish = _expected(wishes, meeting_s)
+    low, high = (math.radians(bearing) for bearing in BEARINGS[approach])
+    from_motion = float(random.choice([-1.0, 1.0]) * random.uniform(low, high))
+    in_base = from_motion + (math.pi if wish[0] < 0.0 else 0.0)
+    aim = place.apply(*random.uniform(-0.4, 0.4, 2))
+    speed = float(random.uniform(0.5, 1.5) if random.random() < 0.5 else 1.5)
+    walk = _walk(random, aim, place.heading + in_base, speed, meeting_s)
+    watched = rear_lidar or abs(math.remainder(in_base, math.tau)) < WATCHED_TO_RAD
+    return Encounter(seed, motion, approach, rear_lidar, watched, wishes, walk, float(random.choice([0.0, RAIN])),
+                     float(random.choice([0.0, robot.LIFT_STROKE_M])))
+
+
+def simulate(encounter: Encounter) -> Dict[str, Any]:
+    """How it ends: whether the person touches the robot, and how fast the robot was just before that."""
+    scenario = Scenario(world_from_car=FAR_AWAY, start_in_car=FAR_AWAY.inverse(), start_offset_m=0.0,
+                        start_offset_rad=0.0, person=encounter.walk)
+    rig = Rig(scenario, encounter.seed, encounter.rear_lidar, encounter.rain, encounter.lift_m)
+    stopped, speed_mps, touched = False, 0.0, False
+    rig.step((0.0, 0.0))
+    for wish in _ticks(encounter.wishes):
+        speed_mps = rig.corner_speed_mps
+        decision = rig.step(wish)
+        stopped = stopped or decision.zone >= 2
+        # The person pushes the robot from then on.
+        if rig.sim.contacts() & PERSON:
+            touched = True
+            break
+    return {"touched": touched, "moving": touched and speed_mps > STANDING_MPS, "speed_mps": speed_mps,
+            "stopped": stopped}
+
+
+def _wishes(random: np.random.Generator, motion: str, rear_lidar: bool, duration_s: float) -> tuple:
+    linear, angular = float(random.uniform(0.3, 1.4)), float(random.choice([-1.0, 1.0]) * random.uniform(0.3, 1.0))
+    if motion == "forward":
+        return ((duration_s, (linear, 0.0)),)
+    if motion == "spin":
+        return ((duration_s, (0.0, angular)),)
+    if motion == "arc":
+        return ((duration_s, (0.6 * linear, angular)),)
+    # Without a rear LiDAR only ground that has just been seen is backed into: the robot's own track.
+    track = () if rear_lidar else ((4.0, (0.7, 0.0)), (1.0, (0.0, 0.0)))
+    return (*track, (duration_s, (-linear, 0.0)))
+
+
+def _walk(random: np.random.Generator, aim: Tuple[float, float], bearing: float, speed: float,
+          meeting_s: float) -> Walk:
+    """A person who is at aim when the robot should be; from afar all the time, or after standing nearby."""
+    direction = (math.cos(bearing), math.sin(bearing))
+    steps_in = bool(random.random() < 0.5)
+    distance = min(speed * meeting_s, float(random.uniform(1.2, 2.2))) if steps_in else speed * meeting_s
+    start = (aim[0] + distance * direction[0], aim[1] + distance * direction[1])
+    end = (aim[0] - BEYOND_M * direction[0], aim[1] - BEYOND_M * direction[1])
+    return Walk(start, end, speed, meeting_s - distance / speed)
+
+
+def _ticks(wishes: tuple) -> List[Wish]:
+    return [wish for duration, wish in wishes for _ in range(round(duration / TICK_S))]
+
+
+def _expected(wishes: tuple, meeting_s: float) -> Tuple[Pose2, Wish]:
+    """Where an undisturbed robot would be then, with 1 m/s2, and what it would want."""
+    pose, linear = Pose2(0.0, 0.0, 0.0), 0.0
+    for wish in _ticks(wishes)[:round(meeting_s / TICK_S)]:
+        linear += max(-TICK_S, min(TICK_S, wish[0] - linear))
+        pose = pose @ Pose2(linear * TICK_S, 0.0, wish[1] * TICK_S)
+    return pose, wish
