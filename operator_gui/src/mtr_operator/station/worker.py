@@ -82,8 +82,17 @@ class Worker:
         if self._open():
             self._mailbox.put(Connected())
             while not self._closing.is_set():
-                self._turn()
+                self._try_turn()
         self._close_links()
+
+    def _try_turn(self) -> None:
+        try:
+            self._turn()
+        # Whatever it was: with a new session the links may work again, and without this thread nothing would.
+        except Exception:
+            logging.exception("The link to the robot is opened anew after a defect.")
+            self._close_robot()
+            self._closing.wait(RETRY_S)
 
     def _run_errands(self) -> None:
         with contextlib.suppress(queue.Empty):
