@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import pathlib
+from typing import Callable
 
 from PyQt5.QtCore import Qt, QTimer, QUrl, pyqtSignal
 from PyQt5.QtGui import QDesktopServices
@@ -53,16 +54,7 @@ class ProtocolScreen(QWidget):
         self.title.setProperty("role", "heading")
         self.date.setProperty("role", "soft")
         self.told.setWordWrap(True)
-        self.table = QTableView()
-        self.table.setAccessibleName(self.tr("Results; choose a row to see its points"))
-        self.table.setSelectionBehavior(QTableView.SelectRows)
-        self.table.setSelectionMode(QTableView.SingleSelection)
-        self.table.setAlternatingRowColors(True)
-        self.table.setTabKeyNavigation(False)
-        self.table.verticalHeader().hide()
-        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeToContents)
-        self.table.horizontalHeader().setStretchLastSection(True)
-        self.table.setHorizontalScrollBarPolicy(Qt.ScrollBarAlwaysOff)
+        self.table = self._make_table()
         self.save = self._button(self.tr("Save"), "primary", lambda: self._write((CSV, PNG)))
         self.save.setToolTip(self.tr("Save as CSV and PNG"))
         self.save_pdf = self._button(self.tr("Save PDF"), "", lambda: self._write((PDF,)))
@@ -71,8 +63,21 @@ class ProtocolScreen(QWidget):
         self.done = self._button(self.tr("New test"), "", self.closed.emit)
         self._lay_out()
 
+    def _make_table(self) -> QTableView:
+        table = QTableView()
+        table.setAccessibleName(self.tr("Results; choose a row to see its points"))
+        table.setSelectionBehavior(QTableView.SelectRows)
+        table.setSelectionMode(QTableView.SingleSelection)
+        table.setAlternatingRowColors(True)
+        table.setTabKeyNavigation(False)
+        table.verticalHeader().hide()
+        table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeToContents)
+        table.horizontalHeader().setStretchLastSection(True)
+        table.setHorizontalScrollBarPolicy(Qt.ScrollBarAlwaysOff)
+        return table
+
     @staticmethod
-    def _button(text: str, role: str, act) -> QPushButton:
+    def _button(text: str, role: str, act: Callable[[], object]) -> QPushButton:
         button = QPushButton(text)
         button.setProperty("role", role)
         button.clicked.connect(lambda _checked: act())
