@@ -23,9 +23,9 @@ from ..report_writer import CSV, PDF, PNG, SVG, ReportWriter
 from ..sentences import translated
 from ..theme.appearance import Appearance
 from ..theme.scale import L, M, S
-from .results_model import ResultsModel
+from .results_model import PLACE_COLUMN, ResultsModel
 
-_SIDE_WIDTH = 560
+_SIDE_WIDTH = 600
 _CLICK_PX = 18.0
 
 
@@ -72,7 +72,6 @@ class ProtocolScreen(QWidget):
         table.setTabKeyNavigation(False)
         table.verticalHeader().hide()
         table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeToContents)
-        table.horizontalHeader().setStretchLastSection(True)
         table.setHorizontalScrollBarPolicy(Qt.ScrollBarAlwaysOff)
         return table
 
@@ -120,6 +119,7 @@ class ProtocolScreen(QWidget):
         self.title.setText(self.tr("{scenario} protocol").format(scenario=scenario_title(test.scenario)))
         self.date.setText(date_text(str(progress.session.get("started", ""))))
         self.table.setModel(ResultsModel(self.protocol, self))
+        self.table.horizontalHeader().setSectionResizeMode(PLACE_COLUMN, QHeaderView.Stretch)
         self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
         self.panel.legend.show_sets(self.protocol.picture.point_sets)
         self.panel.view.show_layers(self._picture.layers)

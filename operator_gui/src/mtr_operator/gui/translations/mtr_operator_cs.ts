@@ -739,7 +739,7 @@
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="120"/>
+        <location filename="../screens/protocol.py" line="119"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
