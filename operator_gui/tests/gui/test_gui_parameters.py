@@ -67,7 +67,7 @@ def test_whole_number_is_asked_for(form_of):
     ("autolock", {"minimum_distance_m": "5"}, "has to be below"),
     ("autolock", {"straightening_distance_m": "3.6"}, "has to be below"),
     ("autolock", {"minimum_distance_m": "0.1"}, "Clearance"),
-    ("autolock", {"measuring_speed_mps": "7"}, "Measuring speed\N{RIGHT DOUBLE QUOTATION MARK} is 7 km/h; allowed is at "),
+    ("autolock", {"measuring_speed_mps": "7"}, " is 7 km/h; allowed is at most "),
     ("key_press", {"minimum_distance_m": "7"}, "at most"),
     ("key_press", {"straightening_distance_m": "4"}, "at most"),
 ])

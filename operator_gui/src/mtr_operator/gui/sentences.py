@@ -39,8 +39,9 @@ def parameter_sentence(error: InvalidParameter, parameters_type: type[ParameterS
     # Longer names first: one may be the beginning of another.
     declarations = sorted(parameters_type.declarations().items(), key=lambda item: -len(item[1].file_key))
     for name, declared in declarations:
-        sentence = sentence.replace(declared.file_key, f"\N{LEFT DOUBLE QUOTATION MARK}{parameter_title(name, declared)}"
-                                                       "\N{RIGHT DOUBLE QUOTATION MARK}")
+        title = parameter_title(name, declared)
+        sentence = sentence.replace(
+            declared.file_key, f"\N{LEFT DOUBLE QUOTATION MARK}{title}\N{RIGHT DOUBLE QUOTATION MARK}")
     return sentence
 
 
