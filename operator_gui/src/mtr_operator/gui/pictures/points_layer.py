@@ -42,7 +42,7 @@ def draw_marker(painter: QPainter, look: Look, place: QPointF, radius: float) ->
 
 
 class AreasLayer(Layer):
-    """Attributes: sets: those that enclose an area are painted. is_complete: no line is missing; else areas are open."""
+    """Attributes: sets: those that enclose an area are painted. is_complete: no line is missing, so areas close."""
 
     def __init__(self, sets: Sequence[PointSet] = (), is_complete: bool = True):
         self.sets = tuple(sets)
