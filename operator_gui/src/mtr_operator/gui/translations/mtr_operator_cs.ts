@@ -321,37 +321,37 @@
         <translation>změřeno {done} z {total} přímek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="75"/>
+        <location filename="../screens/measurement_facts.py" line="76"/>
         <source>locked</source>
         <translation>zamčeno</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="75"/>
+        <location filename="../screens/measurement_facts.py" line="76"/>
         <source>unlocked</source>
         <translation>odemčeno</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="76"/>
+        <location filename="../screens/measurement_facts.py" line="77"/>
         <source>unknown</source>
         <translation>neznámý stav</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="80"/>
+        <location filename="../screens/measurement_facts.py" line="81"/>
         <source>not known</source>
         <translation>není známa</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="86"/>
+        <location filename="../screens/measurement_facts.py" line="87"/>
         <source>about {time} left</source>
         <translation>zbývá asi {time}</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="90"/>
+        <location filename="../screens/measurement_facts.py" line="91"/>
         <source>The robot is being stopped.</source>
         <translation>Robot se zastavuje.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="92"/>
+        <location filename="../screens/measurement_facts.py" line="93"/>
         <source>Paused. The line at hand is measured anew after Resume.</source>
         <translation>Pozastaveno. Rozpracovaná přímka se po pokračování změří znovu.</translation>
     </message>
