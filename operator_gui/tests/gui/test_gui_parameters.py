@@ -66,8 +66,8 @@ def test_whole_number_is_asked_for(form_of):
 @pytest.mark.parametrize(("name", "values", "part"), [
     ("autolock", {"minimum_distance_m": "5"}, "has to be below"),
     ("autolock", {"straightening_distance_m": "3.6"}, "has to be below"),
-    ("autolock", {"minimum_distance_m": "0.1"}, "clearance"),
-    ("autolock", {"measuring_speed_mps": "7"}, "at most"),
+    ("autolock", {"minimum_distance_m": "0.1"}, "Clearance"),
+    ("autolock", {"measuring_speed_mps": "7"}, " is 7 km/h; allowed is at most "),
     ("key_press", {"minimum_distance_m": "7"}, "at most"),
     ("key_press", {"straightening_distance_m": "4"}, "at most"),
 ])

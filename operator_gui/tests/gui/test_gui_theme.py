@@ -15,7 +15,8 @@ PAIRS = [(ink, ground) for ink in ("ink", "ink_soft", "ok", "warning", "danger",
     ("ink", "raised"), ("ink_soft", "raised"), ("on_accent", "accent"), ("on_tint", "tint"), ("on_signal", "ok"),
     ("on_signal", "warning"), ("on_signal", "danger"), ("ink", "body"), ("first", "surface"), ("second", "surface"),
     ("failed", "surface"), ("invalid", "surface"), ("surface", "ink")]
-SHAPES = [(colour, "surface") for colour in ("border", "edge", "trail", "waypoint", "key")] + [("border", "window")]
+SHAPES = [(colour, "surface") for colour in ("border", "edge", "trail", "waypoint", "key")] + [
+    ("border", "window"), ("robot_mark", "robot")]
 
 
 def test_contrast_of_black_and_white_is_the_largest():

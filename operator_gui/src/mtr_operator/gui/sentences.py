@@ -9,11 +9,16 @@ from __future__ import annotations
 import functools
 import re
 
+from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.parameters import KILOMETRES_PER_HOUR, ParameterSet, with_unit
+
 from .i18n import ENGLISH, decimal_sign, language_code, translate
-from .names import domain_word
+from .names import domain_word, parameter_title
 from .texts import application, robot
 
-_DECIMAL = re.compile(r"[+-]?\d+\.\d+")
+# A number, with or without its unit.
+_DECIMAL = re.compile(r"[+-]?\d+\.\d+( \S+)?")
+_SPEED = re.compile(r"(\d+(?:\.\d+)?) m/s")
 
 
 def translated(sentence: str) -> str:
@@ -25,6 +30,24 @@ def translated(sentence: str) -> str:
         if match is not None:
             return translate("Sentence", template).format(*map(_value, match.groups()))
     return sentence
+
+
+def parameter_sentence(error: InvalidParameter, parameters_type: type[ParameterSet]) -> str:
+    """Why parameters do not fit together, in the names and units of the window instead of those of files."""
+    sentence = _SPEED.sub(_in_kilometres_per_hour, str(error))
+    sentence = translated(sentence)
+    # Longer names first: one may be the beginning of another.
+    declarations = sorted(parameters_type.declarations().items(), key=lambda item: -len(item[1].file_key))
+    for name, declared in declarations:
+        title = parameter_title(name, declared)
+        sentence = sentence.replace(
+            declared.file_key, f"\N{LEFT DOUBLE QUOTATION MARK}{title}\N{RIGHT DOUBLE QUOTATION MARK}")
+    return sentence
+
+
+def _in_kilometres_per_hour(match: re.Match) -> str:
+    unit, per_si = KILOMETRES_PER_HOUR
+    return with_unit(round(float(match[1]) * per_si, 3), unit)
 
 
 def _value(text: str) -> str:

@@ -10,15 +10,12 @@ from typing import Callable
 
 from mtr_operator.domain.errors import InvalidParameter, OperatorError, OutputError
 from mtr_operator.domain.ports import CarLink
-from mtr_operator.domain.runner import Runner
-from mtr_operator.domain.session import Session
-from mtr_operator.domain.trouble import Cancelled
 
 from .connection import CanChoice, Connection, LinkOpener
 from .idle import CalibrationOrder, IdleSession
 from .mailbox import Mailbox
-from .news import CarLinkOpened, Connected, Ended, Outcome, Refused, Saved, Silence
-from .reporter import Reporter, copied
+from .measuring import Measuring
+from .news import CarLinkOpened, Connected, Refused, Saved, Silence
 from .test import Test
 from .watched_link import WatchedRobotLink
 
@@ -82,8 +79,17 @@ class Worker:
         if self._open():
             self._mailbox.put(Connected())
             while not self._closing.is_set():
-                self._turn()
+                self._try_turn()
         self._close_links()
+
+    def _try_turn(self) -> None:
+        try:
+            self._turn()
+        # Whatever it was: with a new session the links may work again, and without this thread nothing would.
+        except Exception:
+            logging.exception("The link to the robot is opened anew after a defect.")
+            self._close_robot()
+            self._closing.wait(RETRY_S)
 
     def _run_errands(self) -> None:
         with contextlib.suppress(queue.Empty):
@@ -160,36 +166,9 @@ class Worker:
             self._mailbox.put(Saved(""))
 
     def _measure(self, test: Test) -> None:
-        outcome, text = self._outcome_of(test)
-        test.discard_if_empty()
-        self._mailbox.put(Ended(outcome, text, copied(test.progress.results)))
-
-    def _outcome_of(self, test: Test) -> tuple[Outcome, str]:
-        try:
-            # Also proves, before the robot moves, that results can be written.
-            test.save()
-            self._run_runner(test)
-        except Cancelled:
-            return Outcome.STOPPED, ""
-        except OutputError as error:
-            return Outcome.NOT_SAVED, str(error)
-        except OperatorError as error:
-            return Outcome.FAILED, str(error)
-        # A defect must not take the window, and what was measured, with it.
-        except Exception as error:
-            logging.exception("The test ended by a defect of the application.")
-            return Outcome.FAILED, f"The application has a defect: {type(error).__name__}: {error}"
-        return Outcome.COMPLETE, ""
-
-    def _run_runner(self, test: Test) -> None:
         self._close_robot()
-        with contextlib.closing(self._new_robot()) as robot:
-            robot.connect()
-            reporter = Reporter(self._mailbox, robot, self._car, test.progress, self._run_errands)
-            session = Session(robot, self._car, reporter, self._stopping.is_set)
-            test.progress.session["robot software"] = session.status.software_version
-            Runner(test.scenario, test.parameters, session, test.progress, lambda progress: test.save()).run()
-            test.save()
+        measuring = Measuring(test, self._new_robot, self._car, self._mailbox)
+        self._mailbox.put(measuring.run(self._stopping.is_set, self._run_errands))
 
     def _close_robot(self) -> None:
         robot, self._robot, self._idle = self._robot, None, None

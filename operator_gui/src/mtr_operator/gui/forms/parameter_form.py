@@ -10,7 +10,7 @@ from PyQt5.QtWidgets import QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidg
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.parameters import ParameterSet
 
-from ..sentences import translated
+from ..sentences import parameter_sentence
 from ..theme.scale import L, M
 from .parameter_field import ParameterField
 
@@ -117,7 +117,7 @@ class ParameterForm(QWidget):
             try:
                 self._type(**{name: field.reading.value for name, field in self.fields.items()})
             except InvalidParameter as error:
-                sentence = translated(str(error))
+                sentence = parameter_sentence(error, self._type)
         elif any(self._rest.isAncestorOf(field) for field in faulty):
             self.more.setChecked(True)
         self.show_fault(sentence)

@@ -11,7 +11,7 @@ from .reasons import advice_text, reason_text, word_text
 
 # Told apart without colours too.
 _SIGNS = {Word.READY: "\N{CHECK MARK}", Word.WARNINGS: "!", Word.NOT_READY: "\N{MULTIPLICATION X}",
-          Word.MEASURING: "\N{BLACK RIGHT-POINTING TRIANGLE}", Word.PAUSED: "\N{DOUBLE VERTICAL BAR}",
+          Word.MEASURING: "\N{BLACK RIGHT-POINTING TRIANGLE}", Word.PAUSED: "\N{DOUBLE VERTICAL LINE}",
           Word.LOST: "\N{MULTIPLICATION X}"}
 
 

@@ -75,7 +75,8 @@ class Layer(ABC):
         """Paint it; the painter's state need not be restored."""
 
     def paint_news(self, canvas: Canvas) -> None:
-        """Paint what has been added since, over what is there already."""
+        """Paint what has been added since, over what is there already; a layer that cannot tell paints everything."""
+        self.paint(canvas)
 
     def points(self) -> Sequence[Point]:
         """Places that should be seen when everything is to be seen."""

@@ -70,6 +70,7 @@ class MeasurementPicture:
         car = mapped or USUAL_CAR
         picture = test.scenario.picture(test.parameters, car, desk.results)
         self.points.sets = self.areas.sets = picture.point_sets
+        self.areas.is_complete = desk.done == desk.total
         self.lines.is_visible = test.scenario.lines_stay
         self.lines.stretches = self._stretches(car)
         self._panel.legend.show_sets(picture.point_sets)

@@ -11,10 +11,12 @@ from PyQt5.QtGui import QColor, QPainter
 from mtr_operator.domain.picture import Look, PointSet
 from mtr_operator.domain.pose import Point
 
+from ..i18n import number
 from ..theme.palette import Palette
 from .layer import Canvas, Layer
 
 _RADIUS_PX = 5.5
+_LABEL_GAP_PX = 14.0
 _AREA_ALPHA = 0.12
 _BAR_ALPHA = 0.35
 
@@ -40,16 +42,17 @@ def draw_marker(painter: QPainter, look: Look, place: QPointF, radius: float) ->
 
 
 class AreasLayer(Layer):
-    """Attributes: sets: those that enclose an area are painted."""
+    """Attributes: sets: those that enclose an area are painted. is_complete: no line is missing, so areas close."""
 
-    def __init__(self, sets: Sequence[PointSet] = ()):
+    def __init__(self, sets: Sequence[PointSet] = (), is_complete: bool = True):
         self.sets = tuple(sets)
+        self.is_complete = is_complete
 
     def paint(self, canvas: Canvas) -> None:
         """See Layer."""
         for points in self.sets:
             if points.is_outline and len(points.known) > 2:
-                _paint_outline(canvas, points)
+                _paint_outline(canvas, points, self.is_complete)
 
 
 class PointsLayer(Layer):
@@ -82,21 +85,29 @@ class PointsLayer(Layer):
         canvas.painter.setFont(canvas.font(14.0, True))
         for points in self.sets:
             if points.look is Look.FIRST:
-                for x, y in points.known:
-                    distance = math.hypot(x, y)
-                    inward = 1.0 - 26.0 * canvas.unit / max(distance * canvas.viewport.px_per_m, 1.0)
-                    canvas.label(canvas.at((x * inward, y * inward)), f"{distance:.2f} m",
-                                 colour_of(points.look, canvas.palette))
+                for point in points.known:
+                    text = f"{number(math.hypot(*point), 2)} m"
+                    canvas.label(_inward(canvas, point, text), text, colour_of(points.look, canvas.palette))
 
 
-def _paint_outline(canvas: Canvas, points: PointSet) -> None:
+def _inward(canvas: Canvas, point: Point, text: str) -> QPointF:
+    """Where a text has room between a point and the Car's centre."""
+    place = canvas.at(point)
+    way = canvas.at((0.0, 0.0)) - place
+    length = max(math.hypot(way.x(), way.y()), 1e-9)
+    box = canvas.painter.fontMetrics().boundingRect(text)
+    room = (abs(way.x()) * box.width() + abs(way.y()) * box.height()) / (2.0 * length) + _LABEL_GAP_PX * canvas.unit
+    return place + way * (room / length)
+
+
+def _paint_outline(canvas: Canvas, points: PointSet, is_complete: bool) -> None:
     colour = colour_of(points.look, canvas.palette)
-    pieces = list(points.pieces())
+    pieces = list(points.pieces()) if is_complete else list(points.pieces())[:-1]
     for start, end, is_known in pieces:
         # A piece that bridges a line without a point is a guess.
         canvas.painter.setPen(canvas.pen(colour, 2.0 if is_known else 1.2, Qt.SolidLine if is_known else Qt.DotLine))
         canvas.painter.drawLine(canvas.at(start), canvas.at(end))
-    if all(is_known for _, _, is_known in pieces):
+    if is_complete and all(is_known for _, _, is_known in pieces):
         fill = QColor(colour)
         fill.setAlphaF(_AREA_ALPHA)
         canvas.painter.setPen(Qt.NoPen)

@@ -8,7 +8,7 @@ from PyQt5.QtGui import QColor, QPainter
 from mtr_operator.domain.scenario import REASON
 from mtr_operator.report.protocol_rows import Row, date_text, session_rows, summary_rows
 
-from ..i18n import translate
+from ..i18n import decimal_sign, translate
 from ..names import domain_word, parameter_title, scenario_title
 from ..sentences import translated
 from ..theme.palette import LIGHT
@@ -72,7 +72,7 @@ class ProtocolSheet:
         top += 10
         for heading, rows in ((translate("Protocol", "Result"), self._result_rows()),
                               (translate("Protocol", "Parameters"), self._parameter_rows()),
-                              (translate("Protocol", "Test"), _in_words(session_rows(progress)))):
+                              (translate("Protocol", "Test"), self._session_rows())):
             top = _paint_table(canvas, heading, rows, (left, top)) + 12
         self._paint_reasons(canvas, left, top)
 
@@ -86,8 +86,13 @@ class ProtocolSheet:
         for name, declared in protocol.scenario.parameters_type.declarations().items():
             value = protocol.progress.parameters[declared.file_key]
             if value is not None:
-                rows.append((parameter_title(name, declared), declared.shown_text(value)))
+                shown = declared.shown_text(value).replace(".", decimal_sign())
+                rows.append((parameter_title(name, declared), shown))
         return rows
+
+    def _session_rows(self) -> list[Row]:
+        (car, size), *rows = session_rows(self._protocol.progress)
+        return _in_words([(car, size.replace(".", decimal_sign())), *rows])
 
     def _paint_reasons(self, canvas: Canvas, left: float, top: float) -> None:
         scenario = self._protocol.scenario

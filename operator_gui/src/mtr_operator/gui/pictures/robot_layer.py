@@ -63,7 +63,8 @@ class RobotLayer(Layer):
         painter.setPen(canvas.pen(palette.ink, 1.8))
         painter.setBrush(QColor(palette.robot))
         painter.drawPolygon(canvas.polygon(_outline(pose)))
-        painter.setBrush(QColor(palette.ink))
+        painter.setPen(Qt.NoPen)
+        painter.setBrush(QColor(palette.robot_mark))
         tip, back = 0.42 * _LENGTH_M, -0.1 * _LENGTH_M
         painter.drawPolygon(canvas.polygon([pose.apply((tip, 0.0)), pose.apply((back, 0.14)),
                                             pose.apply((back, -0.14))]))

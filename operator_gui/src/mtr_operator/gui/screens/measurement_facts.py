@@ -62,6 +62,7 @@ class MeasurementFacts(QFrame):
         self.bar.setValue(desk.percent)
         self.count.setText(self.tr("{done} of {total} lines measured").format(done=desk.done, total=desk.total))
         self.left.setText(self._left_text(desk))
+        self.left.setVisible(bool(self.left.text()))
         self.action.setText(self._action_text(desk))
         self.values["newest"].setText(newest_text(desk))
         car = desk.mapped_car

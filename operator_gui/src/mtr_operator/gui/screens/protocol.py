@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import pathlib
+from typing import Callable
 
 from PyQt5.QtCore import Qt, QTimer, QUrl, pyqtSignal
 from PyQt5.QtGui import QDesktopServices
@@ -22,9 +23,9 @@ from ..report_writer import CSV, PDF, PNG, SVG, ReportWriter
 from ..sentences import translated
 from ..theme.appearance import Appearance
 from ..theme.scale import L, M, S
-from .results_model import ResultsModel
+from .results_model import PLACE_COLUMN, ResultsModel
 
-_SIDE_WIDTH = 560
+_SIDE_WIDTH = 600
 _CLICK_PX = 18.0
 
 
@@ -53,16 +54,7 @@ class ProtocolScreen(QWidget):
         self.title.setProperty("role", "heading")
         self.date.setProperty("role", "soft")
         self.told.setWordWrap(True)
-        self.table = QTableView()
-        self.table.setAccessibleName(self.tr("Results; choose a row to see its points"))
-        self.table.setSelectionBehavior(QTableView.SelectRows)
-        self.table.setSelectionMode(QTableView.SingleSelection)
-        self.table.setAlternatingRowColors(True)
-        self.table.setTabKeyNavigation(False)
-        self.table.verticalHeader().hide()
-        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeToContents)
-        self.table.horizontalHeader().setStretchLastSection(True)
-        self.table.setHorizontalScrollBarPolicy(Qt.ScrollBarAlwaysOff)
+        self.table = self._make_table()
         self.save = self._button(self.tr("Save"), "primary", lambda: self._write((CSV, PNG)))
         self.save.setToolTip(self.tr("Save as CSV and PNG"))
         self.save_pdf = self._button(self.tr("Save PDF"), "", lambda: self._write((PDF,)))
@@ -71,8 +63,20 @@ class ProtocolScreen(QWidget):
         self.done = self._button(self.tr("New test"), "", self.closed.emit)
         self._lay_out()
 
+    def _make_table(self) -> QTableView:
+        table = QTableView()
+        table.setAccessibleName(self.tr("Results; choose a row to see its points"))
+        table.setSelectionBehavior(QTableView.SelectRows)
+        table.setSelectionMode(QTableView.SingleSelection)
+        table.setAlternatingRowColors(True)
+        table.setTabKeyNavigation(False)
+        table.verticalHeader().hide()
+        table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeToContents)
+        table.setHorizontalScrollBarPolicy(Qt.ScrollBarAlwaysOff)
+        return table
+
     @staticmethod
-    def _button(text: str, role: str, act) -> QPushButton:
+    def _button(text: str, role: str, act: Callable[[], object]) -> QPushButton:
         button = QPushButton(text)
         button.setProperty("role", role)
         button.clicked.connect(lambda _checked: act())
@@ -115,6 +119,7 @@ class ProtocolScreen(QWidget):
         self.title.setText(self.tr("{scenario} protocol").format(scenario=scenario_title(test.scenario)))
         self.date.setText(date_text(str(progress.session.get("started", ""))))
         self.table.setModel(ResultsModel(self.protocol, self))
+        self.table.horizontalHeader().setSectionResizeMode(PLACE_COLUMN, QHeaderView.Stretch)
         self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
         self.panel.legend.show_sets(self.protocol.picture.point_sets)
         self.panel.view.show_layers(self._picture.layers)

@@ -15,6 +15,7 @@ from ..sentences import translated
 
 _CM_PER_M = 100.0
 _FIXED_COLUMNS = 2
+PLACE_COLUMN = 1
 
 
 class ResultsModel(QAbstractTableModel):

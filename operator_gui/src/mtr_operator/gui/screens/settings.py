@@ -18,7 +18,7 @@ from ..pictures.car_layer import CarLayer
 from ..pictures.lines_layer import LinesLayer
 from ..pictures.picture_panel import PicturePanel
 from ..pictures.surroundings import GridLayer, ScaleLayer
-from ..sentences import translated
+from ..sentences import parameter_sentence
 from ..theme.appearance import Appearance
 from ..theme.scale import L, M, S
 
@@ -104,7 +104,7 @@ class SettingsScreen(QWidget):
                 self.form.show_fault("")
                 self._lines.stretches, self._lines.is_visible = self._plan.stretches, True
             except InvalidParameter as error:
-                self.form.show_fault(translated(str(error)))
+                self.form.show_fault(parameter_sentence(error, self._scenario.parameters_type))
         self.picture.view.show_layers([GridLayer(), self._lines, CarLayer(car, mapped is not None), ScaleLayer()])
         self.told.setText(self._forecast(mapped is not None))
         self._judge()

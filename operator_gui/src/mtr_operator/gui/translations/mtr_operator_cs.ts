@@ -37,52 +37,52 @@
         <translation>Odeslat</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="64"/>
+        <location filename="../windows/calibration_window.py" line="83"/>
         <source>Wanted</source>
         <translation>Požadováno</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="64"/>
+        <location filename="../windows/calibration_window.py" line="97"/>
         <source>Reported by the robot</source>
         <translation>Hlášeno robotem</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="68"/>
+        <location filename="../windows/calibration_window.py" line="86"/>
         <source>Buttons to press</source>
         <translation>Tlačítka ke stisknutí</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="76"/>
+        <location filename="../windows/calibration_window.py" line="98"/>
         <source>Key height</source>
         <translation>Výška klíče</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="76"/>
+        <location filename="../windows/calibration_window.py" line="98"/>
         <source>Buttons pressed</source>
         <translation>Stisknutá tlačítka</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="77"/>
+        <location filename="../windows/calibration_window.py" line="99"/>
         <source>Press strength ordered</source>
         <translation>Požadovaná síla stisku</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="90"/>
+        <location filename="../windows/calibration_window.py" line="64"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="118"/>
+        <location filename="../windows/calibration_window.py" line="124"/>
         <source>none</source>
         <translation>žádné</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="127"/>
+        <location filename="../windows/calibration_window.py" line="133"/>
         <source>Pressed for {duration} s.</source>
         <translation>Stisknuto po dobu {duration} s.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="141"/>
+        <location filename="../windows/calibration_window.py" line="147"/>
         <source>Sent.</source>
         <translation>Odesláno.</translation>
     </message>
@@ -268,12 +268,12 @@
         <translation>Test běží. Zastavit robot a zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="139"/>
+        <location filename="../windows/main_window.py" line="141"/>
         <source>Stop and close</source>
         <translation>Zastavit a zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="139"/>
+        <location filename="../windows/main_window.py" line="141"/>
         <source>Go on measuring</source>
         <translation>Měřit dál</translation>
     </message>
@@ -321,37 +321,37 @@
         <translation>změřeno {done} z {total} přímek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="75"/>
+        <location filename="../screens/measurement_facts.py" line="76"/>
         <source>locked</source>
         <translation>zamčeno</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="75"/>
+        <location filename="../screens/measurement_facts.py" line="76"/>
         <source>unlocked</source>
         <translation>odemčeno</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="76"/>
+        <location filename="../screens/measurement_facts.py" line="77"/>
         <source>unknown</source>
         <translation>neznámý stav</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="80"/>
+        <location filename="../screens/measurement_facts.py" line="81"/>
         <source>not known</source>
         <translation>není známa</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="86"/>
+        <location filename="../screens/measurement_facts.py" line="87"/>
         <source>about {time} left</source>
         <translation>zbývá asi {time}</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="90"/>
+        <location filename="../screens/measurement_facts.py" line="91"/>
         <source>The robot is being stopped.</source>
         <translation>Robot se zastavuje.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="92"/>
+        <location filename="../screens/measurement_facts.py" line="93"/>
         <source>Paused. The line at hand is measured anew after Resume.</source>
         <translation>Pozastaveno. Rozpracovaná přímka se po pokračování změří znovu.</translation>
     </message>
@@ -681,22 +681,22 @@
 <context>
     <name>Protocol</name>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="57"/>
+        <location filename="../pictures/protocol_sheet.py" line="60"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="70"/>
+        <location filename="../pictures/protocol_sheet.py" line="73"/>
         <source>Result</source>
         <translation>Výsledek</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="70"/>
+        <location filename="../pictures/protocol_sheet.py" line="73"/>
         <source>Parameters</source>
         <translation>Parametry</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="70"/>
+        <location filename="../pictures/protocol_sheet.py" line="73"/>
         <source>Test</source>
         <translation>Test</translation>
     </message>
@@ -704,67 +704,67 @@
 <context>
     <name>ProtocolScreen</name>
     <message>
-        <location filename="../screens/protocol.py" line="57"/>
+        <location filename="../screens/protocol.py" line="68"/>
         <source>Results; choose a row to see its points</source>
         <translation>Výsledky; vyberte řádek a uvidíte jeho body</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="66"/>
+        <location filename="../screens/protocol.py" line="58"/>
         <source>Save</source>
         <translation>Uložit</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="67"/>
+        <location filename="../screens/protocol.py" line="59"/>
         <source>Save as CSV and PNG</source>
         <translation>Uložit jako CSV a PNG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="68"/>
+        <location filename="../screens/protocol.py" line="60"/>
         <source>Save PDF</source>
         <translation>Uložit PDF</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="69"/>
+        <location filename="../screens/protocol.py" line="61"/>
         <source>Save SVG</source>
         <translation>Uložit SVG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="70"/>
+        <location filename="../screens/protocol.py" line="62"/>
         <source>Show folder</source>
         <translation>Ukázat složku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="71"/>
+        <location filename="../screens/protocol.py" line="63"/>
         <source>New test</source>
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="115"/>
+        <location filename="../screens/protocol.py" line="119"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="129"/>
+        <location filename="../screens/protocol.py" line="134"/>
         <source>{count} lines, {invalid} of them invalid. Not saved as CSV and PNG yet.</source>
         <translation>Počet přímek: {count}, z toho neplatných: {invalid}. Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="131"/>
+        <location filename="../screens/protocol.py" line="136"/>
         <source>{count} lines. Not saved as CSV and PNG yet.</source>
         <translation>Počet přímek: {count}. Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="165"/>
+        <location filename="../screens/protocol.py" line="170"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="170"/>
+        <location filename="../screens/protocol.py" line="175"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="174"/>
+        <location filename="../screens/protocol.py" line="179"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
@@ -1704,117 +1704,117 @@
 <context>
     <name>SettingsWindow</name>
     <message>
-        <location filename="../windows/settings_window.py" line="35"/>
+        <location filename="../windows/settings_window.py" line="36"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="39"/>
+        <location filename="../windows/settings_window.py" line="40"/>
         <source>Results</source>
         <translation>Výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="40"/>
+        <location filename="../windows/settings_window.py" line="41"/>
         <source>Progress of tests</source>
         <translation>Průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="41"/>
+        <location filename="../windows/settings_window.py" line="42"/>
         <source>IP address</source>
         <translation>IP adresa</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="42"/>
+        <location filename="../windows/settings_window.py" line="43"/>
         <source>Subscriber port</source>
         <translation>Port odběratele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="43"/>
+        <location filename="../windows/settings_window.py" line="44"/>
         <source>Publisher port</source>
         <translation>Port vydavatele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="46"/>
+        <location filename="../windows/settings_window.py" line="47"/>
         <source>As the system</source>
         <translation>Podle systému</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="44"/>
+        <location filename="../windows/settings_window.py" line="45"/>
         <source>Light</source>
         <translation>Světlý</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="44"/>
+        <location filename="../windows/settings_window.py" line="45"/>
         <source>Dark</source>
         <translation>Tmavý</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="50"/>
+        <location filename="../windows/settings_window.py" line="51"/>
         <source>Use this adapter</source>
         <translation>Použít tento adaptér</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="58"/>
+        <location filename="../windows/settings_window.py" line="59"/>
         <source>The CAN adapter is in use.</source>
         <translation>Adaptér CAN se používá.</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="80"/>
+        <location filename="../windows/settings_window.py" line="98"/>
         <source>Folders</source>
         <translation>Složky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="80"/>
+        <location filename="../windows/settings_window.py" line="114"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="84"/>
+        <location filename="../windows/settings_window.py" line="101"/>
         <source>Appearance</source>
         <translation>Vzhled</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="85"/>
+        <location filename="../windows/settings_window.py" line="102"/>
         <source>Theme</source>
         <translation>Motiv</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="85"/>
+        <location filename="../windows/settings_window.py" line="102"/>
         <source>Language</source>
         <translation>Jazyk</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="101"/>
+        <location filename="../windows/settings_window.py" line="121"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="105"/>
+        <location filename="../windows/settings_window.py" line="81"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="122"/>
+        <location filename="../windows/settings_window.py" line="128"/>
         <source>Change</source>
         <translation>Změnit</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="123"/>
+        <location filename="../windows/settings_window.py" line="129"/>
         <source>Change the folder: {what}</source>
         <translation>Změnit složku: {what}</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="136"/>
+        <location filename="../windows/settings_window.py" line="142"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="143"/>
+        <location filename="../windows/settings_window.py" line="149"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="154"/>
+        <location filename="../windows/settings_window.py" line="160"/>
         <source>The language changes when the application is started next.</source>
         <translation>Jazyk se změní při příštím spuštění aplikace.</translation>
     </message>

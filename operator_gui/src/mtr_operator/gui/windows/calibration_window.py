@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Sequence
 
-from PyQt5.QtWidgets import QCheckBox, QDialog, QGridLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QCheckBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.parameters import Declaration
 from mtr_operator.domain.ports import PressConfirmation
@@ -61,32 +61,6 @@ class CalibrationWindow(QDialog):
         return field
 
     def _lay_out(self) -> None:
-        wanted_card, reported_card = Card(self.tr("Wanted")), Card(self.tr("Reported by the robot"))
-        wanted, reported = wanted_card.column, reported_card.column
-        for field in (self.key_height, self.strength, self.press_s):
-            wanted.addWidget(field)
-        wanted.addWidget(QLabel(self.tr("Buttons to press")))
-        boxes = QHBoxLayout()
-        boxes.setSpacing(L)
-        for box in self.buttons.values():
-            boxes.addWidget(box)
-        boxes.addStretch(1)
-        wanted.addLayout(boxes)
-        wanted.addStretch(1)
-        titles = {"height": self.tr("Key height"), "buttons": self.tr("Buttons pressed"),
-                  "strength": self.tr("Press strength ordered")}
-        grid = QGridLayout()
-        grid.setVerticalSpacing(S)
-        for row, (name, label) in enumerate(self.reported.items()):
-            label.setProperty("role", "heading")
-            label.setAccessibleName(titles[name])
-            heading = QLabel(titles[name])
-            heading.setProperty("role", "soft")
-            grid.addWidget(heading, 2 * row, 0)
-            grid.addWidget(label, 2 * row + 1, 0)
-        reported.addLayout(grid)
-        reported.addWidget(self.told)
-        reported.addStretch(1)
         close = QPushButton(self.tr("Close"))
         close.clicked.connect(self.reject)
         row = QHBoxLayout()
@@ -96,14 +70,46 @@ class CalibrationWindow(QDialog):
         row.addWidget(self.send)
         cards = QHBoxLayout()
         cards.setSpacing(M)
-        for card in (wanted_card, reported_card):
-            cards.addWidget(card, 1)
+        cards.addWidget(self._wanted_card(), 1)
+        cards.addWidget(self._reported_card(), 1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(M)
         layout.addLayout(cards, 1)
         layout.addLayout(row)
         self.send.setDefault(True)
+
+    def _wanted_card(self) -> Card:
+        card = Card(self.tr("Wanted"))
+        for field in (self.key_height, self.strength, self.press_s):
+            card.column.addWidget(field)
+        card.column.addWidget(QLabel(self.tr("Buttons to press")))
+        boxes = QHBoxLayout()
+        boxes.setSpacing(L)
+        for box in self.buttons.values():
+            boxes.addWidget(box)
+        boxes.addStretch(1)
+        card.column.addLayout(boxes)
+        card.column.addStretch(1)
+        return card
+
+    def _reported_card(self) -> Card:
+        card = Card(self.tr("Reported by the robot"))
+        titles = {"height": self.tr("Key height"), "buttons": self.tr("Buttons pressed"),
+                  "strength": self.tr("Press strength ordered")}
+        for name, label in self.reported.items():
+            label.setProperty("role", "heading")
+            label.setAccessibleName(titles[name])
+            heading = QLabel(titles[name])
+            heading.setProperty("role", "soft")
+            group = QVBoxLayout()
+            group.setSpacing(S)
+            group.addWidget(heading)
+            group.addWidget(label)
+            card.column.addLayout(group)
+        card.column.addWidget(self.told)
+        card.column.addStretch(1)
+        return card
 
     def show_desk(self) -> None:
         """Show what the robot says now."""

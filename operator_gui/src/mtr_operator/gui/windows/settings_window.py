@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import pathlib
+from typing import Callable
 
 from PyQt5.QtCore import Qt
 from PyQt5.QtWidgets import QComboBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
@@ -77,31 +78,6 @@ class SettingsWindow(QDialog):
         return box
 
     def _lay_out(self) -> None:
-        left_card, right_card = Card(self.tr("Folders")), Card(self.tr("Robot"))
-        left, right = left_card.column, right_card.column
-        for field, choose in ((self.results, self.choose_results), (self.progress, self.choose_progress)):
-            left.addLayout(self._folder_row(field, choose))
-        left_card.add_heading(self.tr("Appearance"))
-        for title, box in ((self.tr("Theme"), self.theme), (self.tr("Language"), self.language)):
-            label = QLabel(title)
-            label.setBuddy(box)
-            box.setAccessibleName(title)
-            group = QVBoxLayout()
-            group.setSpacing(XS)
-            group.addWidget(label)
-            group.addWidget(box)
-            left.addLayout(group)
-        left.addStretch(1)
-        right.addWidget(self.host)
-        ports = QHBoxLayout()
-        ports.setSpacing(M)
-        ports.addWidget(self.subscriber_port)
-        ports.addWidget(self.publisher_port)
-        right.addLayout(ports)
-        right_card.add_heading(self.tr("Car"))
-        right.addWidget(self.can)
-        right.addWidget(self.use_can)
-        right.addStretch(1)
         close = QPushButton(self.tr("Close"))
         close.setDefault(True)
         close.clicked.connect(self.accept)
@@ -110,15 +86,45 @@ class SettingsWindow(QDialog):
         row.addWidget(close)
         cards = QHBoxLayout()
         cards.setSpacing(M)
-        cards.addWidget(left_card, 1, Qt.AlignTop)
-        cards.addWidget(right_card, 1)
+        cards.addWidget(self._own_card(), 1, Qt.AlignTop)
+        cards.addWidget(self._connection_card(), 1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(M)
         layout.addLayout(cards, 1)
         layout.addLayout(row)
 
-    def _folder_row(self, field: Field, choose) -> QHBoxLayout:
+    def _own_card(self) -> Card:
+        card = Card(self.tr("Folders"))
+        for field, choose in ((self.results, self.choose_results), (self.progress, self.choose_progress)):
+            card.column.addLayout(self._folder_row(field, choose))
+        card.add_heading(self.tr("Appearance"))
+        for title, box in ((self.tr("Theme"), self.theme), (self.tr("Language"), self.language)):
+            label = QLabel(title)
+            label.setBuddy(box)
+            box.setAccessibleName(title)
+            group = QVBoxLayout()
+            group.setSpacing(XS)
+            group.addWidget(label)
+            group.addWidget(box)
+            card.column.addLayout(group)
+        return card
+
+    def _connection_card(self) -> Card:
+        card = Card(self.tr("Robot"))
+        card.column.addWidget(self.host)
+        ports = QHBoxLayout()
+        ports.setSpacing(M)
+        ports.addWidget(self.subscriber_port)
+        ports.addWidget(self.publisher_port)
+        card.column.addLayout(ports)
+        card.add_heading(self.tr("Car"))
+        card.column.addWidget(self.can)
+        card.column.addWidget(self.use_can)
+        card.column.addStretch(1)
+        return card
+
+    def _folder_row(self, field: Field, choose: Callable[[], None]) -> QHBoxLayout:
         button = QPushButton(self.tr("Change"))
         button.setAccessibleName(self.tr("Change the folder: {what}").format(what=field.label.text()))
         button.clicked.connect(choose)

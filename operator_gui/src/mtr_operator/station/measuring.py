@@ -1,0 +1,63 @@
+"""One run of a test, in a session of its own, and how it ended."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import contextlib
+import logging
+from typing import Callable
+
+from mtr_operator.domain.errors import OperatorError, OutputError
+from mtr_operator.domain.ports import CarLink
+from mtr_operator.domain.runner import Runner
+from mtr_operator.domain.session import Session
+from mtr_operator.domain.trouble import Cancelled
+
+from .mailbox import Mailbox
+from .news import Ended, Outcome
+from .reporter import Reporter, copied
+from .test import Test
+from .watched_link import WatchedRobotLink
+
+
+class Measuring:
+    """Measures what is left of a test with the runner of the command line."""
+
+    def __init__(self, test: Test, new_robot: Callable[[], WatchedRobotLink], car: CarLink, mailbox: Mailbox):
+        self._test = test
+        self._new_robot = new_robot
+        self._car = car
+        self._mailbox = mailbox
+
+    def run(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> Ended:
+        """Measure; never raises, for what is measured has to be told in any case."""
+        test = self._test
+        outcome, text = self._outcome(is_cancelled, after_status)
+        test.discard_if_empty()
+        return Ended(outcome, text, copied(test.progress.results))
+
+    def _outcome(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> tuple[Outcome, str]:
+        try:
+            # Also proves, before the robot moves, that results can be written.
+            self._test.save()
+            self._measure(is_cancelled, after_status)
+        except Cancelled:
+            return Outcome.STOPPED, ""
+        except OutputError as error:
+            return Outcome.NOT_SAVED, str(error)
+        except OperatorError as error:
+            return Outcome.FAILED, str(error)
+        # A defect must not take the window, and what was measured, with it.
+        except Exception as error:
+            logging.exception("The test ended by a defect of the application.")
+            return Outcome.FAILED, f"The application has a defect: {type(error).__name__}: {error}"
+        return Outcome.COMPLETE, ""
+
+    def _measure(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> None:
+        test = self._test
+        with contextlib.closing(self._new_robot()) as robot:
+            robot.connect()
+            reporter = Reporter(self._mailbox, robot, self._car, test.progress, after_status)
+            session = Session(robot, self._car, reporter, is_cancelled)
+            test.progress.session["robot software"] = session.status.software_version
+            Runner(test.scenario, test.parameters, session, test.progress, lambda progress: test.save()).run()
+            test.save()

@@ -1,0 +1,44 @@
+"""How the window is started."""
+# SPDX-License-Identifier: Apache-2.0
+import sys
+
+import pytest
+
+from mtr_operator.cli import main
+from mtr_operator.station.connection import CanChoice
+
+
+@pytest.fixture
+def started(monkeypatch):
+    calls = []
+    monkeypatch.setattr("mtr_operator.gui.app.run", lambda robot, can: calls.append((robot, can)) or 0)
+    return calls
+
+
+def test_no_command_opens_the_window(started):
+    assert main([]) == 0
+    assert started == [({}, {})]
+
+
+def test_window_takes_what_is_given(started):
+    assert main(["window", "--robot", "10.0.0.7", "--publisher-port", "5", "--can-interface", "socketcan",
+                 "--can-channel", "can0", "--can-bitrate", "250000"]) == 0
+    assert started == [({"host": "10.0.0.7", "publisher_port": 5},
+                        {"interface": "socketcan", "channel": "can0", "bitrate_bps": 250000})]
+
+
+def test_given_values_are_filled_in(start):
+    application = start()
+    application.open({"host": "10.0.0.7"}, {"channel": "/dev/ttyACM3"})
+    window = application.window
+    assert (window.robot.host.text, window.robot.subscriber_port.text) == ("10.0.0.7", "3334")
+    assert window.can.choice == CanChoice("slcan", "/dev/ttyACM3")
+
+
+def test_missing_qt_is_one_sentence(monkeypatch, capsys):
+    for name in [name for name in sys.modules if name.startswith("mtr_operator.gui")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "PyQt5", None)
+    monkeypatch.setitem(sys.modules, "PyQt5.QtCore", None)
+    assert main([]) == 2
+    assert capsys.readouterr().err.startswith("The window needs PyQt5")

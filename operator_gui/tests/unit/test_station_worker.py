@@ -1,0 +1,190 @@
+"""The thread of the links, with the kinematic robot and Car of these tests."""
+# SPDX-License-Identifier: Apache-2.0
+import json
+import threading
+
+import pytest
+
+from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.station.connection import SIMULATED, CanChoice, Connection, LinkOpener, robot_choice
+from mtr_operator.station.idle import CalibrationOrder
+from mtr_operator.station.mailbox import Mailbox
+from mtr_operator.station.news import CarLinkOpened, Connected, Ended, Measured, Outcome, Refused, Saved
+from mtr_operator.station.no_car import NoCarLink
+from mtr_operator.station.test import new_test, open_test
+from mtr_operator.station.worker import Worker
+
+LIMIT_S = 30.0
+CONNECTION = Connection(can=CanChoice(SIMULATED))
+
+
+class Opener(LinkOpener):
+    """Hands out the world's links, or refuses."""
+
+    def __init__(self, robot, car):
+        self._robot, self._car = robot, car
+        self.refusal = None
+
+    def robot(self, choice):
+        if self.refusal:
+            raise self.refusal
+        return self._robot
+
+    def car(self, choice):
+        return NoCarLink() if choice is None else self._car
+
+
+class Post:
+    """Mailbox whose events can be waited for."""
+
+    def __init__(self):
+        self.news, self._arrived = [], threading.Event()
+        self.box = Mailbox(self._arrived.set)
+
+    def wait_for(self, kind):
+        """The first event of a kind that was not taken yet."""
+        while True:
+            for event in self.news:
+                if isinstance(event, kind):
+                    self.news.remove(event)
+                    return event
+            assert self._arrived.wait(LIMIT_S), f"no {kind.__name__}; there were {self.news}"
+            self._arrived.clear()
+            self.news += self.box.take().events
+
+
+@pytest.fixture
+def post():
+    return Post()
+
+
+@pytest.fixture
+def opener(robot_link, car_link):
+    return Opener(robot_link, car_link)
+
+
+@pytest.fixture
+def worker(opener, post):
+    made = Worker(CONNECTION, opener, post.box)
+    yield made
+    assert made.close(LIMIT_S)
+
+
+@pytest.fixture
+def four_lines(tmp_path):
+    scenario = SCENARIOS["key_press"]
+    parameters = scenario.parameters_type.from_mapping({"angle_between_radials_deg": 90.0})
+    return new_test(scenario, parameters, tmp_path / "progress", CONNECTION)
+
+
+def stored(test):
+    return json.loads(test.path.read_text(encoding="utf-8"))["results"]
+
+
+def test_whole_test_is_told_line_by_line_and_is_on_disk(worker, post, four_lines):
+    worker.start()
+    post.wait_for(Connected)
+    worker.run_test(four_lines)
+    counts = [post.wait_for(Measured).done for _ in range(4)]
+    ended = post.wait_for(Ended)
+    assert counts == [1, 2, 3, 4]
+    assert (ended.outcome, ended.text, len(ended.results)) == (Outcome.COMPLETE, "", 4)
+    assert len(stored(four_lines)) == 4
+    assert open_test(four_lines.path).is_complete
+
+
+@pytest.mark.parametrize(("refusal", "part"), [
+    (InvalidParameter("Robot address is x."), "address"), (ConnectionFailed("Nothing listens there."), "robot")])
+def test_refusal_names_the_part_and_ends_the_thread(worker, post, opener, refusal, part):
+    opener.refusal = refusal
+    worker.start()
+    refused = post.wait_for(Refused)
+    assert (refused.part, refused.text) == (part, str(refusal))
+
+
+def test_stop_ends_the_test_and_the_rest_is_measured_later(worker, post, four_lines, robot_link):
+    worker.start()
+    worker.run_test(four_lines)
+    post.wait_for(Measured)
+    worker.stop_test()
+    assert post.wait_for(Ended).outcome is Outcome.STOPPED
+    before = stored(four_lines)
+    assert any(desired.stop for _, desired in robot_link.answers)
+    later = open_test(four_lines.path)
+    worker.run_test(later)
+    assert post.wait_for(Ended).outcome is Outcome.COMPLETE
+    assert stored(later)[:len(before)] == before
+
+
+def test_defect_of_a_scenario_is_a_sentence_and_the_thread_goes_on(worker, post, four_lines, monkeypatch):
+    worker.start()
+    monkeypatch.setattr(type(four_lines.scenario), "lines", lambda *_: 1 / 0)
+    worker.run_test(four_lines)
+    ended = post.wait_for(Ended)
+    assert ended.outcome is Outcome.FAILED
+    assert "ZeroDivisionError" in ended.text
+    worker.use_can(None)
+    post.wait_for(CarLinkOpened)
+
+
+def test_robot_that_cannot_be_reached_ends_the_test_and_loses_nothing(worker, post, four_lines, opener):
+    worker.start()
+    worker.run_test(four_lines)
+    post.wait_for(Measured)
+    worker.stop_test()
+    post.wait_for(Ended)
+    before = stored(four_lines)
+    opener.refusal = ConnectionFailed("No answer from the subscriber port.")
+    worker.run_test(four_lines)
+    ended = post.wait_for(Ended)
+    assert (ended.outcome, ended.text) == (Outcome.FAILED, "No answer from the subscriber port.")
+    assert stored(four_lines) == before
+
+
+def test_progress_is_saved_on_request_while_measuring(worker, post, four_lines):
+    worker.start()
+    worker.run_test(four_lines)
+    post.wait_for(Measured)
+    worker.save(four_lines)
+    assert post.wait_for(Saved).text == ""
+    assert post.wait_for(Ended).outcome is Outcome.COMPLETE
+
+
+def test_unwritable_folder_is_told_before_the_robot_moves(worker, post, four_lines, robot_link, tmp_path):
+    (tmp_path / "progress").write_text("a file", encoding="utf-8")
+    worker.start()
+    worker.run_test(four_lines)
+    ended = post.wait_for(Ended)
+    assert ended.outcome is Outcome.NOT_SAVED
+    assert "cannot be written" in ended.text
+    assert all(desired.waypoint is None for _, desired in robot_link.answers)
+
+
+def test_calibration_presses_once_and_keeps_the_height(worker, post, robot_link, world):
+    worker.start()
+    post.wait_for(Connected)
+    worker.calibrate(CalibrationOrder(0.8, (1,), 0.5, 0.2))
+    worker.calibrate(CalibrationOrder(None, (), 1.0, 0.3))
+    worker.use_can(None)
+    post.wait_for(CarLinkOpened)
+    while not world.presses or world.presses[0].end_s > world.time_s - 1.0:
+        post.box.take()
+    assert world.height_m == 0.8
+    assert [press.id for press in world.presses] == [1]
+    assert robot_link.answers[-1][1].press is None
+
+
+def test_closing_ends_a_running_test_and_keeps_its_lines(worker, post, four_lines):
+    worker.start()
+    worker.run_test(four_lines)
+    post.wait_for(Measured)
+    assert worker.close(LIMIT_S)
+    assert post.wait_for(Ended).results
+    assert stored(four_lines)
+
+
+@pytest.mark.parametrize("text", ["", "x", "3334.5", "0"])
+def test_port_that_is_none_is_refused(text):
+    with pytest.raises(InvalidParameter, match="port"):
+        robot_choice("127.0.0.1", text, "3333")
