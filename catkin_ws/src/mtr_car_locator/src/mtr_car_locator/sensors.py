@@ -98,7 +98,7 @@ class MapSource:
             return self._map if is_due or message.revision == pose_revision else None
 
     def _revision(self) -> int:
-        return -1 if self._message is None else self._message.revision
+        return 0 if self._message is None else self._message.revision
 
     def _take(self, message: SurfaceMapMessage) -> None:
         with self._changed:
