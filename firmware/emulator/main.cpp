@@ -11,9 +11,9 @@
 
 namespace {
 
-volatile bool stop = false;
+volatile std::sig_atomic_t stop = 0;
 
-void on_signal(int) { stop = true; }
+void on_signal(int) { stop = 1; }
 
 }  // namespace
 

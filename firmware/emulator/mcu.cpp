@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 #include <stdexcept>
 
 namespace emulator {
@@ -42,12 +41,7 @@ Mcu::Mcu(const std::string& elf, const Wiring& wiring) : wiring_(wiring), core_(
   load(elf);
 }
 
-Mcu::~Mcu() {
-  for (Timer* timer : timers_) {
-    delete timer;
-  }
-  avr_terminate(core_);
-}
+Mcu::~Mcu() { avr_terminate(core_); }
 
 void Mcu::load(const std::string& elf) {
   avr_global_logger_set(log_errors);
@@ -124,13 +118,13 @@ avr_cycle_count_t Mcu::take_end(avr_t*, avr_cycle_count_t, void*) { return 0; }
 std::uint64_t Mcu::time_us() const { return core_->cycle / kCyclesPerUs; }
 
 void Mcu::every(std::uint32_t period_us, std::function<void()> callback) {
-  timers_.push_back(new Timer{this, period_us * kCyclesPerUs, std::move(callback)});
-  avr_cycle_timer_register(core_, timers_.back()->period, take_timer, timers_.back());
+  timers_.push_back(std::unique_ptr<Timer>(new Timer{this, period_us * kCyclesPerUs, std::move(callback)}));
+  avr_cycle_timer_register(core_, timers_.back()->period, take_timer, timers_.back().get());
 }
 
 void Mcu::start_timers() {
-  for (Timer* timer : timers_) {
-    avr_cycle_timer_register(core_, timer->period, take_timer, timer);
+  for (const auto& timer : timers_) {
+    avr_cycle_timer_register(core_, timer->period, take_timer, timer.get());
   }
 }
 

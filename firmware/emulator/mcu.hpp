@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -66,7 +67,7 @@ class Mcu {
   const Wiring& wiring_;
   avr_t* core_;
   void (*reset_of_core_)(avr_t*) = nullptr;
-  std::vector<Timer*> timers_;
+  std::vector<std::unique_ptr<Timer>> timers_;
   std::vector<std::function<void()>> reset_callbacks_;
   int resets_ = 0;
   bool is_ready_ = false;

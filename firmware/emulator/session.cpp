@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <exception>
 #include <fstream>
@@ -25,7 +26,13 @@ constexpr int kByteTimeoutS = 2;
 /// Behind by more, time that is lost is not made up for.
 constexpr double kGiveUpLagS = 0.25;
 
-std::string error(const std::string& sentence) { return "{\"error\": \"" + sentence + "\"}"; }
+/// The sentence may quote what a client has sent.
+std::string error(std::string sentence) {
+  for (char& letter : sentence) {
+    letter = letter == '"' || letter == '\\' || std::iscntrl(static_cast<unsigned char>(letter)) ? '?' : letter;
+  }
+  return "{\"error\": \"" + sentence + "\"}";
+}
 
 }  // namespace
 
@@ -40,7 +47,7 @@ Session::Session(const Options& options)
   }
 }
 
-void Session::run(const volatile bool* stop) {
+void Session::run(const volatile std::sig_atomic_t* stop) {
   if (options_.is_stepped) {
     const pid_t parent = getppid();
     while (!*stop && !is_stopped_ && getppid() == parent) {
@@ -52,7 +59,7 @@ void Session::run(const volatile bool* stop) {
   save_eeprom();
 }
 
-void Session::run_real_time(const volatile bool* stop) {
+void Session::run_real_time(const volatile std::sig_atomic_t* stop) {
   const pid_t parent = getppid();
   Clock::time_point started = Clock::now();
   std::uint64_t started_us = 0;

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <csignal>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ class Session {
   explicit Session(const Options& options);
 
   /// Until `stop`, a signal, or the end of the process that started this one.
-  void run(const volatile bool* stop);
+  void run(const volatile std::sig_atomic_t* stop);
 
  private:
   std::string answer(const std::string& line);
@@ -30,7 +31,7 @@ class Session {
   bool await_bytes(std::uint64_t total);
   void run_until_us(std::uint64_t time_us);
   void wait(std::int64_t ns);
-  void run_real_time(const volatile bool* stop);
+  void run_real_time(const volatile std::sig_atomic_t* stop);
   void save_eeprom() const;
 
   Options options_;

@@ -18,6 +18,9 @@ constexpr int kUartBytes = 3;
 /// simavr 1.6 counts a parity bit even when there is none.
 constexpr avr_cycle_count_t kBits = 10, kBitsOfSimavr = 11;
 
+/// Until the firmware sets up the UART, as after a reset, bytes pass at the pace of 57600 baud and are lost.
+constexpr avr_cycle_count_t kCyclesBeforeSetUp = 2800;
+
 avr_uart_t* find_uart(avr_t* core) {
   for (avr_io_t* io = core->io_port; io; io = io->next) {
     avr_uart_t* uart = reinterpret_cast<avr_uart_t*>(io);
@@ -60,10 +63,10 @@ void UartLine::start_feeding() {
   }
   is_feeding_ = true;
   mend_byte_time();
-  // Before the UART is set up, as after a reset, bytes pass at the same pace and are lost.
-  constexpr avr_cycle_count_t kFallback = 2800;
-  avr_cycle_timer_register(mcu_->core(), byte_cycles_ ? byte_cycles_ : kFallback, feed, this);
+  avr_cycle_timer_register(mcu_->core(), byte_cycles(), feed, this);
 }
+
+avr_cycle_count_t UartLine::byte_cycles() const { return byte_cycles_ ? byte_cycles_ : kCyclesBeforeSetUp; }
 
 void UartLine::mend_byte_time() {
   if (uart_->cycles_per_byte && uart_->cycles_per_byte != byte_cycles_) {
@@ -84,7 +87,7 @@ avr_cycle_count_t UartLine::feed(avr_t* core, avr_cycle_count_t when, void* self
     }
   }
   line->is_feeding_ = !line->to_mcu_.empty();
-  return line->is_feeding_ ? when + (line->byte_cycles_ ? line->byte_cycles_ : 2800) : 0;
+  return line->is_feeding_ ? when + line->byte_cycles() : 0;
 }
 
 void UartLine::sent(avr_irq_t*, std::uint32_t value, void* self) {

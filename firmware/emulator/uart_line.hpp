@@ -35,6 +35,7 @@ class UartLine {
  private:
   static avr_cycle_count_t feed(avr_t* core, avr_cycle_count_t when, void* self);
   static void sent(avr_irq_t* irq, std::uint32_t value, void* self);
+  avr_cycle_count_t byte_cycles() const;
   void start_feeding();
   void mend_byte_time();
   bool passes(std::uint8_t* byte);

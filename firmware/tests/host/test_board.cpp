@@ -93,6 +93,18 @@ TEST_F(BoardTest, IsSilentAfterAStopUntilItIsAsked) {
   EXPECT_TRUE(sent().count(mtr::kTopicState));
 }
 
+TEST_F(BoardTest, TellsAllTopicsBeforeItReportsWhenItIsAsked) {
+  for (int start_ms = 0; start_ms < 40; ++start_ms) {
+    pass(301);
+    sent();
+    send(frames::frame(mtr::kTopicNegotiate, {}));
+    pass(mtr::kEndpointCount + 1, true);
+    const auto found = sent();
+    EXPECT_TRUE(found.count(mtr::kTopicSubscriber));
+    EXPECT_FALSE(found.count(mtr::kTopicState)) << start_ms;
+  }
+}
+
 TEST_F(BoardTest, AnnouncesAgainWhileNobodyAnswers) {
   pass(500);
   sent();

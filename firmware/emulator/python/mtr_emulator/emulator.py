@@ -59,20 +59,19 @@ class Emulator:
     """A running board: `with Emulator("atmega2560", stepped=True) as board: ...`.
 
     Attributes:
-        pty: path of the serial port for the host.
+        pty: path of the serial port for the host, once started.
     """
 
     def __init__(self, mcu: str, *, stepped: bool = False, elf: Optional[pathlib.Path] = None,
                  folder: Optional[pathlib.Path] = None, options: Sequence[str] = ()):
-        self._temporary = None if folder else tempfile.TemporaryDirectory(prefix="mtr_emulator")
-        self._folder = pathlib.Path(folder or self._temporary.name)
-        self.pty = self._folder / "port"
-        self._control = self._folder / "control"
-        self._command = [str(BINARY), "--elf", str(elf or firmware_of(mcu)), "--mcu", mcu, "--pty", str(self.pty),
-                         "--control", str(self._control), *(["--stepped"] if stepped else []), *options]
+        self._arguments = ["--elf", str(elf or firmware_of(mcu)), "--mcu", mcu, *(["--stepped"] if stepped else []),
+                           *options]
+        self._folder = folder
+        self._temporary: Optional[tempfile.TemporaryDirectory] = None
         self._process: Optional[subprocess.Popen] = None
         self._socket: Optional[socket.socket] = None
         self._lines: Any = None
+        self.pty = pathlib.Path()
 
     def __enter__(self) -> "Emulator":
         self.start()
@@ -83,13 +82,18 @@ class Emulator:
 
     def start(self) -> None:
         """Start the process and wait until its port and its control socket are there."""
-        self._process = subprocess.Popen(self._command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        if self._folder is None:
+            self._temporary = tempfile.TemporaryDirectory(prefix="mtr_emulator")
+        folder = pathlib.Path(self._folder or self._temporary.name)
+        self.pty, control = folder / "port", folder / "control"
+        command = [str(BINARY), *self._arguments, "--pty", str(self.pty), "--control", str(control)]
+        self._process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         if self._process.stdout.readline().strip() != "ready":
             _, errors = self._process.communicate(timeout=START_TIMEOUT_S)
             raise EmulatorError(errors.strip())
         self._socket = socket.socket(socket.AF_UNIX)
         self._socket.settimeout(ANSWER_TIMEOUT_S)
-        self._socket.connect(str(self._control))
+        self._socket.connect(str(control))
         self._lines = self._socket.makefile("rw", encoding="ascii")
 
     def stop(self) -> None:
@@ -104,6 +108,7 @@ class Emulator:
             self._process = None
         if self._temporary:
             self._temporary.cleanup()
+            self._temporary = None
 
     @property
     def pid(self) -> int:
