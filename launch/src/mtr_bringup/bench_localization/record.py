@@ -64,13 +64,14 @@ def record(options: DriveOptions, folder: pathlib.Path) -> Dict[str, Any]:
 
 def _meta(options: DriveOptions, world_from_start: Pose2, segments: List[Dict[str, Any]]) -> Dict[str, Any]:
     site, shape = options.scenario(), options.shape
+    end_s = segments[-1]["end_s"]
     return {"options": asdict(options), "map_from_car": pose_values(world_from_start.inverse() @ site.world_from_car),
             "prior_car_from_start": pose_values(site.start_in_car), "world_from_car": pose_values(site.world_from_car),
             "length_m": shape.length_m, "width_m": shape.width_m,
             "front_overhang_m": 0.5 * (shape.length_m - shape.wheelbase_m),
             "at_lidar": size_at(shape, options.lidar_height_m)._asdict(),
-            "loop_end_s": max((each["end_s"] for each in segments if each["kind"] == LOOP), default=segments[-1]["end_s"]),
-            "end_s": segments[-1]["end_s"], "segments": segments}
+            "loop_end_s": max((each["end_s"] for each in segments if each["kind"] == LOOP), default=end_s),
+            "end_s": end_s, "segments": segments}
 
 
 class _Driving:
