@@ -26,7 +26,7 @@ BUILD_INPUTS := $(shell find -L catkin_ws/src proto launch tests -not -path '*/.
 	-type f 2>/dev/null)
 
 help: ## List the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-18s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 setup: ## Install the missing Debian and Python packages
 	@setup/install.sh
@@ -87,6 +87,13 @@ flash: setup ## Write the firmware to a board: BOARD=mega|uno PORT=/dev/serial/b
 
 bench-motion: setup build ## Benchmark of the robot's motion; figures in out/bench/motion.json
 	@$(RUN) python -m mtr_bringup.bench_motion --seed $(SEED) --out out/bench
+
+# Set by a developer: --quick, --only NAME, --keep FOLDER.
+BENCH_OPTIONS ?=
+bench-localization: setup build ## Localization and Car locator against the truth, odometry and MRPT's SLAM
+	@setup/install.sh setup/debian-bench-packages.txt
+	@cmake -S launch/bench/mrpt_icp_slam -B out/bench/mrpt >/dev/null && cmake --build out/bench/mrpt >/dev/null
+	@$(RUN) python -m mtr_bringup.bench_localization --mrpt out/bench/mrpt/mrpt_icp_slam --out out/bench $(BENCH_OPTIONS)
 
 clean: ## Remove everything that was built or written
 	rm -rf out firmware/build $(STAMPS) .venv catkin_ws/{build,devel,logs,.catkin_tools} proto/src/mtr_proto/*_pb2.py

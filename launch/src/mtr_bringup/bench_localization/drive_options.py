@@ -26,6 +26,7 @@ class DriveOptions(ParameterSet):
         scene: named scenario of the simulator.
         car: named shape of the simulator.
         lidar_height_m: of the LiDARs' plane above the ground.
+        range_noise_m: 1 sigma; data sheets of the Hokuyo UST-10LX and the SICK TiM571 allow 10 to 20 mm.
         range_bias_m: constant error of all ranges.
         tilt_deg: root mean square of the ground's slope.
         mount_tilt_deg: pitch of the LiDARs' mounting, which nobody knows of.
@@ -33,6 +34,7 @@ class DriveOptions(ParameterSet):
         friction: of the tyres.
         echo_share: of the beams that hit a drop of rain.
         mixed_pixel_share: of the beams at an edge.
+        dropout_share: of the beams, that see nothing.
         rear: the rear LiDAR is recorded too.
         person: somebody walks to and fro beside the Car.
         kidnap: after the loop somebody lifts the robot and puts it down 2 m aside; no axes, no radials.
@@ -44,13 +46,15 @@ class DriveOptions(ParameterSet):
     car: str = "hatchback"
     lidar_height_m: float = number(0.3, 0.1, 0.6, "m")
     seed: int = number(1, 0, 2**31 - 1)
+    range_noise_m: float = number(0.02, 0.0, 0.1, "m")
     range_bias_m: float = number(0.0, -0.1, 0.1, "m")
     tilt_deg: float = number(0.0, 0.0, 5.0, "deg")
     mount_tilt_deg: float = number(0.0, -5.0, 5.0, "deg")
-    gyro_scale_error: float = number(0.0, -0.05, 0.05, "(relative)")
+    dropout_share: float = number(0.005, 0.0, 0.5, "(share)")
+    gyro_scale_error: float = number(0.001, -0.05, 0.05, "(relative)")
     friction: float = number(0.5, 0.1, 1.2, "(Coulomb)")
     echo_share: float = number(0.0, 0.0, 0.2, "(share)")
-    mixed_pixel_share: float = number(0.0, 0.0, 1.0, "(share)")
+    mixed_pixel_share: float = number(0.3, 0.0, 1.0, "(share)")
     rear: bool = False
     person: bool = False
     kidnap: bool = False
@@ -72,14 +76,14 @@ class DriveOptions(ParameterSet):
         """The site with this Car, and with the person."""
         site = named_scenario(self.scene)
         return replace(site, car=self.shape, friction=self.friction, ground_tilt_rad=math.radians(self.tilt_deg),
-                       start_in_car=site.start_in_car, person=self._walk(site) if self.person else None)
+                       person=self._walk(site) if self.person else None)
 
     def sim(self) -> Sim:
         """The simulated robot at its start."""
         errors = ScanErrors(range_bias_m=self.range_bias_m, echo_share=self.echo_share,
-                            mixed_pixel_share=self.mixed_pixel_share)
-        lidar = LidarParameters(height_m=self.lidar_height_m, pitch_rad=math.radians(self.mount_tilt_deg),
-                                errors=errors)
+                            mixed_pixel_share=self.mixed_pixel_share, dropout_share=self.dropout_share)
+        lidar = LidarParameters(height_m=self.lidar_height_m, noise_m=self.range_noise_m,
+                                pitch_rad=math.radians(self.mount_tilt_deg), errors=errors)
         imu = ImuParameters(gyro_scale_error=self.gyro_scale_error)
         return Sim(self.seed, self.scenario(), SimParameters(rear_lidar=self.rear, lidar=lidar, imu=imu))
 

@@ -30,7 +30,7 @@ def scene_figures(outcomes: Sequence[Outcome]) -> Dict[str, Any]:
         "standstill_near_p95_m": percentile(errors.key_m[standing & (errors.beyond_m <= NEAR_M)]),
         "standstill_10m_p95_m": percentile(errors.key_m[standing & (errors.beyond_m >= FAR_OUT_M)]),
         "yaw_p95_deg": percentile(np.abs(errors.yaw_deg[standing])),
-        "unknown_share": float(np.mean(np.isnan(errors.key_m))),
+        "unknown_share": float(np.mean(np.isnan(errors.key_m))) if len(errors.key_m) else None,
         "car_pose_p95_m": percentile(column(cars, "position_error_m")),
         "car_yaw_p95_deg": percentile(column(cars, "yaw_error_deg")),
         "length_error_m": percentile(np.abs(column(measured, "length_error_m"))),

@@ -7,10 +7,11 @@ import argparse
 import math
 import pathlib
 import sys
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from typing import Any, Dict, List, Optional
 
 from mtr_core.errors import ConfigurationError
+from mtr_core.parameters import LIMITS
 from mtr_core.schedule import CAR_LOCATOR, CLOCK_STEP, LIDAR, SIMULATION_START_NS
 from mtr_core.se2 import Pose2
 from mtr_msgs.msg import MappingOrder
@@ -22,6 +23,9 @@ from .legs import LegFollower, Lift
 from .pattern import LOOP, START, Piece, Plan, pieces
 from .recording import Recording, pose_values
 
+# Options are the fields of DriveOptions, some without their unit.
+ALIASES = {"lidar_height_m": "lidar-height", "range_bias_m": "range-bias", "range_noise_m": "range-noise",
+           "duration_s": "duration"}
 MAP_CAR_ID = 1
 # The map is frozen when the loop is complete.
 PHASES = {START: MappingOrder.IDLE, LOOP: MappingOrder.COLLECT}
@@ -64,13 +68,14 @@ def record(options: DriveOptions, folder: pathlib.Path) -> Dict[str, Any]:
 
 def _meta(options: DriveOptions, world_from_start: Pose2, segments: List[Dict[str, Any]]) -> Dict[str, Any]:
     site, shape = options.scenario(), options.shape
+    end_s = segments[-1]["end_s"]
     return {"options": asdict(options), "map_from_car": pose_values(world_from_start.inverse() @ site.world_from_car),
             "prior_car_from_start": pose_values(site.start_in_car), "world_from_car": pose_values(site.world_from_car),
             "length_m": shape.length_m, "width_m": shape.width_m,
             "front_overhang_m": 0.5 * (shape.length_m - shape.wheelbase_m),
             "at_lidar": size_at(shape, options.lidar_height_m)._asdict(),
-            "loop_end_s": max((each["end_s"] for each in segments if each["kind"] == LOOP), default=segments[-1]["end_s"]),
-            "end_s": segments[-1]["end_s"], "segments": segments}
+            "loop_end_s": max((each["end_s"] for each in segments if each["kind"] == LOOP), default=end_s),
+            "end_s": end_s, "segments": segments}
 
 
 class _Driving:
@@ -114,22 +119,14 @@ class _Driving:
 def main(arguments: Optional[List[str]] = None) -> int:
     """Record the drive that the command line describes."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--scene", default="lot", help="named scenario of the simulator")
-    parser.add_argument("--car", default="hatchback", help="named car shape of the simulator")
-    parser.add_argument("--lidar-height", type=float, default=0.3, dest="lidar_height_m", help="m above the ground")
-    parser.add_argument("--seed", type=int, default=1, help="of all random numbers and of the choice of lines")
-    parser.add_argument("--range-bias", type=float, default=0.0, dest="range_bias_m", help="m, added to all ranges")
-    parser.add_argument("--tilt-deg", type=float, default=0.0, help="rms slope of uneven ground")
-    parser.add_argument("--mount-tilt-deg", type=float, default=0.0, help="pitch of the LiDARs' mounting")
-    parser.add_argument("--gyro-scale-error", type=float, default=0.0, help="relative")
-    parser.add_argument("--friction", type=float, default=0.5, help="of the tyres")
-    parser.add_argument("--echo-share", type=float, default=0.0, help="share of beams that hit a drop of rain")
-    parser.add_argument("--mixed-pixel-share", type=float, default=0.0, help="share of the beams at an edge")
-    parser.add_argument("--rear", action="store_true", help="record the rear LiDAR too")
-    parser.add_argument("--person", action="store_true", help="somebody walks to and fro beside the Car")
-    parser.add_argument("--kidnap", action="store_true", help="after the loop the robot is lifted 2 m aside")
-    parser.add_argument("--duration", type=float, default=0.0, dest="duration_s", help="s, lines again and again")
-    parser.add_argument("--sweeps-apart", type=int, default=1, help="record only each of so many sweeps")
+    for item in fields(DriveOptions):
+        name = "--" + ALIASES.get(item.name, item.name.replace("_", "-"))
+        if isinstance(item.default, bool):
+            parser.add_argument(name, dest=item.name, action="store_true")
+        else:
+            parser.add_argument(name, dest=item.name, type=type(item.default), default=item.default,
+                                metavar=item.metadata[LIMITS].unit.strip("()") or None if item.metadata else None,
+                                help=f"default {item.default}")
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder of the files")
     values = vars(parser.parse_args(arguments))
     folder = values.pop("out")

@@ -7,6 +7,7 @@ import subprocess
 from typing import Any, Dict
 
 import numpy as np
+from roslib.packages import find_node
 
 from mtr_car_locator.car_fit import CarFit
 from mtr_car_locator.offline import fit_files
@@ -40,17 +41,20 @@ def run_this_system(folder: pathlib.Path, truth: DriveTruth) -> Outcome:
 
 def replay(bag: pathlib.Path, out: pathlib.Path) -> None:
     """Run localization over the bag."""
-    command = ["rosrun", "mtr_localization", "replay", str(bag), "--out", str(out)]
+    programs = find_node("mtr_localization", "replay_bag")
+    if not programs:
+        raise SystemFailure("The program replay_bag of mtr_localization is not built.")
+    command = [programs[0], str(bag), "--out", str(out)]
     done = subprocess.run(command, text=True, capture_output=True, timeout=REPLAY_LIMIT_S, check=False)
     if done.returncode:
-        raise SystemFailure(f"replay ended with {done.returncode}: {done.stderr.strip()[-500:]}")
+        raise SystemFailure(f"replay_bag ended with {done.returncode}: {done.stderr.strip()[-500:]}")
 
 
 def read_replayed(path: pathlib.Path) -> Trajectory:
     """The trajectory that replay wrote."""
     columns = read_columns(path)
     poses = np.stack([columns["x_m"], columns["y_m"], columns["heading_rad"]], axis=1)
-    covariances = np.stack([columns[f"c{row}{column}"] for row in range(3) for column in range(3)], axis=1)
+    covariances = np.stack([columns[f"c{row}{column}"] for row in "xyh" for column in "xyh"], axis=1)
     return trajectory(columns["stamp_s"], poses, covariances.reshape(-1, 3, 3), columns["valid"] > 0.5)
 
 
