@@ -4,11 +4,12 @@ import math
 from typing import Any, Optional, Tuple
 
 import mtr_drive_control_core as core
-import numpy as np
 
 from mtr_core.se2 import Pose2
 from mtr_simulation import robot
+from mtr_simulation.lidar import LidarParameters
 from mtr_simulation.readings import Scan, Sensors
+from mtr_simulation.scan_errors import ScanErrors
 from mtr_simulation.scenario import Scenario
 from mtr_simulation.sim import Sim, SimParameters
 
@@ -16,7 +17,6 @@ Wish = Tuple[float, float]
 FRONT_M = core.default_collision()["front_m"]
 RADIUS_M = math.hypot(FRONT_M, core.default_collision()["half_width_m"])
 PERSON = {"person", "left_leg", "right_leg"}
-RAIN_FROM_M, RAIN_TO_M = 0.15, 6.0
 
 
 class Rig:
@@ -30,10 +30,10 @@ class Rig:
     def __init__(self, scenario: Scenario, seed: int, rear_lidar: bool = True, rain: float = 0.0,
                  lift_m: float = 0.0):
         """rain: share of the beams that end on a drop; lift_m: height of the lift."""
-        self.sim = Sim(seed, scenario, SimParameters(rear_lidar=rear_lidar))
+        lidar = LidarParameters(errors=ScanErrors(echo_share=rain))
+        self.sim = Sim(seed, scenario, SimParameters(rear_lidar=rear_lidar, lidar=lidar))
         self.decision: Optional[Any] = None
         self._control = core.DriveControl(rear_lidar=rear_lidar)
-        self._rain, self._random = rain, np.random.default_rng(seed)
         self._key_height_m = robot.KEY_HEIGHT_AT_LOWER_STOP_M + lift_m
         self._front: Optional[Scan] = None
         self._rear: Optional[Scan] = None
@@ -54,19 +54,11 @@ class Rig:
     def step(self, wish: Wish, locked: bool = False) -> Any:
         """One tick with this wish of the planner, or with a motion lock; drive control's decision."""
         sensors = self._sensors
-        self._front = self._rained(sensors.front_scan) or self._front
-        self._rear = self._rained(sensors.rear_scan) or self._rear
+        self._front = sensors.front_scan or self._front
+        self._rear = sensors.rear_scan or self._rear
         self.decision = self._control.step(
             sensors.time_ns, planner=wish, locks=["operator"] if locked else [], front=self._front, rear=self._rear,
             odometry=sensors.odometry, key_height_m=self._key_height_m)
         self.sim.command(self.decision.linear_mps, self.decision.angular_radps)
         self._sensors = self.sim.step()
         return self.decision
-
-    def _rained(self, scan: Optional[Scan]) -> Optional[Scan]:
-        """The sweep with some beams that end on a drop of rain."""
-        if scan is None or not self._rain:
-            return scan
-        drops = self._random.random(scan.ranges_m.size) < self._rain
-        ranges = np.where(drops, self._random.uniform(RAIN_FROM_M, RAIN_TO_M, drops.size), np.inf)
-        return scan._replace(ranges_m=np.minimum(scan.ranges_m, ranges).astype(np.float32))
