@@ -15,6 +15,10 @@ from mtr_simulation.sim import Sim, SimParameters
 
 Wish = Tuple[float, float]
 FRONT_M = core.default_collision()["front_m"]
+TICK_S = 0.02
+# The robot stands for so long until nothing sways, and then looks around, before its first tick.
+SETTLING_S, LOOKING_S = 1.5, 0.2
+START_S = SETTLING_S + LOOKING_S
 RADIUS_M = math.hypot(FRONT_M, core.default_collision()["half_width_m"])
 PERSON = {"person", "left_leg", "right_leg"}
 
@@ -37,8 +41,9 @@ class Rig:
         self._key_height_m = robot.KEY_HEIGHT_AT_LOWER_STOP_M + lift_m
         self._front: Optional[Scan] = None
         self._rear: Optional[Scan] = None
-        self.sim.set_lift(lift_m)
-        self._sensors: Sensors = self.sim.step()
+        self._sensors: Sensors = self._settled(lift_m)
+        for _ in range(round(LOOKING_S / TICK_S)):
+            self.step((0.0, 0.0))
 
     @property
     def pose(self) -> Pose2:
@@ -62,3 +67,13 @@ class Rig:
         self.sim.command(self.decision.linear_mps, self.decision.angular_radps)
         self._sensors = self.sim.step()
         return self.decision
+
+    def _settled(self, lift_m: float) -> Sensors:
+        """Raise the lift and wait until nothing sways; the last readings."""
+        self.sim.set_lift(lift_m)
+        self.sim.scans_wanted = False
+        for _ in range(round(SETTLING_S / TICK_S)):
+            self.sim.command(0.0, 0.0)
+            sensors = self.sim.step()
+        self.sim.scans_wanted = True
+        return sensors
