@@ -128,7 +128,10 @@ void Node::log(const Decision& decision) {
   // While it is blocked the distance in the sentence changes all the time.
   const bool is_news = decision.zone != zone_ || (decision.zone != Zone::kBlocked && decision.message != message_);
   if (is_news && decision.message != message_) {
-    ROS_INFO("%s", decision.message.empty() ? "Free to move." : decision.message.c_str());
+    // The Operator reads warnings.
+    const bool is_stopped = decision.zone == Zone::kBlocked || decision.zone == Zone::kBlind;
+    ROS_LOG(is_stopped ? ros::console::levels::Warn : ros::console::levels::Info, ROSCONSOLE_DEFAULT_NAME, "%s",
+            decision.message.empty() ? "Free to move." : decision.message.c_str());
   }
   message_ = decision.message;
   zone_ = decision.zone;

@@ -6,16 +6,15 @@ from typing import Any, Dict, List
 
 from mtr_core.se2 import Pose2, wrap_angle
 from mtr_simulation import robot
-from mtr_simulation.scenario import CarShape, Scenario, named_scenario
+from mtr_simulation.scenario import CarShape, named_scenario
 
-from .rig import FRONT_M, Rig, Wish
+from .rig import FRONT_M, TICK_S, Rig, Wish
 
 NEAREST_M, FARTHEST_M = 0.3, 2.5
 MEASURING_MPS = 0.4
 LAP_MPS = 0.8
 LIMIT_S = 40.0
-TICK_S = 0.02
-SETTLING_S, TURNING_S = 0.2, 1.0
+TURNING_S = 1.0
 # States of the zone in DriveStatus: from this on it stands.
 SLOWED, STOPPED = 1, 2
 HALF_WIDTH_M = 0.215
@@ -59,7 +58,6 @@ def simulate(drive: Drive) -> Dict[str, Any]:
     rig = Rig(replace(SITE, start_in_car=drive.start), drive.seed, drive.rear_lidar, drive.rain, robot.LIFT_STROKE_M)
     slowed_s, was_blocked = 0.0, False
     ends, sentences = [], []
-    _stand(rig, SETTLING_S)
     for sign in (1.0, -1.0):
         for _ in range(round(LIMIT_S / TICK_S)):
             along, wish = _wish(drive, rig.sim.truth().car_from_base, sign)

@@ -10,9 +10,8 @@ from mtr_core.se2 import Pose2
 from mtr_simulation import robot
 from mtr_simulation.scenario import Scenario, Walk
 
-from .rig import PERSON, Rig, Wish
+from .rig import PERSON, START_S, TICK_S, Rig, Wish
 
-TICK_S = 0.02
 # Below this nothing moves; the wheels' encoders see as much at rest.
 STANDING_MPS = 0.02
 # The person walks on for so long after the place of the meeting.
@@ -80,7 +79,6 @@ def simulate(encounter: Encounter) -> Dict[str, Any]:
                         start_offset_rad=0.0, person=encounter.walk)
     rig = Rig(scenario, encounter.seed, encounter.rear_lidar, encounter.rain, encounter.lift_m)
     stopped, speed_mps, touched = False, 0.0, False
-    rig.step((0.0, 0.0))
     for wish in _ticks(encounter.wishes):
         speed_mps = rig.corner_speed_mps
         decision = rig.step(wish)
@@ -114,7 +112,7 @@ def _walk(random: np.random.Generator, aim: Tuple[float, float], bearing: float,
     distance = min(speed * meeting_s, float(random.uniform(1.2, 2.2))) if steps_in else speed * meeting_s
     start = (aim[0] + distance * direction[0], aim[1] + distance * direction[1])
     end = (aim[0] - BEYOND_M * direction[0], aim[1] - BEYOND_M * direction[1])
-    return Walk(start, end, speed, meeting_s - distance / speed)
+    return Walk(start, end, speed, START_S + max(0.0, meeting_s - distance / speed))
 
 
 def _ticks(wishes: tuple) -> List[Wish]:

@@ -4,19 +4,23 @@ import math
 from typing import Any, Optional, Tuple
 
 import mtr_drive_control_core as core
-import numpy as np
 
 from mtr_core.se2 import Pose2
 from mtr_simulation import robot
+from mtr_simulation.lidar import LidarParameters
 from mtr_simulation.readings import Scan, Sensors
+from mtr_simulation.scan_errors import ScanErrors
 from mtr_simulation.scenario import Scenario
 from mtr_simulation.sim import Sim, SimParameters
 
 Wish = Tuple[float, float]
 FRONT_M = core.default_collision()["front_m"]
+TICK_S = 0.02
+# The robot stands for so long until nothing sways, and then looks around, before its first tick.
+SETTLING_S, LOOKING_S = 1.5, 0.2
+START_S = SETTLING_S + LOOKING_S
 RADIUS_M = math.hypot(FRONT_M, core.default_collision()["half_width_m"])
 PERSON = {"person", "left_leg", "right_leg"}
-RAIN_FROM_M, RAIN_TO_M = 0.15, 6.0
 
 
 class Rig:
@@ -30,15 +34,16 @@ class Rig:
     def __init__(self, scenario: Scenario, seed: int, rear_lidar: bool = True, rain: float = 0.0,
                  lift_m: float = 0.0):
         """rain: share of the beams that end on a drop; lift_m: height of the lift."""
-        self.sim = Sim(seed, scenario, SimParameters(rear_lidar=rear_lidar))
+        lidar = LidarParameters(errors=ScanErrors(echo_share=rain))
+        self.sim = Sim(seed, scenario, SimParameters(rear_lidar=rear_lidar, lidar=lidar))
         self.decision: Optional[Any] = None
         self._control = core.DriveControl(rear_lidar=rear_lidar)
-        self._rain, self._random = rain, np.random.default_rng(seed)
         self._key_height_m = robot.KEY_HEIGHT_AT_LOWER_STOP_M + lift_m
         self._front: Optional[Scan] = None
         self._rear: Optional[Scan] = None
-        self.sim.set_lift(lift_m)
-        self._sensors: Sensors = self.sim.step()
+        self._sensors: Sensors = self._settled(lift_m)
+        for _ in range(round(LOOKING_S / TICK_S)):
+            self.step((0.0, 0.0))
 
     @property
     def pose(self) -> Pose2:
@@ -54,8 +59,8 @@ class Rig:
     def step(self, wish: Wish, locked: bool = False) -> Any:
         """One tick with this wish of the planner, or with a motion lock; drive control's decision."""
         sensors = self._sensors
-        self._front = self._rained(sensors.front_scan) or self._front
-        self._rear = self._rained(sensors.rear_scan) or self._rear
+        self._front = sensors.front_scan or self._front
+        self._rear = sensors.rear_scan or self._rear
         self.decision = self._control.step(
             sensors.time_ns, planner=wish, locks=["operator"] if locked else [], front=self._front, rear=self._rear,
             odometry=sensors.odometry, key_height_m=self._key_height_m)
@@ -63,10 +68,12 @@ class Rig:
         self._sensors = self.sim.step()
         return self.decision
 
-    def _rained(self, scan: Optional[Scan]) -> Optional[Scan]:
-        """The sweep with some beams that end on a drop of rain."""
-        if scan is None or not self._rain:
-            return scan
-        drops = self._random.random(scan.ranges_m.size) < self._rain
-        ranges = np.where(drops, self._random.uniform(RAIN_FROM_M, RAIN_TO_M, drops.size), np.inf)
-        return scan._replace(ranges_m=np.minimum(scan.ranges_m, ranges).astype(np.float32))
+    def _settled(self, lift_m: float) -> Sensors:
+        """Raise the lift and wait until nothing sways; the last readings."""
+        self.sim.set_lift(lift_m)
+        self.sim.scans_wanted = False
+        for _ in range(round(SETTLING_S / TICK_S)):
+            self.sim.command(0.0, 0.0)
+            sensors = self.sim.step()
+        self.sim.scans_wanted = True
+        return sensors

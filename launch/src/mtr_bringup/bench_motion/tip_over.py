@@ -8,12 +8,11 @@ from mtr_core.se2 import Pose2
 from mtr_simulation import robot
 from mtr_simulation.scenario import Scenario
 
-from .rig import Rig, Wish
+from .rig import TICK_S, Rig, Wish
 
-TICK_S = 0.02
 FAR_AWAY = Pose2(60.0, 0.0, 0.0)
 FAST, TURN = 2.0, 4.0
-RAISING_S, DRIVING_S, STOPPING_S = 1.0, 3.0, 1.0
+DRIVING_S, STOPPING_S = 3.0, 1.0
 
 # What is wanted before, and what then: another wish, or a lock, which is the emergency stop.
 MANOEUVRES: Dict[str, Tuple[Wish, Any]] = {
@@ -32,7 +31,6 @@ def run(_options: Any) -> Dict[str, object]:
     """tip_margin_n: least force of the ground on any wheel, in N, seen every 20 ms."""
     loads = {name: least_load_n(before, then) for name, (before, then) in MANOEUVRES.items()}
     standing = Rig(_site(), 1, lift_m=robot.LIFT_STROKE_M)
-    _drive(standing, (0.0, 0.0), RAISING_S)
     return {
         "tip_margin_n": round(min(loads.values()), 2),
         "least_load_n": {name: round(load, 2) for name, load in loads.items()},
@@ -44,7 +42,6 @@ def run(_options: Any) -> Dict[str, object]:
 def least_load_n(before: Wish, then: Any) -> float:
     """Least load of any wheel from the start of the first wish on."""
     rig = Rig(_site(), 1, lift_m=robot.LIFT_STROKE_M)
-    _drive(rig, (0.0, 0.0), RAISING_S)
     loads = _drive(rig, before, DRIVING_S)
     loads += _drive(rig, before, STOPPING_S, locked=True) if then == "lock" else _drive(rig, then, DRIVING_S)
     return min(loads)

@@ -1,55 +1,175 @@
-"""The dead-man switch and the velocities of the manual controller."""
+"""The dead-man switch, the emergency stop, the lift and lost controllers."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
 import pytest
 
-from mtr_controller_input.core import RELEASED, velocity
+from mtr_controller_input.core import RELEASED, Controller, Joy, Outcome, velocity
 from mtr_controller_input.parameters import Parameters
 from mtr_core.errors import ConfigurationError
 
 PARAMETERS = Parameters()
-SLOW, FAST, BOTH, NONE = [0, 0, 0, 0, 1, 0], [0, 0, 0, 0, 0, 1], [0, 0, 0, 0, 1, 1], [0] * 6
+SLOW_BUTTON, FAST_BUTTON, E_STOP, SHARE, OPTIONS = 4, 5, 1, 8, 9
+TICK_S = 0.04
+
+
+def buttons(*held):
+    return tuple(int(index in held) for index in range(12))
+
+
+def sticks(forward=0.0, left=0.0, lift=0.0):
+    return (left, forward, 0.0, 0.0, 0.0, 0.0, 0.0, lift)
+
+
+NONE, SLOW, FAST = buttons(), buttons(SLOW_BUTTON), buttons(FAST_BUTTON)
+IDLE = Joy(sticks(), NONE)
+DRIVING = Joy(sticks(forward=1.0), SLOW)
+
+
+class Hand:
+    """A controller in a hand: its driver repeats the state, and time passes in ticks."""
+
+    def __init__(self, parameters=PARAMETERS):
+        self.controller, self.now_s, self._wobble = Controller(parameters), 100.0, 0.0
+
+    def hold(self, joy, duration_s=TICK_S, still=False):
+        """The last outcome while this state is held; a stick in a hand is never quite still."""
+        for _ in range(round(duration_s / TICK_S)):
+            self.now_s += TICK_S
+            self._wobble = 0.0 if still else 0.01 - self._wobble
+            self.controller.take(Joy((*joy.axes[:2], self._wobble, *joy.axes[3:]), joy.buttons), self.now_s)
+            outcome = self.controller.step(self.now_s)
+        return outcome
+
+    def pull_the_plug(self, duration_s):
+        """The last outcome while nothing is heard."""
+        self.now_s += duration_s
+        return self.controller.step(self.now_s)
 
 
 def test_without_a_dead_man_button_nothing_is_wanted():
-    assert velocity(PARAMETERS, [1.0, 1.0], NONE, 0.0) == RELEASED
+    assert velocity(PARAMETERS, sticks(1.0, 1.0), NONE) == RELEASED
 
 
-@pytest.mark.parametrize("buttons, linear, angular", [(SLOW, 0.4, 0.6), (FAST, 1.2, 1.2), (BOTH, 1.2, 1.2)])
-def test_full_deflection_gives_the_velocity_of_the_button(buttons, linear, angular):
-    assert velocity(PARAMETERS, [1.0, 1.0], buttons, 0.0) == (linear, angular, True)
+@pytest.mark.parametrize("held, linear, angular", [(SLOW, 0.4, 0.6), (FAST, 0.8, 1.2),
+                                                   (buttons(SLOW_BUTTON, FAST_BUTTON), 0.8, 1.2)])
+def test_full_deflection_gives_the_velocity_of_the_button(held, linear, angular):
+    assert velocity(PARAMETERS, sticks(1.0, 1.0), held) == (linear, angular, True)
 
 
 def test_held_button_without_deflection_holds_the_robot():
-    assert velocity(PARAMETERS, [0.04, -0.04], SLOW, 0.0) == (0.0, 0.0, True)
+    assert velocity(PARAMETERS, sticks(0.04, -0.04), SLOW) == (0.0, 0.0, True)
 
 
-@pytest.mark.parametrize("age_s", [0.51, math.inf, math.nan, -0.1])
-def test_stale_message_counts_as_released(age_s):
-    assert velocity(PARAMETERS, [1.0, 1.0], SLOW, age_s) == RELEASED
-
-
-@pytest.mark.parametrize("axes", [[], [math.nan, math.inf], [0.0]])
+@pytest.mark.parametrize("axes", [(), (math.nan, math.inf), (0.0,)])
 def test_missing_or_broken_axis_counts_as_released(axes):
-    assert velocity(PARAMETERS, axes, SLOW, 0.0)[:2] == (0.0, 0.0)
+    assert velocity(PARAMETERS, axes, SLOW)[:2] == (0.0, 0.0)
 
 
 def test_deflection_beyond_one_is_one():
-    assert velocity(PARAMETERS, [-3.0, 3.0], SLOW, 0.0) == (0.4, -0.6, True)
+    assert velocity(PARAMETERS, sticks(3.0, -3.0), SLOW) == (0.4, -0.6, True)
 
 
 def test_controller_without_the_button_counts_as_released():
-    assert velocity(PARAMETERS, [1.0, 1.0], [1], 0.0) == RELEASED
+    assert velocity(PARAMETERS, sticks(1.0), (1,)) == RELEASED
+
+
+def test_controller_that_was_never_heard_locks_nothing():
+    assert Controller(PARAMETERS).step(1e6) == Outcome()
+
+
+def test_person_drives_while_the_button_is_held_and_hands_back_when_it_is_released():
+    hand = Hand()
+    assert hand.hold(DRIVING, 1.0) == Outcome(velocity=(0.4, 0.0, True))
+    assert hand.hold(IDLE) == Outcome()
+
+
+def test_silent_controller_locks_and_stays_locked_until_it_is_back_and_released():
+    hand = Hand()
+    hand.hold(DRIVING, 1.0)
+    assert not hand.pull_the_plug(0.14).lock_reason
+    lost = hand.pull_the_plug(0.02)
+    assert lost.velocity == RELEASED
+    assert "lost" in lost.lock_reason
+    assert hand.hold(DRIVING, 1.0).lock_reason
+    assert hand.hold(IDLE) == Outcome()
+
+
+def test_idle_controller_that_is_unplugged_is_a_lost_emergency_stop():
+    hand = Hand()
+    hand.hold(IDLE, 1.0)
+    assert hand.pull_the_plug(0.2).lock_reason
+
+
+def test_controller_whose_device_is_gone_is_lost_though_its_driver_repeats_the_last_message():
+    hand = Hand()
+    hand.hold(DRIVING, 1.0)
+    assert "lost" in hand.controller.step(hand.now_s, is_present=False).lock_reason
+
+
+def test_drive_that_never_changes_is_a_lost_controller():
+    hand = Hand()
+    assert hand.hold(DRIVING, 1.9, still=True).velocity.active
+    assert "does not change" in hand.hold(DRIVING, 0.3, still=True).lock_reason
+    assert hand.hold(DRIVING, 0.3).lock_reason
+    assert hand.hold(IDLE) == Outcome()
+
+
+def test_idle_controller_may_be_still_for_hours():
+    assert Hand().hold(IDLE, 60.0, still=True) == Outcome()
+
+
+def test_held_button_without_deflection_may_be_still():
+    assert Hand().hold(Joy(sticks(), SLOW), 10.0, still=True).velocity == (0.0, 0.0, True)
+
+
+def test_emergency_stop_locks_at_once_and_releasing_the_button_does_not_unlock():
+    hand = Hand()
+    hand.hold(DRIVING, 0.4)
+    stopped = hand.hold(Joy(sticks(1.0), buttons(SLOW_BUTTON, E_STOP)))
+    assert stopped.velocity == RELEASED
+    assert "emergency stop" in stopped.lock_reason
+    assert hand.hold(DRIVING, 5.0).lock_reason
+
+
+def test_press_between_two_ticks_is_not_missed():
+    controller = Controller(PARAMETERS)
+    controller.take(Joy(sticks(), buttons(E_STOP)), 1.00)
+    controller.take(IDLE, 1.01)
+    assert controller.step(1.02).lock_reason
+
+
+def test_emergency_stop_is_released_by_both_buttons_held_and_nothing_else():
+    hand = Hand()
+    hand.hold(Joy(sticks(), buttons(E_STOP)))
+    for held in (buttons(SHARE), buttons(OPTIONS), buttons(SHARE, OPTIONS, SLOW_BUTTON)):
+        assert hand.hold(Joy(sticks(), held), 2.0).lock_reason
+    assert hand.hold(Joy(sticks(), buttons(SHARE, OPTIONS)), 0.9).lock_reason
+    assert not hand.hold(Joy(sticks(), buttons(SHARE, OPTIONS)), 0.3).lock_reason
+
+
+def test_emergency_stop_outlasts_a_lost_controller():
+    hand = Hand()
+    hand.hold(Joy(sticks(), buttons(E_STOP)))
+    hand.pull_the_plug(3.0)
+    assert "emergency stop" in hand.hold(IDLE, 1.0).lock_reason
+
+
+@pytest.mark.parametrize("deflection, rate", [(1.0, 0.1), (-1.0, -0.1), (0.0, 0.0)])
+def test_lift_moves_only_while_the_dead_man_button_is_held(deflection, rate):
+    assert Hand().hold(Joy(sticks(lift=deflection), SLOW)).lift_mps == rate
+    assert Hand().hold(Joy(sticks(lift=deflection), NONE)).lift_mps == 0.0
 
 
 @pytest.mark.parametrize("bad", [{"slow_mps": 3.0}, {"slow_button": 40}, {"dead_zone": 0.9},
-                                 {"silent_after_s": float("nan")}])
+                                 {"silent_after_s": float("nan")}, {"release_buttons": (8, 77)},
+                                 {"release_buttons": (8,)}])
 def test_parameter_out_of_range_is_a_sentence(bad):
     with pytest.raises(ConfigurationError, match=next(iter(bad))):
         Parameters(**bad)
 
 
-def test_two_buttons_on_one_index_are_an_error():
+@pytest.mark.parametrize("bad", [{"slow_button": 5}, {"e_stop_button": 8}, {"lift_axis": 1}])
+def test_two_inputs_on_one_index_are_an_error(bad):
     with pytest.raises(ConfigurationError, match="must differ"):
-        Parameters(slow_button=5)
+        Parameters(**bad)

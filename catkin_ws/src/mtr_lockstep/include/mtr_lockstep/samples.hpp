@@ -26,6 +26,8 @@ struct Waiting {
   std::function<bool(double)> run_callbacks;
   /// Monotonic wall time in s.
   std::function<double()> wall_clock;
+  /// Wall time after which a silent producer is taken for dead.
+  double patience_s = kProducerLostAfterWallS;
 };
 
 /// History of stamped samples of one producer; used from one thread, which also runs the callbacks that call add.
@@ -72,7 +74,7 @@ class Samples {
     if (due_ns <= kSimulationStartNs) {
       return;
     }
-    const double deadline = waiting_->wall_clock() + kProducerLostAfterWallS;
+    const double deadline = waiting_->wall_clock() + waiting_->patience_s;
     while (!lost_ && !arrived(due_ns)) {
       const double remaining = deadline - waiting_->wall_clock();
       if (remaining <= 0.0) {

@@ -12,6 +12,8 @@ from .parameters import Parameters
 from .presses import Presses, PressOrder, PressResult
 
 NS = 1e-9
+# A person who holds the button wants the lift this far ahead; somewhat more than the period of the orders.
+MANUAL_LEAD_S = 0.3
 
 
 @dataclass(frozen=True)
@@ -25,6 +27,7 @@ class Orders:
     press: PressOrder = PressOrder()
     mode: int = State.STARTING
     has_goal: bool = False
+    manual_lift_mps: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,7 @@ class Peripherals:
     def step(self, orders: Orders, report: Optional[FirmwareReport], now_ns: int) -> Outcome:
         """Decide at one tick; report is the firmware's newest one."""
         silence = self._silence(report, now_ns)
-        lift_height_m, refusal = self._lift(orders)
+        lift_height_m, refusal = self._lift(orders, report)
         # A press that has begun ends by itself; a new one needs a live link.
         press = self._presses.step(orders.press if orders.link_alive else PressOrder(), report, now_ns)
         fault = FAULTS.get(report.fault, f"The firmware reports fault {report.fault}.") if (
@@ -73,7 +76,10 @@ class Peripherals:
             return f"The firmware of lift and buttons has been silent for {age_s:.1f} s; check cable and power."
         return ""
 
-    def _lift(self, orders: Orders) -> Tuple[float, str]:
+    def _lift(self, orders: Orders, report: Optional[FirmwareReport]) -> Tuple[float, str]:
+        if orders.manual_lift_mps and report is not None:
+            ahead_m = report.lift_height_m + MANUAL_LEAD_S * orders.manual_lift_mps
+            return min(max(ahead_m, 0.0), self._calibration.lift_stroke_m), ""
         if not orders.link_alive:
             return math.nan, ""
         try:

@@ -1,5 +1,6 @@
 """The peripherals' node: wires the topics to the core."""
 # SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
 from typing import Optional, Tuple
 
 import rospy
@@ -9,7 +10,15 @@ from mtr_core import names, schedule
 from mtr_core.crc import is_sound
 from mtr_lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_lockstep.samples import Samples
-from mtr_msgs.msg import DesiredState, FirmwareCommand, FirmwarePress, FirmwareState, PeripheralsState, RobotMode
+from mtr_msgs.msg import (
+    DesiredState,
+    FirmwareCommand,
+    FirmwarePress,
+    FirmwareState,
+    LiftCommand,
+    PeripheralsState,
+    RobotMode,
+)
 
 from .conversions import (
     battery_charge,
@@ -31,6 +40,8 @@ NS = 1e-9
 EMULATED_LAG_NS = 100_000_000
 # The firmware's clock when it is powered on, at time 0 of a simulation: 2 minutes before it wraps, see its config.hpp.
 EMULATED_CLOCK_START_US = 2 ** 32 - 1 - 120_000_000
+# It speaks every 40 ms while the person wants it, as LiftCommand says.
+MANUAL_LIFT_SILENT_S = 0.2
 
 
 class PeripheralsNode:
@@ -43,6 +54,7 @@ class PeripheralsNode:
         self._times = SharedClock(start_us) if clock.is_simulated() else FirmwareClock()
         self._reports = Samples(schedule.FIRMWARE, lag_ns, clock.is_simulated())
         self._battery: Tuple[int, Optional[float]] = (0, None)
+        self._manual_lift = LiftCommand()
         self._seq = 0
         self._logged = None
         self._desired = TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER)
@@ -53,7 +65,8 @@ class PeripheralsNode:
         self._joints = publisher(names.JOINT_STATES, JointState)
         self._subscribers = (
             rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, self._take_state, queue_size=50, tcp_nodelay=True),
-            rospy.Subscriber(names.BATTERY, BatteryState, self._take_battery, queue_size=1))
+            rospy.Subscriber(names.BATTERY, BatteryState, self._take_battery, queue_size=1),
+            rospy.Subscriber(names.MANUAL_LIFT, LiftCommand, self._take_manual_lift, queue_size=1, tcp_nodelay=True))
         self._ticker = Ticker(schedule.PERIPHERALS)
 
     def spin(self) -> None:
@@ -63,6 +76,7 @@ class PeripheralsNode:
 
     def _step(self, tick: int) -> None:
         wanted = orders(self._fresh(self._desired.at(tick), tick), self._fresh(self._mode.at(tick), tick))
+        wanted = replace(wanted, manual_lift_mps=self._manual_lift_mps(tick))
         outcome = self._core.step(wanted, self._reports.at(tick), tick)
         self._seq += 1
         self._send(self._command, command_message(outcome, self._seq))
@@ -87,6 +101,14 @@ class PeripheralsNode:
 
     def _take_battery(self, message: BatteryState) -> None:
         self._battery = (clock.now_ns(), message.percentage)
+
+    def _take_manual_lift(self, message: LiftCommand) -> None:
+        self._manual_lift = message
+
+    def _manual_lift_mps(self, tick: int) -> float:
+        """Rate wanted by the manual controller, 0 when it wants nothing or is silent."""
+        age_s = (tick - self._manual_lift.header.stamp.to_nsec()) * NS
+        return self._manual_lift.rate_mps if age_s <= MANUAL_LIFT_SILENT_S else 0.0
 
     def _charge(self, tick: int) -> float:
         taken_ns, percentage = self._battery

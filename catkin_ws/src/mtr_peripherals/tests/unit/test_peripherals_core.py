@@ -189,3 +189,17 @@ def test_fault_of_the_firmware_is_a_sentence(core):
 ])
 def test_leds_show_what_the_robot_does(core, orders, led):
     assert core.step(orders, FirmwareReport(START), START).led is led
+
+
+@pytest.mark.parametrize("rate_mps, wanted_m", [(0.1, 0.43), (-0.1, 0.37)])
+def test_manual_controller_moves_the_lift_from_where_it_is_though_the_operator_wants_another_height(
+        core, rate_mps, wanted_m):
+    report = FirmwareReport(START, lift_height_m=0.4)
+    orders = replace(LIVE, key_height_m=1.5, manual_lift_mps=rate_mps)
+    assert core.step(orders, report, START).lift_height_m == pytest.approx(wanted_m)
+
+
+def test_manual_controller_does_not_move_the_lift_beyond_its_stops(core):
+    orders = Orders(manual_lift_mps=0.5)
+    assert core.step(orders, FirmwareReport(START, lift_height_m=1.19), START).lift_height_m == pytest.approx(1.2)
+    assert core.step(replace(orders, manual_lift_mps=-0.5), FirmwareReport(START), START).lift_height_m == 0.0

@@ -57,7 +57,8 @@ class EvdevJoyNode:
         while not rospy.is_shutdown():
             try:
                 ready, _, _ = select.select([device.fd], [], [], self._parameters.alive_period_s)
-                changed = [gamepad.take(event.type, event.code, event.value) for event in device.read()] if ready else []
+                events = device.read() if ready else ()
+                changed = [gamepad.take(event.type, event.code, event.value) for event in events]
                 # Asking it for its state fails when it is gone, though nothing was to be read.
                 device.absinfo(0)
             except OSError:

@@ -1,0 +1,96 @@
+"""The robot's outline, LiDARs and masses that drive control assumes are those of the URDF."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+PACKAGES = Path(__file__).resolve().parents[3]
+HEADERS = PACKAGES / "mtr_drive_control" / "include" / "mtr_drive_control"
+URDF = ElementTree.parse(PACKAGES / "mtr_description" / "urdf" / "robot.urdf").getroot()
+LINKS = {link.get("name"): link for link in URDF.findall("link")}
+JOINTS = {joint.find("child").get("link"): joint for joint in URDF.findall("joint")}
+BASE_HEIGHT_M = 0.0635
+KEY_AT_LOWER_STOP_M, KEY_AT_UPPER_STOP_M = 0.35, 1.55
+
+
+def default(name):
+    """Default value of a parameter in the C++ headers."""
+    text = "".join((HEADERS / header).read_text(encoding="utf-8")
+                   for header in ("parameters.hpp", "collision_parameters.hpp"))
+    return float(re.search(rf"double {name} = (-?[\d.]+);", text).group(1))
+
+
+def numbers(element, attribute):
+    return [float(value) for value in (element.get(attribute, "0 0 0") if element is not None else "0 0 0").split()]
+
+
+def place_of(link):
+    """Position of a link in base_link, with the lift down; all joints are parallel to base_link but for turns."""
+    place = [0.0, 0.0, 0.0]
+    while link in JOINTS:
+        place = [a + b for a, b in zip(place, numbers(JOINTS[link].find("origin"), "xyz"))]
+        link = JOINTS[link].find("parent").get("link")
+    return place
+
+
+def masses():
+    """Mass and place of its centre, of each link; and whether it goes up with the lift."""
+    for name, link in LINKS.items():
+        inertial = link.find("inertial")
+        if inertial is not None:
+            origin = numbers(inertial.find("origin"), "xyz")
+            yield (float(inertial.find("mass").get("value")), [a + b for a, b in zip(place_of(name), origin)],
+                   name in ("carriage", "key"))
+
+
+def centre_of_mass(key_height_m):
+    """x in base_link, z above ground."""
+    raised = key_height_m - KEY_AT_LOWER_STOP_M
+    total = sum(mass for mass, _, _ in masses())
+    x = sum(mass * place[0] for mass, place, _ in masses()) / total
+    z = sum(mass * (place[2] + (raised if lifts else 0.0)) for mass, place, lifts in masses()) / total
+    return x, z + BASE_HEIGHT_M
+
+
+def test_lidars_are_where_the_urdf_has_them():
+    for side in ("front", "rear"):
+        assert default(f"{side}_lidar_x_m") == pytest.approx(place_of(f"{side}_lidar")[0])
+        turn = numbers(JOINTS[f"{side}_lidar"].find("origin"), "rpy")[2]
+        assert default(f"{side}_lidar_yaw_rad") == pytest.approx(turn, abs=1e-6)
+
+
+def test_everything_of_the_robot_is_within_the_footprint():
+    for name, link in LINKS.items():
+        x, y, _ = place_of(name)
+        for collision in link.findall("collision"):
+            origin = numbers(collision.find("origin"), "xyz")
+            box, cylinder = collision.find("geometry/box"), collision.find("geometry/cylinder")
+            if box is not None:
+                length, width, _ = numbers(box, "size")
+            else:
+                radius, height = float(cylinder.get("radius")), float(cylinder.get("length"))
+                length, width = 2.0 * radius, height if "wheel" in name else 2.0 * radius
+            assert x + origin[0] + length / 2.0 <= default("front_m") + 1e-9, name
+            assert x + origin[0] - length / 2.0 >= -default("rear_m") - 1e-9, name
+            assert abs(y + origin[1]) + width / 2.0 <= default("half_width_m") + 1e-9, name
+
+
+@pytest.mark.parametrize("key_height_m", [KEY_AT_LOWER_STOP_M, KEY_AT_UPPER_STOP_M])
+def test_centre_of_mass_is_that_of_the_urdf_at_each_height_of_the_key(key_height_m):
+    assumed = default("centre_of_mass_m") + default("centre_of_mass_rise") * key_height_m
+    assert assumed == pytest.approx(centre_of_mass(key_height_m)[1], abs=0.002)
+
+
+def test_levers_are_the_distances_of_the_centre_of_mass_from_the_wheels():
+    x, _ = centre_of_mass(KEY_AT_LOWER_STOP_M)
+    wheel_x, wheel_y, _ = place_of("front_left_wheel_link")
+    assert default("tip_lever_along_m") == pytest.approx(wheel_x - abs(x), abs=0.002)
+    assert default("tip_lever_across_m") == pytest.approx(wheel_y, abs=0.002)
+
+
+def test_raised_key_is_the_one_at_the_upper_stop():
+    assert default("key_raised_m") == KEY_AT_UPPER_STOP_M
+    assert math.isclose(place_of("key")[2] + BASE_HEIGHT_M, KEY_AT_LOWER_STOP_M)
