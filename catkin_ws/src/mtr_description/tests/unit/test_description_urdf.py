@@ -116,7 +116,8 @@ def test_rviz_shows_what_the_nodes_publish():
     manager = config["Visualization Manager"]
     topics = {display.get("Topic") or display.get("Marker Topic") for display in manager["Displays"]}
     assert manager["Global Options"]["Fixed Frame"] == names.MAP
-    assert topics >= {names.FRONT_SCAN, names.REAR_SCAN, names.MOTION_PATH, names.SIM_TRUTH, names.CAR_MARKERS}
+    assert topics >= {names.FRONT_SCAN, names.REAR_SCAN, names.MOTION_PATH, names.SIM_TRUTH, names.CAR_MARKERS,
+                      names.MAP_GRID, names.LOCALIZATION_MARKERS, names.MOTION_MARKERS, names.DRIVE_MARKERS}
 
 
 def test_key_is_what_is_foremost(root):
