@@ -95,7 +95,9 @@ def pytest(name: str, paths: List[str], timeout_s: int) -> Counts:
     report = RESULTS / name / "pytest.xml"
     command = [sys.executable, "-m", "pytest", "-q", "--import-mode=importlib", "-p", "no:cacheprovider",
                f"--timeout={timeout_s}", f"--junitxml={report}", f"--rootdir={TOP}", *paths]
-    status = subprocess.run(command, cwd=TOP, check=False).returncode
+    # pytest-qt takes the newest Qt that it finds, the application is for Qt 5.
+    environment = dict(os.environ, PYTEST_QT_API="pyqt5", QT_QPA_PLATFORM="offscreen")
+    status = subprocess.run(command, cwd=TOP, env=environment, check=False).returncode
     return counts_of([report], status)
 
 
