@@ -16,8 +16,8 @@ from mtr_operator.domain.scenario import Scenario
 # Before the robot has measured the Car: a middle-sized one.
 USUAL_CAR = CarDimensions(4.5, 1.8, math.nan, math.nan)
 # Measured in the simulation's demo: the way round the Car, the self-check, and what stops, turns on the spot and gentle
-# accelerations add to each line. With these the demo's Autolock is expected to take 384 s and takes 370 s, its Key press
-# 189 s and 220 s, for the Car obeys nearer than in the middle.
+# accelerations add to each line. With these its Autolock is expected to take 384 s and takes 370 s, its Key press on a
+# mapped Car 188 s and 220 s, for the Car obeys nearer than in the middle.
 MAPPING_S = 45.0
 SELF_CHECK_S = 17.0
 MANOEUVRES_S = 9.0
