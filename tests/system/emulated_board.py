@@ -4,11 +4,10 @@ import io
 import pathlib
 from typing import Any, List, Optional
 
-from mtr_emulator import Emulator
-
 from mtr_core import names
 from mtr_core.crc import is_sound
 from mtr_core.states import State
+from mtr_emulator import Emulator
 from mtr_msgs.msg import FirmwareState
 from mtr_peripherals.conversions import command_message, firmware_report, press_message
 from mtr_peripherals.core import Orders, Outcome, Peripherals

@@ -21,7 +21,7 @@ from mtr_operator.station.no_car import NoCarLink
 TIME_FACTOR = 150.0
 WORLD = VirtualWorld()
 UNLOCK_M, LOCK_M, PRESS_M = 1.5, 2.2, 5.2
-LIMIT_MS = 15_000
+LIMIT_MS = 40_000
 
 
 class KeyCar(CarLink):

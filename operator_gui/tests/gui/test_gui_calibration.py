@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
-from mtr_operator.domain.ports import PressConfirmation
+from mtr_operator.domain.ports import CarCheck, CarDimensions, CheckState, Mode, PressConfirmation
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
 
 
@@ -57,3 +57,27 @@ def test_invalid_value_is_told_and_cannot_be_sent(window, field, text):
 def test_silent_robot_gets_no_order(window, operator, opener):
     opener.is_silent = True
     operator.wait(lambda: not window.send.isEnabled())
+
+
+def test_car_is_mapped_again_on_request_and_stopped(window, operator, opener):
+    operator.wait(window.car.map.isEnabled)
+    operator.click(window.car.map)
+    operator.wait(lambda: opener.sent[-1].map_car_id == 1)
+    assert not opener.sent[-1].stop
+    opener.spoil_with(mode=Mode.MAPPING_CAR)
+    operator.wait(window.car.stop.isEnabled)
+    assert window.car.told.text() == "The robot maps the Car."
+    assert not window.car.map.isEnabled()
+    operator.click(window.car.stop)
+    operator.wait(lambda: opener.sent[-1].stop)
+    assert opener.sent[-1].map_car_id == 1
+
+
+def test_position_of_the_car_is_checked_and_the_answer_told(window, operator, opener):
+    opener.spoil_with(mode=Mode.FOLLOWING_WAYPOINT, car=CarDimensions(4.5, 1.8, 0.01, 0.01), car_check=CarCheck())
+    operator.wait(window.car.check.isEnabled)
+    assert "4.50 m by 1.80 m" in window.car.told.text()
+    operator.click(window.car.check)
+    operator.wait(lambda: opener.sent[-1].check_car_id == 1)
+    opener.spoil_with(car_check=CarCheck(1, CheckState.FAILED, message="The Car stands elsewhere."))
+    operator.wait(lambda: window.car.told.text() == "The Car stands elsewhere.")

@@ -12,7 +12,7 @@ from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.parameters import ParameterSet
 from mtr_operator.domain.scenario import Scenario
 from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
-from mtr_operator.station.idle import CalibrationOrder
+from mtr_operator.station.idle import CalibrationOrder, CarLook
 from mtr_operator.station.news import CarLinkOpened, Connected, Ended, Measured, News, Outcome, Refused, Saved
 from mtr_operator.station.readiness import Phase
 from mtr_operator.station.settings_file import SettingsStore
@@ -162,6 +162,10 @@ class Flow(QObject):
     def calibrate(self, order: CalibrationOrder) -> None:
         """Have the robot try something."""
         self._worker.calibrate(order)
+
+    def look_at_car(self, again: CarLook) -> None:
+        """Have the robot check or map the Car, or stop doing so."""
+        self._worker.look_at_car(again)
 
     # Events
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from mtr_operator.domain.parameters import Declaration
+from mtr_operator.domain.parameters import Declaration, Flag
 from mtr_operator.domain.scenario import Scenario
 
 from .i18n import translate
@@ -42,7 +42,18 @@ def plain_words(name: str, declared: Declaration) -> str:
     return name.replace("_", " ").capitalize()
 
 
-def parameter_doc(declared: Declaration) -> str:
+def flag_title(name: str) -> str:
+    """Label of the check box of a parameter that is true or false."""
+    titles = {"self_check": translate("Parameter", "Check the Car's position before the test")}
+    return titles.get(name) or name.replace("_", " ").capitalize()
+
+
+def yes_or_no(value: bool) -> str:
+    """Value of such a parameter."""
+    return translate("Parameter", "yes") if value else translate("Parameter", "no")
+
+
+def parameter_doc(declared: Declaration | Flag) -> str:
     """Tool tip of a parameter's field."""
     return translate("ParameterDoc", declared.doc)
 

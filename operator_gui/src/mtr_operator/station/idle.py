@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import enum
 from dataclasses import dataclass, replace
 
 from mtr_operator.domain.ports import ButtonPress, CarLink, DesiredState, RobotStatus
@@ -11,6 +12,14 @@ from .watched_link import WatchedRobotLink
 
 # Wall time for which one step waits for a Status; the desired state is sent again after that.
 STEP_S = 0.1
+
+
+class CarLook(enum.Enum):
+    """What the Operator has the robot do with the Car between two tests."""
+
+    CHECK = "check where it stands"
+    MAP = "map it again"
+    STOP = "stop"
 
 
 @dataclass(frozen=True)
@@ -30,7 +39,7 @@ class IdleSession:
         self._robot = robot
         self._car = car
         self._desired = DesiredState()
-        self._press_id = 0
+        self._press_id = self._check_id = self._map_id = 0
         self._heard = False
         self.silent_s = 0.0
 
@@ -42,6 +51,15 @@ class IdleSession:
             press = ButtonPress(self._press_id, order.buttons, order.strength, order.duration_s)
         height_m = self._desired.key_height_m if order.key_height_m is None else order.key_height_m
         self._desired = replace(self._desired, key_height_m=height_m, press=press)
+
+    def look_at_car(self, again: CarLook) -> None:
+        """Have the robot check or map the Car, or stop doing so; it moves for that."""
+        if again is CarLook.CHECK:
+            self._check_id += 1
+        elif again is CarLook.MAP:
+            self._map_id += 1
+        self._desired = replace(self._desired, stop=again is CarLook.STOP, check_car_id=self._check_id,
+                                map_car_id=self._map_id)
 
     def use_car(self, car: CarLink) -> None:
         """Watch the Car through another link from now on."""

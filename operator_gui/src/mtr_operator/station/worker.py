@@ -12,7 +12,7 @@ from mtr_operator.domain.errors import InvalidParameter, OperatorError, OutputEr
 from mtr_operator.domain.ports import CarLink
 
 from .connection import CanChoice, Connection, LinkOpener
-from .idle import CalibrationOrder, IdleSession
+from .idle import CalibrationOrder, CarLook, IdleSession
 from .mailbox import Mailbox
 from .measuring import Measuring
 from .news import CarLinkOpened, Connected, Refused, Saved, Silence
@@ -70,6 +70,10 @@ class Worker:
     def calibrate(self, order: CalibrationOrder) -> None:
         """Have the robot try something."""
         self._requests.put(lambda: self._idle.order(order) if self._idle else None)
+
+    def look_at_car(self, again: CarLook) -> None:
+        """Have the robot check or map the Car, or stop doing so."""
+        self._requests.put(lambda: self._idle.look_at_car(again) if self._idle else None)
 
     def use_can(self, choice: CanChoice | None) -> None:
         """Change the CAN adapter; CarLinkOpened or Refused comes into the mailbox."""

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Any, Mapping
 
 from PyQt5.QtCore import Qt, pyqtSignal
-from PyQt5.QtWidgets import QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QCheckBox, QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.errors import InvalidParameter
-from mtr_operator.domain.parameters import ParameterSet
+from mtr_operator.domain.parameters import Flag, ParameterSet
 
+from ..names import flag_title, parameter_doc
 from ..sentences import parameter_sentence
 from ..theme.scale import L, M
 from .parameter_field import ParameterField
@@ -20,7 +21,9 @@ _COLUMNS = 2
 
 
 class ParameterForm(QWidget):
-    """Attributes: fields: by parameter. more, usual: buttons. fault: what does not fit together.
+    """Attributes: fields: numbers by parameter. flags: check boxes by parameter. more, usual: buttons.
+
+    fault: what does not fit together.
 
     Signals: changed: something else was typed.
     """
@@ -33,6 +36,7 @@ class ParameterForm(QWidget):
         self._is_filling = False
         self.fields = {name: ParameterField(name, declared)
                        for name, declared in parameters_type.declarations().items()}
+        self.flags = {name: self._make_flag(name, declared) for name, declared in parameters_type.flags().items()}
         self.usual = QPushButton(self.tr("Usual values"))
         self.more = QPushButton()
         self.more.setCheckable(True)
@@ -48,7 +52,15 @@ class ParameterForm(QWidget):
         self._lay_out()
         for field in self.fields.values():
             field.changed.connect(self._check)
+        for box in self.flags.values():
+            box.toggled.connect(self._check)
         self.show_mapping({})
+
+    @staticmethod
+    def _make_flag(name: str, declared: Flag) -> QCheckBox:
+        box = QCheckBox(flag_title(name))
+        box.setToolTip(parameter_doc(declared))
+        return box
 
     def _lay_out(self) -> None:
         names = list(self.fields)
@@ -67,7 +79,7 @@ class ParameterForm(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, M, 0)
         layout.setSpacing(M)
-        for widget in (main, self.fault, self.more, self._rest, self.usual):
+        for widget in (main, *self.flags.values(), self.fault, self.more, self._rest, self.usual):
             layout.addWidget(widget, 0, Qt.AlignLeft if isinstance(widget, QPushButton) else Qt.Alignment())
         layout.addStretch(1)
 
@@ -81,8 +93,7 @@ class ParameterForm(QWidget):
     def parameters(self) -> ParameterSet | None:
         """What was typed; None while it is not valid."""
         try:
-            return self._type(**{name: field.reading.value for name, field in self.fields.items()}) \
-                if not self._faulty_fields() else None
+            return None if self._faulty_fields() else self._typed()
         except InvalidParameter:
             return None
 
@@ -95,6 +106,8 @@ class ParameterForm(QWidget):
         self._is_filling = True
         for name, field in self.fields.items():
             field.show_value(getattr(values, name))
+        for name, box in self.flags.items():
+            box.setChecked(getattr(values, name))
         self._is_filling = False
         self._check()
 
@@ -102,6 +115,10 @@ class ParameterForm(QWidget):
         """Say what does not fit together, e.g. with the Car's size."""
         self.fault.setText(sentence)
         self.fault.setVisible(bool(sentence))
+
+    def _typed(self) -> ParameterSet:
+        numbers = {name: field.reading.value for name, field in self.fields.items()}
+        return self._type(**numbers, **{name: box.isChecked() for name, box in self.flags.items()})
 
     def _faulty_fields(self) -> list[ParameterField]:
         return [field for field in self.fields.values() if field.reading.fault is not None]
@@ -115,7 +132,7 @@ class ParameterForm(QWidget):
         faulty = self._faulty_fields()
         if not faulty:
             try:
-                self._type(**{name: field.reading.value for name, field in self.fields.items()})
+                self._typed()
             except InvalidParameter as error:
                 sentence = parameter_sentence(error, self._type)
         elif any(self._rest.isAncestorOf(field) for field in faulty):

@@ -28,7 +28,10 @@ _LEAST_TEXT_PX = 9.0
 
 
 class CarLayer(Layer):
-    """Attributes: car: its dimensions. is_measured: False paints its border dashed, for its size is a guess."""
+    """The measured outline where the robot says it, else a rounded rectangle of the measured size.
+
+    Attributes: car: its dimensions. is_measured: False paints its border dashed, for its size is a guess.
+    """
 
     def __init__(self, car: CarDimensions, is_measured: bool):
         self.car = car
@@ -45,8 +48,11 @@ class CarLayer(Layer):
         rounding = ROUNDING_PART * car.width * canvas.viewport.px_per_m
         painter.setPen(canvas.pen(palette.edge, 1.8, Qt.SolidLine if self.is_measured else Qt.DashLine))
         painter.setBrush(QBrush(QColor(palette.body)))
-        body = QRectF(canvas.at((half_length, half_width)), canvas.at((-half_length, -half_width)))
-        painter.drawRoundedRect(body, rounding, rounding)
+        if car.outline:
+            painter.drawPolygon(canvas.polygon(car.outline))
+        else:
+            body = QRectF(canvas.at((half_length, half_width)), canvas.at((-half_length, -half_width)))
+            painter.drawRoundedRect(body, rounding, rounding)
         painter.setPen(canvas.pen(palette.edge, 0.8))
         for parts, colour in (((WINDSCREEN, REAR_WINDOW, SIDE_WINDOW, mirrored(SIDE_WINDOW)), palette.glass),
                               ((HEADLAMP, mirrored(HEADLAMP)), _LAMP), ((TAIL, mirrored(TAIL)), _TAIL_LAMP)):

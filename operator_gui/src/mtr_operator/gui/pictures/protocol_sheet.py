@@ -9,7 +9,7 @@ from mtr_operator.domain.scenario import REASON
 from mtr_operator.report.protocol_rows import Row, date_text, session_rows, summary_rows
 
 from ..i18n import decimal_sign, translate
-from ..names import domain_word, parameter_title, scenario_title
+from ..names import domain_word, flag_title, parameter_title, scenario_title, yes_or_no
 from ..sentences import translated
 from ..theme.palette import LIGHT
 from .layer import Canvas, paint_all
@@ -88,7 +88,8 @@ class ProtocolSheet:
             if value is not None:
                 shown = declared.shown_text(value).replace(".", decimal_sign())
                 rows.append((parameter_title(name, declared), shown))
-        return rows
+        return rows + [(flag_title(name), yes_or_no(bool(protocol.progress.parameters.get(name))))
+                       for name in protocol.scenario.parameters_type.flags()]
 
     def _session_rows(self) -> list[Row]:
         (car, size), *rows = session_rows(self._protocol.progress)

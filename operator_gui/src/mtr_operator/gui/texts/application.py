@@ -143,4 +143,16 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "CAN database {} cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "A message of {} bytes was ignored; allowed is at most {} bytes."),
     QT_TRANSLATE_NOOP("Sentence", "A message was ignored: {}"),
+    QT_TRANSLATE_NOOP("Sentence", "wait for the robot"),
+    QT_TRANSLATE_NOOP("Sentence", "check where the Car stands"),
+    QT_TRANSLATE_NOOP("Sentence", "warning: the robot's software is too old to check where the Car stands; it is "
+                                  "taken as it is"),
+    QT_TRANSLATE_NOOP("Sentence", "The robot has not found the Car yet, so there is nothing to check; a test begins"
+                                  " with it."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot's software is too old to check where the Car stands."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot did not check the Car within {} s. {}"),
+    QT_TRANSLATE_NOOP("Sentence", "The robot did not check the Car within {} s."),
+    QT_TRANSLATE_NOOP("Sentence", "The test does not begin. {}"),
+    QT_TRANSLATE_NOOP("Sentence", "The Car coordinate system was corrected during the measurement."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car's bus is not connected."),
 )

@@ -15,6 +15,8 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("ParameterDoc", "How long the Car may take to react at the end of the approach and of the "
                                       "retreat."),
     QT_TRANSLATE_NOOP("ParameterDoc", "How long to wait at the starting distance for the Car to be locked."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Before the test the robot looks at the Car again from two places; it does "
+                                      "not begin when the Car stands elsewhere than it was measured."),
     QT_TRANSLATE_NOOP("ParameterDoc", "Nearest place at which the button is pressed."),
     QT_TRANSLATE_NOOP("ParameterDoc", "Starting distance of each radial."),
     QT_TRANSLATE_NOOP("ParameterDoc", "First piece of the approach, to correct the heading; the first press is at "

@@ -56,4 +56,52 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The firmware refused the press."),
     QT_TRANSLATE_NOOP("Sentence", "The waypoint ({} m, {} m) is too close to the Car."),
     QT_TRANSLATE_NOOP("Sentence", "The waypoint is not a number."),
+    QT_TRANSLATE_NOOP("Sentence", "Localization has another map than the one in which the Car was found. {}"),
+    QT_TRANSLATE_NOOP("Sentence", "Localization has another map than the one in which the Car was found."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car does not stand where it was measured."),
+    QT_TRANSLATE_NOOP("Sentence", "Looks at the Car again."),
+    QT_TRANSLATE_NOOP("Sentence", "There is nothing of a Car's size where the Car should stand."),
+    QT_TRANSLATE_NOOP("Sentence", "Not enough of a Car was seen: one long side and one end are needed at least, or "
+                                  "all four wheels."),
+    QT_TRANSLATE_NOOP("Sentence", "What stands there looks too little like a Car: {} % of a Car's outline was seen;"
+                                  " its likeness is {}, needed is {}."),
+    QT_TRANSLATE_NOOP("Sentence", "Only wheels of the Car were seen, and they do not stand as a car's do."),
+    QT_TRANSLATE_NOOP("Sentence", "What was found is {} m and {} deg away from where the Car should stand; allowed "
+                                  "is {} m and {} deg."),
+    QT_TRANSLATE_NOOP("Sentence", "Two things of a Car's size stand there, {} m apart, and which of them is the Car"
+                                  " cannot be told."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car's long sides were seen too little to tell its heading."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car was found: {} m long (1 sigma {} cm), {} m wide (1 sigma {} cm)."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car was found by its wheels, {} m long (1 sigma {} cm), {} m wide (1 sigma "
+                                  "{} cm); the LiDARs look under its bumpers. Known length and front overhang make "
+                                  "it more exact."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car's frame was corrected by {} cm and {} deg, as it is seen now; it has "
+                                  "revision {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car is no longer seen where it was measured."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car was moved, by {} cm and {} deg."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car's position is lost. {} Put the robot at the starting place and map "
+                                  "again."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot's pose is not known yet."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car stands {} cm and {} deg from where it was measured (1 sigma {} cm, {} "
+                                  "deg)."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car stands {} cm and {} deg from where it was measured (1 sigma {} cm, {} "
+                                  "deg); allowed is {} cm and {} deg. Close its doors and check again, or map it "
+                                  "again."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car stands {} cm from where it was measured."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car stands {} cm from where it was measured; allowed is {} cm. Map it again."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot goes to look at the Car again."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car could be looked at from {} of {} places only; clear the way round it, or"
+                                  " map it again."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot makes a map of what it has seen."),
+    QT_TRANSLATE_NOOP("Sentence", "Localization has not made its map within {} s."),
+    QT_TRANSLATE_NOOP("Sentence", "Localization could not make a map of what was seen."),
+    QT_TRANSLATE_NOOP("Sentence", "No way to the goal was found that keeps the robot away from the Car."),
+    QT_TRANSLATE_NOOP("Sentence", "No way to the goal was found that keeps the robot away from the Car and inside "
+                                  "the test area."),
+    QT_TRANSLATE_NOOP("Sentence", "At the goal the robot would not be inside the test area."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot stands outside the test area; move it back by hand."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot is {} by an obstacle {} m {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot is {} by an obstacle."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot stands because a LiDAR that should see its way is silent."),
+    QT_TRANSLATE_NOOP("Sentence", "The press was cut short; it may have pressed or not."),
 )

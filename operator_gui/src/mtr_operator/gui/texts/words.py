@@ -41,4 +41,11 @@ WORDS = (
     QT_TRANSLATE_NOOP("Word", "publisher port"),
     QT_TRANSLATE_NOOP("Word", "subscriber"),
     QT_TRANSLATE_NOOP("Word", "publisher"),
+    QT_TRANSLATE_NOOP("Word", "blocked"),
+    QT_TRANSLATE_NOOP("Word", "slowed"),
+    QT_TRANSLATE_NOOP("Word", "ahead"),
+    QT_TRANSLATE_NOOP("Word", "behind"),
+    QT_TRANSLATE_NOOP("Word", "to the left"),
+    QT_TRANSLATE_NOOP("Word", "to the right"),
+    QT_TRANSLATE_NOOP("Word", "away"),
 )

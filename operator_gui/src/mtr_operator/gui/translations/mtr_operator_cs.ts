@@ -17,72 +17,72 @@
 <context>
     <name>CalibrationWindow</name>
     <message>
-        <location filename="../windows/calibration_window.py" line="35"/>
+        <location filename="../windows/calibration_window.py" line="36"/>
         <source>Calibration</source>
         <translation>Kalibrace</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="42"/>
+        <location filename="../windows/calibration_window.py" line="43"/>
         <source>Lock</source>
         <translation>Zamknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="42"/>
+        <location filename="../windows/calibration_window.py" line="43"/>
         <source>Unlock</source>
         <translation>Odemknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="47"/>
+        <location filename="../windows/calibration_window.py" line="49"/>
         <source>Send</source>
         <translation>Odeslat</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="83"/>
+        <location filename="../windows/calibration_window.py" line="86"/>
         <source>Wanted</source>
         <translation>Požadováno</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="97"/>
+        <location filename="../windows/calibration_window.py" line="100"/>
         <source>Reported by the robot</source>
         <translation>Hlášeno robotem</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="86"/>
+        <location filename="../windows/calibration_window.py" line="89"/>
         <source>Buttons to press</source>
         <translation>Tlačítka ke stisknutí</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="98"/>
+        <location filename="../windows/calibration_window.py" line="101"/>
         <source>Key height</source>
         <translation>Výška klíče</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="98"/>
+        <location filename="../windows/calibration_window.py" line="101"/>
         <source>Buttons pressed</source>
         <translation>Stisknutá tlačítka</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="99"/>
+        <location filename="../windows/calibration_window.py" line="102"/>
         <source>Press strength ordered</source>
         <translation>Požadovaná síla stisku</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="64"/>
+        <location filename="../windows/calibration_window.py" line="66"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="124"/>
+        <location filename="../windows/calibration_window.py" line="127"/>
         <source>none</source>
         <translation>žádné</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="133"/>
+        <location filename="../windows/calibration_window.py" line="137"/>
         <source>Pressed for {duration} s.</source>
         <translation>Stisknuto po dobu {duration} s.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="147"/>
+        <location filename="../windows/calibration_window.py" line="151"/>
         <source>Sent.</source>
         <translation>Odesláno.</translation>
     </message>
@@ -128,6 +128,54 @@
         <location filename="../forms/can_form.py" line="49"/>
         <source>Car profile</source>
         <translation>Profil auta</translation>
+    </message>
+</context>
+<context>
+    <name>CarCard</name>
+    <message>
+        <location filename="../windows/car_card.py" line="24"/>
+        <source>Car</source>
+        <translation>Auto</translation>
+    </message>
+    <message>
+        <location filename="../windows/car_card.py" line="28"/>
+        <source>Check its position</source>
+        <translation>Ověřit jeho polohu</translation>
+    </message>
+    <message>
+        <location filename="../windows/car_card.py" line="29"/>
+        <source>Map it again</source>
+        <translation>Znovu zmapovat</translation>
+    </message>
+    <message>
+        <location filename="../windows/car_card.py" line="30"/>
+        <source>Stop</source>
+        <translation>Zastavit</translation>
+    </message>
+    <message>
+        <location filename="../windows/car_card.py" line="32"/>
+        <source>The robot drives around the Car for both.</source>
+        <translation>K obojímu robot jezdí kolem auta.</translation>
+    </message>
+    <message>
+        <location filename="../windows/car_card.py" line="58"/>
+        <source>The robot maps the Car.</source>
+        <translation>Robot mapuje auto.</translation>
+    </message>
+    <message>
+        <location filename="../windows/car_card.py" line="60"/>
+        <source>The robot checks where the Car stands.</source>
+        <translation>Robot ověřuje, kde auto stojí.</translation>
+    </message>
+    <message>
+        <location filename="../windows/car_card.py" line="65"/>
+        <source>The Car is not measured yet.</source>
+        <translation>Auto ještě není změřeno.</translation>
+    </message>
+    <message>
+        <location filename="../windows/car_card.py" line="66"/>
+        <source>The Car measures {length} m by {width} m.</source>
+        <translation>Auto měří {length} m × {width} m.</translation>
     </message>
 </context>
 <context>
@@ -474,6 +522,21 @@
         <source>Attempts</source>
         <translation>Počet pokusů</translation>
     </message>
+    <message>
+        <location filename="../names.py" line="47"/>
+        <source>Check the Car&apos;s position before the test</source>
+        <translation>Před testem ověřit polohu auta</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="53"/>
+        <source>yes</source>
+        <translation>ano</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="53"/>
+        <source>no</source>
+        <translation>ne</translation>
+    </message>
 </context>
 <context>
     <name>ParameterDoc</name>
@@ -577,6 +640,11 @@
         <source>Presses at each place before it counts as failed.</source>
         <translation>Počet stisků na místě, než platí za neúspěšné.</translation>
     </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Before the test the robot looks at the Car again from two places; it does not begin when the Car stands elsewhere than it was measured.</source>
+        <translation>Před testem si robot auto znovu prohlédne ze dvou míst; stojí-li auto jinde, než bylo změřeno, test nezačne.</translation>
+    </message>
 </context>
 <context>
     <name>ParameterField</name>
@@ -614,17 +682,17 @@
 <context>
     <name>ParameterForm</name>
     <message>
-        <location filename="../forms/parameter_form.py" line="36"/>
+        <location filename="../forms/parameter_form.py" line="40"/>
         <source>Usual values</source>
         <translation>Obvyklé hodnoty</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_form.py" line="77"/>
+        <location filename="../forms/parameter_form.py" line="89"/>
         <source>Fewer parameters</source>
         <translation>Méně parametrů</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_form.py" line="77"/>
+        <location filename="../forms/parameter_form.py" line="89"/>
         <source>More parameters</source>
         <translation>Více parametrů</translation>
     </message>
@@ -632,7 +700,7 @@
 <context>
     <name>Picture</name>
     <message>
-        <location filename="../pictures/car_layer.py" line="66"/>
+        <location filename="../pictures/car_layer.py" line="72"/>
         <source>FRONT</source>
         <translation>PŘEDEK</translation>
     </message>
@@ -1667,6 +1735,231 @@
         <source>The waypoint is not a number.</source>
         <translation>Cílový bod není číslo.</translation>
     </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>wait for the robot</source>
+        <translation>čekám na robot</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>check where the Car stands</source>
+        <translation>robot ověřuje, kde auto stojí</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>warning: the robot&apos;s software is too old to check where the Car stands; it is taken as it is</source>
+        <translation>pozor: software robotu je příliš starý na ověření, kde auto stojí; bere se, jak je</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot has not found the Car yet, so there is nothing to check; a test begins with it.</source>
+        <translation>Robot ještě nenašel auto, takže není co ověřit; test tím začíná.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot&apos;s software is too old to check where the Car stands.</source>
+        <translation>Software robotu je příliš starý na ověření, kde auto stojí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot did not check the Car within {} s. {}</source>
+        <translation>Robot auto do {} s neověřil. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot did not check the Car within {} s.</source>
+        <translation>Robot auto do {} s neověřil.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The test does not begin. {}</source>
+        <translation>Test nezačne. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The Car coordinate system was corrected during the measurement.</source>
+        <translation>Souřadnicová soustava auta byla během měření opravena.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The Car&apos;s bus is not connected.</source>
+        <translation>Sběrnice auta není připojena.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Localization has another map than the one in which the Car was found. {}</source>
+        <translation>Lokalizace má jinou mapu než tu, v níž bylo auto nalezeno. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Localization has another map than the one in which the Car was found.</source>
+        <translation>Lokalizace má jinou mapu než tu, v níž bylo auto nalezeno.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car does not stand where it was measured.</source>
+        <translation>Auto nestojí tam, kde bylo změřeno.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Looks at the Car again.</source>
+        <translation>Robot si auto prohlíží znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>There is nothing of a Car&apos;s size where the Car should stand.</source>
+        <translation>Kde má stát auto, není nic jeho velikosti.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Not enough of a Car was seen: one long side and one end are needed at least, or all four wheels.</source>
+        <translation>Z auta bylo vidět málo: třeba je aspoň jedna dlouhá strana a jeden konec, nebo všechna čtyři kola.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>What stands there looks too little like a Car: {} % of a Car&apos;s outline was seen; its likeness is {}, needed is {}.</source>
+        <translation>Nalezený objekt se autu málo podobá: vidět bylo {} % obrysu auta; podobnost je {}, třeba je {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Only wheels of the Car were seen, and they do not stand as a car&apos;s do.</source>
+        <translation>Vidět byla jen kola a nestojí tak, jak u auta stojí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>What was found is {} m and {} deg away from where the Car should stand; allowed is {} m and {} deg.</source>
+        <translation>Nalezený objekt je {} m a {} stupňů od místa, kde má auto stát; povoleno je {} m a {} stupňů.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Two things of a Car&apos;s size stand there, {} m apart, and which of them is the Car cannot be told.</source>
+        <translation>Stojí tam dva objekty velikosti auta, {} m od sebe, a nelze říci, který z nich je auto.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car&apos;s long sides were seen too little to tell its heading.</source>
+        <translation>Dlouhé strany auta byly vidět příliš málo na určení jeho směru.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car was found: {} m long (1 sigma {} cm), {} m wide (1 sigma {} cm).</source>
+        <translation>Auto nalezeno: délka {} m (1 sigma {} cm), šířka {} m (1 sigma {} cm).</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car was found by its wheels, {} m long (1 sigma {} cm), {} m wide (1 sigma {} cm); the LiDARs look under its bumpers. Known length and front overhang make it more exact.</source>
+        <translation>Auto nalezeno podle kol: délka {} m (1 sigma {} cm), šířka {} m (1 sigma {} cm); lidary hledí pod jeho nárazníky. Se známou délkou a předním převisem je to přesnější.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car&apos;s frame was corrected by {} cm and {} deg, as it is seen now; it has revision {}.</source>
+        <translation>Soustava auta byla opravena o {} cm a {} stupňů podle toho, jak je vidět nyní; má revizi {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car is no longer seen where it was measured.</source>
+        <translation>Auto už není vidět tam, kde bylo změřeno.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car was moved, by {} cm and {} deg.</source>
+        <translation>Auto bylo posunuto o {} cm a {} stupňů.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car&apos;s position is lost. {} Put the robot at the starting place and map again.</source>
+        <translation>Poloha auta se ztratila. {} Postavte robot na výchozí místo a mapujte znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot&apos;s pose is not known yet.</source>
+        <translation>Poloha robotu ještě není známa.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car stands {} cm and {} deg from where it was measured (1 sigma {} cm, {} deg).</source>
+        <translation>Auto stojí {} cm a {} stupňů od místa, kde bylo změřeno (1 sigma {} cm, {} stupňů).</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car stands {} cm and {} deg from where it was measured (1 sigma {} cm, {} deg); allowed is {} cm and {} deg. Close its doors and check again, or map it again.</source>
+        <translation>Auto stojí {} cm a {} stupňů od místa, kde bylo změřeno (1 sigma {} cm, {} stupňů); povoleno je {} cm a {} stupňů. Zavřete jeho dveře a ověřte znovu, nebo je znovu zmapujte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car stands {} cm from where it was measured.</source>
+        <translation>Auto stojí {} cm od místa, kde bylo změřeno.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car stands {} cm from where it was measured; allowed is {} cm. Map it again.</source>
+        <translation>Auto stojí {} cm od místa, kde bylo změřeno; povoleno je {} cm. Zmapujte je znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot goes to look at the Car again.</source>
+        <translation>Robot jede auto znovu prohlédnout.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car could be looked at from {} of {} places only; clear the way round it, or map it again.</source>
+        <translation>Auto šlo prohlédnout jen z {} z {} míst; uvolněte cestu kolem něj, nebo je znovu zmapujte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot makes a map of what it has seen.</source>
+        <translation>Robot vytváří mapu z toho, co viděl.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Localization has not made its map within {} s.</source>
+        <translation>Lokalizace do {} s nevytvořila mapu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Localization could not make a map of what was seen.</source>
+        <translation>Lokalizace nedokázala z viděného vytvořit mapu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>No way to the goal was found that keeps the robot away from the Car.</source>
+        <translation>Nenašla se cesta k cíli v dostatečném odstupu od auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>No way to the goal was found that keeps the robot away from the Car and inside the test area.</source>
+        <translation>Nenašla se cesta k cíli v dostatečném odstupu od auta a uvnitř zkušební plochy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>At the goal the robot would not be inside the test area.</source>
+        <translation>V cíli by robot nebyl uvnitř zkušební plochy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot stands outside the test area; move it back by hand.</source>
+        <translation>Robot stojí mimo zkušební plochu; vraťte jej ručně.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot is {} by an obstacle {} m {}.</source>
+        <translation>Překážka: robot je {0}, vzdálenost {1} m ({2}).</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot is {} by an obstacle.</source>
+        <translation>Překážka: robot je {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The robot stands because a LiDAR that should see its way is silent.</source>
+        <translation>Robot stojí, protože lidar, který má vidět na cestu, mlčí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The press was cut short; it may have pressed or not.</source>
+        <translation>Stisk byl přerušen; mohl, ale nemusel zabrat.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -2230,6 +2523,41 @@
         <location filename="../texts/words.py" line="5"/>
         <source>publisher</source>
         <translation>vydavatel</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>blocked</source>
+        <translation>zablokován</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>slowed</source>
+        <translation>zpomalen</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>ahead</source>
+        <translation>vpředu</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>behind</source>
+        <translation>vzadu</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>to the left</source>
+        <translation>vlevo</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>to the right</source>
+        <translation>vpravo</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>away</source>
+        <translation>daleko</translation>
     </message>
 </context>
 </TS>

@@ -18,6 +18,7 @@ from ..forms.parameter_field import ParameterField
 from ..i18n import number
 from ..sentences import translated
 from ..theme.scale import L, M, S
+from .car_card import CarCard
 from .card import Card
 
 _CM_PER_M = 100.0
@@ -27,7 +28,7 @@ _UNKNOWN = "\N{EN DASH}"
 class CalibrationWindow(QDialog):
     """Attributes: key_height, strength, press_s: fields. buttons: check boxes by number. send: button.
 
-    reported: labels by name of what they tell. told: what became of the order.
+    reported: labels by name of what they tell. told: what became of the order. car: check and mapping of the Car.
     """
 
     def __init__(self, flow: Flow, parent: QWidget | None = None):
@@ -41,6 +42,7 @@ class CalibrationWindow(QDialog):
         self.press_s = self._field("press_duration_s", declared)
         self.buttons = {1: QCheckBox(self.tr("Lock")), 2: QCheckBox(self.tr("Unlock"))}
         self.reported = {name: QLabel(_UNKNOWN) for name in ("height", "buttons", "strength")}
+        self.car = CarCard(flow)
         self.told = QLabel()
         self.told.setWordWrap(True)
         self.told.setProperty("role", "soft")
@@ -76,6 +78,7 @@ class CalibrationWindow(QDialog):
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(M)
         layout.addLayout(cards, 1)
+        layout.addWidget(self.car)
         layout.addLayout(row)
         self.send.setDefault(True)
 
@@ -123,6 +126,7 @@ class CalibrationWindow(QDialog):
                  for button in status.pressed_buttons]
         self.reported["buttons"].setText(", ".join(names) or self.tr("none"))
         self._tell_press(status.presses)
+        self.car.show_status(status, self._flow.desk.verdict.word is not Word.LOST)
         self._check()
 
     def _tell_press(self, presses: Sequence[PressConfirmation]) -> None:

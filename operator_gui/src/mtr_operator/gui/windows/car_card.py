@@ -1,0 +1,67 @@
+"""The Car between two tests: have the robot check where it stands, or map it again."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
+
+from mtr_operator.domain.ports import CheckState, Mode, RobotStatus
+from mtr_operator.station.idle import CarLook
+
+from ..flow import Flow
+from ..i18n import number
+from ..sentences import translated
+from ..theme.scale import S
+from .card import Card
+
+_MOVING = (Mode.MAPPING_CAR, Mode.CHECKING_CAR)
+
+
+class CarCard(Card):
+    """Attributes: check, map, stop: buttons. told: what the robot says of the Car."""
+
+    def __init__(self, flow: Flow, parent: QWidget | None = None):
+        super().__init__(parent=parent)
+        self.add_heading(self.tr("Car"))
+        self._flow = flow
+        self.told = QLabel()
+        self.told.setWordWrap(True)
+        self.check = self._button(self.tr("Check its position"), CarLook.CHECK)
+        self.map = self._button(self.tr("Map it again"), CarLook.MAP)
+        self.stop = self._button(self.tr("Stop"), CarLook.STOP)
+        self.stop.setProperty("role", "danger")
+        hint = QLabel(self.tr("The robot drives around the Car for both."))
+        hint.setProperty("role", "hint")
+        row = QHBoxLayout()
+        row.setSpacing(S)
+        for button in (self.check, self.map, self.stop):
+            row.addWidget(button)
+        row.addStretch(1)
+        self.column.addWidget(self.told)
+        self.column.addLayout(row)
+        self.column.addWidget(hint)
+
+    def _button(self, text: str, look: CarLook) -> QPushButton:
+        button = QPushButton(text)
+        button.clicked.connect(lambda _checked: self._flow.look_at_car(look))
+        return button
+
+    def show_status(self, status: RobotStatus, can_order: bool) -> None:
+        """Show what the robot says; can_order: it hears orders."""
+        is_moving = status.mode in _MOVING
+        self.check.setEnabled(can_order and status.car is not None and status.car_check is not None and not is_moving)
+        self.map.setEnabled(can_order and not is_moving)
+        self.stop.setEnabled(can_order and is_moving)
+        self.told.setText(self._text(status))
+
+    def _text(self, status: RobotStatus) -> str:
+        if status.mode is Mode.MAPPING_CAR:
+            return self.tr("The robot maps the Car.")
+        if status.mode is Mode.CHECKING_CAR:
+            return self.tr("The robot checks where the Car stands.")
+        check, car = status.car_check, status.car
+        if check is not None and check.state in (CheckState.PASSED, CheckState.FAILED) and check.message:
+            return translated(check.message)
+        if car is None:
+            return self.tr("The Car is not measured yet.")
+        return self.tr("The Car measures {length} m by {width} m.").format(
+            length=number(car.length, 2), width=number(car.width, 2))
