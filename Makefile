@@ -76,7 +76,7 @@ rostest: setup build ## Only the rostest suites
 system: setup build ## Only the tests of the whole stack
 	@$(RUN) python setup/run_tests.py system
 
-bench: setup build ## Benchmarks; figures in out/bench
+bench: setup build firmware ## Benchmarks; figures in out/bench
 	@$(RUN) python -m mtr_bringup.bench --out out/bench
 
 firmware: setup ## Build the firmware of both boards and its emulator; prints sizes

@@ -9,10 +9,10 @@ import pathlib
 import sys
 from typing import List, Optional
 
-from . import simulation
+from . import serial, simulation
 
 # Each has figures() and sentence(figures); the file is named after the module.
-BENCHMARKS = {"simulation": simulation}
+BENCHMARKS = {"simulation": simulation, "serial": serial}
 
 
 def main(arguments: Optional[List[str]] = None) -> int:

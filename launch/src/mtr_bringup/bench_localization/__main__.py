@@ -34,7 +34,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
                 for drive in drives]
         results = run_all(work, options.jobs)
     written = document(results)
-    (options.out / "localization.json").write_text(json.dumps(written, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+    text = json.dumps(written, indent=2, allow_nan=False) + "\n"
+    (options.out / "localization.json").write_text(text, encoding="utf-8")
     print("\n".join(lines(written)))
     return 0 if all(row["met"] for row in written["table"]) else 1
 

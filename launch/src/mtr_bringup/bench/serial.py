@@ -1,22 +1,14 @@
-"""How long the host waits for the firmware's answer to a command, on the emulated board in real time, without ROS.
-
-Usage: python -m mtr_bringup.bench_serial --out out/bench
-"""
+"""How long the host waits for the firmware's answer to a command, on the emulated board in real time, without ROS."""
 # SPDX-License-Identifier: Apache-2.0
-import argparse
 import io
-import json
-import pathlib
 import statistics
-import sys
 import threading
 import time
 from typing import Any, Dict, List, Optional
 
-from mtr_emulator import Emulator
-
 from mtr_core import names
 from mtr_core.crc import seal
+from mtr_emulator import Emulator
 from mtr_msgs.msg import FirmwareCommand
 from mtr_peripherals.serial_link.connections import md5_of
 from mtr_peripherals.serial_link.line import Line, LineHandler
@@ -52,20 +44,13 @@ class EchoTimer(LineHandler):
             self.arrivals[event.message.payload[0]] = time.monotonic()
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
-    """Measure, write serial.json, print one line."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
-    options = parser.parse_args(arguments)
-    options.out.mkdir(parents=True, exist_ok=True)
-    figures = measure()
-    (options.out / "serial.json").write_text(json.dumps(figures, indent=2) + "\n", encoding="utf-8")
-    print(f"Command to echo at {LinkParameters().baud} baud: {figures['echo_p50_ms']:.1f} ms (median), "
-          f"{figures['echo_p95_ms']:.1f} ms (95 %), {figures['echoes']} of {figures['commands']} echoed.")
-    return 0
+def sentence(figures: Dict[str, Any]) -> str:
+    """The figures for a person."""
+    return (f"Command to echo at {figures['baud']} baud: {figures['echo_p50_ms']:.1f} ms (median), "
+            f"{figures['echo_p95_ms']:.1f} ms (95 %), {figures['echoes']} of {figures['commands']} echoed.")
 
 
-def measure() -> Dict[str, Any]:
+def figures() -> Dict[str, Any]:
     """Round trips of commands to the emulated board."""
     timer, parameters = EchoTimer(), LinkParameters()
     session = Session(parameters, md5_of, time.time_ns)
@@ -95,6 +80,3 @@ def round_trip(line: Line, timer: EchoTimer, number: int) -> List[float]:
     arrived = timer.arrivals.get(number % 256)
     return [] if arrived is None else [1e3 * (arrived - begun)]
 
-
-if __name__ == "__main__":
-    sys.exit(main())
