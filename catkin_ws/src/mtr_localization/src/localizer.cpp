@@ -234,7 +234,7 @@ PoseMode Localizer::mode() const {
 Estimate Localizer::estimate_at(std::int64_t stamp_ns) const {
   Estimate estimate = refused(stamp_ns, why_not_valid(stamp_ns));
   estimate.valid = estimate.message.empty();
-  estimate.degenerate = keeper_.tracker().degenerate();
+  estimate.degenerate = keeper_.degenerate(stamp_ns);
   estimate.speed_mps = filter().corrected_speed(last_->linear_mps);
   estimate.yaw_rate_radps = filter().corrected_rate(gyro_.rate_at(stamp_ns));
   return estimate;

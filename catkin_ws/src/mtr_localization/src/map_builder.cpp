@@ -7,6 +7,7 @@
 #include <utility>
 
 namespace mtr_localization {
+
 MapBuilder::MapBuilder(const Parameters& parameters, Adjust adjust)
     : selector_(parameters), adjust_(std::move(adjust)) {}
 
@@ -22,7 +23,11 @@ bool MapBuilder::order(const MapOrder& order, std::int64_t effect_delay_ns) {
   const bool is_open = is_known && (state_ == State::kCollecting || state_ == State::kPaused);
   if (is_open && order.phase == MapOrder::Phase::kFreeze) {
     effect_ns_ = order.stamp_ns + effect_delay_ns;
-    adjusting_ = std::async(std::launch::async, adjust_, key_frames_);
+    adjusting_ = std::async(std::launch::async, [adjust = adjust_, key_frames = key_frames_] {
+      MadeMap made{adjust(key_frames), {}};
+      made.grid = occupancy_of(made.map);
+      return made;
+    });
     state_ = State::kAdjusting;
   } else if (is_open) {
     state_ = order.phase == MapOrder::Phase::kCollect ? State::kCollecting : State::kPaused;
@@ -39,7 +44,7 @@ bool MapBuilder::add(const View& view) {
   return true;
 }
 
-std::optional<AdjustedMap> MapBuilder::result(std::int64_t now_ns, bool waits) {
+std::optional<MadeMap> MapBuilder::result(std::int64_t now_ns, bool waits) {
   if (state_ != State::kAdjusting || now_ns < effect_ns_) {
     return std::nullopt;
   }

@@ -16,6 +16,8 @@ namespace {
 constexpr std::int64_t kLockstepLagNs = 20'000'000;
 // Orders come every 100 ms and take effect one period after their stamp, whoever is first to hear of it.
 constexpr std::int64_t kOrderLagNs = 100'000'000;
+// Without a scan for so long, the LiDARs are taken to be silent: seven sweeps of 25 Hz, three of 10 Hz.
+constexpr std::int64_t kSilentNs = 300'000'000;
 // What the growing map adds to the uncertainty of the place where the frozen one is entered.
 constexpr double kEntrySigmaM = 0.02;
 constexpr double kEntrySigmaRad = 0.005;
@@ -70,8 +72,8 @@ bool MapKeeper::advance(FilterHistory& history, bool standing) {
     begins = obey(orders_.front(), history) || begins;
     orders_.pop_front();
   }
-  if (auto map = builder_.result(now_ns, parameters_.lockstep)) {
-    finish(std::move(*map), history);
+  if (auto made = builder_.result(now_ns, parameters_.lockstep)) {
+    finish(std::move(*made), history);
   }
   use_sweeps(history, standing);
   return begins;
@@ -83,6 +85,7 @@ bool MapKeeper::use_sweeps(FilterHistory& history, bool standing) {
     if (!parameters_.external) {
       tracker_.track(look, history);
     }
+    looked_ns_ = look.scan.stamp_ns;
     if (!tracker_.lost()) {
       collect(look, history, standing);
     }
@@ -115,14 +118,15 @@ void MapKeeper::collect(const Look& look, const FilterHistory& history, bool sta
   }
 }
 
-void MapKeeper::finish(AdjustedMap map, FilterHistory& history) {
-  if (map.valid) {
+void MapKeeper::finish(MadeMap made, FilterHistory& history) {
+  if (made.map.valid) {
     revision_ = ++newest_revision_;
     if (!parameters_.external) {
-      enter(map, history);
+      enter(made.map, history);
     }
   }
-  result_ = MapResult{history.newest().stamp_ns, builder_.map_car_id(), newest_revision_, std::move(map)};
+  result_ = MapResult{history.newest().stamp_ns, builder_.map_car_id(), newest_revision_, std::move(made.map),
+                      std::move(made.grid)};
 }
 
 void MapKeeper::enter(const AdjustedMap& map, FilterHistory& history) {
@@ -133,6 +137,11 @@ void MapKeeper::enter(const AdjustedMap& map, FilterHistory& history) {
   covariance.diagonal() += Eigen::Vector3d(square(kEntrySigmaM), square(kEntrySigmaM), square(kEntrySigmaRad));
   history.change(history.size() - 1, [&](PoseFilter& filter) { filter.set_pose(pose, covariance); });
   tracker_.freeze(map, history);
+}
+
+bool MapKeeper::degenerate(std::int64_t now_ns) const {
+  const bool has_map = tracker_.state() != ScanTracker::State::kNoMap;
+  return tracker_.degenerate() || (has_map && now_ns - looked_ns_ > kSilentNs);
 }
 
 Eigen::Matrix3d MapKeeper::map_covariance() const {

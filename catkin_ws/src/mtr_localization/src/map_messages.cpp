@@ -114,6 +114,21 @@ mtr_msgs::SurfaceMap message_of(const MapResult& result) {
   return message;
 }
 
+nav_msgs::OccupancyGrid grid_message_of(const MapResult& result) {
+  nav_msgs::OccupancyGrid message;
+  message.header.stamp = mtr_lockstep::stamp_of(result.stamp_ns);
+  message.header.frame_id = mtr_lockstep::names::kMap;
+  message.info.map_load_time = message.header.stamp;
+  message.info.resolution = static_cast<float>(result.grid.cell_m);
+  message.info.width = static_cast<std::uint32_t>(result.grid.size.x());
+  message.info.height = static_cast<std::uint32_t>(result.grid.size.y());
+  message.info.origin.position.x = result.grid.origin.x();
+  message.info.origin.position.y = result.grid.origin.y();
+  message.info.origin.orientation.w = 1.0;
+  message.data = result.grid.cells;
+  return message;
+}
+
 visualization_msgs::MarkerArray markers_of(const MapKeeper& keeper, const Estimate& estimate) {
   visualization_msgs::MarkerArray markers;
   markers.markers = {surfaces_marker(keeper, estimate), key_frames_marker(keeper, estimate), ellipse_marker(estimate)};

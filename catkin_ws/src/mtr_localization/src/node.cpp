@@ -52,6 +52,7 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
       localizer_(in_lockstep(parameters.localizer)),
       poses_(node.advertise<mtr_msgs::LocalizedPose>(names::kLocalizedPose, 50)),
       surfaces_(node.advertise<mtr_msgs::SurfaceMap>(names::kSurfaceMap, 1, true)),
+      grids_(node.advertise<nav_msgs::OccupancyGrid>(names::kMapGrid, 1, true)),
       markers_(node.advertise<visualization_msgs::MarkerArray>(names::kLocalizationMarkers, 1)),
       diagnostics_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
       listener_(frames_),
@@ -160,6 +161,7 @@ void Node::publish(const std::vector<Estimate>& estimates) {
 void Node::publish_map(const MapResult& result) {
   surfaces_.publish(message_of(result));
   if (result.map.valid) {
+    grids_.publish(grid_message_of(result));
     ROS_INFO("Map %u: %zu surfaces of %zu key-frames, range bias %.1f mm.", result.revision, result.map.surfels.size(),
              result.map.key_frames.size(), 1e3 * result.map.range_bias_m);
   } else {

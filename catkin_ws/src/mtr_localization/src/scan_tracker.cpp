@@ -80,7 +80,6 @@ void ScanTracker::freeze(const AdjustedMap& adjusted, FilterHistory& history) {
   search_.reset();
   map_ = std::move(map);
   state_ = State::kLocalized;
-  lost_reason_.clear();
   const int sources = map_->sources.count + 1;
   history.change(history.size() - 1, [sources](PoseFilter& filter) { filter.consider_sources(sources); });
   history.restart(history.newest().filter, history.newest().stamp_ns, history.newest().odom);
@@ -103,6 +102,8 @@ void ScanTracker::track(const Look& look, FilterHistory& history) {
     search(look, history);
   } else if (agrees_) {
     correct(look, history);
+  } else {
+    degenerate_ = true;
   }
 }
 

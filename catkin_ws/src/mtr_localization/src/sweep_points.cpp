@@ -39,12 +39,13 @@ class Converter {
 
   void convert_piece(std::size_t first, std::size_t end) {
     const PoseVector begin_pose = lidar_at(first);
-    const PoseVector end_pose = lidar_at(std::min(end, sweep_.ranges_m.size() - 1));
+    const std::size_t last = std::min(end, sweep_.ranges_m.size() - 1);
+    const PoseVector end_pose = lidar_at(last);
     const Eigen::Vector2d shift = end_pose.head<2>() - begin_pose.head<2>();
     const double turn = wrapped(end_pose.z() - begin_pose.z());
     for (std::size_t beam = first; beam < end; ++beam) {
       if (is_return(beam) && is_backed(beam)) {
-        const double share = static_cast<double>(beam - first) / static_cast<double>(end - first);
+        const double share = last > first ? static_cast<double>(beam - first) / static_cast<double>(last - first) : 0.0;
         const double angle = begin_pose.z() + share * turn + sweep_.angle_min_rad +
                              static_cast<double>(beam) * sweep_.angle_increment_rad;
         const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));

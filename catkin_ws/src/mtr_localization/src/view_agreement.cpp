@@ -78,8 +78,11 @@ Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap
     const double turned = view.turned_at_first_beam_rad + turn * beam / beams;
     const int bin = bin_of(eye.z() + turned + sweep.angle_min_rad + beam * sweep.angle_increment_rad);
     const double measured = sweep.ranges_m[static_cast<std::size_t>(beam)];
-    const bool is_return = std::isfinite(measured) && measured >= sweep.range_min_m && measured > 0.0;
-    const double shown = is_return && measured <= sweep.range_max_m ? measured : kNothing;
+    if (!(measured >= sweep.range_min_m && measured > 0.0)) {
+      // No number, or too near to tell (REP-117): it says nothing.
+      continue;
+    }
+    const double shown = measured <= sweep.range_max_m ? measured : kNothing;
     const double ranges[] = {expected.nearest(bin - 1), expected.nearest(bin), expected.nearest(bin + 1)};
     const auto agrees = [&](double range) {
       return range == shown || std::abs(range - shown) <= tolerance_m + kTolerancePerM * range;

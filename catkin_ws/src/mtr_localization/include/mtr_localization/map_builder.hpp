@@ -11,6 +11,7 @@
 
 #include "mtr_localization/key_frame_selector.hpp"
 #include "mtr_localization/map_types.hpp"
+#include "mtr_localization/occupancy_grid.hpp"
 #include "mtr_localization/parameters.hpp"
 
 namespace mtr_localization {
@@ -21,6 +22,12 @@ struct MapOrder {
   std::int64_t stamp_ns = 0;
   std::uint64_t map_car_id = 0;
   Phase phase = Phase::kIdle;
+};
+
+/// What the thread makes of the key-frames.
+struct MadeMap {
+  AdjustedMap map;
+  OccupancyGrid grid;
 };
 
 /// Key-frames of one mapping order, and their adjustment in a thread of its own.
@@ -45,7 +52,7 @@ class MapBuilder {
   bool add(const View& view);
 
   /// The adjusted map from the instant on at which poses are to be in it; once. In lock-step it waits for the thread.
-  std::optional<AdjustedMap> result(std::int64_t now_ns, bool waits);
+  std::optional<MadeMap> result(std::int64_t now_ns, bool waits);
 
  private:
   KeyFrameSelector selector_;
@@ -53,7 +60,7 @@ class MapBuilder {
   State state_ = State::kNone;
   std::uint64_t map_car_id_ = 0;
   std::vector<KeyFrame> key_frames_;
-  std::future<AdjustedMap> adjusting_;
+  std::future<MadeMap> adjusting_;
   std::int64_t effect_ns_ = 0;
 };
 

@@ -10,6 +10,7 @@
 
 #include "mtr_localization/localizer_parameters.hpp"
 #include "mtr_localization/map_builder.hpp"
+#include "mtr_localization/occupancy_grid.hpp"
 #include "mtr_localization/scan_tracker.hpp"
 #include "mtr_localization/sweep_queue.hpp"
 
@@ -22,6 +23,7 @@ struct MapResult {
   std::uint64_t map_car_id = 0;
   std::uint32_t revision = 0;
   AdjustedMap map;
+  OccupancyGrid grid;
 };
 
 /// Joins queue, tracker and builder at each step of the filter.
@@ -46,6 +48,8 @@ class MapKeeper {
   const MapBuilder& builder() const { return builder_; }
   void lose(const std::string& reason) { tracker_.lose(reason); }
 
+  /// The scans do not hold the pose in every direction, or there are none.
+  bool degenerate(std::int64_t now_ns) const;
   /// Map that poses are in, 0: none.
   std::uint32_t revision() const { return revision_; }
   /// Added to the filter's covariance: what the growing map has drifted since its beginning.
@@ -57,7 +61,7 @@ class MapKeeper {
  private:
   bool obey(const MapOrder& order, FilterHistory& history);
   void collect(const Look& look, const FilterHistory& history, bool standing);
-  void finish(AdjustedMap map, FilterHistory& history);
+  void finish(MadeMap made, FilterHistory& history);
   void enter(const AdjustedMap& map, FilterHistory& history);
 
   LocalizerParameters parameters_;
@@ -66,6 +70,7 @@ class MapKeeper {
   MapBuilder builder_;
   ScanTracker tracker_;
   std::optional<PoseVector> external_;
+  std::int64_t looked_ns_ = 0;
   double mapped_travel_m_ = 0.0;
   std::uint32_t newest_revision_ = 0;
   std::uint32_t revision_ = 0;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <mtr_msgs/SurfaceMap.h>
+#include <nav_msgs/OccupancyGrid.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include "mtr_localization/map_keeper.hpp"
@@ -12,6 +13,7 @@
 namespace mtr_localization {
 
 mtr_msgs::SurfaceMap message_of(const MapResult& result);
+nav_msgs::OccupancyGrid grid_message_of(const MapResult& result);
 
 /// What a person sees in rviz: surfaces, key-frames, and the ellipse of 3 sigma round the robot.
 visualization_msgs::MarkerArray markers_of(const MapKeeper& keeper, const Estimate& estimate);

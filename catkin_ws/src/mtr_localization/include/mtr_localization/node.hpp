@@ -57,6 +57,7 @@ class Node {
   WorkLoad load_;
   ros::Publisher poses_;
   ros::Publisher surfaces_;
+  ros::Publisher grids_;
   ros::Publisher markers_;
   ros::Publisher diagnostics_;
   tf2_ros::TransformBroadcaster transforms_;

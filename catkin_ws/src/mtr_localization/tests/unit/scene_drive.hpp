@@ -1,0 +1,217 @@
+/// @file
+/// A robot with noisy wheels, gyro and LiDAR that drives through a scene and feeds a localizer.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "mtr_localization/localizer.hpp"
+#include "mtr_localization/se2.hpp"
+#include "synthetic_world.hpp"
+
+namespace mtr_localization {
+
+namespace scenes {
+
+inline void add_box(synthetic::World& world, const PoseVector& pose, double length_m, double width_m) {
+  const double x = 0.5 * length_m;
+  const double y = 0.5 * width_m;
+  synthetic::add_polygon(world, {{x, y}, {-x, y}, {-x, -y}, {x, -y}}, pose);
+}
+
+/// The Car alone, its centre in the origin.
+inline synthetic::World open() {
+  synthetic::World world;
+  add_box(world, {0.0, 0.0, 0.0}, 4.5, 1.8);
+  return world;
+}
+
+/// The Car, two walls and another car; nothing of it has a symmetry.
+inline synthetic::World lot() {
+  synthetic::World world = open();
+  world.push_back({{-14.0, 11.0}, {9.0, 12.5}});
+  world.push_back({{13.0, -9.0}, {12.0, 10.0}});
+  add_box(world, {-11.0, -4.0, 1.2}, 4.3, 1.7);
+  return world;
+}
+
+}  // namespace scenes
+
+inline constexpr std::int64_t kTickNs = 20'000'000;
+inline constexpr double kTickS = 0.02;
+inline constexpr int kBeams = 360;
+inline constexpr double kFieldRad = 4.7;
+
+/// Truth is in the scene's frame; `map_truth` is where the robot is in the frame map, which begins at its start.
+class SceneDrive {
+ public:
+  SceneDrive(synthetic::World scene, LocalizerParameters parameters, unsigned seed = 1)
+      : world(std::move(scene)), localizer(in_lockstep(parameters)), random_(seed) {
+    poses_.assign(3, truth);
+  }
+
+  /// The robot stands, drives round the Car, and comes back to where it began.
+  void drive_round() {
+    for (const double side_m : {5.6, 8.4, 5.6, 8.4}) {
+      drive(0.6, 0.0, side_m / 0.6);
+      drive(0.0, M_PI_2 / 2.0, 2.0);
+    }
+    drive(0.6, 0.0, 1.5);
+  }
+
+  /// All of mapping; the result.
+  MapResult map(std::uint64_t map_car_id = 1) {
+    drive(0.0, 0.0, 2.0);
+    order(map_car_id, MapOrder::Phase::kCollect);
+    drive_round();
+    drive(0.0, 0.0, 0.5);
+    order(map_car_id, MapOrder::Phase::kFreeze);
+    result.reset();
+    drive(0.0, 0.0, 3.0);
+    return result ? *result : MapResult{};
+  }
+
+  void order(std::uint64_t map_car_id, MapOrder::Phase phase) { localizer.set_order({now_ns, map_car_id, phase}); }
+
+  Estimate drive(double linear_mps, double angular_radps, double duration_s) {
+    for (long step = std::lround(duration_s / kTickS); step > 0; --step) {
+      tick(linear_mps, angular_radps);
+    }
+    return newest;
+  }
+
+  void tick(double linear_mps, double angular_radps) {
+    now_ns += kTickNs;
+    const double turn = angular_radps * kTickS;
+    truth = compose(truth, {linear_mps * kTickS, 0.0, 0.0});
+    truth.z() = wrapped(truth.z() + turn);
+    poses_.erase(poses_.begin());
+    poses_.push_back(truth);
+    if (now_ns % (2 * kTickNs) == 0 && lidar_works && now_ns > 3 * kTickNs) {
+      const bool is_good = localizer.add_scan(sweep());
+      EXPECT_TRUE(is_good) << localizer.keeper().sweeps().problem();
+    }
+    feel(linear_mps, angular_radps);
+  }
+
+  /// Lifted and put down elsewhere, in the scene's frame.
+  void carry(double x_m, double y_m, double turn_rad) {
+    truth += PoseVector(x_m, y_m, turn_rad);
+    poses_.assign(3, truth);
+  }
+
+  PoseVector map_truth() const { return relative(start_, truth); }
+
+  PoseVector error() const {
+    PoseVector error = PoseVector(newest.x_m, newest.y_m, newest.heading_rad) - map_truth();
+    error.z() = wrapped(error.z());
+    return error;
+  }
+
+  double position_error_m() const { return error().head<2>().norm(); }
+  double position_sigma_m() const { return std::sqrt(newest.covariance[0] + newest.covariance[4]); }
+
+  synthetic::World world;
+  PoseVector truth{4.2, -2.8, M_PI_2};
+  Localizer localizer;
+  std::int64_t now_ns = 1'000'000'000;
+  bool lidar_works = true;
+  double range_bias_m = 0.0;
+  double range_noise_m = 0.01;
+  /// Share of beams that meet a drop of rain.
+  double rain = 0.0;
+  /// Centres of persons, 0.2 m in radius.
+  std::vector<Eigen::Vector2d> persons;
+  Estimate newest;
+  std::optional<MapResult> result;
+  int lost_ticks = 0;
+
+ private:
+  static LocalizerParameters in_lockstep(LocalizerParameters parameters) {
+    parameters.lockstep = true;
+    return parameters;
+  }
+
+  double noise(double sigma) { return sigma * normal_(random_); }
+
+  void feel(double linear_mps, double angular_radps) {
+    wheels_.stamp_ns = now_ns;
+    const double along = linear_mps * kTickS * 1.003;
+    wheels_.x_m += along * std::cos(wheels_.heading_rad);
+    wheels_.y_m += along * std::sin(wheels_.heading_rad);
+    wheels_.heading_rad += 1.4 * angular_radps * kTickS;
+    wheels_.linear_mps = linear_mps;
+    wheels_.angular_radps = angular_radps;
+    take(localizer.add_imu({now_ns, angular_radps + 0.003 + noise(1e-3)}));
+    take(localizer.add_wheels(wheels_));
+  }
+
+  void take(const std::vector<Estimate>& estimates) {
+    for (const Estimate& estimate : estimates) {
+      newest = estimate;
+      lost_ticks += estimate.mode == PoseMode::kLost ? 1 : 0;
+    }
+    if (auto map = localizer.take_map()) {
+      result = std::move(map);
+    }
+  }
+
+  /// Of the last 40 ms: each beam from where the robot was at its time.
+  Sweep sweep() {
+    Sweep sweep;
+    sweep.stamp_ns = now_ns - 2 * kTickNs;
+    sweep.mount = {0.12, 0.0, 0.0};
+    sweep.angle_min_rad = -0.5 * kFieldRad;
+    sweep.angle_max_rad = 0.5 * kFieldRad;
+    sweep.angle_increment_rad = kFieldRad / (kBeams - 1);
+    sweep.scan_time_s = 2.0 * kTickS;
+    sweep.time_increment_s = 0.03 / kBeams;
+    sweep.range_min_m = 0.1;
+    sweep.range_max_m = 30.0;
+    for (int beam = 0; beam < kBeams; ++beam) {
+      sweep.ranges_m.push_back(static_cast<float>(range(sweep, beam)));
+    }
+    return sweep;
+  }
+
+  double range(const Sweep& sweep, int beam) {
+    const double ticks = beam * sweep.time_increment_s / kTickS;
+    const auto before = static_cast<std::size_t>(ticks);
+    const PoseVector step = relative(poses_[before], poses_[before + 1]);
+    const PoseVector eye = compose(compose(poses_[before], (ticks - static_cast<double>(before)) * step), sweep.mount);
+    const double angle = eye.z() + sweep.angle_min_rad + beam * sweep.angle_increment_rad;
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    double range = synthetic::cast(world, eye.head<2>(), direction);
+    for (const Eigen::Vector2d& person : persons) {
+      const Eigen::Vector2d offset = person - eye.head<2>();
+      const double along = offset.dot(direction);
+      const double aside = offset.squaredNorm() - along * along;
+      const double nearest = along - std::sqrt(std::max(0.0, 0.04 - aside));
+      if (along > 0.0 && aside < 0.04 && (range < 0.0 || nearest < range)) {
+        range = nearest;
+      }
+    }
+    if (range < 0.0 || range > sweep.range_max_m) {
+      range = std::numeric_limits<double>::infinity();
+    } else {
+      range += range_bias_m + noise(range_noise_m);
+    }
+    return uniform_(random_) < rain ? std::min(range, 0.3 + 5.0 * uniform_(random_)) : range;
+  }
+
+  std::mt19937 random_;
+  std::normal_distribution<double> normal_{0.0, 1.0};
+  std::uniform_real_distribution<double> uniform_{0.0, 1.0};
+  PoseVector start_ = truth;
+  /// At the last three ticks.
+  std::vector<PoseVector> poses_;
+  WheelSample wheels_{0, 0.0, 0.0, 0.0, 0.0, 0.0};
+};
+
+}  // namespace mtr_localization

@@ -1,0 +1,112 @@
+/// @file
+/// Being lost, and being found again.
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_drive.hpp"
+
+namespace mtr_localization {
+namespace {
+
+class LocalizerLostTest : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(robot.map().map.valid); }
+
+  /// Time until the pose is lost, in s; the limit when it is not.
+  double lost_after(double limit_s) {
+    double time_s = 0.0;
+    while (robot.newest.mode != PoseMode::kLost && time_s < limit_s) {
+      robot.tick(0.0, 0.0);
+      time_s += kTickS;
+    }
+    return time_s;
+  }
+
+  SceneDrive robot{scenes::lot(), {}};
+};
+
+TEST_F(LocalizerLostTest, KidnappedRobotSaysSoWithinTwoSeconds) {
+  robot.carry(-1.0, -1.7, 0.6);
+  EXPECT_LT(lost_after(3.0), 2.0);
+  EXPECT_FALSE(robot.newest.valid);
+  EXPECT_NE(robot.newest.message.find("Position lost"), std::string::npos);
+}
+
+TEST_F(LocalizerLostTest, KidnappedRobotFindsItselfAgain) {
+  robot.carry(-1.0, -1.7, 0.6);
+  lost_after(3.0);
+  robot.drive(0.0, 0.0, 5.0);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLocalized) << robot.newest.message;
+  EXPECT_TRUE(robot.newest.valid);
+  EXPECT_LT(robot.position_error_m(), 0.02);
+  EXPECT_LT(std::abs(robot.error().z()), 0.005);
+}
+
+TEST_F(LocalizerLostTest, RobotCarriedOutOfTheSearchStaysLostAndGuessesNothing) {
+  robot.carry(60.0, 40.0, 2.0);
+  robot.drive(0.0, 0.0, 2.0);
+  robot.drive(0.0, 0.0, 6.0);
+  EXPECT_FALSE(robot.newest.valid);
+}
+
+TEST_F(LocalizerLostTest, SmallPushIsFollowedWithoutBeingLost) {
+  robot.carry(0.05, -0.03, 0.01);
+  robot.drive(0.0, 0.0, 1.0);
+  EXPECT_EQ(robot.lost_ticks, 0);
+  EXPECT_LT(robot.position_error_m(), 0.012);
+}
+
+TEST_F(LocalizerLostTest, GapOfOdometryWhileMovingIsOverWhenTheScansTellThePose) {
+  robot.drive(-0.5, 0.0, 1.0);
+  robot.now_ns += 400'000'000;
+  robot.carry(0.0, -0.2, 0.0);
+  robot.drive(-0.5, 0.0, 0.04);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
+  EXPECT_NE(robot.newest.message.find("was silent for 0.42 s"), std::string::npos) << robot.newest.message;
+  robot.drive(0.0, 0.0, 5.0);
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message;
+  EXPECT_LT(robot.position_error_m(), 0.02);
+}
+
+TEST(LocalizerLost, TwoPlacesThatLookAlikeAreNotGuessedBetween) {
+  // Two equal boxes 2.5 m apart and nothing else: either can be the one in view.
+  synthetic::World scene;
+  for (const double y : {-1.25, 1.25}) {
+    scenes::add_box(scene, {0.0, y, 0.0}, 1.0, 1.0);
+  }
+  ReferenceMap map;
+  std::vector<Surfel> surfels;
+  for (const synthetic::Segment& side : scene) {
+    const Eigen::Vector2d along = (side.to - side.from).normalized();
+    for (double at = 0.1; at < 1.0; at += 0.2) {
+      surfels.push_back({side.from + at * along, {along.y(), -along.x()}, 0.2, 0.002, 50});
+    }
+  }
+  map.surfaces = SurfelMap(surfels);
+  Sweep sweep;
+  sweep.angle_min_rad = -0.6;
+  sweep.angle_max_rad = 0.6;
+  sweep.angle_increment_rad = 1.2 / 239;
+  sweep.range_min_m = 0.1;
+  sweep.range_max_m = 30.0;
+  ScanPoints points;
+  const PoseVector truth(2.0, 1.25, M_PI);
+  for (int beam = 0; beam < 240; ++beam) {
+    const double angle = sweep.angle_min_rad + beam * sweep.angle_increment_rad;
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    const double range = synthetic::cast(scene, truth.head<2>(), rotation(truth.z()) * direction);
+    // The other box is out of view: the beams that could tell the two apart are not there.
+    const bool is_near = range > 0.0 && range < 2.2 && std::abs(angle) < 0.33;
+    sweep.ranges_m.push_back(static_cast<float>(is_near ? range : 0.0));
+    if (is_near) {
+      points.points.push_back({range * direction, direction, range});
+    }
+  }
+  PoseSearch search(TrackingParameters{}, map);
+  const PoseSearch::Look look{sweep, points, PoseVector::Zero()};
+  search.begin({2.0, 0.0, M_PI}, look);
+  for (int i = 0; i < 200; ++i) {
+    EXPECT_FALSE(search.advance(look).has_value());
+  }
+}
+
+}  // namespace
+}  // namespace mtr_localization
