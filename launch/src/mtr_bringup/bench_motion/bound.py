@@ -17,8 +17,8 @@ travelling  base_link stays at least (half the width + margin) away from the Car
 
             The angle counts from the front or the rear, whichever is nearer. Curvature limits at corners, lateral
             acceleration, and the detour that turning while moving makes, are left out.
-straight    Where nothing is in the way, a robot that begins with its front and ends with its rear ahead, or the
-            other way round, also has to turn around in between; see straight_bound.py.
+turning     A robot that begins with its front and ends with its rear ahead, or the other way round, also has to turn
+around      around in between; see turning_bound.py.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -32,7 +32,7 @@ from shapely.geometry import Point as ShapelyPoint
 from mtr_core.se2 import Pose2, wrap_angle
 from mtr_motion_planner.limits import MotionLimits, rest_to_rest_time
 
-from .straight_bound import StraightBound
+from .turning_bound import TurningBound
 
 Point = Tuple[float, float]
 STEP_S = 0.01
@@ -56,11 +56,14 @@ def lower_bound(ends: Ends, hull: Polygon, gap_m: float, limits: MotionLimits, s
     turn = abs(wrap_angle(end.heading - start.heading))
     turning = rest_to_rest_time(turn, limits.max_angular_radps, limits.angular_acceleration_radps2,
                                 limits.angular_ramp_s)
-    bound = max(turning, travelling(way, start.heading, end.heading, limits, speed))
-    if len(way) > 2:
-        return bound
-    line = math.atan2(end.y - start.y, end.x - start.x)
-    return max(bound, StraightBound(limits, speed).time(math.dist(*way), start.heading - line, end.heading - line))
+    first, last = _direction(way[0], way[1]), _direction(way[-2], way[-1])
+    bends = sum(wrap_angle(_direction(b, c) - _direction(a, b)) for a, b, c in zip(way, way[1:], way[2:]))
+    grid_s = TurningBound(limits, speed).time(length_of(way), start.heading - first, end.heading - last, bends)
+    return max(turning, grid_s, travelling(way, start.heading, end.heading, limits, speed))
+
+
+def _direction(a: Point, b: Point) -> float:
+    return math.atan2(b[1] - a[1], b[0] - a[0])
 
 
 def shortest_way(start: Point, end: Point, zone: Polygon) -> List[Point]:
@@ -103,7 +106,7 @@ def travelling(way: Sequence[Point], first_heading: float, last_heading: float, 
 
 def _off(heading: float, a: Point, b: Point) -> float:
     """Angle between the robot's axis and the way."""
-    angle = abs(wrap_angle(math.atan2(b[1] - a[1], b[0] - a[0]) - heading))
+    angle = abs(wrap_angle(_direction(a, b) - heading))
     return min(angle, math.pi - angle)
 
 

@@ -27,11 +27,16 @@ class Example(ParameterSet):
     rear: bool = True
     address: str = ""
     owners: Tuple[str, ...] = ("a",)
+    corners: Tuple[float, ...] = ()
     inner: Inner = Inner()
 
 
 def test_no_value_gives_the_defaults():
     assert parameters_from({}, Example) == Example()
+
+
+def test_list_of_numbers_takes_whole_and_other_numbers():
+    assert parameters_from({"corners": [1, 2.5]}, Example).corners == (1, 2.5)
 
 
 def test_values_replace_defaults_also_inside():
@@ -48,8 +53,8 @@ def test_parameters_cannot_be_changed():
 def test_unknown_name_is_refused_with_those_allowed():
     with pytest.raises(ConfigurationError) as error:
         parameters_from({"spead_mps": 1.0}, Example)
-    assert str(error.value) == ("Parameter spead_mps is unknown; allowed are address, buttons, owners, rear, seed, "
-                                "speed_mps, stroke_m.")
+    assert str(error.value) == ("Parameter spead_mps is unknown; allowed are address, buttons, corners, owners, "
+                                "rear, seed, speed_mps, stroke_m.")
 
 
 @pytest.mark.parametrize("values, sentence", [
@@ -61,6 +66,7 @@ def test_unknown_name_is_refused_with_those_allowed():
     ({"address": 5}, "Parameter address is 5; allowed is a text."),
     ({"owners": "a"}, "Parameter owners is 'a'; allowed is a list of texts."),
     ({"buttons": [1, "b"]}, r"Parameter buttons is [1, 'b']; allowed is a list of whole numbers."),
+    ({"corners": [1.0, "b"]}, r"Parameter corners is [1.0, 'b']; allowed is a list of numbers."),
     ({"buttons": [True]}, r"Parameter buttons is [True]; allowed is a list of whole numbers."),
 ])
 def test_wrong_type_is_refused_with_what_is_allowed(values, sentence):
@@ -87,4 +93,4 @@ def test_ends_of_the_range_are_allowed():
 
 def test_all_values_are_shown_in_one_line_with_units():
     assert described(Example()) == ("speed_mps 0.5 m/s, seed 1, rear true, address '', owners ['a'], "
-                                    "stroke_m 1.2 m, buttons [1, 2]")
+                                    "corners [], stroke_m 1.2 m, buttons [1, 2]")

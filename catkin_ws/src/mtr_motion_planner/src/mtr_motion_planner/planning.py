@@ -23,8 +23,8 @@ ON_AXIS_RAD = {Direction.ANY: math.radians(3.0), Direction.FORWARD: math.radians
                Direction.BACKWARD: math.radians(10.0)}
 # Within this distance a correction may go either way, whatever direction was asked for.
 CORRECTION_M = 0.10
-# How many candidates are worked out, and how many of them must be free to drive before the best is taken.
-TRIED, COMPARED = 40, 5
+# So many candidates are worked out at most, and so many that are free to drive are compared.
+TRIED, COMPARED = 120, 4
 LEAST_CLEARANCE_M = 0.02
 TURNING_RADPS = 0.05
 # A way longer than the straight line by more than this is compared with a stop and a new beginning.

@@ -1,10 +1,11 @@
-"""The quickest way to get along a straight line for a robot that is turned by any angle at its ends.
+"""The quickest way to get along a line for a robot that is turned by any angle at its ends.
 
 The state is the angle between heading and line, and the speed, negative backwards; the progress is the integral of
 speed times cosine of the angle. Dynamic programming over a grid whose steps are the largest changes that the limits
 allow in STEP_S (rounded up, so that the grid is rather quicker than the robot) gives the largest progress in a time.
 Angle and speed start and end as they must, and near both ends stay within the jerk-limited turn and S-curve from rest.
-Where the robot gets to across the line is left out: it may only make the way longer.
+Where the robot gets to across the line is left out: it may only make the way longer. A line that bends, around the Car,
+may bend whenever it suits the robot, in LEVELS equal parts.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -16,56 +17,67 @@ from mtr_motion_planner.limits import MotionLimits
 
 STEP_S = 0.05
 LONGEST_S = 120.0
+LEVELS = 6
 
 
-class StraightBound:
-    """Grid for one set of limits and one speed limit."""
+class TurningBound:
+    """Grid for one set of limits and one speed limit; states are bends behind the robot, angle, speed."""
 
     def __init__(self, limits: MotionLimits, speed: float):
-        self._limits, self._speed = limits, speed
+        self._limits = limits
         angles = math.floor(2.0 * math.pi / (limits.max_angular_radps * STEP_S))
         speeds = max(1, math.floor(speed / (limits.acceleration_mps2 * STEP_S)))
         self._angles = 2.0 * math.pi / angles * np.arange(angles)
         self._speeds = speed / speeds * np.arange(-speeds, speeds + 1)
         self._gain = 0.5 * STEP_S * np.outer(np.cos(self._angles), self._speeds)
 
-    def time(self, length: float, first_angle: float, last_angle: float) -> float:
-        """Least time in s for a length, between headings that are off the line by the angles."""
-        start, end = self._begun(first_angle), self._begun(last_angle)
+    def time(self, length: float, first_angle: float, last_angle: float, bend: float = 0.0) -> float:
+        """Least time in s for a length, between headings that are off the line by the angles.
+
+        bend: angle by which the line turns to the left between its ends.
+        """
+        levels = LEVELS if bend else 0
+        cells = round(bend / max(levels, 1) / float(self._angles[1]))
+        start, end = self._begun(first_angle, levels), self._begun(last_angle, levels)
         gone_before = 0.0
         for step in range(1, round(0.5 * LONGEST_S / STEP_S)):
-            start, end = self._after(start, first_angle, step), self._after(end, last_angle, step)
-            gone = float((start + end).max())
+            # The end is worked through backwards: there the line turns the other way.
+            start = _bent(self._after(start, first_angle, step, bend), -cells)
+            end = _bent(self._after(end, last_angle, step, bend), cells)
+            gone = float((start + end[::-1]).max())
             if gone >= length:
                 share = (length - gone_before) / (gone - gone_before)
                 return 2.0 * STEP_S * (step - 1 + share)
             gone_before = max(gone, 0.0)
         return LONGEST_S
 
-    def _begun(self, angle: float) -> np.ndarray:
-        """Progress at a state at the end where the robot stands: 0 there, impossible elsewhere."""
-        best = np.full(self._gain.shape, -np.inf)
-        best[self._near(angle, 0.0), len(self._speeds) // 2] = 0.0
+    def _begun(self, angle: float, levels: int) -> np.ndarray:
+        """Progress at a state where the robot stands at an end: 0 there, impossible elsewhere."""
+        best = np.full((levels + 1, *self._gain.shape), -np.inf)
+        best[0, self._near(angle, 0.0), len(self._speeds) // 2] = 0.0
         return best
 
-    def _after(self, best: np.ndarray, angle: float, step: int) -> np.ndarray:
+    def _after(self, best: np.ndarray, angle: float, step: int, bend: float) -> np.ndarray:
         best = best + self._gain
-        best = np.maximum(best, np.maximum(np.roll(best, 1, axis=0), np.roll(best, -1, axis=0)))
+        best = np.maximum(best, np.maximum(np.roll(best, 1, axis=1), np.roll(best, -1, axis=1)))
         faster, slower = np.full_like(best, -np.inf), np.full_like(best, -np.inf)
-        faster[:, 1:], slower[:, :-1] = best[:, :-1], best[:, 1:]
+        faster[..., 1:], slower[..., :-1] = best[..., :-1], best[..., 1:]
         best = np.maximum(best, np.maximum(faster, slower)) + self._gain
         passed = step * STEP_S
-        best[~self._near(angle, turned_from_rest(passed, self._limits))] = -np.inf
-        best[:, np.abs(self._speeds) > speed_from_rest(passed, self._limits) + self._grain] = -np.inf
+        best[:, ~self._near(angle, turned_from_rest(passed, self._limits) + abs(bend))] = -np.inf
+        best[..., np.abs(self._speeds) > speed_from_rest(passed, self._limits) + float(np.diff(self._speeds)[0])] = -np.inf
         return best
-
-    @property
-    def _grain(self) -> float:
-        return float(self._speeds[1] - self._speeds[0])
 
     def _near(self, angle: float, reach: float) -> np.ndarray:
         off = np.abs(np.vectorize(wrap_angle)(self._angles - angle))
         return off <= reach + 0.5 * float(self._angles[1]) + 1e-9
+
+
+def _bent(best: np.ndarray, cells: int) -> np.ndarray:
+    """The line may turn at once, by some parts of its bend: the robot's angle to it changes by so many cells each."""
+    for level in range(1, len(best)):
+        best[level] = np.maximum(best[level], np.roll(best[level - 1], cells, axis=0))
+    return best
 
 
 def speed_from_rest(passed: float, limits: MotionLimits) -> float:

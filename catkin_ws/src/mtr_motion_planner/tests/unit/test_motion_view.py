@@ -1,0 +1,68 @@
+"""Goals from rviz, and what rviz is shown."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+from geometry_msgs.msg import PoseStamped
+from motion_simulation import PARAMETERS, SimulatedRobot
+
+from mtr_core.se2 import Pose2
+from mtr_core.states import Direction
+from mtr_motion_planner.conversions import markers_message, nav_goal_from, path_message
+from mtr_motion_planner.inputs import NO_GOAL, Goal, Order
+from mtr_motion_planner.nav_goal import NavGoals
+from mtr_motion_planner.picture import picture_of
+
+PLACE = Pose2(3.0, -2.0, 1.0)
+FREE = Order(1.0, NO_GOAL, 0.8, follows_waypoints=True)
+
+
+def test_goal_from_rviz_is_taken_at_its_own_speed_while_nobody_wants_anything():
+    goals = NavGoals(0.4)
+    goals.take(PLACE, in_car_frame=False)
+    order = goals.joined(FREE)
+    assert (order.goal.pose, order.goal.in_car_frame, order.max_speed_mps) == (PLACE, False, 0.4)
+    assert goals.joined(FREE).goal.goal_id == order.goal.goal_id
+    goals.take(PLACE, in_car_frame=False)
+    assert goals.joined(FREE).goal.goal_id == order.goal.goal_id + 1
+
+
+def test_operators_goal_goes_first_and_ends_the_one_from_rviz():
+    goals = NavGoals(0.4)
+    goals.take(PLACE, in_car_frame=True)
+    operators = Order(1.0, Goal(7, True, PLACE, Direction.ANY), 0.8, follows_waypoints=True)
+    assert goals.joined(operators) == operators
+    assert goals.joined(FREE) == FREE
+
+
+def test_goal_from_rviz_moves_nothing_in_another_state():
+    goals = NavGoals(0.4)
+    goals.take(PLACE, in_car_frame=True)
+    starting = Order(1.0, NO_GOAL, 0.8, follows_waypoints=False)
+    assert goals.joined(starting) == starting
+    assert goals.joined(None) is None
+
+
+def test_goal_from_rviz_in_an_unknown_frame_is_none():
+    message = PoseStamped()
+    message.header.frame_id = "odom"
+    assert nav_goal_from(message) is None
+    message.header.frame_id = "car"
+    message.pose.position.x, message.pose.orientation.z, message.pose.orientation.w = 2.0, math.sin(0.5), math.cos(0.5)
+    pose, in_car_frame = nav_goal_from(message)
+    assert (pose.x, round(pose.heading, 6), in_car_frame) == (2.0, 1.0, True)
+
+
+def test_picture_shows_zone_way_and_goal_in_the_frame_of_the_plan():
+    robot = SimulatedRobot(Pose2(4.0, 2.6, 0.0))
+    assert picture_of(robot.planner, PARAMETERS) is None
+    robot.go(1, -4.0, 0.0, 0.0)
+    output = robot.run_for(1.0)
+    picture = picture_of(robot.planner, PARAMETERS)
+    markers = {marker.ns: marker for marker in markers_message(picture, None).markers}
+    assert set(markers) == {"keep out", "trajectory", "goal", "reference"}
+    assert {marker.header.frame_id for marker in markers.values()} == {"car"}
+    assert len(markers["trajectory"].points) == len(markers["trajectory"].colors) > 10
+    assert abs(markers["goal"].points[0].x + 4.0) < 1e-6
+    path = next(each.path for each in robot.outputs if each.path)
+    assert path_message(path, None).header.frame_id == "car"
+    assert output.goal_id == 1
