@@ -65,7 +65,8 @@ class TurningBound:
         best = np.maximum(best, np.maximum(faster, slower)) + self._gain
         passed = step * STEP_S
         best[:, ~self._near(angle, turned_from_rest(passed, self._limits) + abs(bend))] = -np.inf
-        best[..., np.abs(self._speeds) > speed_from_rest(passed, self._limits) + float(np.diff(self._speeds)[0])] = -np.inf
+        reached = speed_from_rest(passed, self._limits) + float(np.diff(self._speeds)[0])
+        best[..., np.abs(self._speeds) > reached] = -np.inf
         return best
 
     def _near(self, angle: float, reach: float) -> np.ndarray:
