@@ -13,6 +13,7 @@ from scripted_time import NS, STEP_NS, Listener, ScriptedTime, Speaker
 from mtr_core import names, schedule
 from mtr_core.se2 import Pose2
 from mtr_msgs.msg import (
+    CarCheck,
     CarEstimate,
     DriveStatus,
     LocalizedPose,
@@ -73,6 +74,7 @@ class Waypoints(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node("waypoints_test", disable_rostime=True)
         speakers = [ScriptedRobot(), Speaker(names.CAR_ESTIMATE, located_car(), schedule.CAR_LOCATOR),
+                    Speaker(names.CAR_CHECK, CarCheck(), schedule.CAR_LOCATOR),
                     Speaker(names.DRIVE_STATUS, DriveStatus(), schedule.DRIVE_CONTROL),
                     Speaker(names.PERIPHERALS_STATE, PeripheralsState(alive=True), schedule.PERIPHERALS)]
         cls.motion = Listener(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER)

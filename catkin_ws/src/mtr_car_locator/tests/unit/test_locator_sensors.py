@@ -1,0 +1,92 @@
+"""Topics as the locator reads them: which scans count, when a map counts, without a ROS master."""
+# SPDX-License-Identifier: Apache-2.0
+import threading
+
+import genpy
+import pytest
+from sensor_msgs.msg import LaserScan
+
+from mtr_car_locator import sensors
+from mtr_car_locator.locator import CarLocator
+from mtr_car_locator.parameters import LocatorParameters
+from mtr_msgs.msg import LocalizedPose, SurfaceMap
+
+MILLISECOND_NS = 1_000_000
+PARAMETERS = LocatorParameters()
+
+
+class FakeQueue:
+    """A topic whose messages are all there already.
+
+    Attributes:
+        opened: topics that are open now.
+    """
+
+    opened = []
+    messages = {}
+
+    def __init__(self, topic, *_):
+        self.topic = topic
+        FakeQueue.opened.append(topic)
+
+    def take(self, tick_ns):
+        return self.messages.get(self.topic, [])
+
+    def close(self):
+        FakeQueue.opened.remove(self.topic)
+
+
+@pytest.fixture(autouse=True)
+def topics(monkeypatch):
+    FakeQueue.opened, FakeQueue.messages = [], {}
+    monkeypatch.setattr(sensors, "StampedQueue", FakeQueue)
+    monkeypatch.setattr(sensors.rospy, "Subscriber", lambda *_, **__: None)
+    return FakeQueue.messages
+
+
+def stamped(message, time_ms):
+    message.header.stamp = genpy.Time(0, time_ms * MILLISECOND_NS)
+    return message
+
+
+def test_scans_are_heard_only_while_they_are_wanted_and_none_of_the_first_200_ms(topics):
+    source = sensors.ScanSource(PARAMETERS)
+    topics["/front/scan"] = [stamped(LaserScan(), 1150), stamped(LaserScan(), 1250)]
+    assert source.take(1000 * MILLISECOND_NS, False) == [] and not FakeQueue.opened
+    scans = source.take(1000 * MILLISECOND_NS, True)
+    assert [scan.start_s for scan in scans] == pytest.approx([1.25])
+    assert FakeQueue.opened == ["/front/scan", "/rear/scan"]
+    assert source.take(1100 * MILLISECOND_NS, False) == [] and not FakeQueue.opened
+
+
+def test_poses_that_are_not_valid_are_left_out(topics):
+    source = sensors.PoseSource(CarLocator(PARAMETERS))
+    topics["/localization/pose"] = [stamped(LocalizedPose(valid=True, map_revision=3), 1000),
+                                    stamped(LocalizedPose(valid=False, map_revision=9), 1020)]
+    source.feed(1060 * MILLISECOND_NS)
+    assert source.map_revision == 3
+
+
+def test_map_counts_when_the_pose_is_in_it_or_some_time_after_its_stamp(monkeypatch):
+    monkeypatch.setattr(sensors, "is_simulated", lambda: False)
+    source = sensors.MapSource()
+    assert source.at(1000 * MILLISECOND_NS, 1) is None
+    source._take(stamped(SurfaceMap(map_car_id=7, revision=2, valid=True), 1040))
+    assert source.at(1060 * MILLISECOND_NS, 1) is None
+    assert source.at(1060 * MILLISECOND_NS, 2).map_id == 7
+    assert source.at(1160 * MILLISECOND_NS, 1).revision == 2
+
+
+def test_simulated_tick_waits_for_the_map_that_the_pose_speaks_of(monkeypatch):
+    monkeypatch.setattr(sensors, "is_simulated", lambda: True)
+    source = sensors.MapSource()
+    sender = threading.Timer(0.05, source._take, [stamped(SurfaceMap(map_car_id=7, revision=1, valid=True), 1040)])
+    sender.start()
+    assert source.at(1060 * MILLISECOND_NS, 1).revision == 1
+    sender.join()
+
+
+def test_simulated_tick_does_not_wait_for_ever(monkeypatch):
+    monkeypatch.setattr(sensors, "is_simulated", lambda: True)
+    monkeypatch.setattr(sensors, "MAP_WAIT_WALL_S", 0.01)
+    assert sensors.MapSource().at(1060 * MILLISECOND_NS, 1) is None
