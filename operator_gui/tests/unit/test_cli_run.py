@@ -239,7 +239,7 @@ def test_ctrl_c_before_anything_has_begun_is_no_traceback(monkeypatch, capsys):
 
 
 @pytest.mark.parametrize(("arguments", "part"), [
-    ([], "required: COMMAND"), (["run", "autolock"], "required: --params, --out"),
+    (["fly"], "invalid choice"), (["run", "autolock"], "required: --params, --out"),
     (["run", "autolock", "--params", "a", "--out", "b", "--publisher-port", "x"], "'x' is not a whole number")])
 def test_wrong_usage_is_one_line(capsys, arguments, part):
     with pytest.raises(SystemExit) as caught:
@@ -247,6 +247,11 @@ def test_wrong_usage_is_one_line(capsys, arguments, part):
     told = capsys.readouterr().err
     assert caught.value.code == 2
     assert part in told and told.count("\n") == 1
+
+
+def test_no_command_opens_the_window(monkeypatch):
+    monkeypatch.setattr("mtr_operator.cli.commands.open_window", lambda options: 7)
+    assert main([]) == 7
 
 
 def test_missing_package_of_the_contract_is_named(tmp_path, monkeypatch, capsys):
