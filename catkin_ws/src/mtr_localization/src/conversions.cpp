@@ -42,12 +42,8 @@ ImuSample imu_sample_of(const sensor_msgs::Imu& message) {
 }
 
 WheelSample wheel_sample_of(const nav_msgs::Odometry& message) {
-  return {mtr_lockstep::to_ns(message.header.stamp),
-          message.pose.pose.position.x,
-          message.pose.pose.position.y,
-          heading_of(message.pose.pose.orientation),
-          message.twist.twist.linear.x,
-          message.twist.twist.angular.z};
+  return {mtr_lockstep::to_ns(message.header.stamp), message.pose.pose.position.x, message.pose.pose.position.y,
+          heading_of(message.pose.pose.orientation), message.twist.twist.linear.x, message.twist.twist.angular.z};
 }
 
 MapOrder order_of(const mtr_msgs::MappingOrder& message) {
@@ -111,8 +107,8 @@ geometry_msgs::TransformStamped map_from_odom_message(const Estimate& estimate, 
   const PoseVector pose(estimate.x_m, estimate.y_m, estimate.heading_rad);
   const PoseVector base(odom[0], odom[1], odom[2]);
   const PoseVector map_from_odom = compose(pose, relative(base, PoseVector::Zero()));
-  return transform_message(estimate.stamp_ns, {mtr_lockstep::names::kMap, mtr_lockstep::names::kOdom,
-                                               map_from_odom.x(), map_from_odom.y(), map_from_odom.z()});
+  return transform_message(estimate.stamp_ns, {mtr_lockstep::names::kMap, mtr_lockstep::names::kOdom, map_from_odom.x(),
+                                               map_from_odom.y(), map_from_odom.z()});
 }
 
 geometry_msgs::TransformStamped transform_message(std::int64_t stamp_ns, const Transform2& parent_from_child) {

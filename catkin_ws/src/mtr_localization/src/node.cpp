@@ -61,11 +61,9 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
       orders_(subscribe<mtr_msgs::MappingOrder>(node, names::kMappingOrder,
                                                 [this](const auto& message) { receive_order(message); })),
       imu_(subscribe<sensor_msgs::Imu>(
-          node, names::kImuData,
-          [this](const auto& message) { publish(localizer_.add_imu(imu_sample_of(message))); })),
+          node, names::kImuData, [this](const auto& message) { publish(localizer_.add_imu(imu_sample_of(message))); })),
       wheels_(subscribe<nav_msgs::Odometry>(
-          node, names::kWheelOdometry,
-          [this](const auto& message) { waiting_.push_back(wheel_sample_of(message)); })) {
+          node, names::kWheelOdometry, [this](const auto& message) { waiting_.push_back(wheel_sample_of(message)); })) {
   watch_silence(node);
 }
 
@@ -162,8 +160,8 @@ void Node::publish(const std::vector<Estimate>& estimates) {
 void Node::publish_map(const MapResult& result) {
   surfaces_.publish(message_of(result));
   if (result.map.valid) {
-    ROS_INFO("Map %u: %zu surfaces of %zu key-frames, range bias %.1f mm.", result.revision,
-             result.map.surfels.size(), result.map.key_frames.size(), 1e3 * result.map.range_bias_m);
+    ROS_INFO("Map %u: %zu surfaces of %zu key-frames, range bias %.1f mm.", result.revision, result.map.surfels.size(),
+             result.map.key_frames.size(), 1e3 * result.map.range_bias_m);
   } else {
     ROS_WARN("The key-frames gave no map. %s", result.map.message.c_str());
   }

@@ -22,8 +22,7 @@ constexpr double kPollS = 0.01;
 
 }  // namespace
 
-ScanInput::ScanInput(ros::NodeHandle& node, Lidar lidar, const tf2_ros::Buffer& frames,
-                     std::function<void(Sweep)> take)
+ScanInput::ScanInput(ros::NodeHandle& node, Lidar lidar, const tf2_ros::Buffer& frames, std::function<void(Sweep)> take)
     : lidar_(lidar),
       frames_(frames),
       take_(std::move(take)),

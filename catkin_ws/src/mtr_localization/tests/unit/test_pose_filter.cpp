@@ -36,8 +36,8 @@ class NoisyDrive {
   std::array<double, 3> normalised_squares() const {
     const auto covariance = reckoning_.pose_covariance();
     const double turn = std::remainder(reckoning_.heading_rad() - heading_, 2.0 * M_PI);
-    return {std::pow(reckoning_.x_m() - x_, 2) / covariance(0, 0), std::pow(reckoning_.y_m() - y_, 2) / covariance(1, 1),
-            turn * turn / covariance(2, 2)};
+    return {std::pow(reckoning_.x_m() - x_, 2) / covariance(0, 0),
+            std::pow(reckoning_.y_m() - y_, 2) / covariance(1, 1), turn * turn / covariance(2, 2)};
   }
 
   const PoseFilter& reckoning() const { return reckoning_; }
