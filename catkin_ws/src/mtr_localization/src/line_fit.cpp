@@ -16,8 +16,8 @@ constexpr int kFewestPoints = 6;
 constexpr std::size_t kFewestKeyFrames = 3;
 // Parts of a line of which each must lie on it.
 constexpr std::size_t kParts = 8;
-// Standard errors by which a part must be off.
-constexpr double kSignificance = 3.0;
+// Standard errors by which a part must be off: by chance, one of eight parts is in 1 of 2000 lines.
+constexpr double kSignificance = 4.0;
 
 }  // namespace
 

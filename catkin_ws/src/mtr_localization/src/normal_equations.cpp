@@ -28,9 +28,12 @@ Eigen::VectorXd NormalEquations::own_variances() const {
 }
 
 Eigen::MatrixXd NormalEquations::reduced_information() const {
-  const Eigen::MatrixXd scaled = across_ * own_variances().cwiseSqrt().asDiagonal();
   Eigen::MatrixXd reduced = joint_;
-  reduced.selfadjointView<Eigen::Lower>().rankUpdate(scaled, -1.0);
+  // Eigen 3.4 divides by the number of columns.
+  if (across_.cols() > 0) {
+    const Eigen::MatrixXd scaled = across_ * own_variances().cwiseSqrt().asDiagonal();
+    reduced.selfadjointView<Eigen::Lower>().rankUpdate(scaled, -1.0);
+  }
   return reduced;
 }
 

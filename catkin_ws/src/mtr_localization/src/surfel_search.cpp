@@ -4,6 +4,7 @@
 #include "mtr_localization/surfel_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace mtr_localization {
@@ -13,6 +14,8 @@ using Iterator = SeenPoints::iterator;
 
 // Length over thickness of the points, as root mean squares, from which on their direction counts as known.
 constexpr double kElongation = 2.0;
+// Standard error of that direction at most, as the points scatter.
+constexpr double kDirectionErrorRad = 0.1;
 // What is seen at more than 75 degrees from its normal on average is the smeared edge of something.
 constexpr double kLeastFacing = 0.25;
 // By how much parts of a line may be off: beyond, views of one end and of the other disagree by more than
@@ -84,7 +87,9 @@ class Search {
 }  // namespace
 
 std::optional<Surfel> surfel_along(const Line& line, int hits) {
-  if (line.spread_m < kElongation * line.thickness_m || line.facing < kLeastFacing) {
+  const double elongation = line.spread_m / std::max(line.thickness_m, 1e-9);
+  const double direction_error_rad = 1.0 / (elongation * std::sqrt(static_cast<double>(hits)));
+  if (elongation < kElongation || direction_error_rad > kDirectionErrorRad || line.facing < kLeastFacing) {
     return std::nullopt;
   }
   return Surfel{line.middle, line.normal, line.length_m(), 0.0, hits};

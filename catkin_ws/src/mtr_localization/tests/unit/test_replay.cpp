@@ -1,0 +1,169 @@
+/// @file
+/// Command line, bags and results of the offline replay.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "../../src/replay/loop_watch.hpp"
+#include "../../src/replay/options.hpp"
+#include "../../src/replay/replay.hpp"
+#include "../../src/replay/result_files.hpp"
+#include "mtr_localization/se2.hpp"
+#include "synthetic_bag.hpp"
+
+namespace mtr_localization::replay {
+namespace {
+
+using synthetic::BagOptions;
+
+template <typename Action>
+void expect_sentence(Action action, const std::string& part) {
+  try {
+    action();
+    ADD_FAILURE() << "accepted";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+/// A bag in the tests' folder; `truth` gets its true poses.
+std::string bag_of(const std::string& name, const BagOptions& options, std::vector<PoseVector>* truth = nullptr) {
+  const std::string path = ::testing::TempDir() + name + ".bag";
+  const std::vector<PoseVector> poses = synthetic::BagWriter(path, options).write();
+  if (truth != nullptr) {
+    *truth = poses;
+  }
+  return path;
+}
+
+Result replayed(const std::string& bag, std::vector<std::string> more = {}) {
+  more.insert(more.begin(), {bag, "--out", ::testing::TempDir() + "replayed"});
+  const Options options = parse(more);
+  return Replay(options).run();
+}
+
+/// Largest distance of a valid pose in the frozen map from the truth, m. Map begins at the first true pose.
+double largest_error_m(const Result& result, const std::vector<PoseVector>& truth) {
+  double largest_m = 0.0;
+  for (const Estimate& pose : result.trajectory) {
+    if (pose.mode == PoseMode::kLocalized) {
+      const auto step =
+          static_cast<std::size_t>(std::llround((static_cast<double>(pose.stamp_ns) * 1e-9 - 1.0) / 0.02));
+      const PoseVector expected = relative(truth.front(), truth.at(step));
+      largest_m = std::max(largest_m, std::hypot(pose.x_m - expected.x(), pose.y_m - expected.y()));
+    }
+  }
+  return largest_m;
+}
+
+TEST(ReplayOptions, EverythingIsUnderstood) {
+  const Options options = parse({"a.bag", "--out", "there", "--front-only", "--parameter", "surface_sigma_m=0.006",
+                                 "--parameter", "rear_lidar_x_m=-0.3", "--loop-end", "12.5"});
+  EXPECT_EQ(options.bag, "a.bag");
+  EXPECT_EQ(options.folder, "there");
+  EXPECT_TRUE(options.front_only);
+  EXPECT_TRUE(options.localizer.lockstep);
+  EXPECT_EQ(options.localizer.adjustment.surface_sigma_m, 0.006);
+  EXPECT_EQ(options.mounting.rear_lidar_x_m, -0.3);
+  EXPECT_EQ(options.loop_end_ns, 12'500'000'000);
+}
+
+TEST(ReplayOptions, WhatIsNotUnderstoodIsASentence) {
+  expect_sentence([] { parse({}); }, "Usage");
+  expect_sentence([] { parse({"a.bag", "--out"}); }, "--out needs a value");
+  expect_sentence([] { parse({"a.bag", "--out", "b", "--fast"}); }, "'--fast' is not understood");
+  expect_sentence([] { parse({"a.bag", "--out", "b", "--parameter", "colour=1"}); }, "colour is unknown");
+  expect_sentence([] { parse({"a.bag", "--out", "b", "--parameter", "surface_sigma_m=7"}); }, "allowed is");
+  expect_sentence([] { parse({"a.bag", "--out", "b", "--parameter", "surface_sigma_m=x"}); }, "no number");
+  expect_sentence([] { parse({"a.bag", "--out", "b", "--loop-end", "nan"}); }, "no number");
+}
+
+TEST(Replay, BagThatLacksSomethingIsASentence) {
+  expect_sentence([] { replayed("/nowhere.bag"); }, "Bag /nowhere.bag cannot be read");
+  BagOptions options;
+  options.with_scans = false;
+  options.with_odometry = false;
+  expect_sentence([&] { replayed(bag_of("no_odometry", options)); }, "has no wheel odometry");
+  options.with_odometry = true;
+  expect_sentence([&] { replayed(bag_of("no_scans", options)); }, "has no scans");
+  options.with_imu = false;
+  expect_sentence([&] { replayed(bag_of("no_imu", options)); }, "has no IMU data");
+}
+
+TEST(Replay, TextThatIsNoBagIsASentence) {
+  const std::string path = ::testing::TempDir() + "text.bag";
+  std::ofstream(path) << "This is no bag.";
+  expect_sentence([&] { replayed(path); }, "cannot be read");
+}
+
+TEST(Replay, WayRoundWithoutOrdersGivesMapAndTruePosesEvenWhenScansWereRecordedLate) {
+  BagOptions options;
+  options.scan_delay_s = 0.1;
+  std::vector<PoseVector> truth;
+  const Result result = replayed(bag_of("late", options, &truth));
+  ASSERT_TRUE(result.map.map.valid) << result.map.map.message;
+  EXPECT_EQ(result.map.revision, 1U);
+  EXPECT_EQ(result.trajectory.size(), truth.size() - 1);
+  EXPECT_EQ(result.sweeps_used + result.sweeps_refused, result.sweeps);
+  EXPECT_EQ(result.trajectory.back().mode, PoseMode::kLocalized);
+  EXPECT_LT(largest_error_m(result, truth), 0.03);
+}
+
+TEST(Replay, LoopEndThatIsGivenEndsTheLoop) {
+  const Result result = replayed(bag_of("given", {}), {"--loop-end", "20"});
+  EXPECT_FALSE(result.map.map.valid);
+  EXPECT_NE(result.map.map.message.find("not closed"), std::string::npos) << result.map.map.message;
+}
+
+TEST(Replay, ResultsAreWrittenAndTheSameEachTime) {
+  const std::string bag = bag_of("twice", {});
+  const std::string folder = ::testing::TempDir() + "written";
+  std::string first;
+  for (int i = 0; i < 2; ++i) {
+    write_files(replayed(bag), bag, folder);
+    std::ifstream file(folder + "/trajectory.csv");
+    const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+    EXPECT_EQ(text.rfind("stamp_s,x_m,y_m,heading_rad,cxx,", 0), 0U);
+    EXPECT_TRUE(i == 0 || text == first);
+    first = text;
+  }
+  for (const char* name : {"surfaces.csv", "key_frames.csv", "map.pgm", "map.yaml", "summary.json"}) {
+    EXPECT_TRUE(std::ifstream(folder + "/" + name).good()) << name;
+  }
+}
+
+std::vector<KeyFrame> frames_at(const std::vector<Eigen::Vector2d>& places) {
+  std::vector<KeyFrame> frames;
+  for (const Eigen::Vector2d& place : places) {
+    KeyFrame frame;
+    frame.pose.head<2>() = place;
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+TEST(LoopWatch, WayRoundClosesWhenItComesBack) {
+  LoopWatch watch;
+  std::vector<Eigen::Vector2d> places;
+  for (int degrees = 0; degrees <= 355; degrees += 5) {
+    places.emplace_back(4.0 * std::cos(degrees * M_PI / 180.0), 3.0 * std::sin(degrees * M_PI / 180.0));
+    EXPECT_EQ(watch.closes(frames_at(places)), degrees > 345) << degrees;
+  }
+}
+
+TEST(LoopWatch, WayOutAndBackIsNoLoop) {
+  LoopWatch watch;
+  std::vector<Eigen::Vector2d> places;
+  for (int i = 0; i <= 40; ++i) {
+    places.emplace_back(0.3 * std::min(i, 40 - i), 0.0);
+    EXPECT_FALSE(watch.closes(frames_at(places))) << i;
+  }
+}
+
+}  // namespace
+}  // namespace mtr_localization::replay
