@@ -14,8 +14,10 @@ namespace {
 constexpr std::size_t kFewestKeyFrames = 10;
 // The Car alone gives 50 to 150 surfels.
 constexpr std::size_t kFewestSurfels = 20;
-// Of the last key-frame's surfels, those that were seen when the robot was here before.
-constexpr int kFewestSharedSurfels = 8;
+// Of the last key-frame's surfels, those that were seen when the robot was here before: a share, for beside a Car alone
+// a key-frame of a noisy LiDAR sees fewer than ten long ones; and enough to hold a pose.
+constexpr double kSharedShare = 0.4;
+constexpr int kFewestSharedSurfels = 3;
 // A return is a path of this many times the closing distance, so that a robot that stands or shuffles has not closed.
 constexpr double kLeastLoop = 4.0;
 // Sizes of differences in sigmas, and share of outliers, that no scene with right sensors has shown.
@@ -55,12 +57,13 @@ bool is_closed(const std::vector<KeyFrame>& frames, const std::vector<Observatio
                double closing_distance_m) {
   const int last = static_cast<int>(frames.size()) - 1;
   const std::set<int> seen_last = surfels_seen_by(last, observations);
+  const double wanted = std::max<double>(kFewestSharedSurfels, kSharedShare * static_cast<double>(seen_last.size()));
   double path_m = 0.0;
   for (int i = last - 1; i >= 0; --i) {
     path_m += (frames[i + 1].pose - frames[i].pose).head<2>().norm();
     const double distance_m = (frames[last].pose - frames[i].pose).head<2>().norm();
     if (path_m > kLeastLoop * closing_distance_m && distance_m < closing_distance_m &&
-        shared(seen_last, surfels_seen_by(i, observations)) >= kFewestSharedSurfels) {
+        shared(seen_last, surfels_seen_by(i, observations)) >= wanted) {
       return true;
     }
   }

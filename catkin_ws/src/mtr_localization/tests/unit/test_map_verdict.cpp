@@ -36,6 +36,15 @@ TEST(MapVerdict, HalfAWayRoundIsNoMap) {
   expect_refused(drive(options).key_frames, "not closed");
 }
 
+TEST(MapVerdict, ClosedWayOfANoisyLidarRoundTheCarAloneIsAMap) {
+  LoopOptions options = open_field();
+  options.range_noise_m = 0.025;
+  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+    const AdjustedMap map = adjust(drive(options).key_frames, AdjustmentParameters{});
+    EXPECT_TRUE(map.valid) << map.message;
+  }
+}
+
 TEST(MapVerdict, KeyFrameThatIsNoNumberIsNoMap) {
   std::vector<KeyFrame> frames = drive(open_field()).key_frames;
   frames[7].scan.points[3].position.x() = std::nan("");
