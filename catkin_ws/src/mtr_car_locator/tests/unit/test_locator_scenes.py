@@ -116,7 +116,8 @@ def test_localization_without_a_map_leaves_the_locator_its_own_surfels():
     world = World(Scene(CAR, start=OFF, maps=False, pose_sigma_m=0.02, **DRIFT))
     estimate = world.run()
     assert estimate.state == CarState.LOCATED, estimate.message
-    assert world.error()[0] < 0.03
+    # The drift moves the Car as it moves the robot.
+    assert world.error()[0] < 2.0 * world.scene.pose_sigma_m
     assert estimate.length_sigma > 0.02
 
 
