@@ -125,7 +125,8 @@ class DriveControl(unittest.TestCase):
             self.setUp()
 
     def test_wall_ahead_stops_the_robot_with_its_distance_and_it_goes_on_when_the_wall_has_gone(self):
-        self.front.message.ranges = [0.19] * BEAMS
+        angles = [self.front.message.angle_min + beam * self.front.message.angle_increment for beam in range(BEAMS)]
+        self.front.message.ranges = [0.19 / math.cos(angle) if abs(angle) < 0.8 else math.inf for angle in angles]
         self.time.advance_until(self.is_standing, within_s=ONE_TICK_S + STANDSTILL_WITHIN_S)
         self.assertEqual(self.status().zone, DriveStatus.BLOCKED)
         self.assertAlmostEqual(self.status().obstacle_m, 0.04, delta=0.005)

@@ -12,6 +12,9 @@ import zmq
 from mtr_bringup.stack import Stack, StackOptions
 from mtr_proto import robot_link_pb2
 
+# The helpers lie beside the tests.
+sys.path.append(str(pathlib.Path(__file__).parent))
+
 TOP = pathlib.Path(__file__).resolve().parents[2]
 FIRMWARE = TOP / "firmware" / "build" / "mtr_firmware_atmega2560.elf"
 OUT = TOP / "out" / "test" / "system"
