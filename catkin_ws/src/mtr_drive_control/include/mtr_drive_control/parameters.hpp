@@ -29,7 +29,8 @@ struct Parameters {
   /// A source of velocity commands silent for longer is dead; it speaks every 0.04 s.
   double command_timeout_s = 0.14;
   /// Share of the static tip-over limit that is used. On its tyres the robot pitches half as far again when it brakes
-  /// at once (simulation: of 62 N on each wheel 10 N are left), and the ground is not level.
+  /// at once, and the ground is not level. In simulation, with the lift up, straight emergency stops leave 11 to 13 of
+  /// 62 N on the lightest wheel; one in the fastest curve still lifts a wheel for an instant.
   double tip_margin = 0.55;
   /// Height of the centre of mass above ground: this plus the rise times the height of the key. From the masses and
   /// places of mtr_description's URDF; a unit test compares them.
