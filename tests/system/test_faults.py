@@ -69,8 +69,10 @@ def test_dead_planner_means_standstill_and_a_sentence(application, observer, out
     running = application.start("autolock", PARAMETERS / "autolock.yaml", out / "planner")
     observer.wait_for(moves)
     subprocess.run(["rosnode", "kill", "/motion_planner"], env=stack.environment(), check=True, capture_output=True)
-    observer.wait_for(stands)
     faulty = observer.wait_for(lambda status: any("planner" in note.text for note in status.notifications))
-    assert stands(faulty)
+    stopped = observer.wait_for(stands)
+    assert stopped.sent_time_s - faulty.sent_time_s < 1.0
+    later = observer.wait_for(lambda status: status.sent_time_s > stopped.sent_time_s + 1.0)
+    assert stands(later)
     running.send_signal(signal.SIGINT)
     running.communicate(timeout=30)
