@@ -94,9 +94,7 @@ Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap
     }
     const double shown = measured <= sweep.range_max_m ? measured : kNothing;
     const double ranges[] = {expected.nearest(bin - 1), expected.nearest(bin), expected.nearest(bin + 1)};
-    const auto agrees = [&](double range) {
-      return std::abs(range - shown) <= tolerance_m + kTolerancePerM * range;
-    };
+    const auto agrees = [&](double range) { return std::abs(range - shown) <= tolerance_m + kTolerancePerM * range; };
     if (ranges[1] == kNothing) {
       const bool is_known = shown == kNothing || agrees(ranges[0]) || agrees(ranges[2]);
       agreement.unknown += is_known ? 0 : 1;
