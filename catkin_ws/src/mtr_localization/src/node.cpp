@@ -58,7 +58,7 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
       listener_(frames_),
       front_(node, Lidar::kFront, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
       rear_(node, Lidar::kRear, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
-      orders_heard_(mtr_lockstep::kCarLocator, mtr_lockstep::kClockStep.period_ns, mtr_lockstep::lockstep_waiting()),
+      orders_heard_(mtr_lockstep::kCarLocator, mtr_lockstep::kClockStep.period_ns, input_waiting()),
       orders_(subscribe<mtr_msgs::MappingOrder>(node, names::kMappingOrder,
                                                 [this](const auto& message) { receive_order(message); })),
       imu_(subscribe<sensor_msgs::Imu>(

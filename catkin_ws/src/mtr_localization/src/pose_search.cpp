@@ -169,7 +169,9 @@ PoseVector PoseSearch::carried(const PoseVector& pose, const Look& look) const {
 }
 
 double PoseSearch::agreement_at(const PoseVector& pose, const Look& look) const {
-  return agreement_of(look.sweep, {pose}, map_.surfaces, kToleranceM).share();
+  // Both count: a place must explain what is seen, and show what it lets expect.
+  const Agreement agreement = agreement_of(look.sweep, {pose}, map_.surfaces, kToleranceM);
+  return 0.5 * (agreement.share_of_expected() + agreement.share_of_returns());
 }
 
 ScanMatch PoseSearch::match_at(const PoseVector& pose, const Look& look, double sigma_m, double sigma_rad) const {

@@ -16,17 +16,27 @@ namespace names = mtr_lockstep::names;
 
 // A sweep is due one turn and one step of the clock after its first beam, see docs/lock-step.md.
 constexpr std::int64_t kDueAfterNs = mtr_lockstep::kLidar.period_ns + mtr_lockstep::kClockStep.period_ns;
-// Wall time within which the description's static transforms have arrived in simulation, where time waits for it.
-constexpr double kFramesWithinS = 4.0;
+// Of the patience of those that wait for localization.
+constexpr double kPatience = 0.4;
+// Wall time within which the description's static transforms have arrived in simulation.
+constexpr double kFramesWithinS = 1.5;
 constexpr double kPollS = 0.01;
 
 }  // namespace
+
+std::optional<mtr_lockstep::Waiting> input_waiting() {
+  auto waiting = mtr_lockstep::lockstep_waiting();
+  if (waiting) {
+    waiting->patience_s *= kPatience;
+  }
+  return waiting;
+}
 
 ScanInput::ScanInput(ros::NodeHandle& node, Lidar lidar, const tf2_ros::Buffer& frames, std::function<void(Sweep)> take)
     : lidar_(lidar),
       frames_(frames),
       take_(std::move(take)),
-      heard_(mtr_lockstep::kLidar, kDueAfterNs, mtr_lockstep::lockstep_waiting()),
+      heard_(mtr_lockstep::kLidar, kDueAfterNs, input_waiting()),
       subscriber_(node.subscribe<sensor_msgs::LaserScan>(
           lidar == Lidar::kFront ? names::kFrontScan : names::kRearScan, 10,
           [this](const sensor_msgs::LaserScan::ConstPtr& message) { receive(*message); }, ros::VoidConstPtr(),

@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "mtr_localization/se2.hpp"
@@ -110,19 +111,17 @@ void ScanTracker::track(const Look& look, FilterHistory& history) {
 void ScanTracker::judge(const Look& look, const FilterHistory& history) {
   const FilterStep& step = history.at(look.step);
   const double sigma_m = position_sigma(history.newest().filter);
-  int seen = 0;
-  int evidence = 0;
+  Agreement all;
   for (const Sweep& sweep : look.sweeps) {
     ViewPose view{step.filter.pose()};
     view.turned_at_first_beam_rad = wrapped(history.odom_at(sweep.stamp_ns).z() - step.odom.z());
     view.turned_at_last_beam_rad = wrapped(history.odom_at(sweep.last_beam_ns()).z() - step.odom.z());
-    const Agreement agreement = agreement_of(sweep, view, map_->surfaces, kToleranceM + 3.0 * sigma_m);
-    seen += agreement.seen;
-    // A map that grows has nothing yet where the robot comes to see more.
-    evidence += agreement.evidence() + (state_ == State::kLocalized ? agreement.unknown / 2 : 0);
+    all += agreement_of(sweep, view, map_->surfaces, kToleranceM + 3.0 * sigma_m);
   }
-  figures_.agreement = evidence > 0 ? static_cast<double>(seen) / evidence : 1.0;
-  agrees_ = evidence < kLeastEvidence || figures_.agreement >= parameters_.least_agreement;
+  // Either is enough. Where the ground is uneven the LiDAR looks over or under what is expected, or meets the ground
+  // all round; a pose that is wrong fails both.
+  figures_.agreement = std::max(all.share_of_expected(), all.share_of_returns());
+  agrees_ = all.expected() < kLeastEvidence || figures_.agreement >= parameters_.least_agreement;
   if (agrees_) {
     agreed_ns_ = step.stamp_ns;
   } else if (static_cast<double>(step.stamp_ns - agreed_ns_) * 1e-9 >= parameters_.lost_after_s) {

@@ -21,7 +21,6 @@ constexpr double kNothing = std::numeric_limits<double>::infinity();
 constexpr double kGrazing = 0.1;
 // Of each metre of range, for the pose's heading and the width of a bin on slanting surfaces.
 constexpr double kTolerancePerM = 0.02;
-constexpr double kUnknownWeight = 0.5;
 
 int bin_of(double angle_rad) {
   const int bin = static_cast<int>(std::floor(angle_rad * kBinsPerRad)) % kBins;
@@ -62,9 +61,20 @@ class ExpectedView {
 
 }  // namespace
 
-double Agreement::share() const {
-  const double all = evidence() + kUnknownWeight * unknown;
-  return all > 0.0 ? seen / all : 1.0;
+Agreement& Agreement::operator+=(const Agreement& other) {
+  seen += other.seen;
+  hidden += other.hidden;
+  beyond += other.beyond;
+  missing += other.missing;
+  unknown += other.unknown;
+  return *this;
+}
+
+double Agreement::share_of_expected() const { return expected() > 0 ? static_cast<double>(seen) / expected() : 1.0; }
+
+double Agreement::share_of_returns() const {
+  const int returns = seen + hidden + beyond + unknown;
+  return returns > 0 ? static_cast<double>(seen) / returns : (expected() > 0 ? 0.0 : 1.0);
 }
 
 Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap& map, double tolerance_m) {
@@ -84,9 +94,7 @@ Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap
     }
     const double shown = measured <= sweep.range_max_m ? measured : kNothing;
     const double ranges[] = {expected.nearest(bin - 1), expected.nearest(bin), expected.nearest(bin + 1)};
-    const auto agrees = [&](double range) {
-      return range == shown || std::abs(range - shown) <= tolerance_m + kTolerancePerM * range;
-    };
+    const auto agrees = [&](double range) { return std::abs(range - shown) <= tolerance_m + kTolerancePerM * range; };
     if (ranges[1] == kNothing) {
       const bool is_known = shown == kNothing || agrees(ranges[0]) || agrees(ranges[2]);
       agreement.unknown += is_known ? 0 : 1;
@@ -94,8 +102,11 @@ Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap
       ++agreement.seen;
     } else if (shown < ranges[1]) {
       ++agreement.hidden;
+    } else if (shown == kNothing) {
+      // At an edge the beam may just pass.
+      agreement.missing += ranges[0] != kNothing && ranges[2] != kNothing ? 1 : 0;
     } else {
-      ++agreement.missing;
+      ++agreement.beyond;
     }
   }
   return agreement;

@@ -18,6 +18,9 @@
 
 namespace mtr_localization {
 
+/// Waiting for inputs in lock-step; less patient than those that wait for localization, lest they give up on it.
+std::optional<mtr_lockstep::Waiting> input_waiting();
+
 /// Subscription to one LiDAR. Its mounting comes from tf, once for each frame that its scans name.
 class ScanInput {
  public:

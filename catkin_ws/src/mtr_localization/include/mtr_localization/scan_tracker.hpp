@@ -22,7 +22,7 @@ struct TrackingFigures {
   int points = 0;
   int matched = 0;
   double residual_rms = 0.0;
-  /// Share of what the map lets expect that is seen.
+  /// Share of what the map lets expect that is seen, or of what is seen that it explains; the larger one.
   double agreement = 1.0;
   /// 1 sigma of a single look in its weakest direction.
   double weakest_sigma_m = 0.0;

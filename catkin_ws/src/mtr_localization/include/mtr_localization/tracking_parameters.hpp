@@ -23,15 +23,16 @@ struct TrackingParameters {
   double max_match_m = 0.4;
   /// A scan that leaves one direction to guess by more than this, 1 sigma, is degenerate.
   double degenerate_sigma_m = 0.25;
-  /// Share of what is expected in view that must be seen, over `lost_after_s`; else the pose is lost.
-  double least_agreement = 0.5;
+  /// Share of what is expected in view that must be seen, or of what is seen that must be expected, over
+  /// `lost_after_s`; else the pose is lost.
+  double least_agreement = 0.55;
   double lost_after_s = 0.6;
   /// A position less certain than this, 1 sigma in the worst direction, is lost.
   double lost_sigma_m = 0.3;
   /// The search for a lost pose covers so much round the last one, in x and y; all headings.
   double search_radius_m = 3.0;
-  /// Agreement that a found pose must have, and by how much more than any other place.
-  double found_agreement = 0.7;
+  /// Mean of the two shares that a found pose must have, and by how much more than any other place.
+  double found_agreement = 0.6;
   double found_margin = 0.12;
   /// Drift of the map while it grows: sigma of position and heading after 1 m of travel, growing with its root. With
   /// the Car alone in view the simulation shows half of it, among walls a tenth.

@@ -17,14 +17,20 @@ struct Agreement {
   int seen = 0;
   /// Something in front of it.
   int hidden = 0;
-  /// What lies behind it, or nothing at all: the surface is not there.
+  /// Something behind it: the surface is not there.
+  int beyond = 0;
+  /// Nothing, where a surface is expected: it is not there, or the LiDAR looks over or under it.
   int missing = 0;
   /// Something where the map has nothing.
   int unknown = 0;
 
-  int evidence() const { return seen + hidden + missing; }
-  /// Seen share of what the beams say, 0 to 1. What is unknown counts less: a frozen map ends somewhere.
-  double share() const;
+  Agreement& operator+=(const Agreement& other);
+  /// Beams that meet what the map shows, or should.
+  int expected() const { return seen + hidden + beyond + missing; }
+  /// Share of the expected view that is seen, 0 to 1; 1 when nothing is expected.
+  double share_of_expected() const;
+  /// Share of the returns that the map explains, 0 to 1; without returns 1 when none is expected, else 0.
+  double share_of_returns() const;
 };
 
 /// Pose of base_link in the map when a sweep was taken, and how far it turned meanwhile.

@@ -40,6 +40,19 @@ TEST_F(LocalizerLostTest, KidnappedRobotFindsItselfAgain) {
   EXPECT_LT(std::abs(robot.error().z()), 0.005);
 }
 
+TEST_F(LocalizerLostTest, KidnappedToWhereNothingIsInViewIsLostToo) {
+  robot.world.clear();
+  EXPECT_LT(lost_after(3.0), 2.0);
+}
+
+TEST_F(LocalizerLostTest, SurfaceThatTheLidarLooksOverDoesNotLoseThePoseWhileTheRestIsSeen) {
+  // The Car sinks below the LiDAR's plane; walls and the other car stay.
+  robot.world.erase(robot.world.begin(), robot.world.begin() + 4);
+  robot.drive(0.0, 0.0, 3.0);
+  EXPECT_EQ(robot.lost_ticks, 0);
+  EXPECT_LT(robot.position_error_m(), 0.02);
+}
+
 TEST_F(LocalizerLostTest, RobotCarriedOutOfTheSearchStaysLostAndGuessesNothing) {
   robot.carry(60.0, 40.0, 2.0);
   robot.drive(0.0, 0.0, 2.0);
