@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mtr_bringup.bench_localization import campaign, drives, kidnapping, report, table
+from mtr_bringup.bench_localization import campaign, drives, kidnapping, real_time, report, table
 from mtr_bringup.bench_localization.drives import Drive
 from mtr_bringup.bench_localization.errors import Errors
 from mtr_bringup.bench_localization.figures import joined, scene_figures
@@ -39,7 +39,7 @@ def all_results(key_m=0.004, biased_m=0.006, tilted_m=0.005):
 
 
 def rows(results):
-    return {row["name"]: row for row in report.document(results)["table"]}
+    return {row["name"]: row for row in report.document(results, {})["table"]}
 
 
 def test_table_has_every_row_of_the_goals_and_meets_them():
@@ -82,13 +82,13 @@ def test_row_without_a_value_is_not_met():
 
 def test_failures_are_in_the_document_and_in_the_lines():
     failed = DriveResult(Drive(drives.options("lot", 9), drives.PLAIN), {}, {THIS_SYSTEM: "No Car."}, [])
-    written = report.document([*all_results(), failed])
+    written = report.document([*all_results(), failed], {})
     assert written["failures"] == {"lot_plain_9": {THIS_SYSTEM: "No Car."}}
     assert any("No Car." in line for line in report.lines(written))
 
 
 def test_scene_figures_have_every_key_for_every_method():
-    written = report.document(all_results())
+    written = report.document(all_results(), {})
     keys = {"online_rmse_m", "online_p95_m", "online_max_m", "standstill_p95_m", "yaw_p95_deg", "car_pose_p95_m",
             "car_yaw_p95_deg", "length_error_m", "width_error_m", "nees_ratio", "cpu_ms_per_scan"}
     for scene in drives.SCENES:
@@ -156,3 +156,21 @@ def test_campaign_compares_its_first_with_its_last_part():
     assert found["first_standstill_p95_m"] == pytest.approx(0.001 + 0.01 / 8.0, abs=2e-4)
     assert found["last_standstill_p95_m"] == pytest.approx(0.011, abs=2e-4)
     assert found["part_s"] == 3600.0
+
+
+def test_latency_is_met_only_when_every_sweep_is_answered_in_time():
+    in_time = [1.0] * 99 + [14.0]
+    assert real_time.figures(in_time, 0, 6.0)["met"]
+    assert not real_time.figures(in_time, 1, 6.0)["met"]
+    assert not real_time.figures([1.0] * 90 + [16.0] * 10, 0, 6.0)["met"]
+    assert not real_time.figures(in_time, 0, 10.1)["met"]
+
+
+def test_campaign_kidnapping_and_latency_are_told_to_a_person():
+    written = report.document(all_results(), real_time.figures([1.0] * 100, 0, 6.0))
+    written["campaign"] = [campaign.figures(errors(0.004))]
+    written["kidnapped"] = kidnapping.figures([kidnapping.Kidnapping(0.5, None, 0.0)])
+    said = report.lines(written)
+    assert "Campaign of 0.0 h, standing: 0.40 cm at the beginning, 0.40 cm at the end." in said
+    assert any(line.startswith("Kidnapped: 1 of 1 noticed, the slowest after 0.50 s; 0 recovered") for line in said)
+    assert any(line.startswith("Sweep to tf: 1.0 ms (median), 1.0 ms (99 %), 0 of 100 without") for line in said)

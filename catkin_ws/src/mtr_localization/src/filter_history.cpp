@@ -43,10 +43,6 @@ void FilterHistory::advance(std::int64_t stamp_ns, const FilterInput& input) {
   }
 }
 
-bool FilterHistory::covers(std::int64_t time_ns) const {
-  return steps_.front().stamp_ns <= time_ns && time_ns <= steps_.back().stamp_ns;
-}
-
 std::size_t FilterHistory::nearest(std::int64_t time_ns) const {
   const auto best = std::min_element(steps_.begin(), steps_.end(), [time_ns](const auto& a, const auto& b) {
     return std::abs(a.stamp_ns - time_ns) < std::abs(b.stamp_ns - time_ns);
@@ -55,8 +51,11 @@ std::size_t FilterHistory::nearest(std::int64_t time_ns) const {
 }
 
 PoseVector FilterHistory::odom_at(std::int64_t time_ns) const {
-  const auto after = std::lower_bound(steps_.begin(), steps_.end(), time_ns,
-                                      [](const FilterStep& step, std::int64_t t) { return step.stamp_ns < t; });
+  auto after = std::lower_bound(steps_.begin(), steps_.end(), time_ns,
+                                [](const FilterStep& step, std::int64_t t) { return step.stamp_ns < t; });
+  if (after == steps_.end()) {
+    --after;
+  }
   if (after == steps_.begin() || after->stamp_ns == time_ns) {
     return after->odom;
   }

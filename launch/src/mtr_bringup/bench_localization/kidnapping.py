@@ -48,3 +48,12 @@ def figures(all_of_them: List[Kidnapping]) -> Dict[str, Any]:
             "recovered": len(recovered), "slowest_recovery_s": max(recovered, default=None),
             "longest_wrong_share": max((each.wrong_share for each in all_of_them), default=None),
             "limit_s": DETECTION_LIMIT_S, "met": len(good) == len(all_of_them) > 0}
+
+
+def sentence(found: Dict[str, Any]) -> str:
+    """The figures for a person."""
+    slowest = found["slowest_detection_s"]
+    return (f"Kidnapped: {found['detected']} of {found['robots']} noticed"
+            f"{'' if slowest is None else f', the slowest after {slowest:.2f} s'}; {found['recovered']} recovered, the "
+            f"others stood; wrong poses called valid for {100.0 * found['longest_wrong_share']:.1f} % of the time at "
+            f"most: {'met' if found['met'] else 'NOT MET'}")

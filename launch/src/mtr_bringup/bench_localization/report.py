@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, Dict, List, Sequence
 
-from . import campaign, kidnapping, table
+from . import campaign, kidnapping, real_time, table
 from .drives import CAMPAIGN, KIDNAP, PLAIN, SCENES
 from .figures import scene_figures
 from .methods import METHODS, THIS_SYSTEM, Outcome
@@ -20,8 +20,8 @@ ABOUT = {
 }
 
 
-def document(results: Sequence[DriveResult]) -> Dict[str, Any]:
-    """Everything that goes into localization.json."""
+def document(results: Sequence[DriveResult], in_real_time: Dict[str, Any]) -> Dict[str, Any]:
+    """Everything that goes into localization.json; in_real_time as `real_time` gives it, empty if it was not run."""
     found = outcomes_of(results)
     kidnapped = [kidnapping.kidnapping(each.outcomes[THIS_SYSTEM].errors, each.segments) for each in results
                  if each.drive.variant == KIDNAP and THIS_SYSTEM in each.outcomes]
@@ -34,6 +34,7 @@ def document(results: Sequence[DriveResult]) -> Dict[str, Any]:
         "campaign": [campaign.figures(each.outcomes[THIS_SYSTEM].errors) for each in results
                      if each.drive.variant == CAMPAIGN and THIS_SYSTEM in each.outcomes],
         "kidnapped": kidnapping.figures(kidnapped),
+        "real_time": in_real_time,
         "failures": failures(results),
         "drives": [drive_figures(each) for each in results],
     }
@@ -76,6 +77,11 @@ PER_DRIVE = ("online_rmse_m", "online_p95_m", "online_max_m", "moving_p95_m", "s
 def lines(written: Dict[str, Any]) -> List[str]:
     """The table, and what has no row in it."""
     said = [table.printed(row) for row in written["table"]]
+    said += [campaign.sentence(each) for each in written["campaign"]]
+    if written["kidnapped"]["robots"]:
+        said.append(kidnapping.sentence(written["kidnapped"]))
+    if written["real_time"]:
+        said.append(real_time.sentence(written["real_time"]))
     for name, sentences in written["failures"].items():
         said += [f"{name}, {method}: {sentence}" for method, sentence in sentences.items()]
     return said

@@ -17,6 +17,7 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import LaserScan
 
+from mtr_bringup.bench.probe import cpu_s
 from mtr_core import names
 from mtr_msgs.msg import MotionLock, PeripheralsState, VelocityCommand
 
@@ -117,15 +118,6 @@ def sweep(frame: str) -> LaserScan:
                      ranges=[3.0 + 0.01 * random.random() for _ in range(BEAMS)])
     scan.header.frame_id = frame
     return scan
-
-
-def cpu_s(process: int) -> float:
-    """Processor time that a process has used so far, user and system."""
-    with open(f"/proc/{process}/schedstat", encoding="ascii") as lines:
-        main_thread = int(lines.read().split()[0]) * 1e-9
-    with open(f"/proc/{process}/stat", encoding="ascii") as line:
-        fields = line.read().rsplit(")", 1)[1].split()
-    return max(main_thread, (int(fields[11]) + int(fields[12])) * 0.01)
 
 
 def main(samples: int) -> int:

@@ -45,11 +45,9 @@ class FilterHistory {
   std::size_t size() const { return steps_.size(); }
   const FilterStep& at(std::size_t index) const { return steps_[index]; }
 
-  /// True when the time lies between the oldest and the newest step.
-  bool covers(std::int64_t time_ns) const;
   /// Index of the step nearest to a time.
   std::size_t nearest(std::int64_t time_ns) const;
-  /// Base_link in odom at a covered time.
+  /// Base_link in odom at a time; after the newest step with the velocity of that step.
   PoseVector odom_at(std::int64_t time_ns) const;
 
   /// Changes the filter at a step, and what came of it since.

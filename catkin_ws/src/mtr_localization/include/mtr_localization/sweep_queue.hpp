@@ -26,7 +26,7 @@ struct Look {
 /// Keeps sweeps until the filter has lived through them; refuses those that make no sense.
 class SweepQueue {
  public:
-  /// @param lag_ns from a sweep's end until it is used, in lock-step; without it, it is used once its last beam is past
+  /// @param lag_ns from a sweep's end until it is used, in lock-step; without it, it is used at once
   explicit SweepQueue(std::optional<std::int64_t> lag_ns) : lag_ns_(lag_ns) {}
 
   /// Takes a sweep; false when it is refused: see `problem`.

@@ -119,10 +119,11 @@ TEST(SweepQueue, InLockStepASweepIsUsedOneStepAfterItsEnd) {
   EXPECT_EQ(looks[0].scan.stamp_ns, 20 * kMs);
 }
 
-TEST(SweepQueue, OnTheRobotsClockASweepIsUsedAfterItsLastBeam) {
+TEST(SweepQueue, OnTheRobotsClockASweepDoesNotWaitForTheNextWheelOdometry) {
   SweepQueue queue(std::nullopt);
   queue.add(sweep_at(0));
-  EXPECT_EQ(queue.take_due(history_of(2, 0.0, 0.0)).size(), 1u);
+  EXPECT_TRUE(queue.take_due(history_of(0, 0.0, 0.0)).empty());
+  EXPECT_EQ(queue.take_due(history_of(1, 0.0, 0.0)).size(), 1u);
 }
 
 TEST(SweepQueue, FrontAndRearOfOneTimeAreOneLookInWhateverOrderTheyCome) {
@@ -197,6 +198,12 @@ TEST(FilterHistory, OdomDoesNotJumpWhenThePoseIsCorrected) {
 TEST(FilterHistory, PoseBetweenStepsIsInterpolated) {
   const FilterHistory history = history_of(3, 0.02, 0.0);
   EXPECT_NEAR(history.odom_at(30 * kMs).x(), 0.03, 1e-12);
+}
+
+TEST(FilterHistory, PoseAfterTheNewestStepGoesOnAsThatStepDid) {
+  const FilterHistory history = history_of(3, 0.02, 0.0);
+  EXPECT_NEAR(history.odom_at(70 * kMs).x(), 0.07, 1e-12);
+  EXPECT_NEAR(history_of(0, 0.0, 0.0).odom_at(10 * kMs).x(), 0.0, 1e-12);
 }
 
 }  // namespace
