@@ -10,13 +10,13 @@ os.environ["QT_QPA_PLATFORM"] = "offscreen"
 import pytest
 from PyQt5.QtCore import Qt
 
+from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import CarEvent, CarLink, LockState
 from mtr_operator.gui.app import Application
 from mtr_operator.robot_link.fake import FakeRobotLink
 from mtr_operator.robot_link.virtual_robot import VirtualRobot, VirtualWorld
 from mtr_operator.station.connection import SIMULATED, CanChoice, LinkOpener
-from mtr_operator.station.no_car import NoCarLink
 
 TIME_FACTOR = 150.0
 WORLD = VirtualWorld()
@@ -114,7 +114,7 @@ class FakeOpener(LinkOpener):
         return Spoilt(self, time_factor=TIME_FACTOR, robot=self._robot, session_id=self._sessions)
 
     def car(self, choice):
-        return NoCarLink() if choice is None else KeyCar(self)
+        return AbsentCarLink() if choice is None else KeyCar(self)
 
     def spoil_with(self, **changes):
         """Change each Status from now on."""

@@ -5,13 +5,13 @@ import threading
 
 import pytest
 
+from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.connection import SIMULATED, CanChoice, Connection, LinkOpener, robot_choice
 from mtr_operator.station.idle import CalibrationOrder
 from mtr_operator.station.mailbox import Mailbox
 from mtr_operator.station.news import CarLinkOpened, Connected, Ended, Measured, Outcome, Refused, Saved
-from mtr_operator.station.no_car import NoCarLink
 from mtr_operator.station.test import new_test, open_test
 from mtr_operator.station.worker import Worker
 
@@ -32,7 +32,7 @@ class Opener(LinkOpener):
         return self._robot
 
     def car(self, choice):
-        return NoCarLink() if choice is None else self._car
+        return AbsentCarLink() if choice is None else self._car
 
 
 class Post:

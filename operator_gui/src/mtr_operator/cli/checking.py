@@ -24,7 +24,7 @@ def check(options: argparse.Namespace) -> None:
     with contextlib.closing(Display(None)) as display, contextlib.closing(robot_link(options)) as link, \
             Interrupt() as interrupt:
         link.connect()
-        session = Session(link, AbsentCarLink(), display, interrupt.is_requested)
+        session = Session(link, AbsentCarLink("The Car's bus is not connected."), display, interrupt.is_requested)
         robot = Robot(session)
         try:
             prepare_to_check(session, robot)

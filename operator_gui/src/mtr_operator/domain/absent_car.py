@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from .ports import CarEvent, CarLink, LockState, RobotStatus
 
+NO_ADAPTER = "No CAN adapter is chosen."
+
 
 class AbsentCarLink(CarLink):
-    """For orders that need the robot alone."""
+    """For orders that need the robot alone, and before an adapter is chosen; problem says why nothing is known."""
+
+    def __init__(self, problem: str = NO_ADAPTER):
+        self._problem = problem
 
     def connect(self) -> None:
         """See CarLink."""
@@ -23,7 +28,7 @@ class AbsentCarLink(CarLink):
     @property
     def problem(self) -> str:
         """See CarLink."""
-        return "The Car's bus is not connected."
+        return self._problem
 
     def close(self) -> None:
         """See CarLink."""

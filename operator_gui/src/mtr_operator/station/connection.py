@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.ports import CarLink, RobotLink
 from mtr_operator.robot_link.address import PUBLISHER_PORT, SUBSCRIBER_PORT, RobotAddress
@@ -68,8 +69,7 @@ class LinkOpener:
     def car(self, choice: CanChoice | None) -> CarLink:
         """A new link, not connected yet."""
         if choice is None:
-            from .no_car import NoCarLink
-            return NoCarLink()
+            return AbsentCarLink()
         if choice.interface == SIMULATED:
             from mtr_operator.car_link.fake import FakeCarLink
             return FakeCarLink()

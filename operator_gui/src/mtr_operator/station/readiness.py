@@ -5,10 +5,10 @@ from __future__ import annotations
 import enum
 from dataclasses import dataclass
 
+from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.ports import LockState, Mode, RobotStatus
 
 from .news import RobotNews
-from .no_car import NO_ADAPTER
 
 # Wall time without a Status after which the link counts as lost.
 SILENCE_LIMIT_S = 1.5
