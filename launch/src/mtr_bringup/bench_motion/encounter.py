@@ -12,6 +12,8 @@ from mtr_simulation.scenario import Scenario, Walk
 
 from .rig import PERSON, START_S, TICK_S, Rig, Wish
 
+# Nobody stands so near to base_link when the robot starts: in the footprint, or within a foot's reach of it.
+CLEAR_AT_START_M = 0.8
 # Below this nothing moves; the wheels' encoders see as much at rest.
 STANDING_MPS = 0.02
 # The person walks on for so long after the place of the meeting.
@@ -53,8 +55,15 @@ class Encounter:
 
 
 def draw(seed: int) -> Encounter:
-    """The encounter of this number."""
+    """The encounter of this number: the first of its dice in which the person does not begin within the robot."""
     random = np.random.default_rng([seed, 4])
+    encounter = _drawn(seed, random)
+    while math.hypot(*encounter.walk.start) < CLEAR_AT_START_M:
+        encounter = _drawn(seed, random)
+    return encounter
+
+
+def _drawn(seed: int, random: np.random.Generator) -> Encounter:
     rear_lidar = bool(random.random() < 0.7)
     motion = str(random.choice(["forward", "backward", "arc", "spin"]))
     approach = str(random.choice(list(BEARINGS)))
