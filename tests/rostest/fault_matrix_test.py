@@ -25,7 +25,9 @@ from mtr_msgs.msg import (
 )
 
 STANDSTILL_WITHIN_S = 0.5
-CRUISE_MPS = 0.5
+# The planner wants more than is permitted; with the key raised, the hardest case, drive control allows this.
+WANTED_MPS, FASTEST_MPS = 2.0, 0.74
+KEY_RAISED_M = 1.55
 AXES, BUTTONS = 8, 12
 SLOW_BUTTON, FORWARD_AXIS = 4, 1
 LOCKED = (RobotMode.STARTING, RobotMode.FAULT)
@@ -39,7 +41,8 @@ class FaultMatrix(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node("fault_matrix_test", disable_rostime=True)
         cls.lidar, cls.rear_lidar, cls.odometry, peripherals = open_ground()
-        cls.planner = Speaker(names.PLANNER_VELOCITY, VelocityCommand(linear_mps=CRUISE_MPS, active=True),
+        peripherals.message.key_height_m = KEY_RAISED_M
+        cls.planner = Speaker(names.PLANNER_VELOCITY, VelocityCommand(linear_mps=WANTED_MPS, active=True),
                               schedule.MOTION_PLANNER)
         cls.motion = Speaker(names.MOTION_STATUS, MotionStatus(), schedule.MOTION_PLANNER)
         cls.e_stop = Speaker(names.MOTION_LOCK, MotionLock(owner="dispatcher"), schedule.DISPATCHER)
@@ -75,8 +78,9 @@ class FaultMatrix(unittest.TestCase):
     def go_on(self, mode):
         """Let time pass until the robot is in the state and drives, or stands where it must."""
         locked = mode in LOCKED
-        self.time.advance_until(lambda: self.mode_now() == mode and self.speed() == (0.0 if locked else CRUISE_MPS),
-                                RECOVERED_WITHIN_S)
+        self.time.advance_until(
+            lambda: self.mode_now() == mode and (self.speed() == 0.0 if locked else self.speed() >= FASTEST_MPS),
+            RECOVERED_WITHIN_S)
 
     def inject(self, speakers):
         """Silence the speakers; the robot stands soon enough after their last word, and goes on standing."""
@@ -85,11 +89,13 @@ class FaultMatrix(unittest.TestCase):
         silent_since_ns = max(speaker.heard_ns for speaker in speakers)
         while (self.time.tick_ns - silent_since_ns) * NS < STANDSTILL_WITHIN_S:
             self.time.advance()
+        speeds = []
         for _ in range(10):
-            self.assertEqual(self.speed(), 0.0)
+            speeds.append(self.speed())
             self.time.advance()
         for speaker in speakers:
             speaker.is_silent = False
+        self.assertEqual(max(speeds), 0.0)
 
     def check_all_faults(self, mode):
         """One row of the matrix."""

@@ -33,7 +33,7 @@ void log_limits(const NodeParameters& parameters) {
   if (!parameters.rear_lidar) {
     ROS_WARN(
         "There is no rear LiDAR: nobody who walks in behind is seen. Backwards at %.2f m/s at most, and only into "
-        "ground seen free within the last %.0f s.",
+        "ground seen free within the last %.0f s; the LEDs warn.",
         parameters.collision.unwatched_reverse_mps, parameters.collision.ground_memory_s);
   }
 }
