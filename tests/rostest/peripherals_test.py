@@ -11,10 +11,11 @@ import rospy
 import rostest
 from node_process import NodeProcess
 from scripted_time import NS, Speaker
+from sensor_msgs.msg import Joy
 
 from mtr_core import names, schedule
 from mtr_lockstep import Ticker, TickInput
-from mtr_msgs.msg import ButtonPress, DesiredState, PeripheralsState, RobotMode
+from mtr_msgs.msg import ButtonPress, DesiredState, DriveStatus, PeripheralsState, RobotMode
 from mtr_simulation.truth.log import FILE_NAME
 
 LOCK, UNLOCK = 1, 2
@@ -24,6 +25,9 @@ HEIGHT_WITHIN_S = 40.0
 PRESS_S = 0.3
 # The contact closes before the servo has reached the ordered travel, which is what the firmware reports.
 SERVO_TRAVEL_S = 0.1
+# Of the manual controller, see mtr_controller_input/parameters.py.
+SLOW_BUTTON, LIFT_AXIS, LIFT_MPS = 4, 7, 0.1
+HELD_S = 1.5
 
 
 class Peripherals(unittest.TestCase):
@@ -42,6 +46,8 @@ class Peripherals(unittest.TestCase):
         desired = DesiredState(session_id=SESSION_ID, link_alive=True, key_height_m=0.8)
         cls.desired = Speaker(names.DESIRED_STATE, desired, schedule.DISPATCHER)
         cls.mode = Speaker(names.ROBOT_MODE, RobotMode(mode=RobotMode.FOLLOWING_WAYPOINT), schedule.STATE_MACHINE)
+        cls.drive = Speaker(names.DRIVE_STATUS, DriveStatus(), schedule.DRIVE_CONTROL)
+        cls.joystick = Speaker(names.JOY, Joy(axes=[0.0] * 8, buttons=[0] * 12), schedule.CONTROLLER_INPUT)
         cls.peripherals = TickInput(names.PERIPHERALS_STATE, PeripheralsState, schedule.PERIPHERALS)
         cls.ticker = Ticker(schedule.CLOCK_STEP)
 
@@ -64,7 +70,7 @@ class Peripherals(unittest.TestCase):
         state = None
         for _ in range(round(within_s / (schedule.CLOCK_STEP.period_ns * NS))):
             tick_ns = self.ticker.sleep()
-            for speaker in (self.desired, self.mode):
+            for speaker in (self.desired, self.mode, self.drive, self.joystick):
                 speaker.speak(tick_ns)
             state = self.peripherals.at(tick_ns)
             if state and condition(state):
@@ -122,6 +128,24 @@ class Peripherals(unittest.TestCase):
             self.order_press(LOCK)
             self.advance(2.0)
             self.assertAlmostEqual(float(self.true_presses()[-1]["key_z_m"]), height_m, delta=HEIGHT_TOLERANCE_M)
+
+    def test_person_moves_the_lift_by_the_manual_controller_and_it_holds_when_released(self):
+        self.desired.message.link_alive = False
+        before_m = self.advance(1.0).key_height_m
+        for way in (1.0, -1.0):
+            self.joystick.message.buttons[SLOW_BUTTON], self.joystick.message.axes[LIFT_AXIS] = 1, way
+            self.advance(HELD_S)
+            self.joystick.message.buttons[SLOW_BUTTON], self.joystick.message.axes[LIFT_AXIS] = 0, 0.0
+            there_m = self.advance(1.0).key_height_m
+            self.assertAlmostEqual(there_m - before_m, way * LIFT_MPS * HELD_S, delta=0.3 * LIFT_MPS * HELD_S)
+            self.assertAlmostEqual(self.advance(1.0).key_height_m, there_m, delta=0.002)
+            before_m = there_m
+
+    def test_leds_warn_while_a_robot_without_rear_lidar_drives_backwards(self):
+        self.drive.message.linear_mps = -0.2
+        self.assertEqual(self.advance(0.5).led, "warning")
+        self.drive.message.linear_mps = 0.0
+        self.assertNotEqual(self.advance(0.5).led, "warning")
 
     def test_height_out_of_reach_is_refused_with_a_sentence(self):
         self.desired.message.key_height_m = 5.0

@@ -59,7 +59,13 @@ def test_planned_motion_with_what_the_controller_adds_passes_drive_controls_limi
     assert LIMITS.lateral_acceleration_mps2 < allowed["lateral_acceleration_mps2"]
 
 
-@pytest.mark.parametrize("wanted", [(1.0, 0.3), (0.4, -1.4), (-0.8, 1.0), (1.1, 0.0)])
+@pytest.mark.parametrize("curvature", [0.0, 0.2, 0.5, 1.0, 2.0, 4.0])
+def test_planned_curve_passes_drive_controls_limits_with_the_key_raised(curvature):
+    speed = LIMITS.corner_speed(curvature)
+    assert speed * curvature <= mtr_drive_control_core.yaw_rate_at(1.55, speed)
+
+
+@pytest.mark.parametrize("wanted", [(0.7, 0.3), (0.4, -1.4), (-0.5, 1.0), (0.79, 0.0)])
 def test_limiter_reaches_what_is_allowed_and_never_jumps(wanted):
     limiter, before = Limiter(), (0.0, 0.0)
     for _ in range(200):

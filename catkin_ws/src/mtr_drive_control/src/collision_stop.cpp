@@ -147,9 +147,9 @@ std::optional<Hindrance> CollisionStop::unseen_ground(const std::vector<PathPoin
     for (double y = -footprint_.half_width_m; y <= footprint_.half_width_m; y += kRearStepM) {
       const Point rear = then.pose.apply({-footprint_.rear_m, y});
       if (footprint_.distance_to(rear) > kRoundingM && !surroundings_.was_free(rear)) {
-        Hindrance hindrance = hindrance_at(rear);
-        hindrance.is_unseen_ground = true;
-        return hindrance;
+        Hindrance nothing_seen;
+        nothing_seen.is_unseen_ground = true;
+        return nothing_seen;
       }
     }
   }
@@ -162,7 +162,8 @@ Hindrance CollisionStop::hindrance_at(const Point& point) const {
 
 std::string sentence_about(const Hindrance& hindrance) {
   if (hindrance.is_unseen_ground) {
-    return "Blocked by ground behind that has not been seen free for some time.";
+    return "Blocked: the ground behind was not seen free lately; turn the robot once on the spot with the manual "
+           "controller, so that its LiDAR sees it.";
   }
   const double bearing = std::abs(hindrance.bearing_rad);
   const char* side = bearing < kPi / 4.0           ? "ahead"

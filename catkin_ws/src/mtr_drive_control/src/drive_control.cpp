@@ -3,16 +3,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/drive_control.hpp"
 
-#include "mtr_drive_control/tip_over.hpp"
-
 namespace mtr_drive_control {
+namespace {
+
+constexpr double kRoundingS = 1e-9;
+
+}  // namespace
 
 DriveControl::DriveControl(const Parameters& parameters, const CollisionParameters& collision, bool has_rear_lidar,
                            double period_s)
     : parameters_(parameters),
+      period_s_(period_s),
       limits_(parameters),
       collision_stop_(collision, has_rear_lidar),
-      limiter_(parameters, period_s) {
+      limiter_(limits_, period_s) {
   check(parameters);
 }
 
@@ -26,7 +30,7 @@ Decision DriveControl::step(std::int64_t tick_ns, const Inputs& inputs) {
   for (const EngagedLock& lock : inputs.locks) {
     decision.engaged_locks.push_back(lock.owner);
   }
-  decision.velocity = pursue(tick_ns, wish, decision);
+  decision.velocity = pursue(tick_ns, inputs, wish, decision);
   limiter_.send(decision.velocity);
   return decision;
 }
@@ -37,7 +41,7 @@ void DriveControl::adapt_limits(std::int64_t tick_ns, const std::optional<KeyHei
   limiter_.set_limits(limits_);
 }
 
-Velocity DriveControl::pursue(std::int64_t tick_ns, const Wish& wish, Decision& decision) {
+Velocity DriveControl::pursue(std::int64_t tick_ns, const Inputs& inputs, const Wish& wish, Decision& decision) {
   if (!wish.velocity || wish.source == "none") {
     collision_stop_.rest();
   }
@@ -52,9 +56,25 @@ Velocity DriveControl::pursue(std::int64_t tick_ns, const Wish& wish, Decision& 
     return limiter_.braked();
   }
   const MotionWish next{limiter_.toward(verdict.velocity), wanted.by_hand};
-  const Deceleration emergency{limits_.emergency_linear_deceleration_mps2,
+  const Deceleration emergency{limits_.emergency_deceleration_mps2(next.velocity),
                                limits_.emergency_angular_deceleration_radps2};
-  return collision_stop_.permits(next, emergency) ? next.velocity : limiter_.braked();
+  const bool is_safe = is_in_time(next.velocity, oldest_word_s(tick_ns, inputs, wish.source)) &&
+                       collision_stop_.permits(next, emergency);
+  return is_safe ? next.velocity : limiter_.braked();
+}
+
+double DriveControl::oldest_word_s(std::int64_t tick_ns, const Inputs& inputs, const std::string& source) const {
+  std::int64_t oldest_ns = inputs.sensors.motion->stamp_ns;
+  for (const auto& sweep : {inputs.sensors.front, inputs.sensors.rear}) {
+    oldest_ns = sweep ? std::min(oldest_ns, sweep->stamp_ns) : oldest_ns;
+  }
+  const std::optional<SourceCommand>& command = source == "manual" ? inputs.manual : inputs.planner;
+  oldest_ns = command ? std::min(oldest_ns, command->stamp_ns) : oldest_ns;
+  return std::max(inputs.locks_age_s, static_cast<double>(tick_ns - oldest_ns) * 1e-9);
+}
+
+bool DriveControl::is_in_time(const Velocity& velocity, double oldest_word_s) const {
+  return oldest_word_s + period_s_ + limits_.stop_time_s(velocity) <= kStandstillWithinS + kRoundingS;
 }
 
 std::vector<PathPoint> DriveControl::stopping_path_of(const Velocity& velocity) const {

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/motion_locks.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mtr_drive_control {
@@ -40,8 +41,10 @@ void MotionLocks::take(const std::string& owner, const Lock& lock) {
 
 std::vector<EngagedLock> MotionLocks::engaged_at(std::int64_t tick_ns) {
   std::vector<EngagedLock> engaged;
+  age_s_ = 0.0;
   for (auto& [owner, samples] : locks_) {
     const std::optional<Lock> lock = samples.at(tick_ns);
+    age_s_ = lock ? std::max(age_s_, static_cast<double>(tick_ns - lock->stamp_ns) * 1e-9) : age_s_;
     if (!lock) {
       engaged.push_back({owner, "Waiting for the motion lock of " + owner + "."});
     } else if (!is_fresh(lock->stamp_ns, tick_ns, timeout_s_)) {

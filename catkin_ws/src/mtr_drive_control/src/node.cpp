@@ -25,7 +25,7 @@ std::vector<std::string> owners_of(const NodeParameters& parameters) {
 
 void log_limits(const NodeParameters& parameters) {
   for (const double key_m : {0.0, parameters.limits.key_raised_m}) {
-    const Parameters limits = limits_at(parameters.limits, key_m);
+    const Limits limits = limits_at(parameters.limits, key_m);
     ROS_INFO("Limits with the key %s: %.2f m/s, %.2f rad/s, stops at %.2f m/s2 and in an emergency at %.2f m/s2.",
              key_m > 0.0 ? "raised" : "low", limits.max_linear_mps, limits.max_angular_radps,
              limits.linear_deceleration_mps2, limits.emergency_linear_deceleration_mps2);
@@ -33,7 +33,7 @@ void log_limits(const NodeParameters& parameters) {
   if (!parameters.rear_lidar) {
     ROS_WARN(
         "There is no rear LiDAR: nobody who walks in behind is seen. Backwards at %.2f m/s at most, and only into "
-        "ground seen free within the last %.0f s.",
+        "ground seen free within the last %.0f s; the LEDs warn.",
         parameters.collision.unwatched_reverse_mps, parameters.collision.ground_memory_s);
   }
 }
@@ -108,6 +108,7 @@ void Node::tick(std::int64_t tick_ns) {
   inputs.sensors.motion = motion_of(odometry_.at(tick_ns));
   inputs.key = key_height_of(peripherals_.at(tick_ns));
   inputs.locks = locks_.engaged_at(tick_ns);
+  inputs.locks_age_s = locks_.age_s();
   inputs.manual = command_of(manual_.at(tick_ns));
   inputs.planner = command_of(planner_.at(tick_ns));
   publish(tick_ns, drive_control_.step(tick_ns, inputs));

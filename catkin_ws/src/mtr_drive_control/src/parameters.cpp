@@ -12,9 +12,9 @@ void check(const Parameters& parameters) {
     mtr_lockstep::check_range(row.name, parameters.*(row.member), row.low, row.high, row.unit);
   }
   mtr_lockstep::check_range("emergency_linear_deceleration_mps2", parameters.emergency_linear_deceleration_mps2,
-                            parameters.max_linear_mps / kStandstillWithinS, 10.0, "m/s2");
+                            parameters.max_linear_mps / kStopWithinS, 10.0, "m/s2");
   mtr_lockstep::check_range("emergency_angular_deceleration_radps2", parameters.emergency_angular_deceleration_radps2,
-                            parameters.max_angular_radps / kStandstillWithinS, 20.0, "rad/s2");
+                            parameters.max_angular_radps / kStopWithinS, 20.0, "rad/s2");
 }
 
 void check(const CollisionParameters& parameters) {

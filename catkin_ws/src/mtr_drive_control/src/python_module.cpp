@@ -62,6 +62,11 @@ std::optional<SourceCommand> command_of(std::int64_t tick_ns, const std::optiona
   return wish ? std::optional<SourceCommand>({tick_ns, {wish->first, wish->second}, true}) : std::nullopt;
 }
 
+std::pair<double, double> follow(VelocityLimiter& limiter, double linear_mps, double angular_radps) {
+  limiter.send(limiter.toward({linear_mps, angular_radps}));
+  return {limiter.sent().linear_mps, limiter.sent().angular_radps};
+}
+
 Decision step(DriveControl& control, std::int64_t tick_ns, const std::optional<std::pair<double, double>>& planner,
               const std::optional<std::pair<double, double>>& manual, const std::vector<std::string>& locks,
               const py::object& front, const py::object& rear, const py::object& odometry, double key_height_m) {
@@ -85,9 +90,22 @@ PYBIND11_MODULE(mtr_drive_control_core, module) {
   module.def(
       "limits_at",
       [](double key_height_m, const py::dict& limits) {
-        return values_of(kRows, limits_at(parameters_of<Parameters>(kRows, limits), key_height_m));
+        return values_of<Parameters>(kRows, limits_at(parameters_of<Parameters>(kRows, limits), key_height_m));
       },
       py::arg("key_height_m"), py::arg("limits") = py::dict());
+  module.def(
+      "yaw_rate_at",
+      [](double key_height_m, double linear_mps) {
+        return limits_at(Parameters{}, key_height_m).yaw_rate_at_radps(linear_mps);
+      },
+      py::arg("key_height_m"), py::arg("linear_mps"), "Largest permitted yaw rate at a speed.");
+  py::class_<VelocityLimiter>(module, "VelocityLimiter")
+      .def(py::init([](double key_height_m, double period_s) {
+             return VelocityLimiter(limits_at(Parameters{}, key_height_m), period_s);
+           }),
+           py::arg("key_height_m"), py::arg("period_s") = 0.02)
+      .def("follow", &follow, py::arg("linear_mps"), py::arg("angular_radps"),
+           "Velocity sent next on the way to the wanted one.");
   py::class_<Decision>(module, "Decision")
       .def_property_readonly("linear_mps", [](const Decision& decision) { return decision.velocity.linear_mps; })
       .def_property_readonly("angular_radps", [](const Decision& decision) { return decision.velocity.angular_radps; })

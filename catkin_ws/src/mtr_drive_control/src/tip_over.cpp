@@ -4,6 +4,7 @@
 #include "mtr_drive_control/tip_over.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mtr_drive_control {
 namespace {
@@ -12,7 +13,38 @@ constexpr double kGravityMps2 = 9.81;
 
 }  // namespace
 
-Parameters limits_at(const Parameters& parameters, double key_height_m) {
+double Limits::straight_speed_mps(const Velocity& velocity) const {
+  return std::abs(velocity.linear_mps) + curve_lever_m * std::abs(velocity.angular_radps);
+}
+
+double Limits::emergency_deceleration_mps2(const Velocity& velocity) const {
+  const double share =
+      velocity.linear_mps == 0.0 ? 1.0 : std::abs(velocity.linear_mps) / straight_speed_mps(velocity);
+  return emergency_linear_deceleration_mps2 * share;
+}
+
+double Limits::stop_time_s(const Velocity& velocity) const {
+  const double linear_s = velocity.linear_mps == 0.0
+                              ? 0.0
+                              : straight_speed_mps(velocity) / emergency_linear_deceleration_mps2;
+  return std::max(linear_s, std::abs(velocity.angular_radps) / emergency_angular_deceleration_radps2);
+}
+
+double Limits::yaw_rate_at_radps(double linear_mps) const {
+  const double speed_mps = std::abs(linear_mps);
+  const double stoppable_radps = std::max(0.0, fastest_straight_mps() - speed_mps) / curve_lever_m;
+  return std::min({max_angular_radps, lateral_acceleration_mps2 / speed_mps, stoppable_radps});
+}
+
+double Limits::permitted_share(const Velocity& velocity) const {
+  const double lateral_mps2 = std::abs(velocity.linear_mps * velocity.angular_radps);
+  return std::min({1.0, max_linear_mps / std::abs(velocity.linear_mps),
+                   max_angular_radps / std::abs(velocity.angular_radps),
+                   std::sqrt(lateral_acceleration_mps2 / lateral_mps2),
+                   fastest_straight_mps() / straight_speed_mps(velocity)});
+}
+
+Limits limits_at(const Parameters& parameters, double key_height_m) {
   // Also takes the raised mast for an unknown height, which is NaN.
   const double height_m =
       key_height_m >= 0.0 ? std::min(key_height_m, parameters.key_raised_m) : parameters.key_raised_m;
@@ -20,14 +52,13 @@ Parameters limits_at(const Parameters& parameters, double key_height_m) {
   const double per_lever = parameters.tip_margin * kGravityMps2 / centre_m;
   const double along_mps2 = per_lever * parameters.tip_lever_along_m;
   const double across_mps2 = per_lever * parameters.tip_lever_across_m;
-  Parameters limits = parameters;
+  Limits limits(parameters);
   for (double Parameters::*each : {&Parameters::linear_acceleration_mps2, &Parameters::linear_deceleration_mps2,
                                    &Parameters::emergency_linear_deceleration_mps2}) {
     limits.*each = std::min(parameters.*each, along_mps2);
   }
   limits.lateral_acceleration_mps2 = std::min(parameters.lateral_acceleration_mps2, across_mps2);
-  limits.max_linear_mps =
-      std::min(parameters.max_linear_mps, limits.emergency_linear_deceleration_mps2 * kStandstillWithinS);
+  limits.max_linear_mps = std::min(parameters.max_linear_mps, limits.fastest_straight_mps());
   return limits;
 }
 

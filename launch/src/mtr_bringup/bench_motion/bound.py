@@ -51,6 +51,7 @@ class Ends:
 def lower_bound(ends: Ends, hull: Polygon, gap_m: float, limits: MotionLimits, speed: float) -> float:
     """Time in s; base_link stays gap_m away from the hull."""
     start, end = ends.start, ends.end
+    speed = min(speed, limits.max_linear_mps)
     gap = min(gap_m, *(hull.distance(ShapelyPoint(pose.x, pose.y)) for pose in (start, end))) - 1e-3
     way = shortest_way((start.x, start.y), (end.x, end.y), hull.buffer(max(gap, 0.0), ROUND_STEPS))
     turn = abs(wrap_angle(end.heading - start.heading))

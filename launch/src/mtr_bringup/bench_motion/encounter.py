@@ -12,13 +12,16 @@ from mtr_simulation.scenario import Scenario, Walk
 
 from .rig import PERSON, START_S, TICK_S, Rig, Wish
 
+# Nobody stands so near to base_link when the robot starts: in the footprint, or within a foot's reach of it.
+CLEAR_AT_START_M = 0.8
 # Below this nothing moves; the wheels' encoders see as much at rest.
 STANDING_MPS = 0.02
 # The person walks on for so long after the place of the meeting.
 AFTER_S = 2.5
 BEYOND_M = 8.0
-# The front LiDAR sees 135 degrees to each side; a person who comes from behind that is not seen without a rear LiDAR.
-WATCHED_TO_RAD = math.radians(125.0)
+# The front LiDAR sees 135 degrees to each side. Without a rear LiDAR a person who is behind that, and as near as this to
+# base_link, may step out of the unseen quarter against the robot before it can stand.
+WATCHED_TO_RAD, UNSEEN_WITHIN_M = math.radians(125.0), 2.0
 RAIN = 0.01
 BEARINGS = {"front": (0.0, 35.0), "side": (55.0, 125.0), "rear": (145.0, 180.0)}
 # The Car is out of sight.
@@ -34,7 +37,6 @@ class Encounter:
         motion: forward, backward, arc or spin.
         approach: front, side or rear, against the direction of motion.
         rear_lidar: the robot has one.
-        watched: the person comes from where the robot can see.
         wishes: what the planner wants and for how long.
         walk: of the person.
         rain: share of beams that end on a drop.
@@ -45,7 +47,6 @@ class Encounter:
     motion: str
     approach: str
     rear_lidar: bool
-    watched: bool
     wishes: Tuple[Tuple[float, Wish], ...]
     walk: Walk
     rain: float
@@ -53,8 +54,15 @@ class Encounter:
 
 
 def draw(seed: int) -> Encounter:
-    """The encounter of this number."""
+    """The encounter of this number: the first of its dice in which the person does not begin within the robot."""
     random = np.random.default_rng([seed, 4])
+    encounter = _drawn(seed, random)
+    while math.hypot(*encounter.walk.start) < CLEAR_AT_START_M:
+        encounter = _drawn(seed, random)
+    return encounter
+
+
+def _drawn(seed: int, random: np.random.Generator) -> Encounter:
     rear_lidar = bool(random.random() < 0.7)
     motion = str(random.choice(["forward", "backward", "arc", "spin"]))
     approach = str(random.choice(list(BEARINGS)))
@@ -68,19 +76,21 @@ def draw(seed: int) -> Encounter:
     aim = place.apply(*random.uniform(-0.4, 0.4, 2))
     speed = float(random.uniform(0.5, 1.5) if random.random() < 0.5 else 1.5)
     walk = _walk(random, aim, place.heading + in_base, speed, meeting_s)
-    watched = rear_lidar or abs(math.remainder(in_base, math.tau)) < WATCHED_TO_RAD
-    return Encounter(seed, motion, approach, rear_lidar, watched, wishes, walk, float(random.choice([0.0, RAIN])),
+    return Encounter(seed, motion, approach, rear_lidar, wishes, walk, float(random.choice([0.0, RAIN])),
                      float(random.choice([0.0, robot.LIFT_STROKE_M])))
 
 
 def simulate(encounter: Encounter) -> Dict[str, Any]:
-    """How it ends: whether the person touches the robot, and how fast the robot was just before that."""
+    """How it ends: whether the person touches the robot, how fast the robot was just before that, and whether the
+    person was watched all the time.
+    """
     scenario = Scenario(world_from_car=FAR_AWAY, start_in_car=FAR_AWAY.inverse(), start_offset_m=0.0,
                         start_offset_rad=0.0, person=encounter.walk)
     rig = Rig(scenario, encounter.seed, encounter.rear_lidar, encounter.rain, encounter.lift_m)
-    stopped, speed_mps, touched = False, 0.0, False
+    stopped, speed_mps, touched, watched = False, 0.0, False, True
     for wish in _ticks(encounter.wishes):
         speed_mps = rig.corner_speed_mps
+        watched = watched and (encounter.rear_lidar or _is_in_view(rig, encounter.walk))
         decision = rig.step(wish)
         stopped = stopped or decision.zone >= 2
         # The person pushes the robot from then on.
@@ -88,7 +98,16 @@ def simulate(encounter: Encounter) -> Dict[str, Any]:
             touched = True
             break
     return {"touched": touched, "moving": touched and speed_mps > STANDING_MPS, "speed_mps": speed_mps,
-            "stopped": stopped}
+            "stopped": stopped, "watched": watched}
+
+
+def _is_in_view(rig: Rig, walk: Walk) -> bool:
+    """True when the front LiDAR sees where the person is, or the person is far away."""
+    walked = walk.speed_mps * max(0.0, rig.time_s - walk.stands_s) / math.dist(walk.start, walk.end)
+    place = [start + walked * (end - start) for start, end in zip(walk.start, walk.end)]
+    x, y = rig.pose.inverse().apply(*place)
+    bearing = math.atan2(y, x - robot.FRONT_LIDAR_X_M)
+    return math.hypot(x, y) > UNSEEN_WITHIN_M or abs(bearing) < WATCHED_TO_RAD
 
 
 def _wishes(random: np.random.Generator, motion: str, rear_lidar: bool, duration_s: float) -> tuple:

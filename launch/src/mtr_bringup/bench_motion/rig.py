@@ -5,6 +5,7 @@ from typing import Any, Optional, Tuple
 
 import mtr_drive_control_core as core
 
+from mtr_core.schedule import SIMULATION_START_NS
 from mtr_core.se2 import Pose2
 from mtr_simulation import robot
 from mtr_simulation.lidar import LidarParameters
@@ -49,6 +50,11 @@ class Rig:
     def pose(self) -> Pose2:
         """True pose in world."""
         return self.sim.truth().world_from_base
+
+    @property
+    def time_s(self) -> float:
+        """Simulated time since the start, settling included."""
+        return (self.sim.time_ns - SIMULATION_START_NS) * 1e-9
 
     @property
     def corner_speed_mps(self) -> float:

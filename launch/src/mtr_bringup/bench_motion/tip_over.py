@@ -12,13 +12,17 @@ from .rig import TICK_S, Rig, Wish
 
 FAR_AWAY = Pose2(60.0, 0.0, 0.0)
 FAST, TURN = 2.0, 4.0
+# Yaw rate wanted at FAST: radii of 8, 4, 2, 1, 0.5 and 0.25 m.
+CURVES = {"very wide": 0.25, "wide": 0.5, "gentle": 1.0, "medium": 2.0, "tight": 4.0, "very tight": 8.0}
 DRIVING_S, STOPPING_S = 3.0, 1.0
 
 # What is wanted before, and what then: another wish, or a lock, which is the emergency stop.
 MANOEUVRES: Dict[str, Tuple[Wish, Any]] = {
     "emergency stop forwards": ((FAST, 0.0), "lock"),
     "emergency stop backwards": ((-FAST, 0.0), "lock"),
-    "emergency stop in the fastest curve": ((FAST, TURN), "lock"),
+    **{f"emergency stop in a {kind} {side} curve {way}": ((sign * FAST, turn), "lock")
+       for kind, yaw in CURVES.items() for side, turn in (("left", yaw), ("right", -yaw))
+       for way, sign in (("forwards", 1.0), ("backwards", -1.0))},
     "emergency stop of a turn on the spot": ((0.0, TURN), "lock"),
     "start backwards out of full speed": ((FAST, 0.0), (-FAST, 0.0)),
     "turn in at full speed": ((FAST, 0.0), (FAST, TURN)),

@@ -25,11 +25,11 @@ class Parameters(ParameterSet):
         angular_axis: counterclockwise is positive.
         lift_axis: up is positive.
         slow_mps, slow_radps: velocities at full deflection while slow.
-        fast_mps, fast_radps: the same while fast. From 0.8 m/s a lost controller is a standing robot within 0.6 s.
+        fast_mps, fast_radps: the same while fast; drive control allows no more with the key raised.
         lift_mps: speed of the lift while its axis is deflected and a dead-man button held.
         dead_zone: deflection below which an axis counts as released.
         silent_after_s: age of the newest message at which the controller is lost; its driver repeats itself every
-            0.04 s.
+            0.04 s. With the time of a stop it makes the half second of docs/robot.md.
         frozen_after_s: a controller that drives and has not changed for so long is lost: no hand is that still, but a
             driver that repeats the last message of a lost controller is (joystick_drivers issue 92).
         release_after_s: see release_buttons.
@@ -46,11 +46,11 @@ class Parameters(ParameterSet):
     lift_axis: int = number(7, 0, MAX_INDEX)
     slow_mps: float = number(0.4, 0.05, 2.0, "m/s")
     slow_radps: float = number(0.6, 0.05, 3.0, "rad/s")
-    fast_mps: float = number(0.8, 0.05, 2.0, "m/s")
+    fast_mps: float = number(0.75, 0.05, 2.0, "m/s")
     fast_radps: float = number(1.2, 0.05, 3.0, "rad/s")
     lift_mps: float = number(0.1, 0.01, 0.5, "m/s")
     dead_zone: float = number(0.05, 0.0, 0.5)
-    silent_after_s: float = number(0.15, 0.1, 2.0, "s")
+    silent_after_s: float = number(0.1, 0.08, 2.0, "s")
     frozen_after_s: float = number(2.0, 0.2, 60.0, "s")
     release_after_s: float = number(1.0, 0.2, 10.0, "s")
     device: str = ""

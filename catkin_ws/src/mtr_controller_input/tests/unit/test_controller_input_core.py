@@ -51,8 +51,8 @@ def test_without_a_dead_man_button_nothing_is_wanted():
     assert velocity(PARAMETERS, sticks(1.0, 1.0), NONE) == RELEASED
 
 
-@pytest.mark.parametrize("held, linear, angular", [(SLOW, 0.4, 0.6), (FAST, 0.8, 1.2),
-                                                   (buttons(SLOW_BUTTON, FAST_BUTTON), 0.8, 1.2)])
+@pytest.mark.parametrize("held, linear, angular", [(SLOW, 0.4, 0.6), (FAST, 0.75, 1.2),
+                                                   (buttons(SLOW_BUTTON, FAST_BUTTON), 0.75, 1.2)])
 def test_full_deflection_gives_the_velocity_of_the_button(held, linear, angular):
     assert velocity(PARAMETERS, sticks(1.0, 1.0), held) == (linear, angular, True)
 
@@ -87,7 +87,7 @@ def test_person_drives_while_the_button_is_held_and_hands_back_when_it_is_releas
 def test_silent_controller_locks_and_stays_locked_until_it_is_back_and_released():
     hand = Hand()
     hand.hold(DRIVING, 1.0)
-    assert not hand.pull_the_plug(0.14).lock_reason
+    assert not hand.pull_the_plug(0.1).lock_reason
     lost = hand.pull_the_plug(0.02)
     assert lost.velocity == RELEASED
     assert "lost" in lost.lock_reason

@@ -18,7 +18,7 @@ enum class Zone : std::uint8_t { kClear = 0, kSlowed = 1, kBlocked = 2, kBlind =
 
 /// What is in the way.
 struct Hindrance {
-  /// From the footprint to it, now.
+  /// From the footprint to it, now; NaN for ground that was not seen.
   double distance_m = std::numeric_limits<double>::quiet_NaN();
   /// In base_link.
   double bearing_rad = std::numeric_limits<double>::quiet_NaN();

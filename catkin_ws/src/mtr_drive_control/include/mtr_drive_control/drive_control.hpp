@@ -32,6 +32,8 @@ struct KeyHeight {
 /// Everything that is known at a tick.
 struct Inputs {
   std::vector<EngagedLock> locks;
+  /// Age of the oldest word of those who must speak to let the robot move.
+  double locks_age_s = 0.0;
   std::optional<SourceCommand> manual;
   std::optional<SourceCommand> planner;
   Sensors sensors;
@@ -53,7 +55,8 @@ struct Decision {
 /// Three stages: choose a source (locks, manual, planner), reduce what it wants to what is safe, limit its change.
 ///
 /// A lock, a dead source, blindness or a sudden obstacle is an emergency stop; a source that ends its wish is braked
-/// for at the normal limit. Every velocity that is sent is one from which an emergency stop ends before a collision.
+/// for at the normal limit. Every velocity that is sent is one from which an emergency stop ends before a collision, and
+/// within kStandstillWithinS of the oldest word on which it rests: who is late slows the robot before it counts as dead.
 class DriveControl {
  public:
   DriveControl(const Parameters& parameters, const CollisionParameters& collision, bool has_rear_lidar,
@@ -78,10 +81,13 @@ class DriveControl {
   Wish wish_of(const std::string& source, const std::optional<SourceCommand>& command, std::int64_t tick_ns) const;
   void adapt_limits(std::int64_t tick_ns, const std::optional<KeyHeight>& key);
   Deceleration normal_deceleration() const;
-  Velocity pursue(std::int64_t tick_ns, const Wish& wish, Decision& decision);
+  double oldest_word_s(std::int64_t tick_ns, const Inputs& inputs, const std::string& source) const;
+  bool is_in_time(const Velocity& velocity, double oldest_word_s) const;
+  Velocity pursue(std::int64_t tick_ns, const Inputs& inputs, const Wish& wish, Decision& decision);
 
   Parameters parameters_;
-  Parameters limits_;
+  double period_s_;
+  Limits limits_;
   CollisionStop collision_stop_;
   VelocityLimiter limiter_;
 };

@@ -42,8 +42,12 @@ class MotionLocks {
   /// Locks that forbid motion at the tick, ordered by owner.
   std::vector<EngagedLock> engaged_at(std::int64_t tick_ns);
 
+  /// Age of the oldest lock that was heard, in s, at the tick of the last call above.
+  double age_s() const { return age_s_; }
+
  private:
   double timeout_s_;
+  double age_s_ = 0.0;
   std::map<std::string, mtr_lockstep::Samples<Lock>> locks_;
 };
 

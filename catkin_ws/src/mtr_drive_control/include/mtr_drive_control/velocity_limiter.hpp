@@ -4,20 +4,20 @@
 #pragma once
 
 #include "mtr_drive_control/geometry.hpp"
-#include "mtr_drive_control/parameters.hpp"
+#include "mtr_drive_control/tip_over.hpp"
 
 namespace mtr_drive_control {
 
 /// Remembers the velocity sent last and tells the next one, one period later.
 class VelocityLimiter {
  public:
-  VelocityLimiter(const Parameters& parameters, double period_s) : limits_(parameters), period_s_(period_s) {}
+  VelocityLimiter(const Limits& limits, double period_s) : limits_(limits), period_s_(period_s) {}
 
   /// Limits from now on.
-  void set_limits(const Parameters& limits) { limits_ = limits; }
+  void set_limits(const Limits& limits) { limits_ = limits; }
 
   /// The wanted velocity, which must be finite, when it is not too fast; else the like on the same circle.
-  Velocity within_limits(const Velocity& wanted) const;
+  Velocity within_limits(const Velocity& wanted) const { return wanted.scaled(limits_.permitted_share(wanted)); }
 
   /// Next velocity on the way to the wanted one, which must be finite.
   Velocity toward(const Velocity& wanted) const;
@@ -32,7 +32,7 @@ class VelocityLimiter {
  private:
   double next_linear(double wanted_mps) const;
 
-  Parameters limits_;
+  Limits limits_;
   double period_s_;
   Velocity sent_;
 };

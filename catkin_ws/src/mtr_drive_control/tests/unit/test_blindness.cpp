@@ -87,9 +87,9 @@ TEST(Blindness, SilentLidarStopsTheMovingRobotWithinHalfASecond) {
   TestRobot robot;
   robot.scene = lot();
   robot.settle();
-  ASSERT_DOUBLE_EQ(robot.drive({1.0, 0.0}, 3.0).velocity.linear_mps, 1.0);
+  ASSERT_DOUBLE_EQ(robot.drive({0.7, 0.0}, 3.0).velocity.linear_mps, 0.7);
   robot.lidars_are_silent = true;
-  const Decision decision = robot.drive({1.0, 0.0}, 0.5);
+  const Decision decision = robot.drive({0.7, 0.0}, 0.5);
   EXPECT_EQ(decision.zone, Zone::kBlind);
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
   EXPECT_EQ(decision.message, "The front LiDAR is silent.");
@@ -118,7 +118,20 @@ TEST(UnwatchedRear, GroundNeverSeenIsNotBackedInto) {
   robot.settle();
   const Decision decision = robot.drive({-0.5, 0.0}, 1.0);
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
-  EXPECT_EQ(decision.message, "Blocked by ground behind that has not been seen free for some time.");
+  EXPECT_EQ(decision.message,
+            "Blocked: the ground behind was not seen free lately; turn the robot once on the spot with the manual "
+            "controller, so that its LiDAR sees it.");
+}
+
+TEST(UnwatchedRear, RobotThatHasTurnedOnceOnTheSpotBacksAgain) {
+  TestRobot robot(false);
+  robot.settle();
+  robot.drive({0.5, 0.0}, 4.0);
+  robot.drive({0.0, 0.0}, 25.0);
+  ASSERT_EQ(robot.drive({-0.5, 0.0}, 1.0).velocity.linear_mps, 0.0);
+  robot.drive({0.0, 0.6}, 10.5, true);
+  robot.drive({0.0, 0.0}, 1.0);
+  EXPECT_NEAR(robot.drive({-0.5, 0.0}, 2.0).velocity.linear_mps, -0.3, 1e-9);
 }
 
 TEST(UnwatchedRear, OwnTrackIsBackedIntoSlowlyUntilItEnds) {

@@ -15,8 +15,8 @@ Wall wall_ahead(double x_m) { return {{x_m, -3.0}, {x_m, 3.0}}; }
 TEST(CollisionStop, OpenGroundIsDrivenAtTheWantedSpeed) {
   TestRobot robot;
   robot.settle();
-  const Decision decision = robot.drive({1.2, 0.0}, 2.5);
-  EXPECT_DOUBLE_EQ(decision.velocity.linear_mps, 1.2);
+  const Decision decision = robot.drive({0.8, 0.0}, 2.5);
+  EXPECT_DOUBLE_EQ(decision.velocity.linear_mps, 0.8);
   EXPECT_EQ(decision.zone, Zone::kClear);
   EXPECT_FALSE(decision.hindrance);
 }

@@ -26,7 +26,7 @@ class DriveControlTest : public ::testing::Test {
                 const std::optional<SourceCommand>& planner) {
     const auto sweep = Scene().sweep(Pose(), kTickNs - 40 * kMs);
     return control.step(
-        kTickNs, {locks, manual, planner, {sweep, nullptr, Motion{kTickNs, Pose(), {}}}, KeyHeight{kTickNs, 0.35}});
+        kTickNs, {locks, 0.0, manual, planner, {sweep, nullptr, Motion{kTickNs, Pose(), {}}}, KeyHeight{kTickNs, 0.35}});
   }
 
   Decision drive_at_full_speed() {
@@ -82,6 +82,22 @@ TEST_F(DriveControlTest, LockAtFullSpeedIsZeroAfterHalfASecond) {
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
 }
 
+TEST_F(DriveControlTest, LateLockSlowsTheRobotBeforeItCountsAsSilentAndItStandsHalfASecondAfterTheLastWord) {
+  double speed_mps = drive_at_full_speed().velocity.linear_mps;
+  const auto sweep = Scene().sweep(Pose(), kTickNs - 40 * kMs);
+  for (double age_s = 0.12; age_s < 0.5; age_s += 0.02) {
+    const Motion motion{kTickNs, Pose(), {}};
+    const Velocity sent = control
+                              .step(kTickNs, {{}, age_s, std::nullopt, command(1.5), {sweep, nullptr, motion},
+                                              KeyHeight{kTickNs, 0.35}})
+                              .velocity;
+    EXPECT_LE(age_s + sent.linear_mps / limits.emergency_linear_deceleration_mps2, kStandstillWithinS + 1e-9);
+    EXPECT_LE(speed_mps - sent.linear_mps, 1.01 * limits.emergency_linear_deceleration_mps2 * 0.02);
+    speed_mps = sent.linear_mps;
+  }
+  EXPECT_EQ(speed_mps, 0.0);
+}
+
 TEST_F(DriveControlTest, SilentPlannerIsAnEmergencyStop) {
   drive_at_full_speed();
   const Decision decision = step({}, std::nullopt, command(1.5, true, kTickNs - 160 * kMs));
@@ -118,7 +134,7 @@ TEST_F(DriveControlTest, UnknownKeyHeightLowersTheSpeedToThatOfTheRaisedKey) {
   for (int tick = 0; tick < 100; ++tick) {
     const auto sweep = Scene().sweep(Pose(), kTickNs - 40 * kMs);
     decision = control.step(
-        kTickNs, {{}, std::nullopt, command(1.5), {sweep, nullptr, Motion{kTickNs, Pose(), {}}}, std::nullopt});
+        kTickNs, {{}, 0.0, std::nullopt, command(1.5), {sweep, nullptr, Motion{kTickNs, Pose(), {}}}, std::nullopt});
   }
   EXPECT_DOUBLE_EQ(decision.velocity.linear_mps, limits_at(Parameters{}, 1.55).max_linear_mps);
   EXPECT_LT(decision.velocity.linear_mps, limits.max_linear_mps);

@@ -39,6 +39,14 @@ TEST(MotionLocks, OwnerSilentForMoreThanTheTimeoutIsEngaged) {
   EXPECT_EQ(locks.engaged_at(1360 * kMs).at(0).reason, "The motion lock of dispatcher is silent.");
 }
 
+TEST(MotionLocks, AgeIsThatOfTheOwnerHeardLongestAgo) {
+  MotionLocks locks = locks_of({"dispatcher", "state_machine"});
+  locks.take("dispatcher", {1000 * kMs, false, ""});
+  locks.take("state_machine", {1060 * kMs, false, ""});
+  locks.engaged_at(1080 * kMs);
+  EXPECT_NEAR(locks.age_s(), 0.08, 1e-9);
+}
+
 TEST(MotionLocks, StampFarInTheFutureIsEngaged) {
   MotionLocks locks = locks_of({"dispatcher"});
   locks.take("dispatcher", {9000 * kMs, false, ""});

@@ -22,7 +22,7 @@ TEST(TipOver, FlatRobotKeepsTheParametersAsTheyAre) {
   Parameters flat;
   flat.centre_of_mass_m = 0.1;
   EXPECT_DOUBLE_EQ(limits_at(flat, 0.35).emergency_linear_deceleration_mps2, 3.0);
-  EXPECT_DOUBLE_EQ(limits_at(flat, 0.35).max_linear_mps, 1.5);
+  EXPECT_DOUBLE_EQ(limits_at(flat, 0.35).max_linear_mps, 1.0);
 }
 
 TEST(TipOver, LowerKeyAllowsAQuickerStop) {
@@ -40,8 +40,30 @@ TEST(TipOver, UnknownOrImpossibleHeightCountsAsRaised) {
 TEST(TipOver, StopFromTheHighestPermittedSpeedEndsInTimeAtEveryHeight) {
   for (double height_m = 0.0; height_m < 1.6; height_m += 0.1) {
     const Parameters limits = limits_at(Parameters{}, height_m);
-    EXPECT_LE(limits.max_linear_mps / limits.emergency_linear_deceleration_mps2, kStandstillWithinS + 1e-9);
+    EXPECT_LE(limits.max_linear_mps / limits.emergency_linear_deceleration_mps2, kStopWithinS + 1e-9);
   }
+}
+
+TEST(TipOver, StopFromEveryPermittedVelocityInACurveEndsInTimeToo) {
+  const Limits limits = limits_at(Parameters{}, 1.55);
+  for (double linear = -2.0; linear <= 2.0; linear += 0.1) {
+    for (double angular = -4.0; angular <= 4.0; angular += 0.2) {
+      const Velocity wish{linear, angular};
+      EXPECT_LE(limits.stop_time_s(wish.scaled(limits.permitted_share(wish))), kStopWithinS + 1e-9);
+    }
+  }
+}
+
+TEST(TipOver, StopInACurveIsGentlerByItsCurvatureWhateverTheSpeed) {
+  const Limits limits = limits_at(Parameters{}, 1.55);
+  const double straight = limits.emergency_deceleration_mps2({0.7, 0.0});
+  EXPECT_DOUBLE_EQ(straight, limits.emergency_linear_deceleration_mps2);
+  EXPECT_NEAR(limits.emergency_deceleration_mps2({0.4, 0.8}), straight / (1.0 + 2.0 * limits.curve_lever_m), 1e-9);
+  EXPECT_NEAR(limits.emergency_deceleration_mps2({-0.1, 0.2}), straight / (1.0 + 2.0 * limits.curve_lever_m), 1e-9);
+}
+
+TEST(TipOver, TurnOnTheSpotIsNotSlowedByTheTippingLimits) {
+  EXPECT_DOUBLE_EQ(limits_at(Parameters{}, 1.55).permitted_share({0.0, 1.5}), 1.0);
 }
 
 TEST(TipOver, TopHeavyRobotIsLimitedInEveryAcceleration) {

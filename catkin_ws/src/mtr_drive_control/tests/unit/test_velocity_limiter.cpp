@@ -33,7 +33,8 @@ class VelocityLimiterTest : public ::testing::Test {
     return limiter.sent();
   }
 
-  VelocityLimiter limiter{Parameters{}, kPeriodS};
+  const Limits limits{Parameters{}};
+  VelocityLimiter limiter{limits, kPeriodS};
 };
 
 TEST_F(VelocityLimiterTest, FirstStepIsBoundedByTheAccelerations) {
@@ -50,22 +51,34 @@ TEST_F(VelocityLimiterTest, SmallWishIsReachedExactly) {
 
 TEST_F(VelocityLimiterTest, TooFastWishKeepsItsCurvature) {
   const Velocity sent = follow_for({6.0, 0.8}, 3.0);
-  EXPECT_NEAR(sent.linear_mps, 1.5, 1e-9);
+  EXPECT_NEAR(sent.linear_mps, 1.0, 1e-9);
   EXPECT_NEAR(sent.angular_radps / sent.linear_mps, 0.8 / 6.0, 1e-9);
 }
 
-TEST_F(VelocityLimiterTest, FastCurveIsSlowedToTheLateralLimit) {
+TEST_F(VelocityLimiterTest, FastCurveIsSlowedUntilAStopInItEndsInTime) {
   const Velocity sent = follow_for({1.5, 1.5}, 3.0);
-  EXPECT_NEAR(sent.linear_mps * sent.angular_radps, 1.0, 1e-9);
+  EXPECT_NEAR(limits.stop_time_s(sent), kStopWithinS, 1e-9);
   EXPECT_NEAR(sent.linear_mps, sent.angular_radps, 1e-9);
 }
 
-TEST_F(VelocityLimiterTest, TurningInAtFullSpeedNeverExceedsTheLateralLimit) {
-  follow_for({1.5, 0.0}, 2.0);
+TEST_F(VelocityLimiterTest, FastCurveIsSlowedToTheLateralLimit) {
+  Parameters parameters;
+  parameters.lateral_acceleration_mps2 = 0.3;
+  limiter = VelocityLimiter(Limits(parameters), kPeriodS);
+  const Velocity sent = follow_for({1.5, 1.5}, 3.0);
+  EXPECT_NEAR(sent.linear_mps * sent.angular_radps, 0.3, 1e-9);
+  EXPECT_NEAR(sent.linear_mps, sent.angular_radps, 1e-9);
+}
+
+TEST_F(VelocityLimiterTest, TurningInAtFullSpeedLeavesAStopInTimeAtEveryTick) {
+  follow_for({1.0, 0.0}, 2.0);
+  Velocity sent;
   for (int tick = 0; tick < 100; ++tick) {
-    const Velocity sent = follow({0.2, 1.5});
+    sent = follow({0.2, 1.5});
     EXPECT_LE(std::abs(sent.linear_mps * sent.angular_radps), 1.0 + 1e-12);
+    EXPECT_LE(limits.stop_time_s(sent), kStopWithinS + 1e-12);
   }
+  EXPECT_DOUBLE_EQ(sent.angular_radps, 1.5);
 }
 
 TEST_F(VelocityLimiterTest, ReversalBrakesToZeroBeforeItAccelerates) {
@@ -88,10 +101,10 @@ TEST_F(VelocityLimiterTest, InfiniteMagnitudesOfDoubleAreNotFinite) {
 }
 
 TEST_F(VelocityLimiterTest, EmergencyStopFromFullSpeedReachesZeroWithinHalfASecond) {
-  follow_for({1.5, 0.0}, 2.0);
+  follow_for({1.0, 0.0}, 2.0);
   Velocity sent;
   for (int tick = 0; tick < 25; ++tick) {
-    const double before = tick == 0 ? 1.5 : sent.linear_mps;
+    const double before = tick == 0 ? 1.0 : sent.linear_mps;
     sent = stop();
     EXPECT_LE(before - sent.linear_mps, 3.0 * kPeriodS * 1.01);
   }

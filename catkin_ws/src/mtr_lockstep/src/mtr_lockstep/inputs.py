@@ -7,7 +7,10 @@ import rospy
 from mtr_core.schedule import CLOCK_STEP, Slot
 
 from . import clock
-from .samples import Samples
+from .samples import PRODUCER_LOST_AFTER_WALL_S, Samples
+
+# Tests that silence many producers set less patience; the C++ nodes read the same parameter.
+PATIENCE_PARAMETER = "/lockstep_patience_s"
 
 
 class TickInput:
@@ -19,6 +22,7 @@ class TickInput:
 
     def __init__(self, topic: str, message_type: Any, slot: Slot, lag_ns: int = CLOCK_STEP.period_ns):
         self._samples = Samples(slot, lag_ns, waits=clock.is_simulated())
+        self._samples.patience_s = rospy.get_param(PATIENCE_PARAMETER, PRODUCER_LOST_AFTER_WALL_S)
         self._subscriber = rospy.Subscriber(topic, message_type, self._take, queue_size=50, tcp_nodelay=True)
 
     def at(self, tick_ns: int) -> Optional[Any]:

@@ -24,11 +24,13 @@ class Samples(Generic[T]):
         slot: the producer's ticks.
         lag_ns: a sample is due this long after its stamp; 0 for sensors, which precede the clock.
         waits: True in lock-step, where `at` returns the same sample however fast the machine is.
+        patience_s: wall time after which a silent producer is taken for dead.
     """
 
     def __init__(self, slot: Slot, lag_ns: int = CLOCK_STEP.period_ns, waits: bool = True,
                  wall_clock: Callable[[], float] = time.monotonic):
         self.slot, self.lag_ns, self.waits = slot, lag_ns, waits
+        self.patience_s = PRODUCER_LOST_AFTER_WALL_S
         self._wall_clock = wall_clock
         self._changed = threading.Condition()
         self._stamps: List[int] = []
@@ -79,7 +81,7 @@ class Samples(Generic[T]):
     def _wait_for(self, due_ns: int) -> None:
         if due_ns <= SIMULATION_START_NS:
             return
-        deadline = self._wall_clock() + PRODUCER_LOST_AFTER_WALL_S
+        deadline = self._wall_clock() + self.patience_s
         while not self._lost and not (self._stamps and self._stamps[-1] >= due_ns):
             remaining = deadline - self._wall_clock()
             if remaining <= 0.0:

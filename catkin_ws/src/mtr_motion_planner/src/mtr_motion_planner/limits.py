@@ -11,6 +11,8 @@ class MotionLimits(ParameterSet):
     """Limits of planned motion; below drive control's own, so that what the controller adds is not clipped.
 
     Attributes:
+        max_linear_mps: speed on a straight line; drive control allows 0.74 with the key raised.
+        curve_lever_m: on a curve max_linear_mps bounds the speed plus this times the yaw rate, as in drive control.
         acceleration_mps2: of the linear speed, also when braking; drive control allows 1.0 and 1.5.
         jerk_mps3: of the linear speed, from constant speed; twice that from getting faster to braking at once. A mast
             swings less.
@@ -20,6 +22,8 @@ class MotionLimits(ParameterSet):
         lateral_acceleration_mps2: speed times yaw rate; drive control allows 1.0.
     """
 
+    max_linear_mps: float = number(0.71, 0.05, 2.0, "m/s")
+    curve_lever_m: float = number(0.25, 0.0, 1.0, "m")
     acceleration_mps2: float = number(0.8, 0.05, 3.0, "m/s2")
     jerk_mps3: float = number(4.0, 0.5, 50.0, "m/s3")
     max_angular_radps: float = number(1.2, 0.1, 4.0, "rad/s")
@@ -53,7 +57,8 @@ class MotionLimits(ParameterSet):
     def corner_speed(self, curvature: float) -> float:
         """Highest speed in m/s on an arc."""
         bend = max(abs(curvature), 1e-9)
-        return min(self.max_angular_radps / bend, math.sqrt(self.lateral_acceleration_mps2 / bend))
+        return min(self.max_linear_mps / (1.0 + self.curve_lever_m * bend), self.max_angular_radps / bend,
+                   math.sqrt(self.lateral_acceleration_mps2 / bend))
 
     def corner_radius(self, speed_mps: float) -> float:
         """Least radius in m on which the robot keeps a speed."""

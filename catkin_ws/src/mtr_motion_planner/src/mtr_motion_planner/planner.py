@@ -134,8 +134,8 @@ class MotionPlanner:
         return self._output(self._result, message=self._message)
 
     def _speed(self, order: Order, robot: RobotState) -> float:
-        limit = self._parameters.degenerate_speed_mps
-        return min(order.max_speed_mps, limit) if robot.is_degenerate else order.max_speed_mps
+        speed = min(order.max_speed_mps, self._parameters.limits.max_linear_mps)
+        return min(speed, self._parameters.degenerate_speed_mps) if robot.is_degenerate else speed
 
     def _plan(self, pose: Pose2, robot: RobotState, speed: float) -> bool:
         """Make a plan that goes on from the present motion; False when the robot must stay."""

@@ -27,6 +27,7 @@ def speed_caps(curve: Curve, limits: MotionLimits, max_speed: float) -> np.ndarr
     """Highest speed at each sample of a curve."""
     bends, changes = np.maximum(np.abs(curve.curvature), 1e-9), np.maximum(np.abs(curve.bend), 1e-9)
     caps = np.minimum(limits.max_angular_radps / bends, np.sqrt(limits.lateral_acceleration_mps2 / bends))
+    caps = np.minimum(caps, limits.max_linear_mps / (1.0 + limits.curve_lever_m * bends))
     caps = np.minimum(caps, np.sqrt(BEND_SHARE * limits.angular_acceleration_radps2 / changes))
     return np.minimum(caps, max_speed)
 

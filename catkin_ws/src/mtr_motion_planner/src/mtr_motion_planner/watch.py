@@ -63,7 +63,7 @@ def sentence_about(drive: Drive) -> str:
         return drive.message or "The robot stands because a LiDAR that should see its way is silent."
     what = "blocked" if drive.zone == Zone.BLOCKED else "slowed"
     if not math.isfinite(drive.obstacle_m):
-        return f"The robot is {what} by an obstacle."
+        return drive.message or f"The robot is {what} by an obstacle."
     return f"The robot is {what} by an obstacle {drive.obstacle_m:.1f} m {_side(drive.obstacle_bearing)}."
 
 

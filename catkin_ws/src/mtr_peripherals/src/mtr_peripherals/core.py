@@ -18,7 +18,11 @@ MANUAL_LEAD_S = 0.3
 
 @dataclass(frozen=True)
 class Orders:
-    """What the other nodes want at a tick; the defaults are what holds when they are silent."""
+    """What the other nodes want at a tick; the defaults are what holds when they are silent.
+
+    Attributes:
+        backs_unseen: the robot drives backwards, where no LiDAR looks.
+    """
 
     session_id: int = 0
     link_alive: bool = False
@@ -28,6 +32,7 @@ class Orders:
     mode: int = State.STARTING
     has_goal: bool = False
     manual_lift_mps: float = 0.0
+    backs_unseen: bool = False
 
 
 @dataclass(frozen=True)
@@ -92,6 +97,7 @@ class Peripherals:
             (Led.ERROR, failed or orders.mode == State.FAULT),
             (Led.STARTING, orders.mode == State.STARTING),
             (Led.LINK_LOST, bool(orders.session_id) and not orders.link_alive),
+            (Led.WARNING, orders.backs_unseen),
             (Led.PRESSING, bool(self._presses.pressed_buttons)),
             (Led.PAUSED, bool(orders.session_id) and orders.stop),
             (Led.MAPPING, orders.mode == State.MAPPING_CAR),

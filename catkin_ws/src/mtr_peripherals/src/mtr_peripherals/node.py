@@ -12,6 +12,7 @@ from mtr_lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_lockstep.samples import Samples
 from mtr_msgs.msg import (
     DesiredState,
+    DriveStatus,
     FirmwareCommand,
     FirmwarePress,
     FirmwareState,
@@ -58,6 +59,9 @@ class PeripheralsNode:
         self._seq = 0
         self._logged = None
         self._desired = TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER)
+        # Lock-step waits for each input, so only for what is needed.
+        self._drive = None if parameters.rear_lidar else TickInput(names.DRIVE_STATUS, DriveStatus,
+                                                                   schedule.DRIVE_CONTROL)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
         self._command = publisher(names.FIRMWARE_COMMAND, FirmwareCommand)
         self._press = publisher(names.FIRMWARE_PRESS, FirmwarePress)
@@ -76,7 +80,7 @@ class PeripheralsNode:
 
     def _step(self, tick: int) -> None:
         wanted = orders(self._fresh(self._desired.at(tick), tick), self._fresh(self._mode.at(tick), tick))
-        wanted = replace(wanted, manual_lift_mps=self._manual_lift_mps(tick))
+        wanted = replace(wanted, manual_lift_mps=self._manual_lift_mps(tick), backs_unseen=self._backs_unseen(tick))
         outcome = self._core.step(wanted, self._reports.at(tick), tick)
         self._seq += 1
         self._send(self._command, command_message(outcome, self._seq))
@@ -109,6 +113,10 @@ class PeripheralsNode:
         """Rate wanted by the manual controller, 0 when it wants nothing or is silent."""
         age_s = (tick - self._manual_lift.header.stamp.to_nsec()) * NS
         return self._manual_lift.rate_mps if age_s <= MANUAL_LIFT_SILENT_S else 0.0
+
+    def _backs_unseen(self, tick: int) -> bool:
+        drive = self._fresh(self._drive.at(tick), tick) if self._drive else None
+        return drive is not None and drive.linear_mps < 0.0
 
     def _charge(self, tick: int) -> float:
         taken_ns, percentage = self._battery

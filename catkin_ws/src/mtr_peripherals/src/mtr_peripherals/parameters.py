@@ -17,6 +17,7 @@ class Parameters(ParameterSet):
         battery_silent_after_s: age at which the battery's charge is unknown.
         emulated_firmware: in simulation, the firmware is the flashed one on an emulated board: its clock starts
             elsewhere, and its reports take time to come.
+        rear_lidar: the robot has one; without it the LEDs warn while it drives backwards.
         calibration: of lift and servos.
     """
 
@@ -24,4 +25,5 @@ class Parameters(ParameterSet):
     order_silent_after_s: float = number(0.5, 0.2, 5.0, "s")
     battery_silent_after_s: float = number(30.0, 1.0, 600.0, "s")
     emulated_firmware: bool = False
+    rear_lidar: bool = True
     calibration: Calibration = Calibration()

@@ -182,6 +182,8 @@ def test_fault_of_the_firmware_is_a_sentence(core):
     (Orders(mode=READY), Led.READY),
     (replace(LIVE, mode=3), Led.MAPPING),
     (replace(LIVE, has_goal=True), Led.MOVING),
+    (replace(LIVE, has_goal=True, backs_unseen=True), Led.WARNING),
+    (replace(LIVE, mode=FAULT, backs_unseen=True), Led.ERROR),
     (LIVE, Led.READY),
     (replace(LIVE, stop=True), Led.PAUSED),
     (replace(LIVE, link_alive=False, stop=True), Led.LINK_LOST),
