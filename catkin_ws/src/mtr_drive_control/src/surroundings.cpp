@@ -10,6 +10,9 @@ namespace {
 constexpr double kRangeOfInterestM = 4.0;
 // A person out of view for longer may be anywhere; then only the memory of the ground counts.
 constexpr double kLostPersonS = 3.0;
+// What vanishes ahead of this is hidden by something nearer, e.g. a wheel of the Car, and is seen again before it gets
+// behind the robot.
+constexpr double kBehindRad = 1.75;
 
 double age_s(std::int64_t now_ns, std::int64_t stamp_ns) { return static_cast<double>(now_ns - stamp_ns) * 1e-9; }
 
@@ -81,8 +84,9 @@ void Surroundings::find_obstacles() {
   }
   if (!watches_rear_) {
     for (const LostThing& thing : ground_.lost_things(tick_ns_, kLostPersonS)) {
-      if (thing.was_moving) {
-        obstacles_.push_back({odom_from_base_.undo(thing.point), age_s(tick_ns_, thing.seen_ns), Kind::kLost});
+      const Point point = odom_from_base_.undo(thing.point);
+      if (thing.was_moving && std::abs(std::atan2(point.y_m, point.x_m)) > kBehindRad) {
+        obstacles_.push_back({point, age_s(tick_ns_, thing.seen_ns), Kind::kLost});
       }
     }
   }

@@ -18,15 +18,13 @@ double Limits::straight_speed_mps(const Velocity& velocity) const {
 }
 
 double Limits::emergency_deceleration_mps2(const Velocity& velocity) const {
-  const double share =
-      velocity.linear_mps == 0.0 ? 1.0 : std::abs(velocity.linear_mps) / straight_speed_mps(velocity);
+  const double share = velocity.linear_mps == 0.0 ? 1.0 : std::abs(velocity.linear_mps) / straight_speed_mps(velocity);
   return emergency_linear_deceleration_mps2 * share;
 }
 
 double Limits::stop_time_s(const Velocity& velocity) const {
-  const double linear_s = velocity.linear_mps == 0.0
-                              ? 0.0
-                              : straight_speed_mps(velocity) / emergency_linear_deceleration_mps2;
+  const double linear_s =
+      velocity.linear_mps == 0.0 ? 0.0 : straight_speed_mps(velocity) / emergency_linear_deceleration_mps2;
   return std::max(linear_s, std::abs(velocity.angular_radps) / emergency_angular_deceleration_radps2);
 }
 
@@ -38,10 +36,9 @@ double Limits::yaw_rate_at_radps(double linear_mps) const {
 
 double Limits::permitted_share(const Velocity& velocity) const {
   const double lateral_mps2 = std::abs(velocity.linear_mps * velocity.angular_radps);
-  return std::min({1.0, max_linear_mps / std::abs(velocity.linear_mps),
-                   max_angular_radps / std::abs(velocity.angular_radps),
-                   std::sqrt(lateral_acceleration_mps2 / lateral_mps2),
-                   fastest_straight_mps() / straight_speed_mps(velocity)});
+  return std::min(
+      {1.0, max_linear_mps / std::abs(velocity.linear_mps), max_angular_radps / std::abs(velocity.angular_radps),
+       std::sqrt(lateral_acceleration_mps2 / lateral_mps2), fastest_straight_mps() / straight_speed_mps(velocity)});
 }
 
 Limits limits_at(const Parameters& parameters, double key_height_m) {

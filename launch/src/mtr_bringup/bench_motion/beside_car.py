@@ -15,6 +15,8 @@ MEASURING_MPS = 0.4
 LAP_MPS = 0.8
 LIMIT_S = 40.0
 TURNING_S = 1.0
+# Without a rear LiDAR, but for an axis; robot.launch tells the planner the same.
+LONGEST_REVERSE_M = 1.0
 # States of the zone in DriveStatus: from this on it stands.
 SLOWED, STOPPED = 1, 2
 HALF_WIDTH_M = 0.215
@@ -58,10 +60,11 @@ def simulate(drive: Drive) -> Dict[str, Any]:
     rig = Rig(replace(SITE, start_in_car=drive.start), drive.seed, drive.rear_lidar, drive.rain, robot.LIFT_STROKE_M)
     slowed_s, was_blocked = 0.0, False
     ends, sentences = [], []
+    begin_m = 0.0 if drive.rear_lidar or drive.name == "axis" else drive.length_m - LONGEST_REVERSE_M
     for sign in (1.0, -1.0):
         for _ in range(round(LIMIT_S / TICK_S)):
             along, wish = _wish(drive, rig.sim.truth().car_from_base, sign)
-            if (along >= drive.length_m) if sign > 0.0 else (along <= 0.0):
+            if (along >= drive.length_m) if sign > 0.0 else (along <= begin_m):
                 ends.append(along)
                 break
             blocked = rig.step(wish).zone >= STOPPED

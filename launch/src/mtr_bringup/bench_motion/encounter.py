@@ -19,8 +19,8 @@ STANDING_MPS = 0.02
 # The person walks on for so long after the place of the meeting.
 AFTER_S = 2.5
 BEYOND_M = 8.0
-# The front LiDAR sees 135 degrees to each side. Without a rear LiDAR a person who is behind that, and as near as this to
-# base_link, may step out of the unseen quarter against the robot before it can stand.
+# The front LiDAR sees 135 degrees to each side. Without a rear LiDAR a person who is behind that, and as near as this
+# to base_link, may step out of the unseen quarter against the robot before it can stand.
 WATCHED_TO_RAD, UNSEEN_WITHIN_M = math.radians(125.0), 2.0
 RAIN = 0.01
 BEARINGS = {"front": (0.0, 35.0), "side": (55.0, 125.0), "rear": (145.0, 180.0)}

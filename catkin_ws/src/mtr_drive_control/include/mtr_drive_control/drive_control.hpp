@@ -55,8 +55,9 @@ struct Decision {
 /// Three stages: choose a source (locks, manual, planner), reduce what it wants to what is safe, limit its change.
 ///
 /// A lock, a dead source, blindness or a sudden obstacle is an emergency stop; a source that ends its wish is braked
-/// for at the normal limit. Every velocity that is sent is one from which an emergency stop ends before a collision, and
-/// within kStandstillWithinS of the oldest word on which it rests: who is late slows the robot before it counts as dead.
+/// for at the normal limit. Every velocity that is sent is one from which an emergency stop ends before a collision,
+/// and within kStandstillWithinS of the oldest word on which it rests: who is late slows the robot before it counts as
+/// dead.
 class DriveControl {
  public:
   DriveControl(const Parameters& parameters, const CollisionParameters& collision, bool has_rear_lidar,

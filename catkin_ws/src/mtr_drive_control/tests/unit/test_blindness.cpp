@@ -166,6 +166,17 @@ TEST(UnwatchedRear, PersonWhoWalkedOutOfViewBehindStopsBacking) {
   EXPECT_EQ(robot.drive({-0.3, 0.0}, 1.0).velocity.linear_mps, 0.0);
 }
 
+TEST(UnwatchedRear, ThingThatVanishesBehindTheCarBesideTheRobotDoesNotStopBacking) {
+  TestRobot robot(false);
+  robot.settle();
+  robot.drive({0.5, 0.0}, 4.0);
+  const double x = robot.world_from_base.position().x_m;
+  robot.scene.discs = {{{x + 0.2, 1.7}, 0.1}};
+  robot.drive({0.0, 0.0}, 0.2);
+  robot.scene.walls = {{{x - 1.0, 1.2}, {x + 2.0, 1.2}}};
+  EXPECT_NEAR(robot.drive({-0.3, 0.0}, 1.5).velocity.linear_mps, -0.3, 1e-9);
+}
+
 TEST(UnwatchedRear, PersonAtTheManualControllerMayBackSlowly) {
   TestRobot robot(false);
   robot.settle();

@@ -26,7 +26,8 @@ class DriveControlTest : public ::testing::Test {
                 const std::optional<SourceCommand>& planner) {
     const auto sweep = Scene().sweep(Pose(), kTickNs - 40 * kMs);
     return control.step(
-        kTickNs, {locks, 0.0, manual, planner, {sweep, nullptr, Motion{kTickNs, Pose(), {}}}, KeyHeight{kTickNs, 0.35}});
+        kTickNs,
+        {locks, 0.0, manual, planner, {sweep, nullptr, Motion{kTickNs, Pose(), {}}}, KeyHeight{kTickNs, 0.35}});
   }
 
   Decision drive_at_full_speed() {
@@ -87,10 +88,10 @@ TEST_F(DriveControlTest, LateLockSlowsTheRobotBeforeItCountsAsSilentAndItStandsH
   const auto sweep = Scene().sweep(Pose(), kTickNs - 40 * kMs);
   for (double age_s = 0.12; age_s < 0.5; age_s += 0.02) {
     const Motion motion{kTickNs, Pose(), {}};
-    const Velocity sent = control
-                              .step(kTickNs, {{}, age_s, std::nullopt, command(1.5), {sweep, nullptr, motion},
-                                              KeyHeight{kTickNs, 0.35}})
-                              .velocity;
+    const Velocity sent =
+        control
+            .step(kTickNs, {{}, age_s, std::nullopt, command(1.5), {sweep, nullptr, motion}, KeyHeight{kTickNs, 0.35}})
+            .velocity;
     EXPECT_LE(age_s + sent.linear_mps / limits.emergency_linear_deceleration_mps2, kStandstillWithinS + 1e-9);
     EXPECT_LE(speed_mps - sent.linear_mps, 1.01 * limits.emergency_linear_deceleration_mps2 * 0.02);
     speed_mps = sent.linear_mps;

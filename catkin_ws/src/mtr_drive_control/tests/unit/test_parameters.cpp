@@ -41,7 +41,8 @@ TEST(Parameters, NotANumberIsRefused) {
 TEST(Parameters, EmergencyDecelerationTooWeakForHalfASecondIsRefused) {
   Parameters parameters;
   parameters.emergency_linear_deceleration_mps2 = 2.0;
-  EXPECT_EQ(refusal_of(parameters), "Parameter emergency_linear_deceleration_mps2 is 2 m/s2; allowed is 2.77778 to 10 m/s2.");
+  EXPECT_EQ(refusal_of(parameters),
+            "Parameter emergency_linear_deceleration_mps2 is 2 m/s2; allowed is 2.77778 to 10 m/s2.");
 }
 
 }  // namespace

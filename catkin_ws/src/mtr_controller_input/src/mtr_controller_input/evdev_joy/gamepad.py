@@ -24,11 +24,12 @@ class Gamepad:
     Axes and buttons are numbered in the order of their codes; left and up are positive.
     """
 
-    def __init__(self, axes: Mapping[int, AxisRange], buttons: Sequence[int], raw: Mapping[int, int]):
-        """raw: present values of the axes by code."""
+    def __init__(self, axes: Mapping[int, AxisRange], buttons: Sequence[int], raw: Mapping[int, int],
+                 held: Sequence[int] = ()):
+        """raw: present values of the axes by code; held: codes of the buttons that are held down."""
         self._axes: Dict[int, AxisRange] = {code: axes[code] for code in sorted(axes) if code < ABS_END}
         self._values: Dict[int, float] = {code: self._deflection(code, raw.get(code)) for code in self._axes}
-        self._buttons: Dict[int, int] = dict.fromkeys(sorted(buttons), 0)
+        self._buttons: Dict[int, int] = {code: int(code in held) for code in sorted(buttons)}
 
     def take(self, kind: int, code: int, value: int) -> bool:
         """One event; True when it changed anything."""

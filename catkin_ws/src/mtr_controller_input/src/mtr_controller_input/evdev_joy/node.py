@@ -1,9 +1,7 @@
 """Publishes sensor_msgs/Joy from a Linux input device: on each change, and as a sign of life while it is there."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
-import select
 from dataclasses import dataclass
-from typing import Iterator, Optional, Tuple
 
 import evdev
 import rospy
@@ -13,7 +11,7 @@ from mtr_core import names
 from mtr_core.parameters import ParameterSet, number
 from mtr_lockstep import run_node
 
-from .gamepad import EV_ABS, EV_KEY, AxisRange, Gamepad, is_gamepad
+from .device import State, find, states
 
 SEARCH_AGAIN_S = 1.0
 
@@ -41,7 +39,8 @@ class EvdevJoyNode:
     def spin(self) -> None:
         """Run until shutdown."""
         while not rospy.is_shutdown():
-            device = find(self._parameters.device)
+            path = self._parameters.device
+            device = find([path] if path else sorted(evdev.list_devices()))
             if device is None:
                 rospy.logwarn_once("There is no game controller yet.")
                 rospy.rostime.wallsleep(SEARCH_AGAIN_S)
@@ -53,49 +52,16 @@ class EvdevJoyNode:
 
     def _read(self, device: evdev.InputDevice) -> None:
         """Publish until the device is gone."""
-        gamepad = Gamepad(*_shape(device))
-        while not rospy.is_shutdown():
-            try:
-                ready, _, _ = select.select([device.fd], [], [], self._parameters.alive_period_s)
-                events = device.read() if ready else ()
-                changed = [gamepad.take(event.type, event.code, event.value) for event in events]
-                # Asking it for its state fails when it is gone, though nothing was to be read.
-                device.absinfo(0)
-            except OSError:
+        for state in states(device, self._parameters.alive_period_s):
+            if rospy.is_shutdown():
                 return
-            if any(changed) or not ready:
-                self._publish(gamepad)
+            self._publish(state)
 
-    def _publish(self, gamepad: Gamepad) -> None:
+    def _publish(self, state: State) -> None:
         message = Joy()
         message.header.stamp = rospy.Time.now()
-        message.axes, message.buttons = gamepad.state()
+        message.axes, message.buttons = state
         self._joy.publish(message)
-
-
-def find(path: str) -> Optional[evdev.InputDevice]:
-    """The controller, None when there is none."""
-    for candidate in [path] if path else sorted(evdev.list_devices()):
-        with contextlib.suppress(OSError):
-            device = evdev.InputDevice(candidate)
-            axes, buttons, _ = _shape(device)
-            if is_gamepad(axes, buttons):
-                return device
-            device.close()
-    return None
-
-
-def _shape(device: evdev.InputDevice) -> Tuple[dict, list, dict]:
-    """Axes with their ranges, buttons, and the axes' present values."""
-    capabilities = device.capabilities()
-    infos = dict(capabilities.get(EV_ABS, []))
-    axes = {code: AxisRange(info.min, info.max, info.flat) for code, info in infos.items()}
-    return axes, list(_codes(capabilities.get(EV_KEY, []))), {code: info.value for code, info in infos.items()}
-
-
-def _codes(keys: list) -> Iterator[int]:
-    for key in keys:
-        yield key if isinstance(key, int) else key[0]
 
 
 def main() -> int:
