@@ -18,9 +18,9 @@ from .parameters import CarProfile, LocatorParameters
 from .prior import Prior
 from .rectangle import Rectangle
 from .scoring import belongs, score_of
-from .side import ENDS, LONG_SIDES, OUTWARDS, Extent, Side, middle_of, side_of, sides_of
+from .side import ENDS, LONG_SIDES, OUTWARDS, Extent, Side, middle_of, sides_of
 from .surfels import Surfels
-from .wheels import Wheels, wheels_between
+from .wheels import Wheels, wheel_sides, wheels_between
 
 # Fit of a whole Car, seen from all sides, is 0.7 and more, of one seen from one side and one end 0.35; a wall, a group
 # of persons or a neighbour's near side stays below 0.2 (tests/unit/test_locator_scenes.py).
@@ -100,7 +100,7 @@ def _refined(seen: Surfels, best: Candidate, profile: CarProfile) -> Tuple[Recta
 
 
 def _wheels_of(in_car: Surfels, car: Rectangle, profile: CarProfile) -> Wheels:
-    found = wheels_between(*(side_of(name, in_car) for name in LONG_SIDES), 0.0, car.width, profile)
+    found = wheels_between(wheel_sides(in_car), 0.0, car.width, profile)
     if found is None:
         raise NotLocated("Only wheels of the Car were seen, and they do not stand as a car's do.")
     return found
