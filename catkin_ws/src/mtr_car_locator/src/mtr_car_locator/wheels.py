@@ -15,8 +15,8 @@ from .surfels import Surfels
 FACE_DEPTH_M, GAP_M = 0.08, 0.5
 LEAST_FACE_M, MOST_FACE_M = 0.25, 0.95
 SHORTEST_WHEELBASE_M, LONGEST_WHEELBASE_M = 1.8, 4.0
-# The axles of one side must not differ more from those of the other.
-SQUARE_M = 0.10
+# The axles of one side must not differ more from those of the other; the ends of the faces may be missing.
+SQUARE_M = 0.20
 # A tread is square to the Car within 18 degrees, which its rounded shoulder is not; it is no broader than this.
 TREAD_COSINE, TYRE_WIDTH_M = 0.95, 0.30
 # Of passenger cars the wheelbase is 0.56 to 0.63 of the length, and the front overhang 0.15 m shorter than the rear one

@@ -5,9 +5,10 @@ import math
 
 import numpy as np
 import pytest
-from locator_surfels import SIGMA_M, surfels
+from locator_surfels import SIGMA_M, prior, surfels
 
-from mtr_car_locator.parameters import CarProfile
+from mtr_car_locator.fit import fit_car
+from mtr_car_locator.parameters import CarProfile, LocatorParameters
 from mtr_car_locator.wheels import wheel_sides, wheels_between
 
 WIDTH_M, FRONT_M, REAR_M, HALF_CHORD_M, TYRE_M = 1.8, 1.45, -1.40, 0.30, 0.2
@@ -62,6 +63,16 @@ def test_wheelbase_of_another_car_makes_the_centre_unsure():
     right, wrong = (wheels_of(tyres(TREADS), **SHEET, wheelbase_m=FRONT_M - REAR_M + error) for error in (0.0, 0.1))
     assert wrong.centre_sigma_m > 2.0 * right.centre_sigma_m
     assert abs(wrong.centre_m - CENTRE_M) < 3.0 * wrong.centre_sigma_m
+
+
+def test_car_of_which_only_parts_of_the_tyres_were_seen_is_located():
+    rows = tyres(TREADS, seen=0.55)
+    rows = [(x + (0.1 if y > 0.0 and abs(y) > 0.85 else 0.0), y, *rest) for x, y, *rest in rows]
+    profile = CarProfile(**SHEET, known_width_m=WIDTH_M + 0.05)
+    fit = fit_car(surfels(rows), prior(0.2, 0.1, 0.05), LocatorParameters(profile=profile))
+    assert fit.by_wheels and fit.quality < 0.3
+    assert fit.rectangle.pose.x == pytest.approx(CENTRE_M, abs=0.005)
+    assert fit.rectangle.pose.y == pytest.approx(0.0, abs=0.005)
 
 
 def test_shoulder_of_a_tyre_is_no_tread():
