@@ -38,6 +38,7 @@ NormalEquations equations_of(const Adjustment& state, const std::vector<Observat
   }
   equations.add(prior(state.range_bias_m, parameters.range_bias_sigma_m, layout.range_bias()));
   equations.add(prior(state.wheel_scale, parameters.wheel_scale_sigma, layout.wheel_scale()));
+  equations.add(prior(state.gyro_scale, parameters.gyro_scale_sigma, layout.gyro_scale()));
   for (const Eigen::Index place : {0, 1, 2}) {
     equations.hold(Layout::pose(0) + place);
   }
@@ -60,6 +61,7 @@ double take(const Step& step, Adjustment& state) {
   }
   state.range_bias_m += step.joint[layout.range_bias()];
   state.wheel_scale += step.joint[layout.wheel_scale()];
+  state.gyro_scale += step.joint[layout.gyro_scale()];
   return largest_m;
 }
 

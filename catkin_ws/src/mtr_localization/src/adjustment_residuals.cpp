@@ -45,14 +45,15 @@ Residual<1, 4> surface_residual(const Adjustment& state, const Observation& seen
   return residual;
 }
 
-Residual<3, 7> motion_residual(const Adjustment& state, std::size_t key_frame) {
+Residual<3, 8> motion_residual(const Adjustment& state, std::size_t key_frame) {
   const KeyFrame& frame = state.key_frames[key_frame];
   const PoseVector& from = state.key_frames[key_frame - 1].pose;
   const PoseVector between = relative(from, frame.pose);
   const Eigen::Matrix2d back = rotation(from[2]).transpose();
   const Eigen::Vector2d shown = frame.motion.head<2>();
-  Residual<3, 7> residual;
-  residual.value << between.head<2>() - (1.0 + state.wheel_scale) * shown, wrapped(between[2] - frame.motion[2]);
+  Residual<3, 8> residual;
+  residual.value << between.head<2>() - (1.0 + state.wheel_scale) * shown,
+      wrapped(between[2] - (1.0 + state.gyro_scale) * frame.motion[2]);
   residual.jacobian.setZero();
   residual.jacobian.block<2, 2>(0, 0) = -back;
   residual.jacobian.block<2, 1>(0, 2) << between[1], -between[0];
@@ -60,11 +61,14 @@ Residual<3, 7> motion_residual(const Adjustment& state, std::size_t key_frame) {
   residual.jacobian.block<2, 2>(0, 3) = back;
   residual.jacobian(2, 5) = 1.0;
   residual.jacobian.block<2, 1>(0, 6) = -shown;
+  residual.jacobian(2, 7) = -frame.motion[2];
   const Eigen::LLT<Eigen::Matrix3d> root(motion_covariance_of(frame, state.motion_factor));
   root.matrixL().solveInPlace(residual.value);
   root.matrixL().solveInPlace(residual.jacobian);
+  const Layout layout = layout_of(state);
   const Eigen::Index place = Layout::pose(static_cast<Eigen::Index>(key_frame));
-  residual.places = {place - 3, place - 2, place - 1, place, place + 1, place + 2, layout_of(state).wheel_scale()};
+  residual.places = {place - 3,          place - 2, place - 1, place, place + 1, place + 2, layout.wheel_scale(),
+                     layout.gyro_scale()};
   residual.weight = std::min(1.0, kMotionKernel / std::max(residual.value.norm(), kMotionKernel));
   return residual;
 }

@@ -14,6 +14,7 @@ from mtr_car_locator.offline import fit_files
 from mtr_car_locator.parameters import CarProfile, LocatorParameters
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
+from mtr_simulation.car_shape import CAR_SHAPES
 
 from .drive_truth import DriveTruth
 from .errors import CarPose, errors_of
@@ -65,7 +66,8 @@ def locate(out: pathlib.Path, meta: Dict[str, Any]) -> CarFit:
     profile = CarProfile()
     if meta["at_lidar"]["only_wheels"]:
         profile = CarProfile(known_length_m=meta["length_m"], known_width_m=meta["width_m"],
-                             front_overhang_m=meta["front_overhang_m"])
+                             front_overhang_m=meta["front_overhang_m"],
+                             wheelbase_m=CAR_SHAPES[meta["options"]["car"]].wheelbase_m)
     try:
         return fit_files(out, prior, LocatorParameters(profile=profile))
     except RobotError as error:

@@ -15,7 +15,7 @@ from .rectangle import Rectangle
 from .scoring import Score, score_of
 from .side import ENDS, LONG_SIDES, Side, side_of
 from .surfels import SAMPLE_M, Surfels
-from .wheels import Wheels, wheels_between
+from .wheels import Wheels, wheel_sides, wheels_between
 
 # Surface within this distance beyond the expected Car and the tolerance of its place may be its own.
 REACH_M = 0.8
@@ -107,12 +107,13 @@ def _rectangles(seen: Surfels, profile: CarProfile) -> Iterator[Tuple[Rectangle,
     """Rectangles in the frame of seen, whose x axis is the Car's."""
     left, right = (side_of(name, seen, -math.inf) for name in LONG_SIDES)
     front, rear = (side_of(name, seen, -math.inf) for name in ENDS)
+    treads = wheel_sides(seen)
     for y, width in _spans(levels(left), levels(right), profile.width_m, profile.size_tolerance_m / 2.0):
         middle = (y - 0.5 * MIDDLE_SHARE * width, y + 0.5 * MIDDLE_SHARE * width)
         ahead, behind = levels(front.within(*middle)), levels(rear.within(*middle))
         for x, length in _spans(ahead, behind, profile.length_m, profile.size_tolerance_m):
             yield Rectangle(Pose2(x, y, 0.0), length, width), None
-        wheels = wheels_between(left, right, y, width, profile)
+        wheels = wheels_between(treads, y, width, profile)
         if wheels:
             yield Rectangle(Pose2(wheels.centre_m, y, 0.0), wheels.length_m, width), wheels
 

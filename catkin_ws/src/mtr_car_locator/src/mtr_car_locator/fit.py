@@ -18,13 +18,15 @@ from .parameters import CarProfile, LocatorParameters
 from .prior import Prior
 from .rectangle import Rectangle
 from .scoring import belongs, score_of
-from .side import ENDS, LONG_SIDES, OUTWARDS, Extent, Side, middle_of, side_of, sides_of
+from .side import ENDS, LONG_SIDES, OUTWARDS, Extent, Side, middle_of, sides_of
 from .surfels import Surfels
-from .wheels import Wheels, wheels_between
+from .wheels import Wheels, wheel_sides, wheels_between
 
 # Fit of a whole Car, seen from all sides, is 0.7 and more, of one seen from one side and one end 0.35; a wall, a group
 # of persons or a neighbour's near side stays below 0.2 (tests/unit/test_locator_scenes.py).
 LEAST_QUALITY = 0.25
+# The faces of four tyres are 0.2 to 0.3 of a Car's outline; that they stand as a car's do has been checked before.
+LEAST_QUALITY_ON_WHEELS = 0.15
 # Two candidates are two things when their centres are so far apart, and alike when their evidence is.
 TWO_THINGS_M, ALIKE = 0.8, 0.5
 LEAST_SURFACE_M = 1.0
@@ -70,12 +72,13 @@ def _chosen(found: List[Candidate]) -> Candidate:
         raise NotLocated("Not enough of a Car was seen: one long side and one end are needed at least, or all four "
                          "wheels.")
     best = found[0]
-    if best.score.quality < LEAST_QUALITY:
+    least = LEAST_QUALITY_ON_WHEELS if best.wheels else LEAST_QUALITY
+    if best.score.quality < least:
         raise NotLocated(f"What stands there looks too little like a Car: {100.0 * best.score.cover:.0f} % of a Car's "
-                         f"outline was seen; its likeness is {best.score.quality:.2f}, needed is {LEAST_QUALITY:g}.")
+                         f"outline was seen; its likeness is {best.score.quality:.2f}, needed is {least:g}.")
     for other in found[1:]:
         apart = other.car.pose.distance_to(best.car.pose)
-        if (apart > TWO_THINGS_M and other.score.quality >= LEAST_QUALITY
+        if (apart > TWO_THINGS_M and other.score.quality >= least
                 and other.score.total >= ALIKE * best.score.total):
             raise NotLocated(f"Two things of a Car's size stand there, {apart:.1f} m apart, and which of them is the "
                              "Car cannot be told.")
@@ -95,18 +98,18 @@ def _refined(seen: Surfels, best: Candidate, profile: CarProfile) -> Tuple[Recta
         car = car.moved_by(Pose2(0.0, axis.offset_m if axis.is_centred else 0.0, math.atan(axis.slope)))
         if best.wheels:
             wheels = _wheels_of(seen.in_frame(car.pose), car, profile)
-        car = _sized(seen, car, wheels, profile)
+        car = _sized(seen, car, axis, wheels, profile)
     return car, axis, wheels
 
 
 def _wheels_of(in_car: Surfels, car: Rectangle, profile: CarProfile) -> Wheels:
-    found = wheels_between(*(side_of(name, in_car) for name in LONG_SIDES), 0.0, car.width, profile)
+    found = wheels_between(wheel_sides(in_car), 0.0, car.width, profile)
     if found is None:
         raise NotLocated("Only wheels of the Car were seen, and they do not stand as a car's do.")
     return found
 
 
-def _sized(seen: Surfels, car: Rectangle, wheels: Optional[Wheels], profile: CarProfile) -> Rectangle:
+def _sized(seen: Surfels, car: Rectangle, axis: Axis, wheels: Optional[Wheels], profile: CarProfile) -> Rectangle:
     """Centre and size from the outermost levels."""
     in_car = seen.in_frame(car.pose)
     extents = _extents(sides_of(in_car.where(belongs(in_car, car, FIRST_BEYOND_M))), car)
@@ -115,9 +118,8 @@ def _sized(seen: Surfels, car: Rectangle, wheels: Optional[Wheels], profile: Car
         x, length = wheels.centre_m, wheels.length_m
     else:
         x, length = _span([extents.get(name) for name in ENDS], profile.length_m)
-    # With both long sides the axis of symmetry tells more than two outermost points.
-    centred = all(name in extents for name in LONG_SIDES)
-    return Rectangle(car.pose @ Pose2(x, 0.0 if centred else y, 0.0), length, width)
+    # The axis of symmetry tells more than two outermost points.
+    return Rectangle(car.pose @ Pose2(x, 0.0 if axis.is_centred else y, 0.0), length, width)
 
 
 def _extents(sides: Dict[str, Side], car: Rectangle) -> Dict[str, Extent]:

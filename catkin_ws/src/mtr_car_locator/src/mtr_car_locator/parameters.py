@@ -19,6 +19,7 @@ class CarProfile(ParameterSet):
         known_length_m: length from the Car's data sheet; used for an end that cannot be seen.
         known_width_m: width without mirrors from the data sheet; used for a side that cannot be seen.
         front_overhang_m: front axle to the front's tip, from the data sheet; used when only the wheels are seen.
+        wheelbase_m: distance of the axles, from the data sheet; used when only the wheels are seen.
         side_inset_m: how far the surfaces in the LiDAR's plane lie inside of the Car's widest part, on each side.
         side_inset_sigma_m: 1 sigma of that.
     """
@@ -29,6 +30,7 @@ class CarProfile(ParameterSet):
     known_length_m: float = number(0.0, 0.0, 10.0, "m")
     known_width_m: float = number(0.0, 0.0, 3.0, "m")
     front_overhang_m: float = number(0.0, 0.0, 2.0, "m")
+    wheelbase_m: float = number(0.0, 0.0, 4.0, "m")
     side_inset_m: float = number(0.0, 0.0, 0.2, "m")
     side_inset_sigma_m: float = number(0.01, 0.0, 0.1, "m")
 

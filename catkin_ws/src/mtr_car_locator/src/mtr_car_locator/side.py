@@ -91,10 +91,10 @@ class Side:
         return Extent(float(levels.mean()), math.hypot(sigma, EXTENT_SIGMA_FLOOR_M))
 
 
-def side_of(name: str, in_car: Surfels, least_outward_m: float = 0.0) -> Side:
+def side_of(name: str, in_car: Surfels, least_outward_m: float = 0.0, least_cosine: float = LEAST_COSINE) -> Side:
     """What surfels in the Car's frame show of a side."""
     outwards = np.array(OUTWARDS[name])
-    mine = np.nonzero(in_car.normal @ outwards > LEAST_COSINE)[0]
+    mine = np.nonzero(in_car.normal @ outwards > least_cosine)[0]
     points, index = in_car.where(mine).samples()
     along, outward = points @ np.abs(outwards[::-1]), points @ outwards
     keep = outward > least_outward_m

@@ -1,24 +1,30 @@
 """A Car whose bumpers the LiDARs look under: its length and centre from the wheels alone."""
 # SPDX-License-Identifier: Apache-2.0
+import math
 from dataclasses import dataclass
-from typing import List, Optional, Tuple
+from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
+from .axles import Axles, axles_at
 from .parameters import CarProfile
-from .side import Side
+from .side import ENDS, LONG_SIDES, Side, side_of
+from .surfels import Surfels
 
 # Surface so near the side's level is the outer face of a tyre; pieces farther apart than the gap are two wheels.
 FACE_DEPTH_M, GAP_M = 0.08, 0.5
 LEAST_FACE_M, MOST_FACE_M = 0.25, 0.95
 SHORTEST_WHEELBASE_M, LONGEST_WHEELBASE_M = 1.8, 4.0
-# The axles of one side must not differ more from those of the other.
-SQUARE_M = 0.10
+# The axles of one side must not differ more from those of the other; the ends of the faces may be missing.
+SQUARE_M = 0.20
+# A tread is square to the Car within 18 degrees, which its rounded shoulder is not; it is no broader than this.
+TREAD_COSINE, TYRE_WIDTH_M = 0.95, 0.30
 # Of passenger cars the wheelbase is 0.56 to 0.63 of the length, and the front overhang 0.15 m shorter than the rear one
 # to 0.15 m longer; these are the middles of the ranges and a third of their widths, see the README.
 WHEELBASE_SHARE, WHEELBASE_SHARE_SIGMA = 0.595, 0.02
 OVERHANG_SIGMA_M = 0.08
-AXLE_SIGMA_M = 0.02
+# Of a data sheet's length and overhang against this Car: number plates, load and trim levels.
+DATA_SHEET_SIGMA_M = 0.005
 
 
 @dataclass(frozen=True)
@@ -33,15 +39,24 @@ class Wheels:
     length_sigma_m: float
 
 
-def wheels_between(left: Side, right: Side, y: float, width: float, profile: CarProfile) -> Optional[Wheels]:
-    """Both axles, when each side shows two wheels at its level and nothing between them; else None."""
-    faces = [wheel_faces(left, y + 0.5 * width), wheel_faces(right, 0.5 * width - y)]
+def wheel_sides(in_frame: Surfels) -> Dict[str, Side]:
+    """Outer faces and treads of all tyres, on the sides to which they face."""
+    return {**{name: side_of(name, in_frame, -math.inf) for name in LONG_SIDES},
+            **{name: side_of(name, in_frame, -math.inf, TREAD_COSINE) for name in ENDS}}
+
+
+def wheels_between(sides: Dict[str, Side], y: float, width: float, profile: CarProfile) -> Optional[Wheels]:
+    """Both axles, when each long side shows two wheels at its level and nothing between them; else None."""
+    levels = {"left": 0.5 * width + y, "right": 0.5 * width - y}
+    faces = [wheel_faces(sides[name], levels[name]) for name in LONG_SIDES]
     if any(len(each) != 2 for each in faces) or np.any(np.ptp(faces, axis=0) > SQUARE_M):
         return None
     rear, front = np.mean(faces, axis=0).tolist()
     if not SHORTEST_WHEELBASE_M <= front - rear <= LONGEST_WHEELBASE_M:
         return None
-    return _from_axles(front, rear, profile)
+    widths = ((y + 0.5 * width - TYRE_WIDTH_M, y + 0.5 * width), (y - 0.5 * width, y - 0.5 * width + TYRE_WIDTH_M))
+    ahead, behind = ([sides[name].within(*each) for each in widths] for name in ENDS)
+    return _from_axles(axles_at(front, rear, ahead, behind, profile.wheelbase_m), profile)
 
 
 def wheel_faces(side: Side, level: float) -> List[float]:
@@ -55,17 +70,18 @@ def wheel_faces(side: Side, level: float) -> List[float]:
     return [0.5 * (low + high) for low, high in spans]
 
 
-def _from_axles(front: float, rear: float, profile: CarProfile) -> Wheels:
-    length, length_sigma = _length_of(front - rear, profile)
+def _from_axles(axles: Axles, profile: CarProfile) -> Wheels:
+    length, length_sigma = _length_of(axles.wheelbase_m, profile)
     if profile.front_overhang_m:
-        centre, centre_sigma = front + profile.front_overhang_m - 0.5 * length, 0.5 * length_sigma
+        centre = axles.front_m + profile.front_overhang_m - 0.5 * length
+        centre_sigma = math.hypot(axles.front_sigma_m, DATA_SHEET_SIGMA_M, 0.5 * length_sigma)
     else:
-        centre, centre_sigma = 0.5 * (front + rear), OVERHANG_SIGMA_M
-    return Wheels(front, rear, centre, float(np.hypot(centre_sigma, AXLE_SIGMA_M)), length, length_sigma)
+        centre, centre_sigma = axles.middle_m, math.hypot(axles.middle_sigma_m, OVERHANG_SIGMA_M)
+    return Wheels(axles.front_m, axles.rear_m, centre, centre_sigma, length, length_sigma)
 
 
 def _length_of(wheelbase: float, profile: CarProfile) -> Tuple[float, float]:
     if profile.known_length_m:
-        return profile.known_length_m, AXLE_SIGMA_M
+        return profile.known_length_m, DATA_SHEET_SIGMA_M
     length = wheelbase / WHEELBASE_SHARE
     return length, length * WHEELBASE_SHARE_SIGMA / WHEELBASE_SHARE

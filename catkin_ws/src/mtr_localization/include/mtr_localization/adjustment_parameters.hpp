@@ -22,6 +22,8 @@ struct AdjustmentParameters {
   double surface_sigma_m = 0.004;
   /// Common error of the wheels' distances in the key-frames' motions.
   double wheel_scale_sigma = 0.005;
+  /// The same of the gyro's turns; its source is in parameters.hpp.
+  double gyro_scale_sigma = 0.001;
   /// The path must come back to where it has been before, within this distance.
   double closing_distance_m = 1.5;
 };
@@ -29,12 +31,13 @@ struct AdjustmentParameters {
 using AdjustmentRow = mtr_lockstep::ParameterRow<AdjustmentParameters>;
 
 /// Range and unit of each parameter.
-inline constexpr std::array<AdjustmentRow, 6> kAdjustmentRows{{
+inline constexpr std::array<AdjustmentRow, 7> kAdjustmentRows{{
     {"range_noise_m", &AdjustmentParameters::range_noise_m, 0.001, 0.1, "m"},
     {"range_bias_sigma_m", &AdjustmentParameters::range_bias_sigma_m, 0.0001, 0.1, "m"},
     {"bearing_sigma_rad", &AdjustmentParameters::bearing_sigma_rad, 0.0, 0.01, "rad"},
     {"surface_sigma_m", &AdjustmentParameters::surface_sigma_m, 0.0005, 0.05, "m"},
     {"wheel_scale_sigma", &AdjustmentParameters::wheel_scale_sigma, 0.0001, 0.1, "of the distance"},
+    {"gyro_scale_sigma", &AdjustmentParameters::gyro_scale_sigma, 0.0001, 0.1, "of the turn"},
     {"closing_distance_m", &AdjustmentParameters::closing_distance_m, 0.2, 5.0, "m"},
 }};
 

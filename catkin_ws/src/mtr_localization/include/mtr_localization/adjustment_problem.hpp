@@ -1,5 +1,5 @@
 /// @file
-/// Least squares over poses, surface offsets, range bias and wheel scale for a given association.
+/// Least squares over poses, surface offsets, range bias and scales of wheels and gyro for a given association.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

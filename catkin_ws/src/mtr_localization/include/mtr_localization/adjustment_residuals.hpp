@@ -19,6 +19,8 @@ struct Adjustment {
   double range_bias_m = 0.0;
   /// True distance over the wheels' distance, less 1.
   double wheel_scale = 0.0;
+  /// True turn over the gyro's turn, less 1.
+  double gyro_scale = 0.0;
   /// By how much the sigmas of wheels and gyro are larger than the key-frames say.
   double motion_factor = 1.0;
 };
@@ -30,7 +32,8 @@ struct Layout {
   static Eigen::Index pose(Eigen::Index key_frame) { return 3 * key_frame; }
   Eigen::Index range_bias() const { return 3 * key_frames; }
   Eigen::Index wheel_scale() const { return 3 * key_frames + 1; }
-  Eigen::Index size() const { return 3 * key_frames + 2; }
+  Eigen::Index gyro_scale() const { return 3 * key_frames + 2; }
+  Eigen::Index size() const { return 3 * key_frames + 3; }
 };
 
 inline Layout layout_of(const Adjustment& state) { return {static_cast<Eigen::Index>(state.key_frames.size())}; }
@@ -39,7 +42,8 @@ inline Layout layout_of(const Adjustment& state) { return {static_cast<Eigen::In
 /// is -1 / sigma.
 Residual<1, 4> surface_residual(const Adjustment& state, const Observation& seen);
 
-/// Motion from the key-frame before to this one against that of wheels and gyro; by both poses and the wheels' scale.
-Residual<3, 7> motion_residual(const Adjustment& state, std::size_t key_frame);
+/// Motion from the key-frame before to this one against that of wheels and gyro; by both poses and the scales of
+/// wheels and gyro.
+Residual<3, 8> motion_residual(const Adjustment& state, std::size_t key_frame);
 
 }  // namespace mtr_localization

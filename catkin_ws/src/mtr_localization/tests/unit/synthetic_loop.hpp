@@ -22,6 +22,8 @@ struct LoopOptions {
   double range_bias_m = 0.0;
   /// Of the wheels: true distance over theirs, less 1.
   double wheel_scale = 0.003;
+  /// Of the gyro: true turn over its turn, less 1.
+  double gyro_scale = 0.0;
   /// Noise of wheels and gyro against what the key-frames claim.
   double motion_noise_factor = 1.0;
   /// Of the LiDAR's plane on uneven ground, 1 sigma at each place; the Car's sides lean inwards by 1 in 5.
@@ -103,6 +105,7 @@ class Drive {
         std::hypot(sensors.gyro_noise_radps_per_sqrt_hz * std::sqrt(0.5), sensors.gyro_scale_sigma * turn) + 1e-4;
     frame.motion_covariance = Eigen::Vector3d(slip_m, slip_m, turn_rad).cwiseAbs2().asDiagonal();
     motion.head<2>() /= 1.0 + options_.wheel_scale;
+    motion[2] /= 1.0 + options_.gyro_scale;
     const double factor = options_.motion_noise_factor;
     frame.motion = motion + factor * PoseVector(draw(slip_m), draw(slip_m), draw(turn_rad));
   }

@@ -104,6 +104,20 @@ TEST(MapAdjustment, RangeBiasIsFoundAndTakenOff) {
   }
 }
 
+TEST(MapAdjustment, GyroThatTurnsTooLittleBendsNoMap) {
+  double right = 0.0;
+  double wrong = 0.0;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    LoopOptions options = in("open");
+    options.seed = seed;
+    right += largest_error_m(options);
+    // As by a data sheet, not compared with full turns: 2 degrees in a way round.
+    options.gyro_scale = 0.006;
+    wrong += largest_error_m(options);
+  }
+  EXPECT_LT(wrong, 1.3 * right);
+}
+
 TEST(MapAdjustment, TiltOfOneDegreeCostsLessThanThreeTimes) {
   double level = 0.0;
   double tilted = 0.0;

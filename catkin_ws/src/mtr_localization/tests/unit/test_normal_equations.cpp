@@ -79,6 +79,7 @@ Adjustment some_state() {
   state.surfels.push_back({{3.0, 1.0}, Eigen::Vector2d(-0.6, 0.8), 0.3, 0.0, 10});
   state.range_bias_m = 0.02;
   state.wheel_scale = 0.004;
+  state.gyro_scale = -0.003;
   return state;
 }
 
@@ -89,6 +90,8 @@ Adjustment changed(Adjustment state, Eigen::Index place, double change) {
     state.range_bias_m += change;
   } else if (place == layout.wheel_scale()) {
     state.wheel_scale += change;
+  } else if (place == layout.gyro_scale()) {
+    state.gyro_scale += change;
   } else {
     state.key_frames[static_cast<std::size_t>(place / 3)].pose[place % 3] += change;
   }
@@ -110,8 +113,8 @@ TEST(AdjustmentResiduals, DerivativesOfAViewAreItsDifferences) {
 
 TEST(AdjustmentResiduals, DerivativesOfAMotionAreItsDifferences) {
   const Adjustment state = some_state();
-  const Residual<3, 7> residual = motion_residual(state, 1);
-  for (std::size_t i = 0; i < 7; ++i) {
+  const Residual<3, 8> residual = motion_residual(state, 1);
+  for (std::size_t i = 0; i < 8; ++i) {
     const Adjustment moved = changed(state, residual.places[i], kStep);
     const Eigen::Vector3d difference = (motion_residual(moved, 1).value - residual.value) / kStep;
     EXPECT_TRUE(residual.jacobian.col(static_cast<Eigen::Index>(i)).isApprox(difference, 1e-3) ||

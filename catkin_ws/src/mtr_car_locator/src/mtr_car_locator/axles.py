@@ -1,0 +1,85 @@
+"""Where a Car's axles are: midway between front and rear of its tyres' treads."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import List, Sequence, Tuple
+
+import numpy as np
+
+from .side import Side
+from .surfels import SAMPLE_M
+
+# Half of what the LiDARs' plane cuts out of a tyre: radii of passenger cars' tyres are 0.29 to 0.36 m, the plane is
+# 0.15 to 0.35 m high; middle of the range and a quarter of its width.
+HALF_CHORD_M, HALF_CHORD_SIGMA_M = 0.31, 0.025
+# Middle of an outer face of which the ends may be missing: up to 5 cm off on recorded drives.
+FACE_SIGMA_M = 0.04
+# So far from where the face puts it a tread is looked for, and so much of its width has to be seen.
+REACH_M, LEAST_TREAD_M = 0.12, 0.06
+# Rounded shoulders and the smeared edge towards the face: treads of recorded drives lie up to 5 mm inside.
+TREAD_SIGMA_M = 0.005
+# Wheelbase of a data sheet against this Car: tolerance of the wheels' alignment, load.
+WHEELBASE_SIGMA_M = 0.005
+
+
+@dataclass(frozen=True)
+class Axles:
+    """Both axles along the Car, m, with 1 sigma of the front one and of the middle between them."""
+
+    front_m: float
+    rear_m: float
+    front_sigma_m: float
+    middle_sigma_m: float
+
+    @property
+    def wheelbase_m(self) -> float:
+        """Distance between them."""
+        return self.front_m - self.rear_m
+
+    @property
+    def middle_m(self) -> float:
+        """The middle between them."""
+        return 0.5 * (self.front_m + self.rear_m)
+
+
+def axles_at(front_m: float, rear_m: float, ahead: Sequence[Side], behind: Sequence[Side],
+             known_wheelbase_m: float = 0.0) -> Axles:
+    """Axles near the middles of the outer faces; ahead and behind are treads by the way they face, left and right.
+
+    Least squares over both axles and the half chord, which all tyres share: so three treads, the inner ones of both
+    axles and one more, or the inner ones and the wheelbase, tell all.
+    """
+    rows: List[Tuple[Tuple[float, float, float], float, float]] = [
+        ((1.0, 0.0, 0.0), front_m, FACE_SIGMA_M), ((0.0, 1.0, 0.0), rear_m, FACE_SIGMA_M),
+        ((0.0, 0.0, 1.0), HALF_CHORD_M, HALF_CHORD_SIGMA_M)]
+    if known_wheelbase_m:
+        rows.append(((1.0, -1.0, 0.0), known_wheelbase_m, WHEELBASE_SIGMA_M))
+    for axle_m, factors in ((front_m, (1.0, 0.0)), (rear_m, (0.0, 1.0))):
+        for sign, sides in ((1.0, ahead), (-1.0, behind)):
+            rows.extend(((*factors, sign), sign * level, sigma)
+                        for level, sigma in _treads(sides, sign * axle_m + HALF_CHORD_M))
+    return _solved(rows)
+
+
+def _treads(sides: Sequence[Side], outward_m: float) -> List[Tuple[float, float]]:
+    """Level and 1 sigma of each tread near a distance outwards."""
+    found = []
+    for side in sides:
+        near = np.abs(side.outward - outward_m) <= REACH_M
+        if np.count_nonzero(near) * SAMPLE_M >= LEAST_TREAD_M:
+            sigma = math.hypot(float(np.median(side.sigma[near])), TREAD_SIGMA_M)
+            found.append((float(np.median(side.outward[near])), sigma))
+    return found
+
+
+def _solved(rows: List[Tuple[Tuple[float, float, float], float, float]]) -> Axles:
+    sigmas = np.array([sigma for _, _, sigma in rows])
+    matrix = np.array([factors for factors, _, _ in rows]) / sigmas[:, np.newaxis]
+    values = np.array([value for _, value, _ in rows]) / sigmas
+    covariance = np.linalg.inv(matrix.T @ matrix)
+    front, rear, half_chord = covariance @ (matrix.T @ values)
+    rest = values - matrix @ (front, rear, half_chord)
+    # What does not fit together makes all of it less sure.
+    covariance = covariance * max(1.0, float(rest @ rest) / (len(rows) - 3 or 1))
+    middle = np.array([0.5, 0.5, 0.0])
+    return Axles(float(front), float(rear), math.sqrt(covariance[0, 0]), math.sqrt(middle @ covariance @ middle))
