@@ -38,7 +38,14 @@ std::uint8_t mode_of(PoseMode mode) {
 }  // namespace
 
 ImuSample imu_sample_of(const sensor_msgs::Imu& message) {
-  return {mtr_lockstep::to_ns(message.header.stamp), message.angular_velocity.z};
+  const auto& rate = message.angular_velocity;
+  const auto& force = message.linear_acceleration;
+  // REP-145: a covariance of -1 says that the sensor does not measure this.
+  const bool has_force = message.linear_acceleration_covariance[0] != -1.0;
+  return {mtr_lockstep::to_ns(message.header.stamp),
+          rate.z,
+          {rate.x, rate.y},
+          has_force ? Eigen::Vector3d(force.x, force.y, force.z) : Eigen::Vector3d::Zero()};
 }
 
 WheelSample wheel_sample_of(const nav_msgs::Odometry& message) {

@@ -122,6 +122,8 @@ FilterInput Localizer::input_since_last(const WheelSample& wheels) {
   input.motion.duration_s = seconds(wheels.stamp_ns - last_->stamp_ns);
   const double gyro_rate = gyro_.rate_at(wheels.stamp_ns);
   standstill_.update(wheels, rate_for_standstill(gyro_rate));
+  tilt_.advance(input.motion.duration_s, gyro_.sample_at(wheels.stamp_ns), wheels.linear_mps, standstill_.standing());
+  input.slope = tilt_.slope();
   if (state_ == MotionState::kInterrupted && !standstill_.resting()) {
     lose(message_);
   }

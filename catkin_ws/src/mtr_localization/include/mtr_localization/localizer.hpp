@@ -14,6 +14,7 @@
 #include "mtr_localization/map_keeper.hpp"
 #include "mtr_localization/samples.hpp"
 #include "mtr_localization/standstill.hpp"
+#include "mtr_localization/tilt_filter.hpp"
 #include "mtr_localization/yaw_rate_history.hpp"
 
 namespace mtr_localization {
@@ -78,6 +79,7 @@ class Localizer {
   FilterHistory history_;
   MapKeeper keeper_;
   StandstillDetector standstill_;
+  TiltFilter tilt_;
   YawRateHistory gyro_;
   std::deque<WheelSample> pending_;
   std::optional<WheelSample> last_;
