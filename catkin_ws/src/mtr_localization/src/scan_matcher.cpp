@@ -21,6 +21,8 @@ constexpr double kSmallTurnRad = 2e-5;
 constexpr double kCauchy = 2.385;
 // Surfaces are looked for within this, and 3 sigma of the prior.
 constexpr double kLeastGateM = 0.08;
+// Sides of cars lean by up to 1 in 5: what a tilted LiDAR meets higher or lower than the map lies as much aside.
+constexpr double kLean = 0.2;
 
 double square(double value) { return value * value; }
 
@@ -62,7 +64,7 @@ void ScanMatcher::for_each_match(const PoseVector& pose, const ScanPoints& scan,
     const double along = normal.dot(direction);
     const double variance = square(parameters_.range_sigma_m * along) +
                             square(parameters_.beam_angle_sigma_rad * point.range_m) * (1.0 - square(along)) +
-                            square(match->surfel->sigma_m);
+                            square(match->surfel->sigma_m) + square(kLean * point.rise_m);
     visit(match->surfel, slope, match->distance_along_normal_m, variance, along);
   }
 }

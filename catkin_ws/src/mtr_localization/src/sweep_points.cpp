@@ -37,7 +37,10 @@ class Converter {
   static constexpr std::size_t kBeamsPerPiece = 32;
 
   PoseVector lidar_at(std::size_t beam) const {
-    return compose(relative(odom_from_ref_, motion_.odom_at(sweep_.beam_ns(beam))), sweep_.mount);
+    PoseVector mount = sweep_.mount;
+    // A robot whose nose is up carries its LiDAR farther back.
+    mount.head<2>() -= sweep_.mount_height_m * slope_;
+    return compose(relative(odom_from_ref_, motion_.odom_at(sweep_.beam_ns(beam))), mount);
   }
 
   void convert_piece(std::size_t first, std::size_t end) {
