@@ -38,7 +38,14 @@ std::uint8_t mode_of(PoseMode mode) {
 }  // namespace
 
 ImuSample imu_sample_of(const sensor_msgs::Imu& message) {
-  return {mtr_lockstep::to_ns(message.header.stamp), message.angular_velocity.z};
+  const auto& rate = message.angular_velocity;
+  const auto& force = message.linear_acceleration;
+  // REP-145: a covariance of -1 says that the sensor does not measure this.
+  const bool has_force = message.linear_acceleration_covariance[0] != -1.0;
+  return {mtr_lockstep::to_ns(message.header.stamp),
+          rate.z,
+          {rate.x, rate.y},
+          has_force ? Eigen::Vector3d(force.x, force.y, force.z) : Eigen::Vector3d::Zero()};
 }
 
 WheelSample wheel_sample_of(const nav_msgs::Odometry& message) {
@@ -56,12 +63,13 @@ MapOrder order_of(const mtr_msgs::MappingOrder& message) {
   return order;
 }
 
-Sweep sweep_of(const sensor_msgs::LaserScan& message, Lidar lidar, const PoseVector& mount, bool upside_down) {
-  const double sense = upside_down ? -1.0 : 1.0;
+Sweep sweep_of(const sensor_msgs::LaserScan& message, Lidar lidar, const Mount& mount) {
+  const double sense = mount.upside_down ? -1.0 : 1.0;
   Sweep sweep;
   sweep.lidar = lidar;
   sweep.stamp_ns = mtr_lockstep::to_ns(message.header.stamp);
-  sweep.mount = mount;
+  sweep.mount = mount.pose;
+  sweep.mount_height_m = mount.height_m;
   sweep.angle_min_rad = sense * message.angle_min;
   sweep.angle_max_rad = sense * message.angle_max;
   sweep.angle_increment_rad = sense * message.angle_increment;
@@ -73,12 +81,13 @@ Sweep sweep_of(const sensor_msgs::LaserScan& message, Lidar lidar, const PoseVec
   return sweep;
 }
 
-bool mount_from(const geometry_msgs::TransformStamped& base_from_lidar, PoseVector& pose, bool& upside_down) {
+std::optional<Mount> mount_from(const geometry_msgs::TransformStamped& base_from_lidar) {
   const auto& q = base_from_lidar.transform.rotation;
   const double upright = 1.0 - 2.0 * (q.x * q.x + q.y * q.y);
-  pose = pose_of(base_from_lidar.transform);
-  upside_down = upright < 0.0;
-  return std::abs(upright) > kLevel;
+  if (std::abs(upright) < kLevel) {
+    return std::nullopt;
+  }
+  return Mount{pose_of(base_from_lidar.transform), base_from_lidar.transform.translation.z, upright < 0.0};
 }
 
 PoseVector pose_of(const geometry_msgs::Transform& transform) {

@@ -20,6 +20,10 @@ constexpr double kUnmovedRad = 0.02;
 // Gyro rate at rest up to which it can be a bias, rad/s: 4 sigma of the bias at switch-on.
 constexpr double kLargestBiasRadps = 0.2;
 
+// Between two tilts of different places or headings.
+constexpr double kLevelEveryM = 0.3;
+constexpr double kLevelEveryRad = 0.3;
+
 double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-9; }
 
 std::string with_number(const char* format, double number) {
@@ -122,6 +126,7 @@ FilterInput Localizer::input_since_last(const WheelSample& wheels) {
   input.motion.duration_s = seconds(wheels.stamp_ns - last_->stamp_ns);
   const double gyro_rate = gyro_.rate_at(wheels.stamp_ns);
   standstill_.update(wheels, rate_for_standstill(gyro_rate));
+  input.slope = slope_at(wheels, input.motion.duration_s);
   if (state_ == MotionState::kInterrupted && !standstill_.resting()) {
     lose(message_);
   }
@@ -141,6 +146,17 @@ FilterInput Localizer::input_since_last(const WheelSample& wheels) {
     message_.clear();
   }
   return input;
+}
+
+Eigen::Vector2d Localizer::slope_at(const WheelSample& wheels, double duration_s) {
+  tilt_.advance(duration_s, gyro_.sample_at(wheels.stamp_ns), wheels.linear_mps, standstill_.standing());
+  const PoseVector& odom = history_.newest().odom;
+  const PoseVector moved = relative(leveled_odom_, odom);
+  if (moved.head<2>().norm() > kLevelEveryM || std::abs(moved.z()) > kLevelEveryRad) {
+    level_.add(odom.z(), tilt_.slope());
+    leveled_odom_ = odom;
+  }
+  return level_.relative(odom.z(), tilt_.slope());
 }
 
 double Localizer::rate_for_standstill(double gyro_rate_radps) const {

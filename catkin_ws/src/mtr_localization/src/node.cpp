@@ -161,7 +161,10 @@ void Node::publish(const std::vector<Estimate>& estimates) {
 void Node::publish_map(const MapResult& result) {
   surfaces_.publish(message_of(result));
   if (result.map.valid) {
-    grids_.publish(grid_message_of(result));
+    // With another SLAM, /map is that one's.
+    if (!parameters_.localizer.external) {
+      grids_.publish(grid_message_of(result));
+    }
     ROS_INFO("Map %u: %zu surfaces of %zu key-frames, range bias %.1f mm.", result.revision, result.map.surfels.size(),
              result.map.key_frames.size(), 1e3 * result.map.range_bias_m);
   } else {

@@ -33,6 +33,8 @@ constexpr double kFineSigmaRad = 0.01;
 constexpr int kRefinements = 3;
 constexpr double kToleranceM = 0.12;
 constexpr int kConfirmations = 5;
+// Fewer beams of one degree on the map than these are no proof of a place: a Car is met by 20 of them at 12 m.
+constexpr int kLeastSeen = 12;
 
 bool same_place(const PoseVector& a, const PoseVector& b) {
   return (a - b).head<2>().norm() < kSamePlaceM && std::abs(wrapped(a.z() - b.z())) < kSameHeadingRad;
@@ -170,7 +172,10 @@ PoseVector PoseSearch::carried(const PoseVector& pose, const Look& look) const {
 
 double PoseSearch::agreement_at(const PoseVector& pose, const Look& look) const {
   // Both count: a place must explain what is seen, and show what it lets expect.
-  const Agreement agreement = agreement_of(look.sweep, {pose}, map_.surfaces, kToleranceM);
+  const Agreement agreement = agreement_of(look.sweep, {pose, 0.0, 0.0, look.slope}, map_.surfaces, kToleranceM);
+  if (agreement.seen < kLeastSeen) {
+    return 0.0;
+  }
   return 0.5 * (agreement.share_of_expected() + agreement.share_of_returns());
 }
 

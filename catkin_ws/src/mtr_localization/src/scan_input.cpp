@@ -5,7 +5,6 @@
 
 #include <utility>
 
-#include "mtr_localization/conversions.hpp"
 #include "mtr_lockstep/clock.hpp"
 #include "mtr_lockstep/names.hpp"
 
@@ -53,11 +52,11 @@ void ScanInput::receive(const sensor_msgs::LaserScan& message) {
   const std::int64_t stamp_ns = mtr_lockstep::to_ns(message.header.stamp);
   heard_.add(stamp_ns, stamp_ns);
   if (const Mount* mount = mount_of(message.header.frame_id)) {
-    take_(sweep_of(message, lidar_, mount->pose, mount->upside_down));
+    take_(sweep_of(message, lidar_, *mount));
   }
 }
 
-const ScanInput::Mount* ScanInput::mount_of(const std::string& frame) {
+const Mount* ScanInput::mount_of(const std::string& frame) {
   const auto known = mounts_.find(frame);
   if (known != mounts_.end()) {
     return &known->second;
@@ -79,15 +78,12 @@ const ScanInput::Mount* ScanInput::mount_of(const std::string& frame) {
   return nullptr;
 }
 
-std::optional<ScanInput::Mount> ScanInput::look_up(const std::string& frame) const {
+std::optional<Mount> ScanInput::look_up(const std::string& frame) const {
   try {
-    Mount mount;
-    if (mount_from(frames_.lookupTransform(names::kBase, frame, ros::Time(0)), mount.pose, mount.upside_down)) {
-      return mount;
-    }
+    return mount_from(frames_.lookupTransform(names::kBase, frame, ros::Time(0)));
   } catch (const tf2::TransformException&) {
+    return std::nullopt;
   }
-  return std::nullopt;
 }
 
 }  // namespace mtr_localization

@@ -21,8 +21,25 @@ constexpr double kSmallTurnRad = 2e-5;
 constexpr double kCauchy = 2.385;
 // Surfaces are looked for within this, and 3 sigma of the prior.
 constexpr double kLeastGateM = 0.08;
+// Sides of cars lean by up to 1 in 5: what a tilted LiDAR meets higher or lower than the map lies as much aside.
+constexpr double kLean = 0.2;
+
+// Beyond its ends a surface may go on so far.
+constexpr double kEndM = 0.05;
 
 double square(double value) { return value * value; }
+
+/// The beam meets the surfel's line beside the surfel, farther than an error of the pose across the beam explains: the
+/// point lies on something else, as the front of a tyre lies near the line of its side.
+bool passes_beside(const Match& match, const Eigen::Vector2d& point, const Eigen::Vector2d& direction,
+                   double across_sigma_m) {
+  const Surfel& surfel = *match.surfel;
+  const Eigen::Vector2d along(-surfel.normal.y(), surfel.normal.x());
+  const double facing = surfel.normal.dot(direction);
+  const Eigen::Vector2d met = point - direction * (match.distance_along_normal_m / facing);
+  const double reach_m = 0.5 * surfel.length_m + kEndM + across_sigma_m / std::abs(facing);
+  return std::abs(along.dot(met - surfel.position)) > reach_m;
+}
 
 }  // namespace
 
@@ -52,8 +69,9 @@ void ScanMatcher::for_each_match(const PoseVector& pose, const ScanPoints& scan,
     const Eigen::Vector2d lever = turn * point.position - map.range_bias_m * direction;
     const double gate =
         std::min(parameters_.max_match_m, kLeastGateM + 3.0 * (position_sigma + heading_sigma * point.range_m));
-    const auto match = map.surfaces.match(pose.head<2>() + lever, gate, direction);
-    if (!match) {
+    const Eigen::Vector2d position = pose.head<2>() + lever;
+    const auto match = map.surfaces.match(position, gate, direction);
+    if (!match || passes_beside(*match, position, direction, position_sigma + heading_sigma * point.range_m)) {
       visit(nullptr, Eigen::Vector3d::Zero(), 0.0, 0.0, 0.0);
       continue;
     }
@@ -62,7 +80,7 @@ void ScanMatcher::for_each_match(const PoseVector& pose, const ScanPoints& scan,
     const double along = normal.dot(direction);
     const double variance = square(parameters_.range_sigma_m * along) +
                             square(parameters_.beam_angle_sigma_rad * point.range_m) * (1.0 - square(along)) +
-                            square(match->surfel->sigma_m);
+                            square(match->surfel->sigma_m) + square(kLean * point.rise_m);
     visit(match->surfel, slope, match->distance_along_normal_m, variance, along);
   }
 }

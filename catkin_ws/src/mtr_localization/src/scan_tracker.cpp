@@ -116,6 +116,7 @@ void ScanTracker::judge(const Look& look, const FilterHistory& history) {
     ViewPose view{step.filter.pose()};
     view.turned_at_first_beam_rad = wrapped(history.odom_at(sweep.stamp_ns).z() - step.odom.z());
     view.turned_at_last_beam_rad = wrapped(history.odom_at(sweep.last_beam_ns()).z() - step.odom.z());
+    view.slope = step.input.slope;
     all += agreement_of(sweep, view, map_->surfaces, kToleranceM + 3.0 * sigma_m);
   }
   // Either is enough. Where the ground is uneven the LiDAR looks over or under what is expected, or meets the ground
@@ -156,7 +157,7 @@ void ScanTracker::correct(const Look& look, FilterHistory& history) {
 
 void ScanTracker::search(const Look& look, FilterHistory& history) {
   const FilterStep& step = history.at(look.step);
-  const PoseSearch::Look view{look.sweeps.front(), look.scan, step.odom};
+  const PoseSearch::Look view{look.sweeps.front(), look.scan, step.odom, step.input.slope};
   if (!search_) {
     search_.emplace(parameters_, *map_);
     search_->begin(step.filter.pose(), view);

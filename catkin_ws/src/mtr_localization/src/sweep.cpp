@@ -19,7 +19,7 @@ bool all_finite(const Sweep& sweep) {
       return false;
     }
   }
-  return sweep.mount.allFinite();
+  return sweep.mount.allFinite() && std::isfinite(sweep.mount_height_m);
 }
 
 std::int64_t nanoseconds(double duration_s) { return std::llround(duration_s * 1e9); }

@@ -54,11 +54,13 @@ ScanPoints SweepMean::mean() const {
         sum.position += point.position;
         sum.direction += point.direction;
         sum.range_m += point.range_m;
+        sum.rise_m += point.rise_m;
         ++count;
       }
     }
     if (2.0 * count >= scans_) {
-      scan.points.push_back({sum.position / count, sum.direction.normalized(), sum.range_m / count});
+      scan.points.push_back({sum.position / count, sum.direction.normalized(), sum.range_m / count,
+                               sum.rise_m / count});
     }
   }
   return scan;

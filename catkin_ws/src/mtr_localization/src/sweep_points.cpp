@@ -16,11 +16,14 @@ constexpr double kSteepestSlope = 5.7;
 constexpr double kNoiseBetweenNeighboursM = 0.06;
 // Beams on either side that can back a return.
 constexpr int kNeighbours = 2;
+// What is met so far below the LiDAR may be the ground: LiDARs sit 0.2 m or more above it.
+constexpr double kNearGroundM = 0.17;
 
 class Converter {
  public:
   Converter(const Sweep& sweep, const FilterHistory& motion, ScanPoints& scan)
-      : sweep_(sweep), motion_(motion), scan_(scan), odom_from_ref_(motion.odom_at(scan.stamp_ns)) {}
+      : sweep_(sweep), motion_(motion), scan_(scan), odom_from_ref_(motion.odom_at(scan.stamp_ns)),
+        slope_(motion.at(motion.nearest(scan.stamp_ns)).input.slope) {}
 
   void run() {
     // The robot's motion within a few ms is straight: its pose is worked out for some beams, and in between by share.
@@ -34,7 +37,10 @@ class Converter {
   static constexpr std::size_t kBeamsPerPiece = 32;
 
   PoseVector lidar_at(std::size_t beam) const {
-    return compose(relative(odom_from_ref_, motion_.odom_at(sweep_.beam_ns(beam))), sweep_.mount);
+    PoseVector mount = sweep_.mount;
+    // A robot whose nose is up carries its LiDAR farther back.
+    mount.head<2>() -= sweep_.mount_height_m * slope_;
+    return compose(relative(odom_from_ref_, motion_.odom_at(sweep_.beam_ns(beam))), mount);
   }
 
   void convert_piece(std::size_t first, std::size_t end) {
@@ -49,9 +55,17 @@ class Converter {
         const double angle = begin_pose.z() + share * turn + sweep_.angle_min_rad +
                              static_cast<double>(beam) * sweep_.angle_increment_rad;
         const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
-        const double range = sweep_.ranges_m[beam];
-        scan_.points.push_back({begin_pose.head<2>() + share * shift + range * direction, direction, range});
+        add(begin_pose.head<2>() + share * shift, direction, sweep_.ranges_m[beam]);
       }
+    }
+  }
+
+  void add(const Eigen::Vector2d& lidar, const Eigen::Vector2d& direction, double range) {
+    // The plane of a robot that leans meets the ground; and seen from above, what it shows is nearer.
+    const double climb = slope_.dot(direction);
+    if (climb * range > -kNearGroundM) {
+      const Eigen::Vector2d beam = range * (direction - 0.5 * climb * slope_);
+      scan_.points.push_back({lidar + beam, direction, range, climb * range});
     }
   }
 
@@ -77,6 +91,7 @@ class Converter {
   const FilterHistory& motion_;
   ScanPoints& scan_;
   PoseVector odom_from_ref_;
+  Eigen::Vector2d slope_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "mtr_localization/view_agreement.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -21,6 +22,9 @@ constexpr double kNothing = std::numeric_limits<double>::infinity();
 constexpr double kGrazing = 0.1;
 // Of each metre of range, for the pose's heading and the width of a bin on slanting surfaces.
 constexpr double kTolerancePerM = 0.02;
+// What is met so far above or below the LiDAR's own height need not be what the map shows: sills and bumpers are about
+// as high.
+constexpr double kSameHeightM = 0.1;
 
 int bin_of(double angle_rad) {
   const int bin = static_cast<int>(std::floor(angle_rad * kBinsPerRad)) % kBins;
@@ -59,6 +63,40 @@ class ExpectedView {
   std::vector<double> ranges_;
 };
 
+/// One beam.
+struct Comparison {
+  /// Expected in this direction, and in those beside it.
+  std::array<double, 3> ranges;
+  double shown;
+  /// Rise per metre.
+  double climb;
+  double tolerance_m;
+
+  bool agrees(double range) const { return std::abs(range - shown) <= tolerance_m + kTolerancePerM * range; }
+  /// So far away the beam is at another height than the map.
+  bool is_off_plane_at(double range) const { return std::abs(climb) > kSameHeightM / range; }
+};
+
+void count(const Comparison& beam, Agreement& agreement) {
+  const auto& [left, expected, right] = beam.ranges;
+  if (expected == kNothing) {
+    const bool is_known = beam.shown == kNothing || beam.agrees(left) || beam.agrees(right);
+    agreement.unknown += is_known || beam.is_off_plane_at(beam.shown) ? 0 : 1;
+  } else if (beam.agrees(left) || beam.agrees(expected) || beam.agrees(right)) {
+    ++agreement.seen;
+  } else if (beam.is_off_plane_at(std::min(beam.shown, expected))) {
+    // It looks over or under what is expected, or at the ground before it.
+    return;
+  } else if (beam.shown < expected) {
+    ++agreement.hidden;
+  } else if (beam.shown == kNothing) {
+    // At an edge the beam may just pass.
+    agreement.missing += left != kNothing && right != kNothing ? 1 : 0;
+  } else {
+    ++agreement.beyond;
+  }
+}
+
 }  // namespace
 
 Agreement& Agreement::operator+=(const Agreement& other) {
@@ -93,21 +131,10 @@ Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap
       continue;
     }
     const double shown = measured <= sweep.range_max_m ? measured : kNothing;
-    const double ranges[] = {expected.nearest(bin - 1), expected.nearest(bin), expected.nearest(bin + 1)};
-    const auto agrees = [&](double range) { return std::abs(range - shown) <= tolerance_m + kTolerancePerM * range; };
-    if (ranges[1] == kNothing) {
-      const bool is_known = shown == kNothing || agrees(ranges[0]) || agrees(ranges[2]);
-      agreement.unknown += is_known ? 0 : 1;
-    } else if (std::any_of(std::begin(ranges), std::end(ranges), agrees)) {
-      ++agreement.seen;
-    } else if (shown < ranges[1]) {
-      ++agreement.hidden;
-    } else if (shown == kNothing) {
-      // At an edge the beam may just pass.
-      agreement.missing += ranges[0] != kNothing && ranges[2] != kNothing ? 1 : 0;
-    } else {
-      ++agreement.beyond;
-    }
+    const double angle_in_base = sweep.mount.z() + sweep.angle_min_rad + beam * sweep.angle_increment_rad;
+    const double climb = view.slope.dot(Eigen::Vector2d(std::cos(angle_in_base), std::sin(angle_in_base)));
+    count({{expected.nearest(bin - 1), expected.nearest(bin), expected.nearest(bin + 1)}, shown, climb, tolerance_m},
+          agreement);
   }
   return agreement;
 }

@@ -30,10 +30,9 @@ bool YawRateHistory::covers(std::int64_t time_ns) const {
   return !samples_.empty() && samples_.front().stamp_ns <= time_ns && time_ns <= samples_.back().stamp_ns;
 }
 
-double YawRateHistory::rate_at(std::int64_t time_ns) const {
-  return std::lower_bound(samples_.begin(), samples_.end(), time_ns,
-                          [](const ImuSample& sample, std::int64_t t) { return sample.stamp_ns < t; })
-      ->yaw_rate_radps;
+const ImuSample& YawRateHistory::sample_at(std::int64_t time_ns) const {
+  return *std::lower_bound(samples_.begin(), samples_.end(), time_ns,
+                           [](const ImuSample& sample, std::int64_t t) { return sample.stamp_ns < t; });
 }
 
 double YawRateHistory::integral(std::int64_t from_ns, std::int64_t to_ns) const {

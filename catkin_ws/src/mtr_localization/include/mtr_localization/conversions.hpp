@@ -11,6 +11,7 @@
 #include <sensor_msgs/LaserScan.h>
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "mtr_localization/map_builder.hpp"
@@ -23,10 +24,18 @@ ImuSample imu_sample_of(const sensor_msgs::Imu& message);
 WheelSample wheel_sample_of(const nav_msgs::Odometry& message);
 
 MapOrder order_of(const mtr_msgs::MappingOrder& message);
-Sweep sweep_of(const sensor_msgs::LaserScan& message, Lidar lidar, const PoseVector& mount, bool upside_down);
 
-/// Where a LiDAR sits, of base_link's transform to its frame; false when it is not level.
-bool mount_from(const geometry_msgs::TransformStamped& base_from_lidar, PoseVector& pose, bool& upside_down);
+/// Where a LiDAR sits on base_link.
+struct Mount {
+  PoseVector pose = PoseVector::Zero();
+  double height_m = 0.0;
+  bool upside_down = false;
+};
+
+Sweep sweep_of(const sensor_msgs::LaserScan& message, Lidar lidar, const Mount& mount);
+
+/// Where a LiDAR sits, of base_link's transform to its frame; none when it is not level.
+std::optional<Mount> mount_from(const geometry_msgs::TransformStamped& base_from_lidar);
 PoseVector pose_of(const geometry_msgs::Transform& transform);
 
 mtr_msgs::LocalizedPose message_of(const Estimate& estimate);

@@ -19,6 +19,8 @@ struct FilterInput {
   Kind kind = Kind::kNothing;
   /// In an interval of standing only the duration and the gyro's angle count.
   Motion motion{0.0, 0.0, 0.0};
+  /// Rise of base_link's x and y axes per metre, at its end.
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
 };
 
 /// State of the filter at one wheel sample.

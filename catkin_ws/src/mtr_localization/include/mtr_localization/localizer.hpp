@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "mtr_localization/filter_history.hpp"
+#include "mtr_localization/ground_level.hpp"
 #include "mtr_localization/localizer_parameters.hpp"
 #include "mtr_localization/map_keeper.hpp"
 #include "mtr_localization/samples.hpp"
 #include "mtr_localization/standstill.hpp"
+#include "mtr_localization/tilt_filter.hpp"
 #include "mtr_localization/yaw_rate_history.hpp"
 
 namespace mtr_localization {
@@ -66,6 +68,7 @@ class Localizer {
   void interrupt(const std::string& reason, const WheelSample& wheels);
   void lose(const std::string& reason);
 
+  Eigen::Vector2d slope_at(const WheelSample& wheels, double duration_s);
   FilterInput input_since_last(const WheelSample& wheels);
   std::string why_not_valid(std::int64_t stamp_ns) const;
   PoseMode mode() const;
@@ -78,6 +81,9 @@ class Localizer {
   FilterHistory history_;
   MapKeeper keeper_;
   StandstillDetector standstill_;
+  TiltFilter tilt_;
+  GroundLevel level_;
+  PoseVector leveled_odom_ = PoseVector::Zero();
   YawRateHistory gyro_;
   std::deque<WheelSample> pending_;
   std::optional<WheelSample> last_;

@@ -16,6 +16,8 @@ struct ScanPoint {
   /// Unit vector along the beam, away from the LiDAR: a range error e moves the point by e * direction.
   Eigen::Vector2d direction;
   double range_m;
+  /// Above the LiDAR's height, by the robot's tilt; negative below it.
+  double rise_m = 0.0;
 };
 
 /// Returns of one or more sweeps (front and rear) that hold at the same instant.

@@ -24,6 +24,8 @@ class PoseSearch {
     const ScanPoints& scan;
     /// Base_link in odom at the scan.
     PoseVector odom;
+    /// Rise of base_link's x and y axes per metre.
+    Eigen::Vector2d slope = Eigen::Vector2d::Zero();
   };
   struct Found {
     PoseVector pose;

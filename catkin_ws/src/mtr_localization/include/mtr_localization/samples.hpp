@@ -3,16 +3,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <string>
 
 namespace mtr_localization {
 
-/// Gyro's rate about base_link z, counterclockwise; stamp in ns of the ROS clock.
+/// Stamp in ns of the ROS clock.
 struct ImuSample {
   std::int64_t stamp_ns;
+  /// Gyro's rate about base_link z, counterclockwise.
   double yaw_rate_radps;
+  /// About base_link x and y.
+  Eigen::Vector2d tilt_rate_radps = Eigen::Vector2d::Zero();
+  /// Of the accelerometer; +9.81 in z when level and at rest. Zero: there is none.
+  Eigen::Vector3d force_mps2 = Eigen::Vector3d::Zero();
 };
 
 /// Wheel odometry: pose in its own drifting frame, and velocity of base_link as the wheels see it.

@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "mtr_localization/sweep.hpp"
+#include "mtr_localization/conversions.hpp"
 #include "mtr_lockstep/samples.hpp"
 
 namespace mtr_localization {
@@ -24,12 +24,6 @@ std::optional<mtr_lockstep::Waiting> input_waiting();
 /// Subscription to one LiDAR. Its mounting comes from tf, once for each frame that its scans name.
 class ScanInput {
  public:
-  /// Where the LiDAR sits.
-  struct Mount {
-    PoseVector pose = PoseVector::Zero();
-    bool upside_down = false;
-  };
-
   /// @param take gets each sweep whose mounting is known, in the callback
   ScanInput(ros::NodeHandle& node, Lidar lidar, const tf2_ros::Buffer& frames, std::function<void(Sweep)> take);
   ScanInput(const ScanInput&) = delete;

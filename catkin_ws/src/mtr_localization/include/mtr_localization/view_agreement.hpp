@@ -38,9 +38,12 @@ struct ViewPose {
   PoseVector pose;
   double turned_at_first_beam_rad = 0.0;
   double turned_at_last_beam_rad = 0.0;
+  /// Rise of base_link's x and y axes per metre.
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
 };
 
-/// Draws the map as the LiDAR would see it and compares.
+/// Draws the map as the LiDAR would see it and compares. Where the robot's tilt makes the LiDAR look over or under
+/// what the map shows, or at the ground, a beam that does not show the expected surface says nothing.
 /// @param tolerance_m what a surface may be off to count as seen
 Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap& map, double tolerance_m);
 

@@ -28,8 +28,10 @@ class YawRateHistory {
   /// True when samples before, or at, and after, or at, the time are kept.
   bool covers(std::int64_t time_ns) const;
 
+  /// Sample whose time a covered time lies in.
+  const ImuSample& sample_at(std::int64_t time_ns) const;
   /// Rate at a covered time, rad/s.
-  double rate_at(std::int64_t time_ns) const;
+  double rate_at(std::int64_t time_ns) const { return sample_at(time_ns).yaw_rate_radps; }
 
   /// Integral of the rate between two covered times, rad.
   double integral(std::int64_t from_ns, std::int64_t to_ns) const;

@@ -107,25 +107,23 @@ void BagReader::read_message(const rosbag::MessageInstance& message) {
 
 void BagReader::read_scan(const rosbag::MessageInstance& message, Lidar lidar) {
   const sensor_msgs::LaserScan::ConstPtr scan = message_of<sensor_msgs::LaserScan>(message);
-  bool upside_down = false;
-  const PoseVector mount = mount_of(scan->header.frame_id, lidar, upside_down);
-  Sweep sweep = sweep_of(*scan, lidar, mount, upside_down);
+  Sweep sweep = sweep_of(*scan, lidar, mount_of(scan->header.frame_id, lidar));
   wait(sweep.end_ns(), std::move(sweep));
 }
 
-PoseVector BagReader::mount_of(const std::string& frame, Lidar lidar, bool& upside_down) const {
+Mount BagReader::mount_of(const std::string& frame, Lidar lidar) const {
   const Mounting& given = options_.mounting;
-  PoseVector mount = lidar == Lidar::kFront
-                         ? PoseVector(given.front_lidar_x_m, given.front_lidar_y_m, given.front_lidar_heading_rad)
-                         : PoseVector(given.rear_lidar_x_m, given.rear_lidar_y_m, given.rear_lidar_heading_rad);
   try {
-    if (!mount_from(frames_.lookupTransform(names::kBase, frame, ros::Time(0)), mount, upside_down)) {
-      throw std::runtime_error("The LiDAR of frame " + frame + " is not level on the robot.");
+    if (const auto mount = mount_from(frames_.lookupTransform(names::kBase, frame, ros::Time(0)))) {
+      return *mount;
     }
   } catch (const tf2::TransformException&) {
     // The bag does not say it: as given.
+    return lidar == Lidar::kFront
+               ? Mount{{given.front_lidar_x_m, given.front_lidar_y_m, given.front_lidar_heading_rad}, 0.0, false}
+               : Mount{{given.rear_lidar_x_m, given.rear_lidar_y_m, given.rear_lidar_heading_rad}, 0.0, false};
   }
-  return mount;
+  throw std::runtime_error("The LiDAR of frame " + frame + " is not level on the robot.");
 }
 
 void BagReader::wait(std::int64_t time_ns, Event event) {

@@ -14,6 +14,7 @@
 #include <utility>
 #include <variant>
 
+#include "mtr_localization/conversions.hpp"
 #include "mtr_localization/map_builder.hpp"
 #include "mtr_localization/samples.hpp"
 #include "mtr_localization/sweep.hpp"
@@ -45,7 +46,7 @@ class BagReader {
   void read_mounts();
   void read_message(const rosbag::MessageInstance& message);
   void read_scan(const rosbag::MessageInstance& message, Lidar lidar);
-  PoseVector mount_of(const std::string& frame, Lidar lidar, bool& upside_down) const;
+  Mount mount_of(const std::string& frame, Lidar lidar) const;
   void wait(std::int64_t time_ns, Event event);
 
   const Options& options_;

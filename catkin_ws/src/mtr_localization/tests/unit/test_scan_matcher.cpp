@@ -137,5 +137,21 @@ TEST_F(ScanMatcherTest, ErrorOfAWallMovesTheFilterAsFarAsItSays) {
   EXPECT_LT(std::sqrt(filter.pose_covariance()(0, 0)), 0.01);
 }
 
+/// The inner side of a tyre, seen from far ahead at 6 degrees, and a point of a scan of a robot at the origin.
+int matched_beside_a_tyre(const Eigen::Vector2d& point) {
+  ReferenceMap map;
+  map.surfaces = SurfelMap({{{8.0, -0.7}, Eigen::Vector2d(-0.17, 0.985).normalized(), 0.5, 0.003, 100}});
+  const ScanPoints scan{0, {{point, point.normalized(), point.norm()}}};
+  const Eigen::Matrix3d covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-6).asDiagonal();
+  return ScanMatcher(TrackingParameters{}).match(scan, map, {PoseVector::Zero(), covariance, covariance}).matched;
+}
+
+TEST(ScanMatcher, PointWhoseBeamPassesBesideASurfaceDoesNotLieOnIt) {
+  EXPECT_EQ(matched_beside_a_tyre({8.0, -0.7}), 1);
+  EXPECT_EQ(matched_beside_a_tyre({8.1, -0.69}), 1);
+  // On the tyre's front: near the line of its side, which the beam meets 0.4 m farther on.
+  EXPECT_EQ(matched_beside_a_tyre({7.8, -0.83}), 0);
+}
+
 }  // namespace
 }  // namespace mtr_localization

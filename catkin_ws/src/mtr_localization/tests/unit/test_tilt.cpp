@@ -1,0 +1,143 @@
+/// @file
+/// Tilt of the robot, and what it does to points and to what a view says.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "mtr_localization/ground_level.hpp"
+#include "mtr_localization/se2.hpp"
+#include "mtr_localization/sweep_points.hpp"
+#include "mtr_localization/tilt_filter.hpp"
+#include "mtr_localization/view_agreement.hpp"
+
+namespace mtr_localization {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr std::int64_t kStepNs = 20'000'000;
+
+ImuSample imu(const Eigen::Vector2d& slope, double forward_mps2 = 0.0) {
+  return {0, 0.0, Eigen::Vector2d::Zero(), {kGravity * slope.x() + forward_mps2, kGravity * slope.y(), kGravity}};
+}
+
+Sweep sweep_of_range(float range_m) {
+  Sweep sweep;
+  sweep.angle_min_rad = -0.5;
+  sweep.angle_max_rad = 0.5;
+  sweep.angle_increment_rad = 0.01;
+  sweep.range_min_m = 0.1;
+  sweep.range_max_m = 30.0;
+  sweep.ranges_m.assign(101, range_m);
+  return sweep;
+}
+
+FilterHistory leaning(const Eigen::Vector2d& slope) {
+  FilterHistory history(PoseFilter(Parameters{}), 0);
+  FilterInput input;
+  input.slope = slope;
+  history.advance(kStepNs, input);
+  return history;
+}
+
+TEST(TiltFilter, RobotAtRestShowsTheSlopeOfItsPlace) {
+  TiltFilter tilt;
+  for (int i = 0; i < 100; ++i) {
+    tilt.advance(0.02, imu({0.02, -0.01}), 0.0, true);
+  }
+  EXPECT_NEAR(tilt.slope().x(), 0.02, 1e-4);
+  EXPECT_NEAR(tilt.slope().y(), -0.01, 1e-4);
+}
+
+TEST(TiltFilter, RobotThatGathersSpeedDoesNotLean) {
+  TiltFilter tilt;
+  for (int i = 0; i <= 50; ++i) {
+    tilt.advance(0.02, imu({0.0, 0.0}, i > 0 ? 1.0 : 0.0), 0.02 * i, false);
+  }
+  EXPECT_NEAR(tilt.slope().norm(), 0.0, 1e-6);
+}
+
+TEST(TiltFilter, GyroIsFollowedAtOnceAndItsBiasIsNot) {
+  TiltFilter tilt;
+  ImuSample sample = imu({0.0, 0.0});
+  sample.tilt_rate_radps = {0.004, -0.003};
+  for (int i = 0; i < 500; ++i) {
+    tilt.advance(0.02, sample, 0.0, true);
+  }
+  EXPECT_NEAR(tilt.slope().norm(), 0.0, 1e-3);
+  // The nose goes down by 0.02 rad in 0.1 s.
+  sample.tilt_rate_radps.y() += 0.2;
+  for (int i = 0; i < 5; ++i) {
+    tilt.advance(0.02, sample, 0.0, false);
+  }
+  EXPECT_NEAR(tilt.slope().x(), -0.02, 0.002);
+}
+
+TEST(TiltFilter, AccelerometerThatShowsNoGravityMeansLevel) {
+  TiltFilter tilt;
+  for (const double z : {0.0, -kGravity, std::numeric_limits<double>::quiet_NaN()}) {
+    ImuSample sample = imu({0.1, 0.1});
+    sample.force_mps2.z() = z;
+    tilt.advance(0.02, sample, 0.0, true);
+    EXPECT_EQ(tilt.slope().norm(), 0.0) << z;
+  }
+}
+
+TEST(GroundLevel, BiasAndSlopeOfTheGroundAreToldApartByDrivingRound) {
+  const Eigen::Vector2d bias(0.004, -0.003);
+  const Eigen::Vector2d ground(0.01, 0.015);
+  GroundLevel level;
+  for (int i = 0; i < 60; ++i) {
+    const double heading = 0.2 * i;
+    level.add(heading, bias + rotation(-heading) * ground);
+  }
+  const Eigen::Vector2d own(0.02, 0.0);
+  const Eigen::Vector2d shown = bias + rotation(-1.0) * ground + own;
+  EXPECT_NEAR((level.relative(1.0, shown) - own).norm(), 0.0, 0.0005);
+}
+
+TEST(SweepPoints, LeaningRobotKeepsItsPointsWhereALevelOneSeesThem) {
+  Sweep sweep = sweep_of_range(3.0F);
+  sweep.mount_height_m = 0.24;
+  ScanPoints scan{kStepNs, {}};
+  append_points(sweep, leaning({0.03, 0.0}), scan);
+  ASSERT_EQ(scan.points.size(), 101u);
+  EXPECT_NEAR(scan.points[50].position.x(), 3.0 * std::cos(0.03) - 0.24 * 0.03, 1e-5);
+  EXPECT_NEAR(scan.points[50].rise_m, 0.09, 1e-9);
+}
+
+TEST(SweepPoints, WhatALeaningRobotSeesNearTheGroundIsLeftOut) {
+  ScanPoints down{kStepNs, {}};
+  append_points(sweep_of_range(10.0F), leaning({-0.03, 0.0}), down);
+  EXPECT_TRUE(down.points.empty());
+  ScanPoints up{kStepNs, {}};
+  append_points(sweep_of_range(10.0F), leaning({0.03, 0.0}), up);
+  EXPECT_EQ(up.points.size(), 101u);
+}
+
+class LeaningViewTest : public ::testing::Test {
+ protected:
+  Agreement seen(float range_m, double slope) const {
+    return agreement_of(sweep_of_range(range_m), {PoseVector::Zero(), 0.0, 0.0, {slope, 0.0}}, wall, 0.1);
+  }
+
+  /// A wall 5 m ahead.
+  SurfelMap wall{{{{5.0, 0.0}, {-1.0, 0.0}, 4.0, 0.002, 50}}};
+};
+
+TEST_F(LeaningViewTest, LevelRobotThatSeesBeyondTheMapIsContradicted) {
+  EXPECT_GT(seen(12.0F, 0.0).beyond, 20);
+  EXPECT_GT(seen(2.0F, 0.0).hidden, 20);
+}
+
+TEST_F(LeaningViewTest, LookingUnderTheMapOrAtTheGroundSaysNothing) {
+  const Agreement agreement = seen(12.0F, -0.03);
+  EXPECT_EQ(agreement.expected(), 0);
+  EXPECT_EQ(agreement.unknown, 0);
+}
+
+TEST_F(LeaningViewTest, WhatStandsNearInTheWayCountsHoweverTheRobotLeans) { EXPECT_GT(seen(2.0F, -0.03).hidden, 20); }
+
+}  // namespace
+}  // namespace mtr_localization
