@@ -43,9 +43,10 @@ def _corner_speed(leg: Leg, limits: MotionLimits, speed: float, at_an_end: bool)
 
 def _line_time(length: float, entry: float, leave: float, speed: float, acceleration: float) -> float:
     """Time on a straight line between two speeds; as if it were driven at their mean where it is too short."""
-    peak_square = min(speed ** 2, acceleration * length + 0.5 * (entry ** 2 + leave ** 2))
-    peak = math.sqrt(peak_square)
-    if peak <= max(entry, leave) + 1e-9:
+    peak_square = acceleration * length + 0.5 * (entry ** 2 + leave ** 2)
+    if peak_square <= max(entry, leave) ** 2:
         return 2.0 * length / max(entry + leave, 1e-3)
+    peak_square = min(speed ** 2, peak_square)
+    peak = math.sqrt(peak_square)
     rest = length - (2.0 * peak_square - entry ** 2 - leave ** 2) / (2.0 * acceleration)
     return (2.0 * peak - entry - leave) / acceleration + max(rest, 0.0) / peak
