@@ -6,6 +6,9 @@ from .limits import MotionLimits
 from .route import Leg, Route
 from .shaping import Shape
 
+# Most turns on the spot can overlap with the drive by this (blend.py).
+OVERLAP_S = 1.5
+
 
 def time_of(route: Route, shape: Shape, limits: MotionLimits, speed: float, start_speed: float) -> float:
     """Time in s from the start speed to rest, turns on the spot included."""
@@ -15,7 +18,7 @@ def time_of(route: Route, shape: Shape, limits: MotionLimits, speed: float, star
     corners = [_corner_speed(leg, limits, speed, index in (0, len(legs) - 1)) for index, leg in enumerate(legs)]
     for index, (leg, corner) in enumerate(zip(legs, corners)):
         if leg.radius == 0.0:
-            total += limits.turn_time(leg.turn)
+            total += max(0.0, limits.turn_time(leg.turn) - OVERLAP_S)
         else:
             total += leg.arc / max(corner, 1e-3)
             if entry == 0.0 or index + 1 == len(legs):
