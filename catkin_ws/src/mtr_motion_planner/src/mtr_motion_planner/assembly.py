@@ -1,12 +1,13 @@
 """From a candidate to motions with trajectories that are known to be free."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import List, Optional, Sequence, Tuple
+from typing import Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
 
 from mtr_core.se2 import Pose2, wrap_angle
 
+from .blend import Blend, Turns, keeps, overlapped, overlaps_of
 from .candidates import MOVING_MPS, Candidate
 from .curve import trace
 from .fence import Fence
@@ -15,7 +16,7 @@ from .options import ROUNDING_M, Straight
 from .parameters import MotionParameters
 from .plan import Moving, Part
 from .route import facing, moved
-from .shaping import Driving, Start, curve_of
+from .shaping import ATTEMPTS, CLOSE_M, Driving, Start, curve_of
 from .trajectory import Drive, Motion, Pivot, Trajectory
 
 # Away from start and goal a rounded corner may use up the route's margin to this share of it.
@@ -40,20 +41,56 @@ class Assembly:
     def work_out(self, candidate: Candidate, start: Moving, goal: Pose2) -> Optional[List[Part]]:
         """Parts of a candidate; None when its curve does not exist or is not free."""
         out, sign, into = candidate.out, candidate.sign, candidate.into
-        motions: List[Begun] = []
+        before: List[Begun] = []
+        after: List[Begun] = []
         begin, end = start, goal
         if out.sign and out.sign != sign:
-            motions.append((line(start.pose, out), out.sign * start.linear_mps))
+            before = [(line(start.pose, out), out.sign * start.linear_mps)]
             begin = Moving(moved(start.pose, out.sign * out.length))
         if into.sign and into.sign != sign:
             end = moved(goal, -into.sign * into.length)
+            after = [(line(end, into), 0.0)]
         transit = self._transit(candidate, begin, end)
         if transit is None:
             return None
-        motions += transit
-        if into.sign and into.sign != sign:
-            motions.append((line(end, into), 0.0))
-        return self.timed(motions, start.pose)
+        if len(transit) > 1:
+            for blend in self._blends(candidate, begin, end, transit):
+                parts = self.timed([*before, (blend, 0.0), *after], start.pose)
+                if parts:
+                    return parts
+        return self.timed([*before, *transit, *after], start.pose)
+
+    def _blends(self, candidate: Candidate, begin: Moving, end: Pose2, transit: List[Begun]) -> Iterator[Blend]:
+        """The transit with turns that overlap with the drive, the quickest first."""
+        for overlap_s in overlaps_of(self._turns(transit)):
+            blend = self._blend(candidate, begin, end, overlap_s)
+            if blend:
+                yield blend
+
+    def _blend(self, candidate: Candidate, begin: Moving, end: Pose2, overlap_s: Tuple[float, float]
+               ) -> Optional[Blend]:
+        """What the overlap adds to the way is taken from where the drive aims at, until it ends at the end."""
+        aim = end
+        for _ in range(ATTEMPTS):
+            transit = self._transit(candidate, begin, aim)
+            if transit is None:
+                return None
+            turns = self._turns(transit)
+            trajectory = overlapped(turns, overlap_s, self._parameters.footprint.slip)
+            if not keeps(trajectory, self._parameters.limits):
+                return None
+            x, y = trajectory.poses[-1, :2]
+            if math.hypot(end.x - x, end.y - y) < CLOSE_M:
+                return Blend(next(motion for motion, _ in transit if isinstance(motion, Drive)), trajectory)
+            aim = Pose2(aim.x + end.x - x, aim.y + end.y - y, end.heading)
+        return None
+
+    def _turns(self, transit: List[Begun]) -> Turns:
+        limits = self._parameters.limits
+        middle = next(index for index, (motion, _) in enumerate(transit) if isinstance(motion, Drive))
+        first, drive, last = (motions[0][0].timed(limits, self._speed) if motions else None for motions in (
+            transit[:middle], transit[middle:middle + 1], transit[middle + 1:]))
+        return Turns(first, drive, last)
 
     def _transit(self, candidate: Candidate, begin: Moving, end: Pose2) -> Optional[List[Begun]]:
         sign, shape = candidate.sign, candidate.shape

@@ -30,10 +30,10 @@ def order_from(message: Optional[RobotMode]) -> Optional[Order]:
         return None
     goal = message.goal
     direction = Direction(goal.direction) if goal.direction in tuple(Direction) else Direction.ANY
-    # A frame that nobody knows is no place to go.
-    known = goal.id == 0 or goal.frame_id in (names.CAR, names.MAP)
-    pose = Pose2(goal.x, goal.y, goal.heading) if known else Pose2(math.nan, math.nan, math.nan)
-    return Order(message.header.stamp.to_sec(), Goal(goal.id, goal.frame_id == names.CAR, pose, direction),
+    unknown_frame = "" if goal.id == 0 or goal.frame_id in (names.CAR, names.MAP) else repr(goal.frame_id)
+    pose = Pose2(goal.x, goal.y, goal.heading)
+    return Order(message.header.stamp.to_sec(),
+                 Goal(goal.id, goal.frame_id == names.CAR, pose, direction, unknown_frame),
                  message.max_speed_mps, message.mode == RobotMode.FOLLOWING_WAYPOINT)
 
 

@@ -6,6 +6,9 @@ from .limits import MotionLimits
 from .route import Leg, Route
 from .shaping import Shape
 
+# Most turns on the spot can overlap with the drive by this (blend.py).
+OVERLAP_S = 1.5
+
 
 def time_of(route: Route, shape: Shape, limits: MotionLimits, speed: float, start_speed: float) -> float:
     """Time in s from the start speed to rest, turns on the spot included."""
@@ -15,7 +18,7 @@ def time_of(route: Route, shape: Shape, limits: MotionLimits, speed: float, star
     corners = [_corner_speed(leg, limits, speed, index in (0, len(legs) - 1)) for index, leg in enumerate(legs)]
     for index, (leg, corner) in enumerate(zip(legs, corners)):
         if leg.radius == 0.0:
-            total += limits.turn_time(leg.turn)
+            total += max(0.0, limits.turn_time(leg.turn) - OVERLAP_S)
         else:
             total += leg.arc / max(corner, 1e-3)
             if entry == 0.0 or index + 1 == len(legs):
@@ -43,9 +46,10 @@ def _corner_speed(leg: Leg, limits: MotionLimits, speed: float, at_an_end: bool)
 
 def _line_time(length: float, entry: float, leave: float, speed: float, acceleration: float) -> float:
     """Time on a straight line between two speeds; as if it were driven at their mean where it is too short."""
-    peak_square = min(speed ** 2, acceleration * length + 0.5 * (entry ** 2 + leave ** 2))
-    peak = math.sqrt(peak_square)
-    if peak <= max(entry, leave) + 1e-9:
+    peak_square = acceleration * length + 0.5 * (entry ** 2 + leave ** 2)
+    if peak_square <= max(entry, leave) ** 2:
         return 2.0 * length / max(entry + leave, 1e-3)
+    peak_square = min(speed ** 2, peak_square)
+    peak = math.sqrt(peak_square)
     rest = length - (2.0 * peak_square - entry ** 2 - leave ** 2) / (2.0 * acceleration)
     return (2.0 * peak - entry - leave) / acceleration + max(rest, 0.0) / peak

@@ -12,7 +12,7 @@ from .parameters import MotionParameters
 from .plan import Moving, Part, Plan
 from .tolerance import miss_of
 from .tracking import DELAY_S, Velocity, deviation, tracked
-from .trajectory import Drive, Reference
+from .trajectory import Pivot, Reference
 
 # The reference waits for a robot that lags by more than this, and the rest is timed anew from the robot's own speed.
 LAG_M, LAG_RAD = 0.08, 0.15
@@ -55,6 +55,7 @@ class Follower:
         self._index, self._time_s = 0, 0.0
         self._part: Optional[Part] = plan.parts[0] if plan.parts else None
         self._waited_s = 0.0
+        self._cannot_go_on = False
 
     @property
     def _limits(self) -> MotionLimits:
@@ -77,10 +78,12 @@ class Follower:
         return abs(error.x) < LOST_ALONG_M and abs(error.y) < LOST_ACROSS_M and abs(error.heading) < LOST_RAD
 
     def set_speed(self, speed: float) -> bool:
-        """Change the speed limit; False when the robot could not stop in time and needs another plan."""
+        """Change the speed limit; False when only another plan can keep it."""
         if speed == self._speed or self._part is None:
             return True
         self._speed = speed
+        if self._index + 1 < len(self.plan.parts):
+            return False
         now = self.reference()
         return self._retime(now.way, abs(now.linear_mps if self._part.trajectory.length_m else now.angular_radps))
 
@@ -90,6 +93,8 @@ class Follower:
             return Wanted(Velocity(), self._remaining(), lost=True)
         if self._part is not None:
             self._advance(pose, robot, passed_s)
+        if self._cannot_go_on:
+            return Wanted(Velocity(), self._remaining(), lost=True)
         now = self.reference()
         if self._is_over() and self._has_settled(pose, robot):
             return Wanted(Velocity(), 0.0, finished=True)
@@ -103,8 +108,9 @@ class Follower:
         if self._waited_s > RETIME_AFTER_S:
             self._waited_s = 0.0
             on_the_spot = self._part.trajectory.length_m == 0.0
-            self._retime(now.way - lag, min(abs(robot.yaw_rate_radps if on_the_spot else robot.speed_mps),
-                                            abs(now.angular_radps if on_the_spot else now.linear_mps)))
+            speed = min(abs(robot.yaw_rate_radps if on_the_spot else robot.speed_mps),
+                        abs(now.angular_radps if on_the_spot else now.linear_mps))
+            self._cannot_go_on = not self._retime(now.way - lag, speed)
         elif lag <= limit:
             self._time_s += passed_s
         while self._time_s >= self._part.trajectory.duration_s and self._index + 1 < len(self.plan.parts):
@@ -116,11 +122,11 @@ class Follower:
         """How far the robot is behind on its way, m or rad."""
         error = deviation(now, pose)
         motion = self._part.motion
-        return error.x * motion.sign if isinstance(motion, Drive) else math.copysign(1.0, motion.angle) * error.heading
+        return math.copysign(1.0, motion.angle) * error.heading if isinstance(motion, Pivot) else error.x * motion.sign
 
     def _retime(self, way: float, speed: float) -> bool:
         rest = self._part.motion.from_way(max(way, 0.0))
-        trajectory = rest.timed(self._limits, self._speed, speed)
+        trajectory = rest and rest.timed(self._limits, self._speed, speed)
         if trajectory is None:
             return False
         self._part, self._time_s = Part(rest, trajectory), 0.0

@@ -10,15 +10,23 @@ from mtr_core.states import Direction
 
 Point = Tuple[float, float]
 
+# Of the platform, by its data sheet.
+HIGHEST_SPEED_MPS = 2.0
+
 
 @dataclass(frozen=True)
 class Goal:
-    """Pose of base_link to reach, in the Car's frame or in map; id 0: none."""
+    """Pose of base_link to reach, in the Car's frame or in map; id 0: none.
+
+    Attributes:
+        unknown_frame: name of another frame, in which the pose means nothing.
+    """
 
     goal_id: int
     in_car_frame: bool
     pose: Pose2
     direction: Direction
+    unknown_frame: str = ""
 
 
 NO_GOAL = Goal(0, False, Pose2(0.0, 0.0, 0.0), Direction.ANY)
@@ -101,6 +109,8 @@ def _age_fault(inputs: Inputs, age_limit_s: float) -> str:
         age_s = inputs.tick_s - message.stamp_s
         if not age_s <= age_limit_s:
             return f"The newest {name} is {age_s:.2f} s old; allowed is {age_limit_s:g} s."
+        if age_s < -age_limit_s:
+            return f"The newest {name} is {-age_s:.2f} s in the future; allowed is {age_limit_s:g} s. Check the clocks."
     return ""
 
 
@@ -111,6 +121,7 @@ def _value_fault(order: Order, robot: RobotState, car: Car) -> str:
         return "The robot's pose is not a number."
     if not (car.pose.is_finite() and all(math.isfinite(c) for point in car.outline for c in point)):
         return "The Car's position is not a number."
-    if not (math.isfinite(order.max_speed_mps) and order.max_speed_mps > 0.0):
-        return f"The maximum speed is {order.max_speed_mps:g} m/s; it must be above 0."
+    if not 0.0 < order.max_speed_mps <= HIGHEST_SPEED_MPS:
+        return (f"The maximum speed is {order.max_speed_mps:g} m/s; it must be above 0 and at most "
+                f"{HIGHEST_SPEED_MPS:g} m/s.")
     return ""

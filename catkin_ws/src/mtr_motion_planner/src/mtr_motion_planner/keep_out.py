@@ -82,10 +82,11 @@ def polygon_of(points: Sequence[Point]) -> Polygon:
     if len(points) < 3:
         raise OutlineUnusable("The Car's outline is unknown, so there is no way around it.")
     polygon = Polygon(points)
+    # Points on a line are an invalid polygon too; their hull tells them from one that crosses itself.
+    if polygon.convex_hull.area < LEAST_AREA_M2:
+        raise OutlineUnusable("The Car's outline has no size.")
     if not polygon.is_valid:
         raise OutlineUnusable("The Car's outline crosses itself.")
-    if polygon.area < LEAST_AREA_M2:
-        raise OutlineUnusable("The Car's outline has no size.")
     return polygon
 
 

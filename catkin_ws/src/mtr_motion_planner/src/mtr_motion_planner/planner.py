@@ -165,7 +165,7 @@ class MotionPlanner:
         wanted = follower.step(pose, robot, self._ramp.step_s)
         if wanted.lost:
             # The next tick plans from where the robot is; until then it goes on slowing down.
-            self._must_plan = True
+            self.follower, self._must_plan = None, True
             self._ramp.brake()
             return self._output(Result.PENDING, wanted.remaining_m)
         if wanted.finished:

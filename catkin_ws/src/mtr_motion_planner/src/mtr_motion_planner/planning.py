@@ -24,7 +24,7 @@ ON_AXIS_RAD = {Direction.ANY: math.radians(3.0), Direction.FORWARD: math.radians
 # Within this distance a correction may go either way, whatever direction was asked for.
 CORRECTION_M = 0.10
 # So many candidates are worked out at most, and so many that are free to drive are compared.
-TRIED, COMPARED = 120, 4
+TRIED, COMPARED = 120, 8
 LEAST_CLEARANCE_M = 0.02
 TURNING_RADPS = 0.05
 # A way longer than the straight line by more than this is compared with a stop and a new beginning.

@@ -32,6 +32,8 @@ class Site:
     def __init__(self, goal: Goal, car: Car, parameters: MotionParameters):
         """OutlineUnusable or PlanRefused when one cannot plan here."""
         self._car = car
+        if goal.unknown_frame:
+            raise PlanRefused(f"The goal's frame is {goal.unknown_frame}; allowed are car and map.")
         if not goal.pose.is_finite():
             raise PlanRefused("The goal is not a number.")
         if goal.in_car_frame and not car.located:

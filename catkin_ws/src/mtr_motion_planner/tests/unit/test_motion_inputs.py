@@ -41,6 +41,13 @@ BAD = {
     "goal not a number": dataclasses.replace(GOOD, order=with_goal(Pose2(6.0, NAN, 0.0))),
     "goal infinite": dataclasses.replace(GOOD, order=with_goal(Pose2(math.inf, 0.0, 0.0))),
     "speed limit not a number": dataclasses.replace(GOOD, order=dataclasses.replace(ORDER, max_speed_mps=NAN)),
+    "pose in the future": dataclasses.replace(GOOD, robot=dataclasses.replace(ROBOT, stamp_s=1.35)),
+    "order in the future": dataclasses.replace(GOOD, order=dataclasses.replace(ORDER, stamp_s=1.35)),
+    "car in the future": dataclasses.replace(GOOD, car=dataclasses.replace(CAR, stamp_s=1.35)),
+    "goal in a frame nobody knows": dataclasses.replace(GOOD, order=dataclasses.replace(
+        ORDER, goal=dataclasses.replace(ORDER.goal, unknown_frame="'odom'"))),
+    "outline of zero size": dataclasses.replace(GOOD, car=dataclasses.replace(CAR, outline=((0.0, 0.0),) * 4)),
+    "speed limit beyond the platform's": dataclasses.replace(GOOD, order=dataclasses.replace(ORDER, max_speed_mps=2.1)),
     "speed limit zero": dataclasses.replace(GOOD, order=dataclasses.replace(ORDER, max_speed_mps=0.0)),
 }
 
@@ -51,6 +58,28 @@ def test_bad_input_gives_zero_velocity(case):
     assert (output.linear_mps, output.angular_radps) == (0.0, 0.0)
     assert output.result in (Result.IDLE, Result.PENDING, Result.REFUSED)
     assert output.message.endswith(".") or output.goal_id == 0
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_robot_sets_out_when_the_input_is_good_again(case):
+    planner = MotionPlanner(MotionParameters())
+    planner.step(BAD[case])
+    for tick in range(1, 20):
+        now = 1.0 + 0.04 * tick
+        goal = dataclasses.replace(ORDER.goal, goal_id=2)
+        output = planner.step(Inputs(now, dataclasses.replace(ORDER, stamp_s=now, goal=goal),
+                                     dataclasses.replace(ROBOT, stamp_s=now), dataclasses.replace(CAR, stamp_s=now)))
+    assert abs(output.linear_mps) + abs(output.angular_radps) > 0.1
+
+
+SENTENCES = {"goal not a number": "not a number", "goal infinite": "not a number", "outline of zero size": "no size",
+             "speed limit beyond the platform's": "at most 2 m/s", "pose in the future": "in the future",
+             "goal in a frame nobody knows": "frame is 'odom'"}
+
+
+@pytest.mark.parametrize("case", SENTENCES)
+def test_sentence_says_what_is_wrong_with_the_input(case):
+    assert SENTENCES[case] in MotionPlanner(MotionParameters()).step(BAD[case]).message
 
 
 def test_input_that_turns_bad_in_mid_motion_gives_zero_at_once_and_goes_on_from_the_measured_speed():

@@ -7,10 +7,11 @@ from motion_simulation import PARAMETERS, SimulatedRobot
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction
-from mtr_motion_planner.conversions import markers_message, nav_goal_from, path_message
+from mtr_motion_planner.conversions import markers_message, nav_goal_from, order_from, path_message
 from mtr_motion_planner.inputs import NO_GOAL, Goal, Order
 from mtr_motion_planner.nav_goal import NavGoals
 from mtr_motion_planner.picture import picture_of
+from mtr_msgs.msg import RobotMode, Waypoint
 
 PLACE = Pose2(3.0, -2.0, 1.0)
 FREE = Order(1.0, NO_GOAL, 0.8, follows_waypoints=True)
@@ -66,3 +67,10 @@ def test_picture_shows_zone_way_and_goal_in_the_frame_of_the_plan():
     path = next(each.path for each in robot.outputs if each.path)
     assert path_message(path, None).header.frame_id == "car"
     assert output.goal_id == 1
+
+
+def test_goal_of_the_state_machine_in_an_unknown_frame_names_it():
+    message = RobotMode(goal=Waypoint(id=3, frame_id="odom"))
+    assert order_from(message).goal.unknown_frame == "'odom'"
+    message.goal.frame_id = "map"
+    assert order_from(message).goal.unknown_frame == ""

@@ -1,0 +1,102 @@
+"""Turning while driving: the turns on the spot at a drive's ends overlap with it, so that neither waits for the other.
+
+The robot leaves before it faces its way and turns away from it before it has come to rest. Speeds and yaw rates of the
+motions are added; where that leads is integrated, sideways slip included.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+from typing import List, Optional, Tuple
+
+import numpy as np
+
+from .limits import MotionLimits
+from .parameters import Slip
+from .timing import SAMPLE_S
+from .trajectory import Drive, Trajectory
+
+# Time by which the turns before and after the drive may overlap with it. The longest that keep the limits are taken.
+OVERLAPS_S = (1.8, 1.4, 1.0)
+PAIRS_S = tuple(sorted(((first, last) for first in OVERLAPS_S for last in OVERLAPS_S), key=sum, reverse=True))
+# Sampled rates differ from the limits by this; drive control allows more than the planner's limits.
+SAMPLING_SHARE = 1.03
+
+
+@dataclass(frozen=True)
+class Turns:
+    """A turn on the spot, a drive and another turn on the spot; None where no turn is needed."""
+
+    first: Optional[Trajectory]
+    drive: Trajectory
+    last: Optional[Trajectory]
+
+
+@dataclass(frozen=True)
+class Blend:
+    """The motions of some turns, overlapping; it cannot be timed anew in its middle."""
+
+    drive: Drive
+    trajectory: Trajectory
+
+    @property
+    def sign(self) -> int:
+        """-1: the rear leads."""
+        return self.drive.sign
+
+    @property
+    def length_m(self) -> float:
+        """Way of the turn centre."""
+        return self.drive.length_m
+
+    def timed(self, _limits: MotionLimits, _max_speed: float = 0.0, _start_speed: float = 0.0) -> Trajectory:
+        """From rest."""
+        return self.trajectory
+
+    def from_way(self, _way: float) -> None:
+        """The rest of it needs another plan."""
+
+
+def overlaps_of(turns: Turns) -> List[Tuple[float, float]]:
+    """Times by which both turns may overlap, the longest first."""
+    longest = [turn.duration_s if turn else 0.0 for turn in (turns.first, turns.last)]
+    return list(dict.fromkeys((min(first, longest[0]), min(last, longest[1])) for first, last in PAIRS_S))
+
+
+def overlapped(turns: Turns, overlap_s: Tuple[float, float], slip: Slip) -> Trajectory:
+    """The three at once, as far as they overlap."""
+    drive = turns.drive
+    before, after = (max(0.0, turn.duration_s - overlap) if turn else 0.0
+                     for turn, overlap in zip((turns.first, turns.last), overlap_s))
+    starts = np.round(np.array([0.0, before, before + drive.duration_s + after]) / SAMPLE_S).astype(int)
+    lengths = [len(part.ways) if part else 1 for part in (turns.first, drive, turns.last)]
+    starts[2] -= lengths[2] - 1
+    # The turn at the end may take longer than everything before it.
+    starts -= min(0, starts[2])
+    count = int(max(start + length for start, length in zip(starts, lengths)))
+
+    def spread(values: np.ndarray, which: int) -> np.ndarray:
+        rest = count - starts[which] - len(values)
+        return np.concatenate((np.full(starts[which], values[0]), values, np.full(rest, values[-1])))
+
+    heading = spread(drive.poses[:, 2], 1)
+    linear, angular, ways = spread(drive.linear, 1), spread(drive.angular, 1), spread(drive.ways, 1)
+    for which, turn in ((0, turns.first), (2, turns.last)):
+        if turn:
+            turned = spread(turn.poses[:, 2], which)
+            heading = heading + turned - (turned[-1] if which == 0 else turned[0])
+            angular = angular + spread(turn.angular, which)
+    begin = (turns.first or drive).poses[0]
+    aside = angular * (slip.acceleration_slip_s2 * np.gradient(linear, SAMPLE_S)
+                       - slip.curve_slip_s2 * linear * np.abs(angular))
+    steps = np.sign(linear.sum()) * np.diff(ways) + 0.5j * SAMPLE_S * (aside[1:] + aside[:-1])
+    places = np.concatenate(([0.0], np.cumsum(steps * np.exp(0.5j * (heading[1:] + heading[:-1])))))
+    poses = np.column_stack((begin[0] + places.real, begin[1] + places.imag, heading))
+    return Trajectory(ways, poses, linear, angular, drive.length_m)
+
+
+def keeps(trajectory: Trajectory, limits: MotionLimits) -> bool:
+    """True when yaw rate, its change and the acceleration across the robot stay within the limits."""
+    return bool((np.abs(trajectory.angular) <= SAMPLING_SHARE * limits.max_angular_radps).all()
+                and (np.abs(np.diff(trajectory.angular)) <=
+                     SAMPLING_SHARE * SAMPLE_S * limits.angular_acceleration_radps2).all()
+                and (np.abs(trajectory.linear * trajectory.angular) <=
+                     SAMPLING_SHARE * limits.lateral_acceleration_mps2).all())
