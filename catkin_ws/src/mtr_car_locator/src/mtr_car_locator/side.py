@@ -22,8 +22,9 @@ SUPPORT_SHARE = 0.12
 # surfels that are millimetres wrong would lie too far out.
 OUTERMOST_M = 0.02
 # A surfel's place is known better than its direction, and where the Car is round its ends stick out: so much of its
-# tilt is believed. Chosen on 20 recorded drives with 2 cm of noise, each mapped twice, together with OUTERMOST_M: widths
-# are off by -1 mm on average and 11 mm rms, lengths by 1 and 5 mm; with all of the tilt by 10 and 17 mm, 5 and 7 mm.
+# tilt is believed. Chosen on 20 recorded drives with 2 cm of noise, each mapped in two ways, together with OUTERMOST_M:
+# widths are off by -1 mm on average and 11 mm rms, lengths by 1 and 5 mm; with all of the tilt widths by 10 and 17 mm,
+# lengths by 5 and 7 mm.
 TILT_SHARE = 0.7
 MEAN_BELOW_M, MEAN_ABOVE_M = 0.006, 0.004
 EXTENT_SIGMA_FLOOR_M = 0.0015
