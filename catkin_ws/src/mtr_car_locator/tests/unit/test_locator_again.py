@@ -54,6 +54,31 @@ def test_moved_car_fails_with_the_difference(world, motion, difference_m):
     assert "allowed is 2.0 cm" in report.message
 
 
+def drifting(world, seed):
+    """Poses as in an open field with LiDARs of a data sheet: 1 cm rms in each direction, wandering within seconds."""
+    scene = world.scene
+    scene.drift_m, scene.drift_rad, scene.pose_sigma_m, scene.range_sigma_m = 0.01, 0.002, 0.01, 0.02
+    scene.rng = np.random.default_rng(seed)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_car_that_stands_gives_no_false_alarm_to_a_robot_that_is_a_centimetre_off(world, seed):
+    drifting(world, seed)
+    report = world.check(3).check
+    assert report.state is Check.PASSED and report.difference_m < 0.018
+    assert world.stand(LOOKED_AGAIN_S).revision == 1
+
+
+@pytest.mark.parametrize("seed, motion", [(1, (0.05, 0.0, 0.0)), (2, (0.05, 0.0, 0.0)), (3, (0.0, 0.05, 0.0)),
+                                          (4, (0.0, -0.05, 0.0))])
+def test_car_moved_by_5_cm_is_noticed_by_a_robot_that_is_a_centimetre_off(world, seed, motion):
+    drifting(world, seed)
+    moved(world, *motion)
+    report = world.check(3).check
+    assert report.state is Check.FAILED
+    assert report.difference_m == pytest.approx(0.05, abs=0.02)
+
+
 def test_turned_car_fails(world):
     moved(world, 0.0, 0.0, 0.8)
     report = world.check(4).check

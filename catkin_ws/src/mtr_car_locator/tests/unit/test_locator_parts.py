@@ -15,7 +15,7 @@ from mtr_car_locator.prior import prior_from_start
 from mtr_car_locator.rectangle import Rectangle
 from mtr_car_locator.ring import Ring, corners
 from mtr_car_locator.scan import Scan, returns_in_map
-from mtr_car_locator.side import Side
+from mtr_car_locator.side import Side, side_of
 from mtr_car_locator.surfel_grid import SurfelGrid
 from mtr_car_locator.surfels import surfels_from
 from mtr_core.errors import ConfigurationError
@@ -168,6 +168,15 @@ def test_mirror_does_not_count_for_the_width_and_a_bumper_does():
     sill, mirror, bumper = np.full(180, 0.88), np.full(20, 1.05), np.linspace(0.84, 0.90, 60)
     assert side(np.concatenate((sill, mirror))).extent().level == pytest.approx(0.88, abs=0.001)
     assert side(np.concatenate((sill, bumper))).extent().level == pytest.approx(0.893, abs=0.004)
+
+
+def test_end_of_a_tilted_surfel_sticks_out_less_than_its_tilt_says():
+    rows = [(x, 0.88, math.pi / 2.0, 0.1, 0.003, 20) for x in np.arange(-0.9, 0.95, 0.1)]
+    tilted = (1.1, 0.886, math.pi / 2.0 + math.radians(7.0), 0.25, 0.003, 20)
+    side_with_it = side_of("left", surfels_from(np.array([*rows, tilted])))
+    reach_m = 0.5 * 0.25 * math.sin(math.radians(7.0))
+    assert side_with_it.outward.max() < 0.886 + 0.75 * reach_m
+    assert side_with_it.extent().level == pytest.approx(0.893, abs=0.003)
 
 
 def test_extent_without_support_is_unknown():
