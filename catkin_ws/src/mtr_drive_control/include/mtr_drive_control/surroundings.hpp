@@ -62,9 +62,12 @@ class Surroundings {
     LidarWatch watch;
     EchoFinder finder;
     std::vector<Echo> echoes;
+    /// Of each echo.
+    std::vector<Kind> kinds;
   };
 
-  void look(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep);
+  bool look(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep);
+  void classify();
   std::string blindness_at(std::int64_t tick_ns) const;
   void find_obstacles();
 
