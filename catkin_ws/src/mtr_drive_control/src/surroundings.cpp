@@ -89,18 +89,22 @@ std::string Surroundings::blindness_at(std::int64_t tick_ns) const {
              : "";
 }
 
+void Surroundings::add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind) {
+  obstacles_.push_back({point, age_s(tick_ns_, seen_ns), kind, footprint_.distance_to(point)});
+}
+
 void Surroundings::find_obstacles() {
   for (const Lidar& lidar : lidars_) {
     for (std::size_t i = 0; i < lidar.echoes.size(); ++i) {
       const Echo& echo = lidar.echoes[i];
-      obstacles_.push_back({odom_from_base_.undo(echo.point), age_s(tick_ns_, echo.stamp_ns), lidar.kinds[i]});
+      add_obstacle(odom_from_base_.undo(echo.point), echo.stamp_ns, lidar.kinds[i]);
     }
   }
   if (!watches_rear_) {
     for (const LostThing& thing : ground_.lost_things(tick_ns_, kLostPersonS)) {
       const Point point = odom_from_base_.undo(thing.point);
       if (thing.was_moving && std::abs(std::atan2(point.y_m, point.x_m)) > kBehindRad) {
-        obstacles_.push_back({point, age_s(tick_ns_, thing.seen_ns), Kind::kLost});
+        add_obstacle(point, thing.seen_ns, Kind::kLost);
       }
     }
   }
