@@ -86,12 +86,10 @@ std::optional<Hindrance> CollisionStop::hindrance_of(const MotionWish& wish, con
   }
   const std::vector<PathPoint> path = stopping_path_of(wish.velocity, deceleration);
   const Obstacle* nearest = nullptr;
-  double nearest_m = 0.0;
   for (const Obstacle& obstacle : surroundings_.obstacles()) {
-    const double now_m = footprint_.distance_to(obstacle.point);
-    if ((nearest == nullptr || now_m < nearest_m) && is_in_reach(obstacle, wish, path)) {
+    const bool is_nearer = nearest == nullptr || obstacle.distance_m < nearest->distance_m;
+    if (is_nearer && may_be_reached(obstacle, path) && is_in_reach(obstacle, wish, path)) {
       nearest = &obstacle;
-      nearest_m = now_m;
     }
   }
   if (nearest != nullptr) {
@@ -99,6 +97,13 @@ std::optional<Hindrance> CollisionStop::hindrance_of(const MotionWish& wish, con
   }
   const bool unwatched = !surroundings_.watches_rear() && !wish.by_hand && wish.velocity.linear_mps < 0.0;
   return unwatched ? unseen_ground(path) : std::nullopt;
+}
+
+bool CollisionStop::may_be_reached(const Obstacle& obstacle, const std::vector<PathPoint>& path) const {
+  const double moved_m = kPathStepM * static_cast<double>(path.size() - 1);
+  const double walked_m = parameters_.person_speed_mps * (obstacle.age_s + path.back().time_s);
+  const double kept_m = std::max(parameters_.gap_m, parameters_.person_reach_m + walked_m);
+  return obstacle.distance_m - moved_m <= kept_m;
 }
 
 bool CollisionStop::is_in_reach(const Obstacle& obstacle, const MotionWish& wish,

@@ -35,8 +35,13 @@ MotionLocks::MotionLocks(const std::vector<std::string>& required_owners, double
   }
 }
 
-void MotionLocks::take(const std::string& owner, const Lock& lock) {
+bool MotionLocks::take(const std::string& owner, const Lock& lock) {
   locks_.try_emplace(owner, mtr_lockstep::kClockStep).first->second.add(lock.stamp_ns, lock);
+  if (!lock.engaged) {
+    engaged_owners_.erase(owner);
+    return false;
+  }
+  return engaged_owners_.insert(owner).second;
 }
 
 std::vector<EngagedLock> MotionLocks::engaged_at(std::int64_t tick_ns) {

@@ -81,7 +81,7 @@ void Node::listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>
       [this](const mtr_msgs::MotionLock::ConstPtr& message) {
         const Lock lock{mtr_lockstep::to_ns(message->header.stamp), static_cast<bool>(message->engaged),
                         message->reason};
-        locks_.take(message->owner, lock);
+        take(message->owner, lock);
       },
       ros::VoidConstPtr(), hints));
   for (const std::string& topic : e_stop_topics) {
@@ -89,9 +89,17 @@ void Node::listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>
         topic, 50,
         [this, topic](const std_msgs::Bool::ConstPtr& message) {
           const Lock lock{ticker_.now_ns(), static_cast<bool>(message->data), "The emergency stop is pressed."};
-          locks_.take(topic, lock);
+          take(topic, lock);
         },
         ros::VoidConstPtr(), hints));
+  }
+}
+
+void Node::take(const std::string& owner, const Lock& lock) {
+  // Callbacks run while the node waits for its next tick. A stop does not wait: its first step is taken now, and the
+  // next one a little early. In lock-step a tick is a tick.
+  if (locks_.take(owner, lock) && !mtr_lockstep::is_simulated()) {
+    tick(ticker_.now_ns());
   }
 }
 

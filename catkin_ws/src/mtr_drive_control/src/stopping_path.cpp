@@ -4,12 +4,6 @@
 #include "mtr_drive_control/stopping_path.hpp"
 
 namespace mtr_drive_control {
-namespace {
-
-// A turning corner bulges by 4 mm at most between two poses so far apart.
-constexpr double kStepM = 0.1;
-
-}  // namespace
 
 std::vector<PathPoint> stopping_path(const Velocity& velocity, const Deceleration& deceleration, double reaction_s,
                                      double radius_m) {
@@ -18,7 +12,7 @@ std::vector<PathPoint> stopping_path(const Velocity& velocity, const Deceleratio
   // Time for the same way at the full velocity.
   const double way_s = reaction_s + braking_s / 2.0;
   const double corner_mps = std::abs(velocity.linear_mps) + std::abs(velocity.angular_radps) * radius_m;
-  const int steps = std::max(1, static_cast<int>(std::ceil(corner_mps * way_s / kStepM)));
+  const int steps = std::max(1, static_cast<int>(std::ceil(corner_mps * way_s / kPathStepM)));
   std::vector<PathPoint> path;
   path.reserve(static_cast<std::size_t>(steps) + 1);
   for (int step = 0; step <= steps; ++step) {

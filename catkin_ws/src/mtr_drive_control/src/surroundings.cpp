@@ -23,19 +23,22 @@ Surroundings::Surroundings(const CollisionParameters& parameters, bool has_rear_
       footprint_{parameters.front_m, parameters.rear_m, parameters.half_width_m},
       watches_rear_(has_rear_lidar) {
   const LidarMount front{parameters.front_lidar_x_m, 0.0, parameters.front_lidar_yaw_rad};
-  lidars_.push_back({LidarWatch("front LiDAR", parameters.lidar_timeout_s), EchoFinder(front, footprint_), {}});
+  lidars_.push_back({LidarWatch("front LiDAR", parameters.lidar_timeout_s), EchoFinder(front, footprint_), {}, {}});
   if (has_rear_lidar) {
     const LidarMount rear{parameters.rear_lidar_x_m, 0.0, parameters.rear_lidar_yaw_rad};
-    lidars_.push_back({LidarWatch("rear LiDAR", parameters.lidar_timeout_s), EchoFinder(rear, footprint_), {}});
+    lidars_.push_back({LidarWatch("rear LiDAR", parameters.lidar_timeout_s), EchoFinder(rear, footprint_), {}, {}});
   }
 }
 
 void Surroundings::take(std::int64_t tick_ns, const Sensors& sensors) {
   tick_ns_ = tick_ns;
   motion_ = sensors.motion;
-  look(lidars_.front(), sensors.front);
+  bool has_looked = look(lidars_.front(), sensors.front);
   if (watches_rear_) {
-    look(lidars_.back(), sensors.rear);
+    has_looked = look(lidars_.back(), sensors.rear) || has_looked;
+  }
+  if (has_looked) {
+    classify();
   }
   blindness_ = blindness_at(tick_ns);
   obstacles_.clear();
@@ -50,11 +53,24 @@ bool Surroundings::was_free(const Point& point) const {
   return ground_.was_free(odom_from_base_.apply(point), tick_ns_, parameters_.ground_memory_s);
 }
 
-void Surroundings::look(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep) {
-  if (lidar.watch.take(sweep) && motion_) {
-    lidar.echoes = lidar.finder.find(*sweep, *motion_, kRangeOfInterestM);
-    ground_.look(*sweep, lidar.finder.mount(), *motion_);
-    ground_.remember(lidar.echoes, *motion_);
+bool Surroundings::look(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep) {
+  if (!lidar.watch.take(sweep) || !motion_) {
+    return false;
+  }
+  lidar.echoes = lidar.finder.find(*sweep, *motion_, kRangeOfInterestM);
+  ground_.look(*sweep, lidar.finder.mount(), *motion_);
+  ground_.remember(lidar.echoes, *motion_);
+  return true;
+}
+
+void Surroundings::classify() {
+  for (Lidar& lidar : lidars_) {
+    lidar.kinds.clear();
+    for (const Echo& echo : lidar.echoes) {
+      lidar.kinds.push_back(echo.is_wide || ground_.was_wide(echo.point) ? Kind::kWide
+                            : ground_.has_stood(echo.point)              ? Kind::kStanding
+                                                                         : Kind::kThing);
+    }
   }
 }
 
@@ -73,20 +89,22 @@ std::string Surroundings::blindness_at(std::int64_t tick_ns) const {
              : "";
 }
 
+void Surroundings::add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind) {
+  obstacles_.push_back({point, age_s(tick_ns_, seen_ns), kind, footprint_.distance_to(point)});
+}
+
 void Surroundings::find_obstacles() {
   for (const Lidar& lidar : lidars_) {
-    for (const Echo& echo : lidar.echoes) {
-      const Kind kind = echo.is_wide || ground_.was_wide(echo.point) ? Kind::kWide
-                        : ground_.has_stood(echo.point)              ? Kind::kStanding
-                                                                     : Kind::kThing;
-      obstacles_.push_back({odom_from_base_.undo(echo.point), age_s(tick_ns_, echo.stamp_ns), kind});
+    for (std::size_t i = 0; i < lidar.echoes.size(); ++i) {
+      const Echo& echo = lidar.echoes[i];
+      add_obstacle(odom_from_base_.undo(echo.point), echo.stamp_ns, lidar.kinds[i]);
     }
   }
   if (!watches_rear_) {
     for (const LostThing& thing : ground_.lost_things(tick_ns_, kLostPersonS)) {
       const Point point = odom_from_base_.undo(thing.point);
       if (thing.was_moving && std::abs(std::atan2(point.y_m, point.x_m)) > kBehindRad) {
-        obstacles_.push_back({point, age_s(tick_ns_, thing.seen_ns), Kind::kLost});
+        add_obstacle(point, thing.seen_ns, Kind::kLost);
       }
     }
   }

@@ -73,6 +73,8 @@ class CollisionStop {
 
  private:
   std::optional<Hindrance> hindrance_of(const MotionWish& wish, const Deceleration& deceleration) const;
+  /// False spares a closer look: it is too far away for any kind of obstacle.
+  bool may_be_reached(const Obstacle& obstacle, const std::vector<PathPoint>& path) const;
   bool is_in_reach(const Obstacle& obstacle, const MotionWish& wish, const std::vector<PathPoint>& path) const;
   bool gets_nearer_than(double limit_m, const Point& point, const std::vector<PathPoint>& path) const;
   bool is_approached_by_person(const Obstacle& obstacle, const std::vector<PathPoint>& path) const;

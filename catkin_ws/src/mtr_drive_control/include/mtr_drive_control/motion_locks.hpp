@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,8 @@ class MotionLocks {
   MotionLocks(const std::vector<std::string>& required_owners, double timeout_s,
               const std::optional<mtr_lockstep::Waiting>& waiting);
 
-  void take(const std::string& owner, const Lock& lock);
+  /// Takes an owner's word; true when it engages a lock that was released or never heard.
+  bool take(const std::string& owner, const Lock& lock);
 
   /// Locks that forbid motion at the tick, ordered by owner.
   std::vector<EngagedLock> engaged_at(std::int64_t tick_ns);
@@ -49,6 +51,7 @@ class MotionLocks {
   double timeout_s_;
   double age_s_ = 0.0;
   std::map<std::string, mtr_lockstep::Samples<Lock>> locks_;
+  std::set<std::string> engaged_owners_;
 };
 
 }  // namespace mtr_drive_control

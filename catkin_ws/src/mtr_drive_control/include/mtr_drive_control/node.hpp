@@ -59,6 +59,7 @@ class Node {
 
  private:
   void listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>& e_stop_topics);
+  void take(const std::string& owner, const Lock& lock);
   void tick(std::int64_t tick_ns);
   void publish(std::int64_t tick_ns, const Decision& decision);
   void log(const Decision& decision);

@@ -20,9 +20,10 @@ struct PathPoint {
   double time_s;
 };
 
+/// No corner of the robot moves more from one pose of a stopping path to the next; it bulges by 4 mm at most between.
+inline constexpr double kPathStepM = 0.1;
+
 /// Poses from now to standstill: the velocity is kept for the reaction, then reduced evenly along its own circle.
-///
-/// No corner of a robot of this radius moves more than 0.1 m from one pose to the next.
 std::vector<PathPoint> stopping_path(const Velocity& velocity, const Deceleration& deceleration, double reaction_s,
                                      double radius_m);
 

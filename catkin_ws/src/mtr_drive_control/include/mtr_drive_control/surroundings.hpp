@@ -38,6 +38,8 @@ struct Obstacle {
   Point point;
   double age_s;
   Kind kind;
+  /// From the footprint.
+  double distance_m;
 };
 
 /// Keeps what the newest sweeps tell.
@@ -62,10 +64,14 @@ class Surroundings {
     LidarWatch watch;
     EchoFinder finder;
     std::vector<Echo> echoes;
+    /// Of each echo.
+    std::vector<Kind> kinds;
   };
 
-  void look(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep);
+  bool look(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep);
+  void classify();
   std::string blindness_at(std::int64_t tick_ns) const;
+  void add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind);
   void find_obstacles();
 
   CollisionParameters parameters_;

@@ -39,6 +39,15 @@ TEST(MotionLocks, OwnerSilentForMoreThanTheTimeoutIsEngaged) {
   EXPECT_EQ(locks.engaged_at(1360 * kMs).at(0).reason, "The motion lock of dispatcher is silent.");
 }
 
+TEST(MotionLocks, OnlyTheFirstEngagedWordEngages) {
+  MotionLocks locks = locks_of({"dispatcher"});
+  EXPECT_FALSE(locks.take("dispatcher", {1000 * kMs, false, ""}));
+  EXPECT_TRUE(locks.take("dispatcher", {1100 * kMs, true, "Stop."}));
+  EXPECT_FALSE(locks.take("dispatcher", {1200 * kMs, true, "Stop."}));
+  EXPECT_FALSE(locks.take("dispatcher", {1300 * kMs, false, ""}));
+  EXPECT_TRUE(locks.take("dispatcher", {1400 * kMs, true, "Stop."}));
+}
+
 TEST(MotionLocks, AgeIsThatOfTheOwnerHeardLongestAgo) {
   MotionLocks locks = locks_of({"dispatcher", "state_machine"});
   locks.take("dispatcher", {1000 * kMs, false, ""});
