@@ -62,7 +62,8 @@ class Assembly:
 
     def _blends(self, candidate: Candidate, begin: Moving, end: Pose2, transit: List[Begun]) -> Iterator[Blend]:
         """The transit with turns that overlap with the drive, the quickest first."""
-        for overlap_s in overlaps_of(self._turns(transit)):
+        turns = self._turns(transit)
+        for overlap_s in overlaps_of(turns) if turns else []:
             blend = self._blend(candidate, begin, end, overlap_s)
             if blend:
                 yield blend
@@ -73,9 +74,9 @@ class Assembly:
         aim = end
         for _ in range(ATTEMPTS):
             transit = self._transit(candidate, begin, aim)
-            if transit is None:
+            turns = transit and self._turns(transit)
+            if not turns:
                 return None
-            turns = self._turns(transit)
             trajectory = overlapped(turns, overlap_s, self._parameters.footprint.slip)
             if not keeps(trajectory, self._parameters.limits):
                 return None
@@ -85,12 +86,13 @@ class Assembly:
             aim = Pose2(aim.x + end.x - x, aim.y + end.y - y, end.heading)
         return None
 
-    def _turns(self, transit: List[Begun]) -> Turns:
+    def _turns(self, transit: List[Begun]) -> Optional[Turns]:
+        """Their trajectories; None when the robot is too fast to stop on the drive."""
         limits = self._parameters.limits
         middle = next(index for index, (motion, _) in enumerate(transit) if isinstance(motion, Drive))
-        first, drive, last = (motions[0][0].timed(limits, self._speed) if motions else None for motions in (
-            transit[:middle], transit[middle:middle + 1], transit[middle + 1:]))
-        return Turns(first, drive, last)
+        first, drive, last = (motions[0][0].timed(limits, self._speed, max(motions[0][1], 0.0)) if motions else None
+                              for motions in (transit[:middle], transit[middle:middle + 1], transit[middle + 1:]))
+        return Turns(first, drive, last) if drive else None
 
     def _transit(self, candidate: Candidate, begin: Moving, end: Pose2) -> Optional[List[Begun]]:
         sign, shape = candidate.sign, candidate.shape
