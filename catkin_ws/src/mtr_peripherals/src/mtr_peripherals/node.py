@@ -13,6 +13,7 @@ from mtr_lockstep.samples import Samples
 from mtr_msgs.msg import (
     DesiredState,
     FirmwareCommand,
+    FirmwareHealth,
     FirmwarePress,
     FirmwareState,
     LiftCommand,
@@ -24,6 +25,7 @@ from .conversions import (
     battery_charge,
     command_message,
     firmware_report,
+    health_of,
     joint_message,
     orders,
     press_message,
@@ -32,6 +34,7 @@ from .conversions import (
 from .core import Outcome, Peripherals
 from .firmware import FirmwareReport
 from .firmware_clock import FirmwareClock, SharedClock
+from .health_watch import HealthWatch
 from .parameters import Parameters
 
 NS = 1e-9
@@ -55,6 +58,7 @@ class PeripheralsNode:
         self._reports = Samples(schedule.FIRMWARE, lag_ns, clock.is_simulated())
         self._battery: Tuple[int, Optional[float]] = (0, None)
         self._manual_lift = LiftCommand()
+        self._health = HealthWatch()
         self._seq = 0
         self._logged = None
         self._desired = TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER)
@@ -65,6 +69,7 @@ class PeripheralsNode:
         self._joints = publisher(names.JOINT_STATES, JointState)
         self._subscribers = (
             rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, self._take_state, queue_size=50, tcp_nodelay=True),
+            rospy.Subscriber(names.FIRMWARE_HEALTH, FirmwareHealth, self._take_health, queue_size=1),
             rospy.Subscriber(names.BATTERY, BatteryState, self._take_battery, queue_size=1),
             rospy.Subscriber(names.MANUAL_LIFT, LiftCommand, self._take_manual_lift, queue_size=1, tcp_nodelay=True))
         self._ticker = Ticker(schedule.PERIPHERALS)
@@ -98,6 +103,11 @@ class PeripheralsNode:
         report: FirmwareReport = firmware_report(message, stamp_ns, self._times)
         self._reports.add(stamp_ns, report)
         self._reports.wait_until_wanted()
+
+    def _take_health(self, message: FirmwareHealth) -> None:
+        sentence = self._health.sentence(health_of(message), clock.now_ns() * NS)
+        if sentence:
+            rospy.logwarn("%s", sentence)
 
     def _take_battery(self, message: BatteryState) -> None:
         self._battery = (clock.now_ns(), message.percentage)
