@@ -40,7 +40,8 @@ class HealthWatch:
         self._known = known
         if self._spoken_s is not None and now_s - self._spoken_s < QUIET_S:
             return ""
-        text = " ".join(part for part in (_refused(known, health), _line(known, health), _copies(known, health)) if part)
+        parts = (_refused(known, health), _line(known, health), _copies(known, health))
+        text = " ".join(part for part in parts if part)
         if text:
             self._known, self._spoken_s = health, now_s
         return text
