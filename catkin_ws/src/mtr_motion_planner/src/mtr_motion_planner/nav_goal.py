@@ -36,8 +36,8 @@ class NavGoals:
                 return order
             if order.goal.goal_id or not order.follows_waypoints:
                 self._goal = None
-                self._refusal = ("The goal from rviz is dropped: " + (
-                    "the Operator's goes before it." if order.goal.goal_id else "the robot is not ready for waypoints."))
+                why = "the Operator's goes before it" if order.goal.goal_id else "the robot is not ready for waypoints"
+                self._refusal = f"The goal from rviz is dropped: {why}."
                 return order
             return replace(order, goal=self._goal, max_speed_mps=self._speed_mps)
 
