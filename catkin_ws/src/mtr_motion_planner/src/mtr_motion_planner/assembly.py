@@ -32,14 +32,20 @@ Begun = Tuple[Motion, float]  # with its first speed
 
 
 class Assembly:
-    """Works out motions for one Car, robot and speed limit."""
+    """Works out motions for one Car, robot and speed limit.
+
+    Attributes:
+        blends_left: attempts to overlap turns with drives that may still be made; each takes some milliseconds.
+    """
 
     def __init__(self, keep_out: KeepOut, fence: Optional[Fence], parameters: MotionParameters, speed: float):
         self._keep_out, self._fence, self._parameters, self._speed = keep_out, fence, parameters, speed
+        self.blends_left = 0
         self._driving = Driving(parameters.limits, parameters.footprint.slip, speed)
 
-    def work_out(self, candidate: Candidate, start: Moving, goal: Pose2) -> Optional[List[Part]]:
-        """Parts of a candidate; None when its curve does not exist or is not free."""
+    def work_out(self, candidate: Candidate, start: Moving, goal: Pose2, best_s: float = math.inf
+                 ) -> Optional[List[Part]]:
+        """Parts of a candidate; None when its curve does not exist or is not free. best_s: nothing longer is wanted."""
         out, sign, into = candidate.out, candidate.sign, candidate.into
         before: List[Begun] = []
         after: List[Begun] = []
@@ -54,16 +60,20 @@ class Assembly:
         if transit is None:
             return None
         if len(transit) > 1:
-            for blend in self._blends(candidate, begin, end, transit):
+            for blend in self._blends(candidate, begin, end, transit, best_s):
                 parts = self.timed([*before, (blend, 0.0), *after], start.pose)
                 if parts:
                     return parts
         return self.timed([*before, *transit, *after], start.pose)
 
-    def _blends(self, candidate: Candidate, begin: Moving, end: Pose2, transit: List[Begun]) -> Iterator[Blend]:
+    def _blends(self, candidate: Candidate, begin: Moving, end: Pose2, transit: List[Begun], best_s: float
+                ) -> Iterator[Blend]:
         """The transit with turns that overlap with the drive, the quickest first."""
         turns = self._turns(transit)
         for overlap_s in overlaps_of(turns) if turns else []:
+            if self.blends_left == 0 or turns.duration_s - sum(overlap_s) >= best_s:
+                return
+            self.blends_left -= 1
             blend = self._blend(candidate, begin, end, overlap_s)
             if blend:
                 yield blend
