@@ -15,7 +15,7 @@ from .timing import SAMPLE_S
 from .trajectory import Drive, Trajectory
 
 # Time by which the turns before and after the drive may overlap with it. The longest that keep the limits are taken.
-OVERLAPS_S = (1.9, 1.7, 1.5, 1.3, 1.0)
+OVERLAPS_S = (1.8, 1.4, 1.0)
 PAIRS_S = tuple(sorted(((first, last) for first in OVERLAPS_S for last in OVERLAPS_S), key=sum, reverse=True))
 # Sampled rates differ from the limits by this; drive control allows more than the planner's limits.
 SAMPLING_SHARE = 1.03

@@ -26,7 +26,7 @@ CORRECTION_M = 0.10
 # So many candidates are worked out at most, and so many that are free to drive are compared.
 TRIED, COMPARED = 120, 8
 # Attempts to overlap turns with drives: a robot that moves is without a command for as long as its plan takes.
-STANDING_BLENDS, MOVING_BLENDS = 80, 12
+STANDING_BLENDS, MOVING_BLENDS = 40, 6
 LEAST_CLEARANCE_M = 0.02
 TURNING_RADPS = 0.05
 # A way longer than the straight line by more than this is compared with a stop and a new beginning.
