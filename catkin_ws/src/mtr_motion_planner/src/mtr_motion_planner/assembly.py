@@ -32,14 +32,20 @@ Begun = Tuple[Motion, float]  # with its first speed
 
 
 class Assembly:
-    """Works out motions for one Car, robot and speed limit."""
+    """Works out motions for one Car, robot and speed limit.
+
+    Attributes:
+        blends_left: attempts to overlap turns with drives that may still be made; each takes some milliseconds.
+    """
 
     def __init__(self, keep_out: KeepOut, fence: Optional[Fence], parameters: MotionParameters, speed: float):
         self._keep_out, self._fence, self._parameters, self._speed = keep_out, fence, parameters, speed
+        self.blends_left = 0
         self._driving = Driving(parameters.limits, parameters.footprint.slip, speed)
 
-    def work_out(self, candidate: Candidate, start: Moving, goal: Pose2) -> Optional[List[Part]]:
-        """Parts of a candidate; None when its curve does not exist or is not free."""
+    def work_out(self, candidate: Candidate, start: Moving, goal: Pose2, best_s: float = math.inf
+                 ) -> Optional[List[Part]]:
+        """Parts of a candidate; None when its curve does not exist or is not free. best_s: nothing longer is wanted."""
         out, sign, into = candidate.out, candidate.sign, candidate.into
         before: List[Begun] = []
         after: List[Begun] = []
@@ -54,15 +60,20 @@ class Assembly:
         if transit is None:
             return None
         if len(transit) > 1:
-            for blend in self._blends(candidate, begin, end, transit):
+            for blend in self._blends(candidate, begin, end, transit, best_s):
                 parts = self.timed([*before, (blend, 0.0), *after], start.pose)
                 if parts:
                     return parts
         return self.timed([*before, *transit, *after], start.pose)
 
-    def _blends(self, candidate: Candidate, begin: Moving, end: Pose2, transit: List[Begun]) -> Iterator[Blend]:
+    def _blends(self, candidate: Candidate, begin: Moving, end: Pose2, transit: List[Begun], best_s: float
+                ) -> Iterator[Blend]:
         """The transit with turns that overlap with the drive, the quickest first."""
-        for overlap_s in overlaps_of(self._turns(transit)):
+        turns = self._turns(transit)
+        for overlap_s in overlaps_of(turns) if turns else []:
+            if self.blends_left == 0 or turns.duration_s - sum(overlap_s) >= best_s:
+                return
+            self.blends_left -= 1
             blend = self._blend(candidate, begin, end, overlap_s)
             if blend:
                 yield blend
@@ -73,9 +84,9 @@ class Assembly:
         aim = end
         for _ in range(ATTEMPTS):
             transit = self._transit(candidate, begin, aim)
-            if transit is None:
+            turns = transit and self._turns(transit)
+            if not turns:
                 return None
-            turns = self._turns(transit)
             trajectory = overlapped(turns, overlap_s, self._parameters.footprint.slip)
             if not keeps(trajectory, self._parameters.limits):
                 return None
@@ -85,12 +96,13 @@ class Assembly:
             aim = Pose2(aim.x + end.x - x, aim.y + end.y - y, end.heading)
         return None
 
-    def _turns(self, transit: List[Begun]) -> Turns:
+    def _turns(self, transit: List[Begun]) -> Optional[Turns]:
+        """Their trajectories; None when the robot is too fast to stop on the drive."""
         limits = self._parameters.limits
         middle = next(index for index, (motion, _) in enumerate(transit) if isinstance(motion, Drive))
-        first, drive, last = (motions[0][0].timed(limits, self._speed) if motions else None for motions in (
-            transit[:middle], transit[middle:middle + 1], transit[middle + 1:]))
-        return Turns(first, drive, last)
+        first, drive, last = (motions[0][0].timed(limits, self._speed, max(motions[0][1], 0.0)) if motions else None
+                              for motions in (transit[:middle], transit[middle:middle + 1], transit[middle + 1:]))
+        return Turns(first, drive, last) if drive else None
 
     def _transit(self, candidate: Candidate, begin: Moving, end: Pose2) -> Optional[List[Begun]]:
         sign, shape = candidate.sign, candidate.shape

@@ -29,6 +29,11 @@ class Turns:
     drive: Trajectory
     last: Optional[Trajectory]
 
+    @property
+    def duration_s(self) -> float:
+        """One after the other."""
+        return sum(part.duration_s for part in (self.first, self.drive, self.last) if part)
+
 
 @dataclass(frozen=True)
 class Blend:

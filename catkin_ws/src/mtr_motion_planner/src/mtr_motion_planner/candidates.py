@@ -16,8 +16,8 @@ from .route import Ring, facing, moved
 from .shaping import Shape, route_of
 
 # Radii of the turns at both ends, in m, beside the one that is driven at full speed: about as tight as linear and
-# angular acceleration build up together from rest, and half of it.
-TIGHT_RADII_M = (0.2, 0.45)
+# angular acceleration build up together from rest. Tighter turns are made while the robot sets out (blend.py).
+TIGHT_RADII_M = (0.45,)
 LARGEST_RING_M = 1.5
 MOVING_MPS = 0.02
 # A robot that moves has no time to build up a high yaw rate in a short turn: radii, as shares of that at full speed.

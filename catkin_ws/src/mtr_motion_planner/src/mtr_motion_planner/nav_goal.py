@@ -21,6 +21,7 @@ class NavGoals:
         self._lock = threading.Lock()
         self._count = 0
         self._goal: Optional[Goal] = None
+        self._refusal = ""
 
     def take(self, pose: Pose2, in_car_frame: bool) -> None:
         """A goal has been set; from any thread."""
@@ -35,5 +36,13 @@ class NavGoals:
                 return order
             if order.goal.goal_id or not order.follows_waypoints:
                 self._goal = None
+                why = "the Operator's goes before it" if order.goal.goal_id else "the robot is not ready for waypoints"
+                self._refusal = f"The goal from rviz is dropped: {why}."
                 return order
             return replace(order, goal=self._goal, max_speed_mps=self._speed_mps)
+
+    def refusal(self) -> str:
+        """Sentence, once, that says why the newest goal was dropped; empty when it was not."""
+        with self._lock:
+            said, self._refusal = self._refusal, ""
+            return said

@@ -62,6 +62,9 @@ class MotionPlannerNode:
     def tick(self, tick_ns: int) -> None:
         """One step of the planner."""
         order = self._nav_goals.joined(order_from(self._mode.at(tick_ns)))
+        refusal = self._nav_goals.refusal()
+        if refusal:
+            rospy.logwarn("%s", refusal)
         inputs = Inputs(tick_ns * 1e-9, order, robot_from(self._pose.at(tick_ns)),
                         car_from(self._car.at(tick_ns)), drive_from(self._drive.at(tick_ns)))
         output = self._planner.step(inputs)

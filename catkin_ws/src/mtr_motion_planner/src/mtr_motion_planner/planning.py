@@ -25,6 +25,8 @@ ON_AXIS_RAD = {Direction.ANY: math.radians(3.0), Direction.FORWARD: math.radians
 CORRECTION_M = 0.10
 # So many candidates are worked out at most, and so many that are free to drive are compared.
 TRIED, COMPARED = 120, 8
+# Attempts to overlap turns with drives: a robot that moves is without a command for as long as its plan takes.
+STANDING_BLENDS, MOVING_BLENDS = 40, 6
 LEAST_CLEARANCE_M = 0.02
 TURNING_RADPS = 0.05
 # A way longer than the straight line by more than this is compared with a stop and a new beginning.
@@ -42,6 +44,7 @@ class Planning:
     def plan(self, start: Moving, goal: Goal) -> Plan:
         """The quickest plan found that goes on from the present motion, with a stop first if need be."""
         self._check(start.pose, goal.pose)
+        self._assembly.blends_left = MOVING_BLENDS if _moves(start) else STANDING_BLENDS
         turns_on_the_spot = _moves(start) and abs(start.linear_mps) <= MOVING_MPS
         parts = None if turns_on_the_spot else self._parts(start, goal)
         if _moves(start) and self._may_gain_by_a_stop(parts, start.pose, goal.pose):
@@ -98,7 +101,8 @@ class Planning:
         for candidate in self._candidates.between(start, goal)[:TRIED]:
             if compared == COMPARED or best is not None and candidate.time_s >= duration_of(best):
                 break
-            parts = self._assembly.work_out(candidate, start, goal.pose)
+            best_s = math.inf if best is None else duration_of(best)
+            parts = self._assembly.work_out(candidate, start, goal.pose, best_s)
             if parts is not None:
                 compared += 1
                 best = quicker(best, parts)

@@ -16,7 +16,7 @@ from .trajectory import Reference
 # control, and the wheels' response.
 DELAY_S = 0.06
 ALONG_GAIN_PER_S = 2.0
-HEADING_GAIN_PER_S = 2.5
+HEADING_GAIN_PER_S = 5.5
 # An offset decays over this length, at higher speeds over more, as the loop's delay bounds the gain.
 OFFSET_LENGTH_M = 0.2
 HEADING_GAIN_MAX_PER_S = 6.0

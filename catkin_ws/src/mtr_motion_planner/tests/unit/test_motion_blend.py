@@ -8,6 +8,7 @@ from motion_simulation import PARAMETERS, SimulatedRobot, car_at
 
 from mtr_core.se2 import Pose2, wrap_angle
 from mtr_core.states import Direction, Result
+from mtr_motion_planner.blend import Blend
 from mtr_motion_planner.keep_out import KeepOut
 from mtr_motion_planner.limits import rest_to_rest_time
 from mtr_motion_planner.options import Goal
@@ -99,3 +100,11 @@ def test_goal_replaced_in_a_blend_is_reached_without_a_jump(after_s):
     robot.go(2, -2.0, -4.0, 120.0)
     assert robot.run().result == Result.REACHED
     assert robot.largest_step() <= 0.04 + 1e-6
+
+
+@pytest.mark.parametrize("end", [Pose2(4.0, -6.0, -2.6), Pose2(5.0, -6.0, 2.8), Pose2(3.0, -6.3, 2.5)])
+def test_plan_with_a_blend_at_its_end_goes_on_from_the_present_speed(end):
+    keep_out = KeepOut(car_at().outline, PARAMETERS.footprint)
+    plan = Planning(keep_out, None, PARAMETERS, 0.7).plan(Moving(START, 0.5), Goal(end, Direction.ANY))
+    assert isinstance(plan.parts[0].motion, Blend)
+    assert plan.parts[0].trajectory.linear[:3] == pytest.approx(0.5, abs=0.05)

@@ -32,7 +32,9 @@ def test_operators_goal_goes_first_and_ends_the_one_from_rviz():
     goals.take(PLACE, in_car_frame=True)
     operators = Order(1.0, Goal(7, True, PLACE, Direction.ANY), 0.8, follows_waypoints=True)
     assert goals.joined(operators) == operators
+    assert "Operator" in goals.refusal()
     assert goals.joined(FREE) == FREE
+    assert goals.refusal() == ""
 
 
 def test_goal_from_rviz_moves_nothing_in_another_state():
@@ -40,7 +42,9 @@ def test_goal_from_rviz_moves_nothing_in_another_state():
     goals.take(PLACE, in_car_frame=True)
     starting = Order(1.0, NO_GOAL, 0.8, follows_waypoints=False)
     assert goals.joined(starting) == starting
+    assert "not ready" in goals.refusal()
     assert goals.joined(None) is None
+    assert goals.refusal() == ""
 
 
 def test_goal_from_rviz_in_an_unknown_frame_is_none():

@@ -11,6 +11,7 @@ from mtr_lockstep import clock
 from mtr_msgs.msg import (
     DesiredState,
     FirmwareCommand,
+    FirmwareHealth,
     FirmwarePress,
     FirmwareState,
     PeripheralsState,
@@ -21,9 +22,16 @@ from mtr_msgs.msg import (
 from .core import Orders, Outcome
 from .firmware import FirmwareOrder, FirmwareReport, PressState
 from .firmware_clock import FirmwareClock, SharedClock
+from .health_watch import Health
 from .presses import PressOrder, PressResult
 
 JOINTS = ("lift", "front_left_wheel", "front_right_wheel", "rear_left_wheel", "rear_right_wheel")
+
+
+def health_of(message: FirmwareHealth) -> Health:
+    """The firmware's counters that a person may have to know of."""
+    return Health(message.refused_commands, message.last_refusal, message.checksum_errors, message.skipped_frames,
+                  message.calibration_copies)
 
 
 def orders(desired: Optional[DesiredState], mode: Optional[RobotMode]) -> Orders:

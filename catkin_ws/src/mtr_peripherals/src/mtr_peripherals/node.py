@@ -14,6 +14,7 @@ from mtr_msgs.msg import (
     DesiredState,
     DriveStatus,
     FirmwareCommand,
+    FirmwareHealth,
     FirmwarePress,
     FirmwareState,
     LiftCommand,
@@ -25,6 +26,7 @@ from .conversions import (
     battery_charge,
     command_message,
     firmware_report,
+    health_of,
     joint_message,
     orders,
     press_message,
@@ -33,6 +35,7 @@ from .conversions import (
 from .core import Outcome, Peripherals
 from .firmware import FirmwareReport
 from .firmware_clock import FirmwareClock, SharedClock
+from .health_watch import HealthWatch
 from .parameters import Parameters
 
 NS = 1e-9
@@ -56,6 +59,7 @@ class PeripheralsNode:
         self._reports = Samples(schedule.FIRMWARE, lag_ns, clock.is_simulated())
         self._battery: Tuple[int, Optional[float]] = (0, None)
         self._manual_lift = LiftCommand()
+        self._health = HealthWatch()
         self._seq = 0
         self._logged = None
         self._desired = TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER)
@@ -69,6 +73,7 @@ class PeripheralsNode:
         self._joints = publisher(names.JOINT_STATES, JointState)
         self._subscribers = (
             rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, self._take_state, queue_size=50, tcp_nodelay=True),
+            rospy.Subscriber(names.FIRMWARE_HEALTH, FirmwareHealth, self._take_health, queue_size=1),
             rospy.Subscriber(names.BATTERY, BatteryState, self._take_battery, queue_size=1),
             rospy.Subscriber(names.MANUAL_LIFT, LiftCommand, self._take_manual_lift, queue_size=1, tcp_nodelay=True))
         self._ticker = Ticker(schedule.PERIPHERALS)
@@ -102,6 +107,11 @@ class PeripheralsNode:
         report: FirmwareReport = firmware_report(message, stamp_ns, self._times)
         self._reports.add(stamp_ns, report)
         self._reports.wait_until_wanted()
+
+    def _take_health(self, message: FirmwareHealth) -> None:
+        sentence = self._health.sentence(health_of(message), clock.now_ns() * NS)
+        if sentence:
+            rospy.logwarn("%s", sentence)
 
     def _take_battery(self, message: BatteryState) -> None:
         self._battery = (clock.now_ns(), message.percentage)
