@@ -133,7 +133,7 @@ TEST_F(LeaningViewTest, LevelRobotThatSeesBeyondTheMapIsContradicted) {
 
 TEST_F(LeaningViewTest, LookingUnderTheMapOrAtTheGroundSaysNothing) {
   const Agreement agreement = seen(12.0F, -0.03);
-  EXPECT_EQ(agreement.expected(), 0);
+  EXPECT_EQ(agreement.hidden + agreement.beyond + agreement.missing, 0);
   EXPECT_EQ(agreement.unknown, 0);
 }
 
