@@ -59,8 +59,8 @@ ScanPoints SweepMean::mean() const {
       }
     }
     if (2.0 * count >= scans_) {
-      scan.points.push_back({sum.position / count, sum.direction.normalized(), sum.range_m / count,
-                               sum.rise_m / count});
+      scan.points.push_back(
+          {sum.position / count, sum.direction.normalized(), sum.range_m / count, sum.rise_m / count});
     }
   }
   return scan;

@@ -22,7 +22,10 @@ constexpr double kNearGroundM = 0.17;
 class Converter {
  public:
   Converter(const Sweep& sweep, const FilterHistory& motion, ScanPoints& scan)
-      : sweep_(sweep), motion_(motion), scan_(scan), odom_from_ref_(motion.odom_at(scan.stamp_ns)),
+      : sweep_(sweep),
+        motion_(motion),
+        scan_(scan),
+        odom_from_ref_(motion.odom_at(scan.stamp_ns)),
         slope_(motion.at(motion.nearest(scan.stamp_ns)).input.slope) {}
 
   void run() {
