@@ -16,7 +16,9 @@ class NodeProcess:
 
     def __init__(self, package: str, executable: str, name: str, **parameters: Any):
         path = roslib.packages.find_node(package, executable)[0]
-        values = [f"_{key}:={json.dumps(value)}" for key, value in parameters.items()]
+        # Of C++ nodes a quoted text would keep its quotes.
+        values = [f"_{key}:={value if isinstance(value, str) else json.dumps(value)}"
+                  for key, value in parameters.items()]
         self._process = subprocess.Popen([path, f"__name:={name}", *values], stdout=subprocess.PIPE, text=True)
 
     def output(self) -> str:

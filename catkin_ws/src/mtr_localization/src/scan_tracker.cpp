@@ -123,9 +123,11 @@ void ScanTracker::judge(const Look& look, const FilterHistory& history) {
   // all round; a pose that is wrong fails both.
   figures_.agreement = std::max(all.share_of_expected(), all.share_of_returns());
   agrees_ = all.expected() < kLeastEvidence || figures_.agreement >= parameters_.least_agreement;
+  const bool is_hidden = all.hidden > all.beyond + all.missing + all.passed;
+  const double patience_s = is_hidden ? parameters_.lost_hidden_after_s : parameters_.lost_after_s;
   if (agrees_) {
     agreed_ns_ = step.stamp_ns;
-  } else if (static_cast<double>(step.stamp_ns - agreed_ns_) * 1e-9 >= parameters_.lost_after_s) {
+  } else if (static_cast<double>(step.stamp_ns - agreed_ns_) * 1e-9 >= patience_s) {
     lose("Position lost: the LiDAR does not see what the map shows here. Searching near the last position.");
   }
   if (sigma_m > parameters_.lost_sigma_m && state_ == State::kLocalized) {

@@ -4,7 +4,6 @@
 #include "mtr_localization/view_agreement.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +24,8 @@ constexpr double kTolerancePerM = 0.02;
 // What is met so far above or below the LiDAR's own height need not be what the map shows: sills and bumpers are about
 // as high.
 constexpr double kSameHeightM = 0.1;
+// Surfaces so far aside, in bins, are not compared any more: 10 degrees.
+constexpr int kMostAside = 20;
 
 int bin_of(double angle_rad) {
   const int bin = static_cast<int>(std::floor(angle_rad * kBinsPerRad)) % kBins;
@@ -64,36 +65,56 @@ class ExpectedView {
 };
 
 /// One beam.
-struct Comparison {
-  /// Expected in this direction, and in those beside it.
-  std::array<double, 3> ranges;
+struct Beam {
+  int bin;
   double shown;
   /// Rise per metre.
   double climb;
-  double tolerance_m;
 
-  bool agrees(double range) const { return std::abs(range - shown) <= tolerance_m + kTolerancePerM * range; }
   /// So far away the beam is at another height than the map.
   bool is_off_plane_at(double range) const { return std::abs(climb) > kSameHeightM / range; }
 };
 
-void count(const Comparison& beam, Agreement& agreement) {
-  const auto& [left, expected, right] = beam.ranges;
+/// What is expected round a beam, as far aside as a surface may be off.
+struct Surroundings {
+  bool agrees = false;
+  /// Nothing is expected somewhere there.
+  bool has_gap = false;
+};
+
+Surroundings look_around(const ExpectedView& view, const Beam& beam, double tolerance_m) {
+  const double nearest = std::min(beam.shown, view.nearest(beam.bin));
+  const double aside_rad = nearest < kNothing ? (tolerance_m + kTolerancePerM * nearest) / nearest : 0.0;
+  const int aside = std::clamp(static_cast<int>(std::ceil(aside_rad * kBinsPerRad)), 1, kMostAside);
+  Surroundings found;
+  for (int bin = beam.bin - aside; bin <= beam.bin + aside; ++bin) {
+    const double range = view.nearest(bin);
+    if (range == kNothing) {
+      found.has_gap = true;
+    } else if (std::abs(range - beam.shown) <= tolerance_m + kTolerancePerM * range) {
+      found.agrees = true;
+    }
+  }
+  return found;
+}
+
+void count(const ExpectedView& view, const Beam& beam, double tolerance_m, Agreement& agreement) {
+  const double expected = view.nearest(beam.bin);
+  const Surroundings around = look_around(view, beam, tolerance_m);
   if (expected == kNothing) {
-    const bool is_known = beam.shown == kNothing || beam.agrees(left) || beam.agrees(right);
+    const bool is_known = beam.shown == kNothing || around.agrees;
     agreement.unknown += is_known || beam.is_off_plane_at(beam.shown) ? 0 : 1;
-  } else if (beam.agrees(left) || beam.agrees(expected) || beam.agrees(right)) {
+  } else if (around.agrees) {
     ++agreement.seen;
   } else if (beam.is_off_plane_at(std::min(beam.shown, expected))) {
     // It looks over or under what is expected, or at the ground before it.
     return;
   } else if (beam.shown < expected) {
     ++agreement.hidden;
-  } else if (beam.shown == kNothing) {
-    // At an edge the beam may just pass.
-    agreement.missing += left != kNothing && right != kNothing ? 1 : 0;
+  } else if (around.has_gap) {
+    ++agreement.passed;
   } else {
-    ++agreement.beyond;
+    ++(beam.shown == kNothing ? agreement.missing : agreement.beyond);
   }
 }
 
@@ -104,11 +125,16 @@ Agreement& Agreement::operator+=(const Agreement& other) {
   hidden += other.hidden;
   beyond += other.beyond;
   missing += other.missing;
+  passed += other.passed;
   unknown += other.unknown;
   return *this;
 }
 
-double Agreement::share_of_expected() const { return expected() > 0 ? static_cast<double>(seen) / expected() : 1.0; }
+double Agreement::share_of_expected() const {
+  // Where nothing is seen of what is expected, its edges excuse nothing.
+  const int excused = std::min(passed, seen);
+  return expected() > 0 ? static_cast<double>(seen) / (expected() - excused) : 1.0;
+}
 
 double Agreement::share_of_returns() const {
   const int returns = seen + hidden + beyond + unknown;
@@ -133,8 +159,7 @@ Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap
     const double shown = measured <= sweep.range_max_m ? measured : kNothing;
     const double angle_in_base = sweep.mount.z() + sweep.angle_min_rad + beam * sweep.angle_increment_rad;
     const double climb = view.slope.dot(Eigen::Vector2d(std::cos(angle_in_base), std::sin(angle_in_base)));
-    count({{expected.nearest(bin - 1), expected.nearest(bin), expected.nearest(bin + 1)}, shown, climb, tolerance_m},
-          agreement);
+    count(expected, {bin, shown, climb}, tolerance_m, agreement);
   }
   return agreement;
 }

@@ -27,6 +27,9 @@ struct TrackingParameters {
   /// `lost_after_s`; else the pose is lost.
   double least_agreement = 0.55;
   double lost_after_s = 0.6;
+  /// The same while most of it is hidden by something nearer, which says less: a person, or the Car's body above its
+  /// tyres while the robot brakes and pitches, which takes 1 s.
+  double lost_hidden_after_s = 1.5;
   /// A position less certain than this, 1 sigma in the worst direction, is lost.
   double lost_sigma_m = 0.3;
   /// The search for a lost pose covers so much round the last one, in x and y; all headings.
@@ -49,7 +52,7 @@ struct TrackingParameters {
 using TrackingRow = mtr_lockstep::ParameterRow<TrackingParameters>;
 
 /// Range and unit of each parameter.
-inline constexpr std::array<TrackingRow, 18> kTrackingRows{{
+inline constexpr std::array<TrackingRow, 19> kTrackingRows{{
     {"range_sigma_m", &TrackingParameters::range_sigma_m, 0.001, 0.2, "m"},
     {"beam_angle_sigma_rad", &TrackingParameters::beam_angle_sigma_rad, 0.0, 0.05, "rad"},
     {"independent_share", &TrackingParameters::independent_share, 0.01, 1.0, ""},
@@ -58,6 +61,7 @@ inline constexpr std::array<TrackingRow, 18> kTrackingRows{{
     {"degenerate_sigma_m", &TrackingParameters::degenerate_sigma_m, 0.01, 5.0, "m"},
     {"least_agreement", &TrackingParameters::least_agreement, 0.0, 1.0, ""},
     {"lost_after_s", &TrackingParameters::lost_after_s, 0.1, 10.0, "s"},
+    {"lost_hidden_after_s", &TrackingParameters::lost_hidden_after_s, 0.1, 10.0, "s"},
     {"lost_sigma_m", &TrackingParameters::lost_sigma_m, 0.02, 10.0, "m"},
     {"search_radius_m", &TrackingParameters::search_radius_m, 0.5, 10.0, "m"},
     {"found_agreement", &TrackingParameters::found_agreement, 0.1, 1.0, ""},

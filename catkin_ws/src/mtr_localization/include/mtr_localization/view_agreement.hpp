@@ -21,12 +21,14 @@ struct Agreement {
   int beyond = 0;
   /// Nothing, where a surface is expected: it is not there, or the LiDAR looks over or under it.
   int missing = 0;
+  /// Nothing, or something behind it, beside an edge of the surface: the beam may just pass.
+  int passed = 0;
   /// Something where the map has nothing.
   int unknown = 0;
 
   Agreement& operator+=(const Agreement& other);
   /// Beams that meet what the map shows, or should.
-  int expected() const { return seen + hidden + beyond + missing; }
+  int expected() const { return seen + hidden + beyond + missing + passed; }
   /// Share of the expected view that is seen, 0 to 1; 1 when nothing is expected.
   double share_of_expected() const;
   /// Share of the returns that the map explains, 0 to 1; without returns 1 when none is expected, else 0.

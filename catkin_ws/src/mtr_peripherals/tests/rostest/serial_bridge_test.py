@@ -22,6 +22,7 @@ from mtr_peripherals.serial_link.fake_device import FakeDevice
 from mtr_peripherals.serial_link.wire import Special, TopicInfo
 
 LIMIT_S = 10.0
+SAY_EVERY_S = 0.1
 ECHO, HEALTH, CALL, ANSWER = 125, 126, 101, 127
 
 
@@ -55,9 +56,9 @@ class Heard:
         with self._changed:
             self._messages.clear()
 
-    def wait_for(self, fits):
+    def wait_for(self, fits, limit_s=LIMIT_S):
         with self._changed:
-            return self._changed.wait_for(lambda: any(fits(message) for message in self._messages), LIMIT_S)
+            return self._changed.wait_for(lambda: any(fits(message) for message in self._messages), limit_s)
 
 
 class SerialBridgeTest(unittest.TestCase):
@@ -82,9 +83,13 @@ class SerialBridgeTest(unittest.TestCase):
         return self.diagnostics.wait_for(lambda message: part in message.status[0].message)
 
     def hears_device(self, seq):
+        """The device says it again and again, as firmware does: its first word may come before ROS has connected."""
         self.echoes.clear()
-        self.board.say(self.board.device.say(ECHO, bytes((seq,))))
-        return self.echoes.wait_for(lambda message: message.seq == seq)
+        for _ in range(round(LIMIT_S / SAY_EVERY_S)):
+            self.board.say(self.board.device.say(ECHO, bytes((seq,))))
+            if self.echoes.wait_for(lambda message: message.seq == seq, SAY_EVERY_S):
+                return True
+        return False
 
     def call(self):
         rospy.wait_for_service("/device/loggers", LIMIT_S)
