@@ -174,3 +174,19 @@ def test_campaign_kidnapping_and_latency_are_told_to_a_person():
     assert "Campaign of 0.0 h, standing: 0.40 cm at the beginning, 0.40 cm at the end." in said
     assert any(line.startswith("Kidnapped: 1 of 1 noticed, the slowest after 0.50 s; 0 recovered") for line in said)
     assert any(line.startswith("Sweep to tf: 1.0 ms (median), 1.0 ms (99 %), 0 of 100 without") for line in said)
+
+
+@pytest.mark.parametrize(("variant", "name"), [(drives.RANGE_BIAS, table.BIAS.name), (drives.TILT, table.TILTED.name)])
+def test_failed_drive_with_a_further_error_is_not_met(variant, name):
+    failed = DriveResult(Drive(drives.options("lot", 9), variant), {}, {THIS_SYSTEM: "The Car was not located."}, [])
+    assert rows(all_results())[name]["met"] is True
+    assert rows([*all_results(), failed])[name]["met"] is False
+
+
+def test_row_says_for_how_long_the_position_was_unknown():
+    half = joined([errors(0.004), errors(np.nan)])
+    found = rows([DriveResult(Drive(drives.options("lot", 1), drives.PLAIN), {THIS_SYSTEM: Outcome(half, 0.5, CAR)},
+                              {}, [])])["lot, standing"]
+    assert found["unknown_share"] == pytest.approx(0.5)
+    assert found["value"] == pytest.approx(0.004)
+    assert table.printed(found).endswith("unknown for 50.0 % of the time")

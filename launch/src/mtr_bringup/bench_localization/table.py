@@ -50,14 +50,17 @@ TILTED = Goal("factor with 1 deg of tilt, worst of the positions", "(ratio)", 1.
 
 def rows(outcomes: Outcomes, failures: Dict[str, Dict[str, str]]) -> List[Dict[str, Any]]:
     """The whole table; a row with a drive that gave nothing is not met, whatever the others gave."""
-    table = [judged(row.goal, position(outcomes, row, PLAIN), failed(failures, row.scene)) for row in POSITIONS]
+    table = [{**judged(row.goal, position(outcomes, row, PLAIN), failed(failures, row.scene, PLAIN)),
+              "unknown_share": unknown_share(outcomes, row)} for row in POSITIONS]
     plain = [each for scene in SCENES for each in outcomes[scene].get(PLAIN, {}).values()]
     errors = joined([each.errors for each in plain])
-    table.append(judged(YAW, percentile(np.abs(errors.yaw_deg[errors.standing]))))
-    table.append(judged(SIZE, size_error(plain, "")))
-    table.append(judged(SIZE_BODY, size_error(plain, "_body")))
-    table.append(judged(BIAS, worst([compared(outcomes, row, RANGE_BIAS, lambda a, b: a - b) for row in POSITIONS])))
-    table.append(judged(TILTED, worst([compared(outcomes, row, TILT, lambda a, b: a / b) for row in POSITIONS])))
+    missing = sum(failed(failures, scene, PLAIN) for scene in SCENES)
+    table.append(judged(YAW, percentile(np.abs(errors.yaw_deg[errors.standing])), missing))
+    table.append(judged(SIZE, size_error(plain, ""), missing))
+    table.append(judged(SIZE_BODY, size_error(plain, "_body"), missing))
+    for goal, variant, by in ((BIAS, RANGE_BIAS, lambda a, b: a - b), (TILTED, TILT, lambda a, b: a / b)):
+        table.append(judged(goal, worst([compared(outcomes, row, variant, by) for row in POSITIONS]),
+                            sum(failed(failures, scene, variant) for scene in SCENES)))
     return table
 
 
@@ -74,6 +77,13 @@ def position(outcomes: Outcomes, row: Position, variant: str, seeds: Optional[Li
     drives = outcomes[row.scene].get(variant, {})
     errors = joined([each.errors for seed, each in drives.items() if seeds is None or seed in seeds])
     return percentile(errors.key_m[row.rows(errors)])
+
+
+def unknown_share(outcomes: Outcomes, row: Position) -> Optional[float]:
+    """Share of a row's instants at which the system says that it does not know where it is."""
+    errors = joined([each.errors for each in outcomes[row.scene].get(PLAIN, {}).values()])
+    known = np.isfinite(errors.key_m[row.rows(errors)])
+    return float(1.0 - np.mean(known)) if len(known) else None
 
 
 def common(outcomes: Outcomes, scene: str, variant: str) -> List[int]:
@@ -101,9 +111,9 @@ def worst(values: List[Optional[float]]) -> Optional[float]:
     return max((value for value in values if value is not None), default=None)
 
 
-def failed(failures: Dict[str, Dict[str, str]], scene: str) -> int:
-    """Plain drives of a scene in which this system, or the recording, failed."""
-    return sum(name.startswith(f"{scene}_{PLAIN}_") and bool(sentences.keys() & {THIS_SYSTEM, "recording"})
+def failed(failures: Dict[str, Dict[str, str]], scene: str, variant: str) -> int:
+    """Drives of a scene in which this system, or the recording, failed."""
+    return sum(name.startswith(f"{scene}_{variant}_") and bool(sentences.keys() & {THIS_SYSTEM, "recording"})
                for name, sentences in failures.items())
 
 
@@ -120,6 +130,7 @@ def printed(row: Dict[str, Any]) -> str:
     scale, unit = (100.0, "cm") if row["unit"] == "m" else (1.0, row["unit"].strip("()"))
     value = "unknown" if row["value"] is None else f"{scale * row['value']:.2f}"
     failed_drives = f", {row['failed_drives']} drives failed" if row["failed_drives"] else ""
+    unknown = f", unknown for {100.0 * row['unknown_share']:.1f} % of the time" if row.get("unknown_share") else ""
     verdict = "goal met" if row["goal_met"] else "met" if row["met"] else "NOT MET"
     limits = f"goal {scale * row['goal']:.2f}, must {scale * row['must']:.2f}"
-    return f"{row['name']:<55} {value:>8} {unit:<6} {limits}: {verdict}{failed_drives}"
+    return f"{row['name']:<55} {value:>8} {unit:<6} {limits}: {verdict}{failed_drives}{unknown}"
