@@ -1,7 +1,7 @@
 """From a start to a goal without touching the Car, in the shortest time."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import List, Optional
+from typing import List, NamedTuple, Optional
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction
@@ -23,14 +23,30 @@ ON_AXIS_RAD = {Direction.ANY: math.radians(3.0), Direction.FORWARD: math.radians
                Direction.BACKWARD: math.radians(10.0)}
 # Within this distance a correction may go either way, whatever direction was asked for.
 CORRECTION_M = 0.10
-# So many candidates are worked out at most, and so many that are free to drive are compared.
-TRIED, COMPARED = 120, 8
-# Attempts to overlap turns with drives: a robot that moves is without a command for as long as its plan takes.
-STANDING_BLENDS, MOVING_BLENDS = 40, 6
 LEAST_CLEARANCE_M = 0.02
 TURNING_RADPS = 0.05
 # A way longer than the straight line by more than this is compared with a stop and a new beginning.
 DETOUR_SHARE, DETOUR_M = 1.15, 0.3
+
+
+class Effort(NamedTuple):
+    """How much is tried for the quickest way.
+
+    Attributes:
+        tried: candidates that are worked out at most.
+        compared: of those, the ones that are free to drive.
+        blends: attempts to overlap turns with drives.
+    """
+
+    tried: int
+    compared: int
+    blends: int
+
+
+STANDING = Effort(120, 8, 40)
+# A robot that moves is without a command for as long as its plan takes, and drive control stops it after 0.14 s. This
+# takes 0.1 s on average, 0.35 s at most, and gives ways that are 1 % slower than with all effort (0.15 and 0.9 s).
+MOVING = Effort(12, 2, 6)
 
 
 class Planning:
@@ -44,12 +60,14 @@ class Planning:
     def plan(self, start: Moving, goal: Goal) -> Plan:
         """The quickest plan found that goes on from the present motion, with a stop first if need be."""
         self._check(start.pose, goal.pose)
-        self._assembly.blends_left = MOVING_BLENDS if _moves(start) else STANDING_BLENDS
+        effort = MOVING if _moves(start) else STANDING
+        self._assembly.blends_left = effort.blends
         turns_on_the_spot = _moves(start) and abs(start.linear_mps) <= MOVING_MPS
-        parts = None if turns_on_the_spot else self._parts(start, goal)
+        parts = None if turns_on_the_spot else self._parts(start, goal, effort)
         if _moves(start) and self._may_gain_by_a_stop(parts, start.pose, goal.pose):
             brake = self._assembly.brake(start)
-            stopped = self._parts(Moving(brake.trajectory.at(math.inf).pose), goal)
+            # Where there is no other way, the robot will stand while this one is sought.
+            stopped = self._parts(Moving(brake.trajectory.at(math.inf).pose), goal, effort if parts else STANDING)
             parts = quicker(parts, None if stopped is None else [brake, *stopped])
         if parts is None:
             raise PlanRefused("No way to the goal was found that keeps the robot away from the Car"
@@ -74,9 +92,9 @@ class Planning:
         if self._fence and not self._fence.holds_pose(start):
             raise PlanRefused("The robot stands outside the test area; move it back by hand.")
 
-    def _parts(self, start: Moving, goal: Goal) -> Optional[List[Part]]:
+    def _parts(self, start: Moving, goal: Goal, effort: Effort) -> Optional[List[Part]]:
         parts = self._straight(start, goal.pose, goal.direction)
-        return self._quickest(start, goal) if parts is None else parts
+        return self._quickest(start, goal, effort) if parts is None else parts
 
     def _straight(self, start: Moving, goal: Pose2, direction: Direction) -> Optional[List[Part]]:
         """The straight piece when the goal lies ahead or behind on the robot's own axis; no parts when it is there."""
@@ -95,11 +113,11 @@ class Planning:
         drive = line(moved(goal, offset.x), Straight(sign, way))
         return self._assembly.timed([(drive, sign * start.linear_mps)], start.pose)
 
-    def _quickest(self, start: Moving, goal: Goal) -> Optional[List[Part]]:
+    def _quickest(self, start: Moving, goal: Goal, effort: Effort) -> Optional[List[Part]]:
         best: Optional[List[Part]] = None
         compared = 0
-        for candidate in self._candidates.between(start, goal)[:TRIED]:
-            if compared == COMPARED or best is not None and candidate.time_s >= duration_of(best):
+        for candidate in self._candidates.between(start, goal)[:effort.tried]:
+            if compared == effort.compared or best is not None and candidate.time_s >= duration_of(best):
                 break
             best_s = math.inf if best is None else duration_of(best)
             parts = self._assembly.work_out(candidate, start, goal.pose, best_s)
