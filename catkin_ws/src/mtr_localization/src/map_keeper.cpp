@@ -18,6 +18,8 @@ constexpr std::int64_t kLockstepLagNs = 20'000'000;
 constexpr std::int64_t kOrderLagNs = 100'000'000;
 // Without a scan for so long, the LiDARs are taken to be silent: seven sweeps of 25 Hz, three of 10 Hz.
 constexpr std::int64_t kSilentNs = 300'000'000;
+// A robot that stops when it is lost goes no farther; a way round that went on is not of one piece.
+constexpr double kMostLostTravelM = 0.3;
 // What the growing map adds to the uncertainty of the place where the frozen one is entered.
 constexpr double kEntrySigmaM = 0.02;
 constexpr double kEntrySigmaRad = 0.005;
@@ -66,6 +68,7 @@ bool MapKeeper::advance(FilterHistory& history, bool standing) {
   if (history.newest().input.kind == FilterInput::Kind::kMove) {
     builder_.travel(motion.distance_m, motion.gyro_angle_rad);
     mapped_travel_m_ += std::abs(motion.distance_m);
+    lost_travel_m_ += tracker_.lost() ? std::abs(motion.distance_m) : 0.0;
   }
   bool begins = false;
   while (!orders_.empty() && orders_.front().stamp_ns + kOrderLagNs <= now_ns) {
@@ -100,6 +103,7 @@ bool MapKeeper::obey(const MapOrder& order, FilterHistory& history) {
   }
   revision_ = 0;
   mapped_travel_m_ = 0.0;
+  lost_travel_m_ = 0.0;
   if (!parameters_.external) {
     tracker_.begin_mapping(history);
   }
@@ -119,6 +123,10 @@ void MapKeeper::collect(const Look& look, const FilterHistory& history, bool sta
 }
 
 void MapKeeper::finish(MadeMap made, FilterHistory& history) {
+  if (lost_travel_m_ > kMostLostTravelM) {
+    made.map.valid = false;
+    made.map.message = "The position was lost on the way round the Car, and the robot went on; map the Car again.";
+  }
   if (made.map.valid) {
     revision_ = ++newest_revision_;
     if (!parameters_.external) {

@@ -1,6 +1,8 @@
 /// @file
 /// Being lost, and being found again.
 // SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
 #include "scene_drive.hpp"
 
 namespace mtr_localization {
@@ -77,6 +79,24 @@ TEST_F(LocalizerLostTest, GapOfOdometryWhileMovingIsOverWhenTheScansTellThePose)
   robot.drive(0.0, 0.0, 5.0);
   EXPECT_TRUE(robot.newest.valid) << robot.newest.message;
   EXPECT_LT(robot.position_error_m(), 0.02);
+}
+
+TEST(LocalizerLost, WayRoundThatWentOnWhileThePoseWasLostGivesNoMap) {
+  SceneDrive robot(scenes::lot(), {});
+  robot.drive(0.0, 0.0, 2.0);
+  robot.order(1, MapOrder::Phase::kCollect);
+  robot.drive(0.6, 0.0, 4.0);
+  const synthetic::World scene = std::exchange(robot.world, {});
+  robot.drive(0.6, 0.0, 2.0);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
+  robot.world = scene;
+  robot.drive(0.0, M_PI_2 / 2.0, 2.0);
+  robot.drive(0.6, 0.0, 8.0);
+  robot.order(1, MapOrder::Phase::kFreeze);
+  robot.drive(0.0, 0.0, 3.0);
+  ASSERT_TRUE(robot.result);
+  EXPECT_FALSE(robot.result->map.valid);
+  EXPECT_NE(robot.result->map.message.find("lost on the way round"), std::string::npos) << robot.result->map.message;
 }
 
 TEST(LocalizerLost, TwoPlacesThatLookAlikeAreNotGuessedBetween) {
