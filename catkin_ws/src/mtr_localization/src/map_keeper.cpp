@@ -18,8 +18,8 @@ constexpr std::int64_t kLockstepLagNs = 20'000'000;
 constexpr std::int64_t kOrderLagNs = 100'000'000;
 // Without a scan for so long, the LiDARs are taken to be silent: seven sweeps of 25 Hz, three of 10 Hz.
 constexpr std::int64_t kSilentNs = 300'000'000;
-// A robot that stops when it is lost goes no farther; a way round that went on is not of one piece.
-constexpr double kMostLostTravelM = 0.3;
+// A robot that stops when it is lost goes less far; a way round that went on is not of one piece.
+constexpr double kMostLostTravelM = 1.0;
 // What the growing map adds to the uncertainty of the place where the frozen one is entered.
 constexpr double kEntrySigmaM = 0.02;
 constexpr double kEntrySigmaRad = 0.005;

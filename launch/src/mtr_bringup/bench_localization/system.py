@@ -33,9 +33,11 @@ def run_this_system(folder: pathlib.Path, truth: DriveTruth) -> Outcome:
     """Errors of the whole chain in one drive."""
     out = folder / "replay"
     replay(folder / BAG, out)
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    if not summary["map_valid"]:
+        raise SystemFailure(f"There is no map of this way round. {summary['map_message']}")
     track = read_replayed(out / "trajectory.csv")
     found = locate(out, truth.meta)
-    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
     return Outcome(errors_of(track, car_pose(found), truth), float(summary["cpu_ms_per_scan"]),
                    car_figures(found, key_frames(out), truth))
 

@@ -87,7 +87,7 @@ TEST(LocalizerLost, WayRoundThatWentOnWhileThePoseWasLostGivesNoMap) {
   robot.order(1, MapOrder::Phase::kCollect);
   robot.drive(0.6, 0.0, 4.0);
   const synthetic::World scene = std::exchange(robot.world, {});
-  robot.drive(0.6, 0.0, 2.0);
+  robot.drive(0.6, 0.0, 3.0);
   EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
   robot.world = scene;
   robot.drive(0.0, M_PI_2 / 2.0, 2.0);
