@@ -4,27 +4,27 @@ import pytest
 
 from mtr_core.crc import is_sound
 from mtr_core.errors import ConfigurationError
-from mtr_msgs.msg import FirmwareState
-from mtr_peripherals.calibrate_lift import DONE, REFUSED, UNDER_WAY, Calibration, main, order_of
+from mtr_peripherals.calibrate_lift import main, message_of
+from mtr_peripherals.lift_calibration import DONE, REFUSED, UNDER_WAY, Calibration, Report, order_of
 
 
 class Firmware:
     """Takes the order after some repetitions and ends as told."""
 
     def __init__(self, takes_after=2, ends=DONE, last_id=41):
-        self.state, self.orders = FirmwareState(calibration_id=last_id, calibration_state=DONE), []
+        self.state, self.orders = Report(last_id, DONE), []
         self._takes_after, self._ends, self._left = takes_after, ends, 5
 
     def take(self, order):
         self.orders.append(order)
         if len(self.orders) == self._takes_after:
-            self.state = FirmwareState(calibration_id=order.id, calibration_state=UNDER_WAY)
+            self.state = Report(order.id, UNDER_WAY)
 
     def pass_time(self, _seconds):
         if self.state and self.state.calibration_state == UNDER_WAY:
             self._left -= 1
             if self._left == 0:
-                self.state.calibration_state = self._ends
+                self.state = self.state._replace(calibration_state=self._ends)
 
     def calibrated(self, stroke_m=1.2):
         return Calibration(self.take, lambda: self.state, self.pass_time).run(stroke_m)
@@ -34,7 +34,7 @@ def test_order_is_repeated_with_one_new_id_until_it_is_taken():
     firmware = Firmware(takes_after=3)
     assert firmware.calibrated() == (True, "The lift is calibrated.")
     assert [order.id for order in firmware.orders] == [42, 42, 42]
-    assert all(is_sound(order) for order in firmware.orders)
+    assert is_sound(message_of(firmware.orders[0]))
 
 
 @pytest.mark.parametrize("firmware, word", [
@@ -71,4 +71,4 @@ def test_stroke_out_of_range_ends_the_program_with_a_sentence(capsys):
 def test_dry_run_prints_the_sealed_order_without_a_master(capsys):
     assert main(["calibrate_lift", "1.2", "--dry-run"]) == 0
     printed = capsys.readouterr().out
-    assert "stroke_m: 1.2" in printed and f"crc: {order_of(1.2, 0).crc}" in printed
+    assert "stroke_m: 1.2" in printed and f"crc: {message_of(order_of(1.2, 0)).crc}" in printed

@@ -1,0 +1,73 @@
+"""Calibration of the lift: what the firmware is told, for how long, and what became of it."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import Callable, NamedTuple, Optional, Tuple
+
+from mtr_core.parameters import check_range
+
+UNDER_WAY, DONE, REFUSED = 1, 2, 3
+# Of FirmwareCalibrate.stroke_m.
+LEAST_STROKE_M, LARGEST_STROKE_M = 0.05, 2.0
+PERIOD_S, ANSWER_WITHIN_S = 0.1, 3.0
+# Down and up at the lift's slow speed, with room.
+DONE_WITHIN_S = 180.0
+
+
+class Order(NamedTuple):
+    """What the firmware is told, as in FirmwareCalibrate."""
+
+    id: int
+    stroke_m: float
+
+
+class Report(NamedTuple):
+    """What the firmware says of its calibration, as in FirmwareState."""
+
+    calibration_id: int
+    calibration_state: int
+
+
+State = Callable[[], Optional[Report]]
+
+
+def order_of(stroke_m: float, last_id: int) -> Order:
+    """Order with an id that the firmware has not seen last; ConfigurationError names a stroke out of range."""
+    check_range("stroke", stroke_m, LEAST_STROKE_M, LARGEST_STROKE_M, "m")
+    return Order(last_id % (2 ** 32 - 1) + 1, stroke_m)
+
+
+def verdict_of(state: Optional[Report], wanted_id: int, waited_s: float) -> Optional[Tuple[bool, str]]:
+    """Whether the calibration has succeeded, with a sentence; None while it is not known yet."""
+    if state is None or state.calibration_id != wanted_id:
+        return (False, "The firmware has not taken the order.") if waited_s > ANSWER_WITHIN_S else None
+    if state.calibration_state == DONE:
+        return True, "The lift is calibrated."
+    if state.calibration_state == REFUSED:
+        return False, "The firmware has refused the calibration, or it has failed; what it knew before stays."
+    if waited_s > DONE_WITHIN_S:
+        return False, f"The calibration has not ended within {DONE_WITHIN_S:.0f} s; look at the lift."
+    return None
+
+
+class Calibration:
+    """Repeats the order until the firmware answers."""
+
+    def __init__(self, publish: Callable[[Order], None], state: State, sleep: Callable[[float], None]):
+        self._publish, self._state, self._sleep = publish, state, sleep
+
+    def run(self, stroke_m: float) -> Tuple[bool, str]:
+        """Whether it has succeeded, with a sentence."""
+        for _ in range(round(ANSWER_WITHIN_S / PERIOD_S)):
+            if self._state() is not None:
+                break
+            self._sleep(PERIOD_S)
+        else:
+            return False, "The firmware is silent, so nothing was ordered."
+        order, waited_s = order_of(stroke_m, self._state().calibration_id), 0.0
+        while True:
+            verdict = verdict_of(self._state(), order.id, waited_s)
+            if verdict:
+                return verdict
+            if self._state().calibration_id != order.id:
+                self._publish(order)
+            self._sleep(PERIOD_S)
+            waited_s += PERIOD_S
