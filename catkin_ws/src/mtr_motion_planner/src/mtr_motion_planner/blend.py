@@ -14,8 +14,8 @@ from .parameters import Slip
 from .timing import SAMPLE_S
 from .trajectory import Drive, Trajectory
 
-# Time by which the turns before and after the drive may overlap with it. The longest that keep the limits are taken. The
-# robot slides 2 cm farther aside than calculated in an overlap of 1.8 s: at the beginning the drive takes that out, at
+# Time by which the turns before and after the drive may overlap with it. The longest that keep the limits are taken. In
+# an overlap of 1.8 s the robot slides 2 cm farther aside than calculated: at the beginning the drive takes that out, at
 # the end a correction of 4.5 s would have to.
 FIRST_S, LAST_S = (1.8, 1.4, 1.0), (1.4, 1.0)
 PAIRS_S = tuple(sorted(((first, last) for first in FIRST_S for last in LAST_S), key=sum, reverse=True))
