@@ -17,7 +17,7 @@ from .trajectory import Drive, Trajectory
 # Time by which the turns before and after the drive may overlap with it. The longest that keep the limits are taken. In
 # an overlap of 1.8 s the robot slides 2 cm farther aside than calculated: at the beginning the drive takes that out, at
 # the end a correction of 4.5 s would have to.
-FIRST_S, LAST_S = (1.8, 1.4, 1.0), (1.4, 1.0)
+FIRST_S, LAST_S = (2.2, 1.8, 1.4, 1.0), (1.6, 1.2)
 PAIRS_S = tuple(sorted(((first, last) for first in FIRST_S for last in LAST_S), key=sum, reverse=True))
 # Sampled rates differ from the limits by this; drive control allows more than the planner's limits.
 SAMPLING_SHARE = 1.03
