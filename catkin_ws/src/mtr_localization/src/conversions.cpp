@@ -48,6 +48,18 @@ ImuSample imu_sample_of(const sensor_msgs::Imu& message) {
           has_force ? Eigen::Vector3d(force.x, force.y, force.z) : Eigen::Vector3d::Zero()};
 }
 
+NavsatSample navsat_sample_of(const sensor_msgs::NavSatFix& message, const Eigen::Vector2d& antenna) {
+  const auto& covariance = message.position_covariance;
+  const bool is_told = message.status.status >= sensor_msgs::NavSatStatus::STATUS_FIX &&
+                       message.position_covariance_type != sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN;
+  // Larger eigenvalue of the horizontal part.
+  const double mean = 0.5 * (covariance[0] + covariance[4]);
+  const double variance = mean + std::hypot(0.5 * (covariance[0] - covariance[4]), covariance[1]);
+  const double rad = M_PI / 180.0;
+  return {mtr_lockstep::to_ns(message.header.stamp), rad * message.latitude, rad * message.longitude,
+          is_told ? std::sqrt(variance) : 0.0, antenna};
+}
+
 WheelSample wheel_sample_of(const nav_msgs::Odometry& message) {
   return {mtr_lockstep::to_ns(message.header.stamp), message.pose.pose.position.x, message.pose.pose.position.y,
           heading_of(message.pose.pose.orientation), message.twist.twist.linear.x, message.twist.twist.angular.z};

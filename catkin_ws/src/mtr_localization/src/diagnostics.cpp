@@ -61,6 +61,9 @@ diagnostic_msgs::DiagnosticArray diagnostics_of(const Localizer& localizer, cons
                    key_value("scans_refused", localizer.keeper().sweeps().refused()),
                    key_value("ms_per_scan", load.mean_ms_per_scan()),
                    key_value("longest_answer_ms", load.longest_ms()),
+                   key_value("navsat_fixes_used", localizer.navsat().used),
+                   key_value("navsat_fixes_refused", localizer.navsat().refused),
+                   key_value("navsat_residual_m", localizer.navsat().residual_m),
                    key_value("map_revision", estimate.map_revision)};
   diagnostic_msgs::DiagnosticArray array;
   array.header.stamp = mtr_lockstep::stamp_of(estimate.stamp_ns);

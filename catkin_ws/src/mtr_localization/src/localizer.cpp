@@ -114,9 +114,16 @@ Estimate Localizer::process(const WheelSample& wheels) {
   }
   last_ = wheels;
   gyro_.forget_before(wheels.stamp_ns);
-  if (keeper_.advance(history_, standstill_.standing()) && state_ == MotionState::kLost) {
-    state_ = MotionState::kTracking;
-    message_.clear();
+  if (keeper_.advance(history_, standstill_.standing())) {
+    navsat_.clear();
+    if (state_ == MotionState::kLost) {
+      state_ = MotionState::kTracking;
+      message_.clear();
+    }
+  }
+  const std::string contradiction = navsat_.use_due(keeper_.tracker(), history_);
+  if (!contradiction.empty()) {
+    keeper_.lose(contradiction);
   }
   return estimate_at(wheels.stamp_ns);
 }

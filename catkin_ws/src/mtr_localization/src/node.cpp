@@ -58,6 +58,7 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
       listener_(frames_),
       front_(node, Lidar::kFront, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
       rear_(node, Lidar::kRear, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
+      navsat_(node, frames_, [this](const NavsatSample& fix) { return localizer_.add_fix(fix); }),
       orders_heard_(mtr_lockstep::kCarLocator, mtr_lockstep::kClockStep.period_ns, input_waiting()),
       orders_(subscribe<mtr_msgs::MappingOrder>(node, names::kMappingOrder,
                                                 [this](const auto& message) { receive_order(message); })),

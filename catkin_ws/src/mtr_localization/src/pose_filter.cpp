@@ -91,7 +91,10 @@ void PoseFilter::correct(const PoseCorrection& correction) {
   state_ += reach * correction.pull;
   state_[kHeading] = std::remainder(state_[kHeading], 2.0 * M_PI);
   if (by_source_.cols() > 0) {
-    by_source_ += reach * (correction.error_pull - correction.information * by_source_.topRows<3>());
+    by_source_ -= (reach * correction.information * by_source_.topRows<3>()).eval();
+    if (correction.error_pull.cols() > 0) {
+      by_source_ += reach * correction.error_pull;
+    }
   }
   covariance_ -= (reach * correction.information * covariance_.topRows<3>()).eval();
   covariance_ = (0.5 * (covariance_ + covariance_.transpose())).eval();

@@ -9,6 +9,7 @@
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/NavSatFix.h>
 
 #include <array>
 #include <optional>
@@ -22,6 +23,9 @@ namespace mtr_localization {
 
 ImuSample imu_sample_of(const sensor_msgs::Imu& message);
 WheelSample wheel_sample_of(const nav_msgs::Odometry& message);
+
+/// @param antenna in base_link, m
+NavsatSample navsat_sample_of(const sensor_msgs::NavSatFix& message, const Eigen::Vector2d& antenna);
 
 MapOrder order_of(const mtr_msgs::MappingOrder& message);
 

@@ -13,6 +13,7 @@
 #include "mtr_localization/ground_level.hpp"
 #include "mtr_localization/localizer_parameters.hpp"
 #include "mtr_localization/map_keeper.hpp"
+#include "mtr_localization/navsat_watch.hpp"
 #include "mtr_localization/samples.hpp"
 #include "mtr_localization/standstill.hpp"
 #include "mtr_localization/tilt_filter.hpp"
@@ -43,6 +44,8 @@ class Localizer {
   bool add_scan(Sweep sweep) { return keeper_.add_sweep(std::move(sweep)); }
   /// On the robot's own clock: uses scans as soon as wheels and gyro reach their end; true when there were any.
   bool use_scans();
+  /// False: it is refused.
+  bool add_fix(const NavsatSample& fix) { return navsat_.add(fix); }
   void set_order(const MapOrder& order) { keeper_.add_order(order); }
   /// With localization:=external: where the other source has odom in map, at which time.
   void set_external(std::int64_t stamp_ns, const PoseVector& map_from_odom);
@@ -58,6 +61,7 @@ class Localizer {
   /// Pose of odom in map at the newest wheel sample.
   PoseVector map_from_odom() const;
   const MapKeeper& keeper() const { return keeper_; }
+  const NavsatFigures& navsat() const { return navsat_.figures(); }
 
  private:
   std::vector<Estimate> process_pending();
@@ -80,6 +84,7 @@ class Localizer {
   LocalizerParameters parameters_;
   FilterHistory history_;
   MapKeeper keeper_;
+  NavsatWatch navsat_;
   StandstillDetector standstill_;
   TiltFilter tilt_;
   GroundLevel level_;

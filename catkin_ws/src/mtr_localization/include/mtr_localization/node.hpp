@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "mtr_localization/localizer.hpp"
+#include "mtr_localization/navsat_input.hpp"
 #include "mtr_localization/scan_input.hpp"
 #include "mtr_localization/work_load.hpp"
 #include "mtr_lockstep/parameter_reader.hpp"
@@ -65,6 +66,7 @@ class Node {
   tf2_ros::TransformListener listener_;
   ScanInput front_;
   ScanInput rear_;
+  NavsatInput navsat_;
   mtr_lockstep::Samples<std::int64_t> orders_heard_;
   ros::Subscriber orders_;
   ros::Subscriber imu_;

@@ -25,7 +25,7 @@ inline constexpr int kMaxErrorSources = 96;
 struct PoseCorrection {
   Eigen::Vector3d pull = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  /// Pull by an error of 1 sigma of each lasting error source; one column per source.
+  /// Pull by an error of 1 sigma of each lasting error source; one column per source, none: they do not pull.
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxErrorSources> error_pull{3, 0};
 };
 

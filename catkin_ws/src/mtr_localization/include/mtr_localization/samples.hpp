@@ -36,6 +36,18 @@ struct WheelSample {
   double distance_since(const WheelSample& earlier) const;
 };
 
+/// Fix of a satellite receiver.
+struct NavsatSample {
+  std::int64_t stamp_ns;
+  /// Of the antenna, WGS-84.
+  double latitude_rad;
+  double longitude_rad;
+  /// Horizontal, in the worst direction; 0: the receiver does not say.
+  double sigma_m;
+  /// The antenna in base_link, m.
+  Eigen::Vector2d antenna = Eigen::Vector2d::Zero();
+};
+
 /// What the pose rests on.
 enum class PoseMode { kDeadReckoning, kMapping, kLocalized, kLost };
 

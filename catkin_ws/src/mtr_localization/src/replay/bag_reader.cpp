@@ -7,6 +7,7 @@
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/NavSatFix.h>
 #include <tf2/exceptions.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -48,7 +49,7 @@ void BagReader::open() {
   require(names::kImuData, "IMU data");
   require(names::kFrontScan, "scans");
   read_mounts();
-  std::vector<std::string> topics = {names::kFrontScan, names::kImuData, names::kWheelOdometry};
+  std::vector<std::string> topics = {names::kFrontScan, names::kImuData, names::kNavsatFix, names::kWheelOdometry};
   if (!options_.front_only) {
     topics.emplace_back(names::kRearScan);
   }
@@ -100,8 +101,21 @@ void BagReader::read_message(const rosbag::MessageInstance& message) {
   } else if (topic == names::kMappingOrder) {
     const MapOrder order = order_of(*message_of<mtr_msgs::MappingOrder>(message));
     wait(order.stamp_ns, order);
+  } else if (topic == names::kNavsatFix) {
+    read_fix(message);
   } else {
     read_scan(message, topic == names::kFrontScan ? Lidar::kFront : Lidar::kRear);
+  }
+}
+
+void BagReader::read_fix(const rosbag::MessageInstance& message) {
+  const sensor_msgs::NavSatFix::ConstPtr fix = message_of<sensor_msgs::NavSatFix>(message);
+  try {
+    const auto mount = frames_.lookupTransform(names::kBase, fix->header.frame_id, ros::Time(0));
+    const NavsatSample sample = navsat_sample_of(*fix, pose_of(mount.transform).head<2>());
+    wait(sample.stamp_ns, sample);
+  } catch (const tf2::TransformException&) {
+    // The bag does not say where the antenna is: of no use.
   }
 }
 

@@ -22,7 +22,7 @@
 
 namespace mtr_localization::replay {
 
-using Event = std::variant<ImuSample, MapOrder, Sweep, WheelSample>;
+using Event = std::variant<ImuSample, MapOrder, NavsatSample, Sweep, WheelSample>;
 
 /// Messages in the order of the times at which each was complete, whatever order they were recorded in.
 class BagReader {
@@ -45,6 +45,7 @@ class BagReader {
   void require(const std::string& topic, const std::string& what);
   void read_mounts();
   void read_message(const rosbag::MessageInstance& message);
+  void read_fix(const rosbag::MessageInstance& message);
   void read_scan(const rosbag::MessageInstance& message, Lidar lidar);
   Mount mount_of(const std::string& frame, Lidar lidar) const;
   void wait(std::int64_t time_ns, Event event);

@@ -56,6 +56,8 @@ void Replay::take(ImuSample sample) {
   result_.trajectory.insert(result_.trajectory.end(), late.begin(), late.end());
 }
 
+void Replay::take(NavsatSample fix) { localizer_.add_fix(fix); }
+
 void Replay::take(MapOrder order) { localizer_.set_order(order); }
 
 void Replay::take(Sweep sweep) {

@@ -47,6 +47,7 @@ class Replay {
  private:
   void take(ImuSample sample);
   void take(MapOrder order);
+  void take(NavsatSample fix);
   void take(Sweep sweep);
   void take(WheelSample sample);
   void give_order(std::int64_t now_ns);

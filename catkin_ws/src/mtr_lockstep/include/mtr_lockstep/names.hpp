@@ -16,6 +16,7 @@ inline constexpr char kRearLidar[] = "rear_lidar";
 inline constexpr char kFrontScan[] = "/front/scan";
 inline constexpr char kRearScan[] = "/rear/scan";
 inline constexpr char kImuData[] = "/imu/data";
+inline constexpr char kNavsatFix[] = "/navsat/fix";
 inline constexpr char kWheelOdometry[] = "/jackal_velocity_controller/odom";
 inline constexpr char kWheelCommand[] = "/jackal_velocity_controller/cmd_vel";
 
