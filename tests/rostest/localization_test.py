@@ -7,12 +7,14 @@ import unittest
 
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from node_process import NodeProcess
 from scripted_time import NS, STEP_NS, Listener, ScriptedTime, Speaker, wait_for
-from sensor_msgs.msg import Imu
+from sensor_msgs.msg import Imu, NavSatFix
 
 from mtr_core import names, schedule
+from mtr_lockstep.publishers import direct_publisher
 from mtr_msgs.msg import LocalizedPose
 
 # Parameters of mtr_localization: gap_limit_s; standstill_settling_s and bias_time_s together.
@@ -135,6 +137,20 @@ class Localization(unittest.TestCase):
         self.advance(0.1)
         self.assertTrue(self.heard[-1].valid)
         self.assertAlmostEqual(self.heard[-1].x - before.x, 0.2 * SPEED_MPS, places=3)
+
+    def test_satellite_fixes_that_are_none_are_refused_and_the_pose_goes_on(self):
+        refused = []
+        figures = rospy.Subscriber("/diagnostics", DiagnosticArray, lambda array: refused.extend(
+            float(pair.value) for pair in array.status[0].values if pair.key == "navsat_fixes_refused"))
+        fixes = direct_publisher(names.NAVSAT_FIX, NavSatFix)
+        wait_for(lambda: fixes.get_num_connections() and figures.get_num_connections(), "localization's connections")
+        for frame in ("nowhere", names.BASE):
+            fix = NavSatFix(latitude=math.nan, position_covariance_type=NavSatFix.COVARIANCE_TYPE_KNOWN)
+            fix.header.frame_id = frame
+            fixes.publish(fix)
+        self.advance(5.0)
+        wait_for(lambda: 1.0 in refused, "one refused fix in the diagnostics")
+        self.assertTrue(self.heard[-1].valid, self.heard[-1].message)
 
 
 if __name__ == "__main__":

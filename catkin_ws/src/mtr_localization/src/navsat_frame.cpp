@@ -27,8 +27,7 @@ constexpr double kLeastSpreadInSigmas = 5.0;
 void NavsatFrame::clear() { *this = NavsatFrame(); }
 
 void NavsatFrame::learn(const NavsatSample& fix, const Eigen::Vector2d& antenna_in_map) {
-  if (pairs_.size() >= kMostPairs ||
-      (!pairs_.empty() && (pairs_.back().map - antenna_in_map).norm() < kPairEveryM)) {
+  if (pairs_.size() >= kMostPairs || (!pairs_.empty() && (pairs_.back().map - antenna_in_map).norm() < kPairEveryM)) {
     return;
   }
   if (!origin_) {
