@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 import argparse
 import sys
-from typing import List, Optional
+from typing import List, Optional, Tuple
 
+import rosgraph
 import rospy
 
 from mtr_core import names
@@ -11,7 +12,7 @@ from mtr_core.crc import is_sound, seal
 from mtr_core.errors import ConfigurationError
 from mtr_msgs.msg import FirmwareCalibrate, FirmwareState
 
-from .lift_calibration import Calibration, Order, Report, order_of
+from .lift_calibration import ANSWER_WITHIN_S, PERIOD_S, Calibration, Order, Report, order_of
 
 
 def message_of(order: Order) -> FirmwareCalibrate:
@@ -45,12 +46,33 @@ def main(arguments: Optional[List[str]] = None) -> int:
     if options.dry_run:
         print(message_of(example))
         return 0
-    print("Watch the lift: whatever stops it on its way is taken for a stop.")
-    rospy.init_node("calibrate_lift", anonymous=True)
+    print("Watch the lift: whatever stops it on its way is taken for a stop. Ctrl-C stops it.")
+    rospy.init_node("calibrate_lift", anonymous=True, disable_signals=True)
+    try:
+        done, sentence = calibrate(options.stroke_m)
+    except KeyboardInterrupt:
+        done, sentence = False, "Stopped by you; what the firmware knew before stays."
+    print(sentence, file=sys.stdout if done else sys.stderr)
+    return 0 if done else 1
+
+
+def calibrate(stroke_m: float) -> Tuple[bool, str]:
+    """Wire the job to the topics and do it."""
     newest = NewestState()
     publisher = rospy.Publisher(names.FIRMWARE_CALIBRATE, FirmwareCalibrate, queue_size=1)
     rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, newest.take, queue_size=1)
+    if not is_heard_by_all(publisher):
+        return False, "Not all listeners of the order have connected, so nothing was ordered; look at the network."
     calibration = Calibration(lambda order: publisher.publish(message_of(order)), lambda: newest.report, rospy.sleep)
-    done, sentence = calibration.run(options.stroke_m)
-    print(sentence, file=sys.stdout if done else sys.stderr)
-    return 0 if done else 1
+    return calibration.run(stroke_m)
+
+
+def is_heard_by_all(publisher: rospy.Publisher) -> bool:
+    """Wait for all that listen: the peripherals node ends a calibration that it has not heard of."""
+    subscribers = dict(rosgraph.Master(rospy.get_name()).getSystemState()[1])
+    wanted = len(subscribers.get(publisher.resolved_name, []))
+    for _ in range(round(ANSWER_WITHIN_S / PERIOD_S)):
+        if publisher.get_num_connections() >= wanted:
+            return True
+        rospy.sleep(PERIOD_S)
+    return False

@@ -20,7 +20,7 @@ from mtr_msgs.msg import (
 )
 
 from .core import Orders, Outcome
-from .firmware import FirmwareOrder, FirmwareReport, PressState
+from .firmware import CALIBRATING, FirmwareOrder, FirmwareReport, PressState
 from .firmware_clock import FirmwareClock, SharedClock
 from .health_watch import Health
 from .presses import PressOrder, PressResult
@@ -54,7 +54,7 @@ def firmware_report(state: FirmwareState, stamp_ns: int, times: Union[FirmwareCl
         press_state=PressState(state.press_state),
         press_start_ns=times.robot_ns(state.press_start_us, stamp_ns) if started else 0,
         press_end_ns=times.robot_ns(state.press_end_us, stamp_ns) if started else 0,
-        led_pattern=state.led_pattern, fault=state.fault)
+        led_pattern=state.led_pattern, fault=state.fault, is_calibrating=state.lift_state == CALIBRATING)
 
 
 def command_message(outcome: Outcome, seq: int) -> FirmwareCommand:

@@ -22,6 +22,7 @@ class Orders:
 
     Attributes:
         backs_unseen: the robot drives backwards, where no LiDAR looks.
+        calibrates: a person's calibrate_lift is being heard.
     """
 
     session_id: int = 0
@@ -33,6 +34,7 @@ class Orders:
     has_goal: bool = False
     manual_lift_mps: float = 0.0
     backs_unseen: bool = False
+    calibrates: bool = False
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,8 @@ class Peripherals:
         return ""
 
     def _lift(self, orders: Orders, report: Optional[FirmwareReport]) -> Tuple[float, str]:
+        if report is not None and (orders.calibrates or report.is_calibrating):
+            return self._while_calibrating(orders, report)
         if orders.manual_lift_mps and report is not None:
             ahead_m = report.lift_height_m + MANUAL_LEAD_S * orders.manual_lift_mps
             return min(max(ahead_m, 0.0), self._calibration.lift_stroke_m), ""
@@ -91,6 +95,14 @@ class Peripherals:
             return self._calibration.lift_height_m(orders.key_height_m), ""
         except OrderRefused as refused:
             return math.nan, str(refused)
+
+    def _while_calibrating(self, orders: Orders, report: FirmwareReport) -> Tuple[float, str]:
+        """Any height lets the firmware go on, NaN ends its calibration: the lift moves by itself then."""
+        if orders.session_id or orders.manual_lift_mps:
+            return math.nan, "The lift is not calibrated while an application or the manual controller is in control."
+        if not orders.calibrates:
+            return math.nan, "The calibration of the lift was ended: calibrate_lift is silent."
+        return min(max(report.lift_height_m, 0.0), self._calibration.lift_stroke_m), ""
 
     def _led(self, orders: Orders, failed: bool) -> Led:
         choices = (

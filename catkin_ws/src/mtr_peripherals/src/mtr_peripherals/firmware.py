@@ -36,6 +36,10 @@ FAULTS = {
 }
 
 
+# Of FirmwareState.lift_state.
+CALIBRATING = 2
+
+
 @dataclass(frozen=True)
 class FirmwareReport:
     """One FirmwareState with its times on the robot's clock, in ns."""
@@ -48,6 +52,7 @@ class FirmwareReport:
     press_end_ns: int = 0
     led_pattern: int = 0
     fault: int = 0
+    is_calibrating: bool = False
 
 
 @dataclass(frozen=True)

@@ -49,7 +49,7 @@ def verdict_of(state: Optional[Report], wanted_id: int, waited_s: float) -> Opti
 
 
 class Calibration:
-    """Repeats the order until the firmware answers."""
+    """Repeats the order until the firmware has ended."""
 
     def __init__(self, publish: Callable[[Order], None], state: State, sleep: Callable[[float], None]):
         self._publish, self._state, self._sleep = publish, state, sleep
@@ -67,7 +67,7 @@ class Calibration:
             verdict = verdict_of(self._state(), order.id, waited_s)
             if verdict:
                 return verdict
-            if self._state().calibration_id != order.id:
-                self._publish(order)
+            # To the end: the peripherals node ends a calibration whose person is silent.
+            self._publish(order)
             self._sleep(PERIOD_S)
             waited_s += PERIOD_S

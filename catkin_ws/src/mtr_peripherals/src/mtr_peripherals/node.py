@@ -13,6 +13,7 @@ from mtr_lockstep.samples import Samples
 from mtr_msgs.msg import (
     DesiredState,
     DriveStatus,
+    FirmwareCalibrate,
     FirmwareCommand,
     FirmwareHealth,
     FirmwarePress,
@@ -46,6 +47,8 @@ EMULATED_LAG_NS = 100_000_000
 EMULATED_CLOCK_START_US = 2 ** 32 - 1 - 120_000_000
 # It speaks every 40 ms while the person wants it, as LiftCommand says.
 MANUAL_LIFT_SILENT_S = 0.2
+# calibrate_lift repeats its order every 100 ms as long as the person lets it run.
+CALIBRATE_SILENT_S = 0.5
 
 
 class PeripheralsNode:
@@ -59,6 +62,7 @@ class PeripheralsNode:
         self._reports = Samples(schedule.FIRMWARE, lag_ns, clock.is_simulated())
         self._battery: Tuple[int, Optional[float]] = (0, None)
         self._manual_lift = LiftCommand()
+        self._calibrate_ns: Optional[int] = None
         self._health = HealthWatch()
         self._seq = 0
         self._logged = None
@@ -74,6 +78,7 @@ class PeripheralsNode:
         self._subscribers = (
             rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, self._take_state, queue_size=50, tcp_nodelay=True),
             rospy.Subscriber(names.FIRMWARE_HEALTH, FirmwareHealth, self._take_health, queue_size=1),
+            rospy.Subscriber(names.FIRMWARE_CALIBRATE, FirmwareCalibrate, self._take_calibrate, queue_size=1),
             rospy.Subscriber(names.BATTERY, BatteryState, self._take_battery, queue_size=1),
             rospy.Subscriber(names.MANUAL_LIFT, LiftCommand, self._take_manual_lift, queue_size=1, tcp_nodelay=True))
         self._ticker = Ticker(schedule.PERIPHERALS)
@@ -85,7 +90,8 @@ class PeripheralsNode:
 
     def _step(self, tick: int) -> None:
         wanted = orders(self._fresh(self._desired.at(tick), tick), self._fresh(self._mode.at(tick), tick))
-        wanted = replace(wanted, manual_lift_mps=self._manual_lift_mps(tick), backs_unseen=self._backs_unseen(tick))
+        wanted = replace(wanted, manual_lift_mps=self._manual_lift_mps(tick), backs_unseen=self._backs_unseen(tick),
+                         calibrates=self._calibrates(tick))
         outcome = self._core.step(wanted, self._reports.at(tick), tick)
         self._seq += 1
         self._send(self._command, command_message(outcome, self._seq))
@@ -118,6 +124,12 @@ class PeripheralsNode:
 
     def _take_manual_lift(self, message: LiftCommand) -> None:
         self._manual_lift = message
+
+    def _take_calibrate(self, _message: FirmwareCalibrate) -> None:
+        self._calibrate_ns = clock.now_ns()
+
+    def _calibrates(self, tick: int) -> bool:
+        return self._calibrate_ns is not None and (tick - self._calibrate_ns) * NS <= CALIBRATE_SILENT_S
 
     def _manual_lift_mps(self, tick: int) -> float:
         """Rate wanted by the manual controller, 0 when it wants nothing or is silent."""

@@ -30,10 +30,10 @@ class Firmware:
         return Calibration(self.take, lambda: self.state, self.pass_time).run(stroke_m)
 
 
-def test_order_is_repeated_with_one_new_id_until_it_is_taken():
+def test_order_is_repeated_with_one_new_id_until_the_end():
     firmware = Firmware(takes_after=3)
     assert firmware.calibrated() == (True, "The lift is calibrated.")
-    assert [order.id for order in firmware.orders] == [42, 42, 42]
+    assert [order.id for order in firmware.orders] == [42] * 7
     assert is_sound(message_of(firmware.orders[0]))
 
 

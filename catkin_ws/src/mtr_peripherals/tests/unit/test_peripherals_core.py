@@ -205,3 +205,22 @@ def test_manual_controller_does_not_move_the_lift_beyond_its_stops(core):
     orders = Orders(manual_lift_mps=0.5)
     assert core.step(orders, FirmwareReport(START, lift_height_m=1.19), START).lift_height_m == pytest.approx(1.2)
     assert core.step(replace(orders, manual_lift_mps=-0.5), FirmwareReport(START), START).lift_height_m == 0.0
+
+
+CALIBRATING = FirmwareReport(START, lift_height_m=0.3, is_calibrating=True)
+
+
+@pytest.mark.parametrize("is_under_way", [False, True])
+def test_calibration_goes_on_while_its_person_is_heard_and_nobody_else_is_in_control(core, is_under_way):
+    outcome = core.step(Orders(calibrates=True), replace(CALIBRATING, is_calibrating=is_under_way), START)
+    assert outcome.lift_height_m == 0.3
+
+
+@pytest.mark.parametrize("orders, word", [
+    (Orders(), "calibrate_lift is silent"),
+    (replace(LIVE, calibrates=True, key_height_m=0.8), "in control"),
+    (Orders(calibrates=True, manual_lift_mps=0.1), "in control")])
+def test_calibration_is_ended_when_its_person_is_silent_or_another_is_in_control(core, orders, word):
+    outcome = core.step(orders, CALIBRATING, START)
+    assert math.isnan(outcome.lift_height_m)
+    assert word in outcome.message
