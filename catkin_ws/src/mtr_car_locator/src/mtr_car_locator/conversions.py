@@ -58,11 +58,13 @@ def scan_from(message: LaserScan, base_from_lidar: Pose2) -> Scan:
 def surface_map_from(message: SurfaceMapMessage) -> SurfaceMap:
     """Localization's adjusted map; columns of different lengths make it invalid."""
     columns = [message.x, message.y, message.normal, message.length, message.sigma, message.hits]
-    frames = np.array([(frame.x, frame.y, frame.heading) for frame in message.key_frames]).reshape(-1, 3)
+    frames = np.array([(frame.stamp.to_nsec() * 1e-9, frame.x, frame.y, frame.heading)
+                       for frame in message.key_frames]).reshape(-1, 4)
     whole = len({len(column) for column in columns}) == 1
     surfels = surfels_from(np.column_stack(columns) if whole else np.empty((0, 6)))
     sentence = message.message if whole else "Localization's map of surfaces is damaged."
-    return SurfaceMap(message.map_car_id, message.revision, message.valid and whole, surfels, frames, sentence)
+    return SurfaceMap(message.map_car_id, message.revision, message.valid and whole, surfels, frames, sentence,
+                      message.range_bias_m)
 
 
 def estimate_message(estimate: Estimate, stamp: Any) -> CarEstimate:

@@ -109,7 +109,7 @@ class Mapper:
             valid = not self._scene.map_problem
             self.revision = 1 + (self.map.revision if self.map else 0) if valid else 0
             self.mode = PoseMode.LOCALIZED
-            self.map = SurfaceMap(self._map_id, self.revision, valid, self._grid.surfels(0.002), np.zeros((0, 3)),
+            self.map = SurfaceMap(self._map_id, self.revision, valid, self._grid.surfels(0.002), np.zeros((0, 4)),
                                   self._scene.map_problem)
 
 
