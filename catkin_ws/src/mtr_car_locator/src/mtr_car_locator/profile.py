@@ -13,14 +13,17 @@ BIN_M = 0.02
 LEAST_RETURNS, LEAST_OF_MEDIAN = 20, 0.3
 # Returns farther than this from the middle of their bin are strays: 2.5 sigma of a LiDAR with 2 cm of noise.
 STRAY_M = 0.05
+# Bins farther than this from a parabola count less.
+STRAY_SIGMAS = 3.0
 ROUNDS = 3
-# A long side is straight over so many bins, or its means scatter about the line by more than noise and this, 1 sigma.
-STRAIGHT_BINS, STRAIGHT_SIGMA_M, MOST_SCATTER = 5, 0.0005, 3.0
+# A piece of a long side is straight as long as the means scatter about its line by no more than their noise and this,
+# 1 sigma; the largest mean square, and the largest of one bin, in sigmas.
+LEAST_STRAIGHT_BINS, STRAIGHT_SIGMA_M, MOST_SQUARE, MOST_SIGMAS = 5, 0.0005, 3.0, 4.0
 # Where the next bin falls away from the line by so much, a wheel arch begins in it, and its mean is smeared.
-STEP_M, STEP_SIGMAS = 0.003, 2.0
-# Of a bumper the scatter about a parabola by its shape, number plate and grille.
-SHAPE_SIGMA_M = 0.003
-LEAST_BUMPER_BINS = 15
+# Where in it is not known: somewhere within half a bin, as the standard deviation of a uniform distribution.
+STEP_M, STEP_SIGMAS, EDGE_SIGMA_BINS = 0.003, 2.0, 0.29
+# A bumper is a parabola as far as it lies within this distance of its top; 1 sigma of its scatter about that.
+TOP_M, SHAPE_SIGMA_M, LEAST_BUMPER_BINS = 0.01, 0.001, 8
 
 
 @dataclass(frozen=True)
@@ -63,22 +66,80 @@ def profile_of(along: np.ndarray, outward: np.ndarray) -> Optional[Profile]:
 
 def outermost(side: Profile) -> Optional[Extent]:
     """Where a long side reaches farthest out: at the end of a straight piece, as beside a wheel arch."""
-    found = [end for first in range(len(side.number) - STRAIGHT_BINS + 1) for end in _ends_of(side, first)]
+    found = [end for piece in _straight_pieces(side) for end in piece.ends(side)]
     return max(found, key=lambda each: each.level - each.sigma, default=None)
 
 
 def summit(end: Profile) -> Optional[Extent]:
-    """How far an end reaches out: the top of the parabola through most of it."""
+    """How far an end reaches out: the top of the parabola through what is near it."""
     if len(end.number) < LEAST_BUMPER_BINS:
         return None
-    along, reach = end.along, max(float(np.abs(end.along).max()), BIN_M)
-    matrix = np.vander(along / reach, 3)
-    weights = 1.0 / np.hypot(end.sigma, SHAPE_SIGMA_M)
-    shape = np.array([0.0, 0.0, float(np.median(end.level))])
+    top, near = None, np.ones(len(end.number), dtype=bool)
+    for _ in range(ROUNDS):
+        if np.count_nonzero(near) < LEAST_BUMPER_BINS:
+            break
+        top = _top_of_parabola(end.along[near], end.level[near], np.hypot(end.sigma[near], SHAPE_SIGMA_M))
+        near = np.abs(end.level - top.level) < TOP_M
+    return top
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """Bins first to last of a profile, and the line through them: at its middle, and its rise from bin to bin."""
+
+    first: int
+    last: int
+    middle_m: float
+    rise_m: float
+    sigma_m: float
+
+    def ends(self, side: Profile) -> Iterator[Extent]:
+        """Levels at both ends; beside a wheel arch the piece goes on into the bin in which that begins."""
+        half = 0.5 * (self.last - self.first)
+        count = self.last - self.first + 1
+        for sign, beside, neighbour in ((1.0, self.last, self.last + 1), (-1.0, self.first, self.first - 1)):
+            expected_m = self.middle_m + sign * self.rise_m * (half + 1.0)
+            is_arch = _falls_away(side, beside, neighbour, expected_m)
+            reach = half + (1.0 if is_arch else 0.5)
+            spread = math.sqrt(1.0 / count + 12.0 * reach ** 2 / (count * (count ** 2 - 1.0)))
+            sigma_m = math.hypot(spread * self.sigma_m, EDGE_SIGMA_BINS * self.rise_m if is_arch else 0.0)
+            yield Extent(self.middle_m + sign * self.rise_m * reach, sigma_m)
+
+
+def _straight_pieces(side: Profile) -> Iterator[_Piece]:
+    """Pieces that are as long as they can be."""
+    last = ended = -1
+    for first in range(len(side.number) - LEAST_STRAIGHT_BINS + 1):
+        last = max(last, first + LEAST_STRAIGHT_BINS - 1)
+        piece = longer = _straight(side, first, last)
+        while longer is not None:
+            piece = longer
+            longer = _straight(side, first, piece.last + 1)
+        if piece is not None and piece.last > ended:
+            last = ended = piece.last
+            yield piece
+
+
+def _straight(side: Profile, first: int, last: int) -> Optional[_Piece]:
+    """The piece between two bins; None when it has gaps or is not straight."""
+    if last >= len(side.number) or side.number[last] - side.number[first] != last - first:
+        return None
+    bins = np.arange(last - first + 1) - 0.5 * (last - first)
+    level, sigma = side.level[first:last + 1], np.hypot(side.sigma[first:last + 1], STRAIGHT_SIGMA_M)
+    middle, rise = float(level.mean()), float(bins @ level / (bins @ bins))
+    squares = np.square((level - middle - rise * bins) / sigma)
+    if squares.sum() > MOST_SQUARE * (len(bins) - 2) or squares.max() > MOST_SIGMAS ** 2:
+        return None
+    return _Piece(first, last, middle, rise, float(sigma.mean()))
+
+
+def _top_of_parabola(along: np.ndarray, level: np.ndarray, sigma: np.ndarray) -> Extent:
+    scale = max(float(np.abs(along).max()), BIN_M)
+    matrix = np.vander(along / scale, 3)
+    shape, weights = np.array([0.0, 0.0, float(np.median(level))]), 1.0 / sigma
     for _ in range(2 * ROUNDS):
-        rest = (end.level - matrix @ shape) / np.hypot(end.sigma, SHAPE_SIGMA_M)
-        robust = weights / np.sqrt(1.0 + rest ** 2)
-        shape = np.linalg.lstsq(matrix * robust[:, np.newaxis], end.level * robust, rcond=None)[0]
+        robust = weights / np.sqrt(1.0 + np.square((level - matrix @ shape) * weights / STRAY_SIGMAS))
+        shape = np.linalg.lstsq(matrix * robust[:, np.newaxis], level * robust, rcond=None)[0]
     bend, slope, _ = shape
     top = float(np.clip(-0.5 * slope / bend, -0.5, 0.5)) if bend < 0.0 else 0.0
     at_top = np.array([top * top, top, 1.0])
@@ -86,25 +147,7 @@ def summit(end: Profile) -> Optional[Extent]:
     return Extent(float(at_top @ shape), math.sqrt(float(at_top @ covariance @ at_top)))
 
 
-def _ends_of(side: Profile, first: int) -> Iterator[Extent]:
-    """Both ends of the straight piece that begins with a bin; none when it is not one piece or not straight."""
-    last = first + STRAIGHT_BINS - 1
-    if side.number[last] - side.number[first] != last - first:
-        return
-    bins = np.arange(STRAIGHT_BINS) - 0.5 * (STRAIGHT_BINS - 1)
-    level, sigma = side.level[first:last + 1], np.hypot(side.sigma[first:last + 1], STRAIGHT_SIGMA_M)
-    mean, slope = float(level.mean()), float(bins @ level / (bins @ bins))
-    rest = (level - mean - slope * bins) / sigma
-    if rest @ rest > MOST_SCATTER * (STRAIGHT_BINS - 2):
-        return
-    for sign, neighbour in ((1.0, last + 1), (-1.0, first - 1)):
-        reach = 0.5 * STRAIGHT_BINS + (1.0 if _falls_away(side, neighbour, mean + sign * slope * (bins[-1] + 1.0),
-                                                          first if sign < 0.0 else last) else 0.0)
-        spread = math.sqrt(1.0 / STRAIGHT_BINS + reach ** 2 / float(bins @ bins))
-        yield Extent(mean + sign * slope * reach, spread * float(sigma.mean()))
-
-
-def _falls_away(side: Profile, neighbour: int, expected_m: float, beside: int) -> bool:
+def _falls_away(side: Profile, beside: int, neighbour: int, expected_m: float) -> bool:
     """True when the bin next to another lies clearly inside of where a straight line would go on."""
     if not 0 <= neighbour < len(side.number) or abs(side.number[neighbour] - side.number[beside]) != 1:
         return False
