@@ -17,8 +17,8 @@ STRAY_M = 0.05
 STRAY_SIGMAS = 3.0
 ROUNDS = 3
 # A piece of a long side is straight as long as the means scatter about its line by no more than their noise and this,
-# 1 sigma; the largest mean square, and the largest of one bin, in sigmas.
-LEAST_STRAIGHT_BINS, STRAIGHT_SIGMA_M, MOST_SQUARE, MOST_SIGMAS = 5, 0.0005, 3.0, 4.0
+# 1 sigma; the largest mean square, and the largest of one bin and of the bend, in sigmas.
+LEAST_STRAIGHT_BINS, STRAIGHT_SIGMA_M, MOST_SQUARE, MOST_SIGMAS, MOST_BEND = 5, 0.0005, 3.0, 4.0, 3.0
 # Where the next bin falls away from the line by so much, a wheel arch begins in it, and its mean is smeared.
 # Where in it is not known: somewhere within half a bin, as the standard deviation of a uniform distribution.
 STEP_M, STEP_SIGMAS, EDGE_SIGMA_BINS = 0.003, 2.0, 0.29
@@ -127,8 +127,10 @@ def _straight(side: Profile, first: int, last: int) -> Optional[_Piece]:
     bins = np.arange(last - first + 1) - 0.5 * (last - first)
     level, sigma = side.level[first:last + 1], np.hypot(side.sigma[first:last + 1], STRAIGHT_SIGMA_M)
     middle, rise = float(level.mean()), float(bins @ level / (bins @ bins))
-    squares = np.square((level - middle - rise * bins) / sigma)
-    if squares.sum() > MOST_SQUARE * (len(bins) - 2) or squares.max() > MOST_SIGMAS ** 2:
+    rest = (level - middle - rise * bins) / sigma
+    bend = np.square(bins) - np.square(bins).mean()
+    if (rest @ rest > MOST_SQUARE * (len(bins) - 2) or np.abs(rest).max() > MOST_SIGMAS
+            or abs(rest @ bend) > MOST_BEND * math.sqrt(bend @ bend)):
         return None
     return _Piece(first, last, middle, rise, float(sigma.mean()))
 
