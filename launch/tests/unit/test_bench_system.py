@@ -2,18 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest
-import rosbag
-from sensor_msgs.msg import LaserScan
 
 from mtr_bringup.bench_localization.drive_options import DriveOptions
 from mtr_bringup.bench_localization.record import _meta
-from mtr_bringup.bench_localization.system import PARAMETERS, data_sheet, is_below_widest_line, plane_errors, sweeps
+from mtr_bringup.bench_localization.system import data_sheet, is_below_widest_line, plane_errors
 from mtr_car_locator.car_fit import CarFit, PlaneSize
 from mtr_car_locator.rectangle import Rectangle
 from mtr_car_locator.surfels import surfels_from
-from mtr_core import names
 from mtr_core.se2 import Pose2
-from mtr_simulation import conversions
 
 NOWHERE = Pose2(0.0, 0.0, 0.0)
 
@@ -41,16 +37,3 @@ def test_measured_size_is_judged_and_the_published_one_where_nothing_was_measure
     found = plane_errors(fit, {"length_m": 4.251, "width_m": 1.761})
     assert found["length_error_m"] == pytest.approx(-0.001)
     assert found["width_error_m"] == pytest.approx(0.029)
-
-
-def test_sweeps_come_in_order_with_their_mounting(tmp_path):
-    bag = tmp_path / "drive.bag"
-    with rosbag.Bag(str(bag), "w") as recorded:
-        for time_ns, topic in ((2 * 10**9, names.REAR_SCAN), (10**9, names.FRONT_SCAN)):
-            message = LaserScan(angle_increment=0.01, range_max=30.0, ranges=[1.0, 2.0])
-            message.header.stamp = conversions.stamp(time_ns)
-            recorded.write(topic, message, conversions.stamp(time_ns))
-    found = list(sweeps(bag))
-    assert [scan.start_s for scan in found] == [1.0, 2.0]
-    assert [scan.base_from_lidar for scan in found] == [PARAMETERS.base_from_front_lidar,
-                                                        PARAMETERS.base_from_rear_lidar]

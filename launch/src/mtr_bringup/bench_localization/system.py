@@ -5,18 +5,16 @@ import math
 import pathlib
 import subprocess
 from dataclasses import replace
-from typing import Any, Dict, Iterable, Iterator
+from typing import Any, Dict, Iterable
 
 import numpy as np
-import rosbag
 from roslib.packages import find_node
 
 from mtr_car_locator.car_fit import CarFit
-from mtr_car_locator.conversions import scan_from
+from mtr_car_locator.conversions import scans_in
 from mtr_car_locator.offline import fit_files
 from mtr_car_locator.parameters import CarProfile, LocatorParameters
 from mtr_car_locator.scan import Scan
-from mtr_core import names
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 from mtr_simulation.car_shape import CAR_SHAPES
@@ -44,7 +42,7 @@ def run_this_system(folder: pathlib.Path, truth: DriveTruth) -> Outcome:
     if not summary["map_valid"]:
         raise SystemFailure(f"There is no map of this way round. {summary['map_message']}")
     track = read_replayed(out / "trajectory.csv")
-    found = locate(out, truth.meta, sweeps(folder / BAG))
+    found = locate(out, truth.meta, scans_in(folder / BAG, PARAMETERS))
     return Outcome(errors_of(track, car_pose(found), truth), float(summary["cpu_ms_per_scan"]),
                    car_figures(found, key_frames(out), truth))
 
@@ -66,14 +64,6 @@ def read_replayed(path: pathlib.Path) -> Trajectory:
     poses = np.stack([columns["x_m"], columns["y_m"], columns["heading_rad"]], axis=1)
     covariances = np.stack([columns[f"c{row}{column}"] for row in "xyh" for column in "xyh"], axis=1)
     return trajectory(columns["stamp_s"], poses, covariances.reshape(-1, 3, 3), columns["valid"] > 0.5)
-
-
-def sweeps(bag: pathlib.Path) -> Iterator[Scan]:
-    """Sweeps of both LiDARs in the order of their times."""
-    mounts = {names.FRONT_SCAN: PARAMETERS.base_from_front_lidar, names.REAR_SCAN: PARAMETERS.base_from_rear_lidar}
-    with rosbag.Bag(str(bag)) as recorded:
-        for topic, message, _ in recorded.read_messages(topics=list(mounts)):
-            yield scan_from(message, mounts[topic])
 
 
 def locate(out: pathlib.Path, meta: Dict[str, Any], scans: Iterable[Scan] = ()) -> CarFit:

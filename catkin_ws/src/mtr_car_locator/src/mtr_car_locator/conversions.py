@@ -1,7 +1,8 @@
 """Between ROS messages and the locator's plain types."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Any, List, Optional
+import pathlib
+from typing import Any, Iterator, List, Optional
 
 import numpy as np
 from geometry_msgs.msg import Point, TransformStamped
@@ -16,7 +17,8 @@ from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 
 from .drawing import Kind, Shape
 from .estimate import Drive, Estimate, Order
-from .parameters import RefinementParameters
+from .offline import FilesUnusable
+from .parameters import LocatorParameters, RefinementParameters
 from .poses import PoseMode, RobotPose
 from .scan import Scan
 from .surfels import surfels_from
@@ -53,6 +55,20 @@ def scan_from(message: LaserScan, base_from_lidar: Pose2) -> Scan:
     return Scan(message.header.stamp.to_nsec() * 1e-9, message.time_increment, message.angle_min,
                 message.angle_increment, message.range_min, message.range_max, np.asarray(message.ranges),
                 base_from_lidar)
+
+
+def scans_in(bag: pathlib.Path, parameters: LocatorParameters) -> Iterator[Scan]:
+    """Sweeps of both LiDARs in a recorded drive, in the order of their times."""
+    # Not above: the node, which reads no bags, starts without it.
+    import rosbag
+
+    mounts = {names.FRONT_SCAN: parameters.base_from_front_lidar, names.REAR_SCAN: parameters.base_from_rear_lidar}
+    try:
+        with rosbag.Bag(str(bag)) as recorded:
+            for topic, message, _ in recorded.read_messages(topics=list(mounts)):
+                yield scan_from(message, mounts[topic])
+    except (rosbag.ROSBagException, OSError) as error:
+        raise FilesUnusable(f"{bag} cannot be read: {error}.") from None
 
 
 def surface_map_from(message: SurfaceMapMessage) -> SurfaceMap:

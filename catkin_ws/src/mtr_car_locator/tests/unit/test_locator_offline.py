@@ -33,14 +33,19 @@ def test_car_is_found_in_files_with_and_without_a_prior(folder, prior):
 
 
 def test_command_prints_the_car(folder, capsys):
-    assert main([str(folder), "--parameter", "expected_length_m=4.4"]) == 0
+    assert main(no_bag, [str(folder), "--parameter", "expected_length_m=4.4"]) == 0
     assert "length 4.5" in capsys.readouterr().out
 
 
+def no_bag(path, _):
+    raise FilesUnusable(f"There is no {path}.")
+
+
 @pytest.mark.parametrize("arguments, word", [(["--prior", "30", "0", "0"], "nothing of a Car's size"),
-                                             (["--parameter", "nonsense=1"], "nonsense")])
+                                             (["--parameter", "nonsense=1"], "nonsense"),
+                                             (["--bag", "drive.bag"], "There is no drive.bag")])
 def test_command_says_in_one_sentence_what_is_wrong(folder, capsys, arguments, word):
-    assert main([str(folder), *arguments]) == 2
+    assert main(no_bag, [str(folder), *arguments]) == 2
     said = capsys.readouterr().err
     assert word in said and said.count("\n") == 1
 
@@ -107,3 +112,11 @@ def test_file_that_the_scans_need_is_named(replayed, name, text):
         (replayed / name).write_text(text)
     with pytest.raises(FilesUnusable, match=name):
         fit_files(replayed, CAR, scans=scans_round_the_car())
+
+
+def test_command_takes_the_scans_of_the_bag(replayed, capsys):
+    prior = ["--prior", str(CAR.x), str(CAR.y), str(CAR.heading)]
+    assert main(lambda *_: scans_round_the_car(), [str(replayed), "--bag", "drive.bag", *prior]) == 0
+    plane = next(line for line in capsys.readouterr().out.splitlines() if "plane" in line)
+    length, width = (float(part.split()[1]) for part in plane.split(": ")[1].split(", "))
+    assert (length, width) == pytest.approx((LENGTH_M, WIDTH_M), abs=0.004)
