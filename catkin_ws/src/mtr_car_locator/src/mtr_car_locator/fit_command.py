@@ -13,7 +13,6 @@ from .offline import fit_files, summary_of
 from .parameters import LocatorParameters
 from .scan import Scan
 
-
 ReadBag = Callable[[pathlib.Path, LocatorParameters], Iterable[Scan]]
 
 
