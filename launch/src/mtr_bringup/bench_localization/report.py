@@ -14,8 +14,10 @@ ABOUT = {
     "online": "each 20 ms from 3.5 s after the end of the loop on; standstill: while the robot stands",
     "odometry_gyro, mrpt_icp": "are told where the Car is, by the best fit of their loop to the truth; this_system "
                                "locates the Car itself",
-    "length_error_m, width_error_m": "95 % of the absolute errors against the Car in the LiDAR's plane, _body: against "
-                                     "its widest parts; only drives in which the plane meets the body",
+    "length_error_m, width_error_m": "95 % of the absolute errors of what was measured against the Car in the LiDAR's "
+                                     "plane; _body: of what was published, the data sheet's size where the plane is "
+                                     "below the widest line, against the widest parts; only drives in which the plane "
+                                     "meets the body",
     "nees_ratio": "mean normalised squared error of the pose in the Car's frame by 3; 1 is honest, above is too sure",
 }
 

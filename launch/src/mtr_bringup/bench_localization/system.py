@@ -4,14 +4,17 @@ import json
 import math
 import pathlib
 import subprocess
-from typing import Any, Dict
+from dataclasses import replace
+from typing import Any, Dict, Iterable
 
 import numpy as np
 from roslib.packages import find_node
 
 from mtr_car_locator.car_fit import CarFit
+from mtr_car_locator.conversions import scans_in
 from mtr_car_locator.offline import fit_files
 from mtr_car_locator.parameters import CarProfile, LocatorParameters
+from mtr_car_locator.scan import Scan
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 from mtr_simulation.car_shape import CAR_SHAPES
@@ -23,6 +26,8 @@ from .recording import BAG
 from .trajectory import Trajectory, aligned, at, compose, read_columns, trajectory
 
 REPLAY_LIMIT_S = 1800.0
+PARAMETERS = LocatorParameters()
+LEAST_INSET_M = 0.001
 
 
 class SystemFailure(Exception):
@@ -37,7 +42,7 @@ def run_this_system(folder: pathlib.Path, truth: DriveTruth) -> Outcome:
     if not summary["map_valid"]:
         raise SystemFailure(f"There is no map of this way round. {summary['map_message']}")
     track = read_replayed(out / "trajectory.csv")
-    found = locate(out, truth.meta)
+    found = locate(out, truth.meta, scans_in(folder / BAG, PARAMETERS))
     return Outcome(errors_of(track, car_pose(found), truth), float(summary["cpu_ms_per_scan"]),
                    car_figures(found, key_frames(out), truth))
 
@@ -61,19 +66,29 @@ def read_replayed(path: pathlib.Path) -> Trajectory:
     return trajectory(columns["stamp_s"], poses, covariances.reshape(-1, 3, 3), columns["valid"] > 0.5)
 
 
-def locate(out: pathlib.Path, meta: Dict[str, Any]) -> CarFit:
-    """The Car among the surfaces; the Operator said where the robot was put, and the data sheet of a Car that shows
-    only its wheels."""
+def locate(out: pathlib.Path, meta: Dict[str, Any], scans: Iterable[Scan] = ()) -> CarFit:
+    """The Car among the surfaces; the Operator said where the robot was put, and what the data sheet says of a Car
+    that the LiDARs' plane meets below its widest line."""
     prior = Pose2(*meta["prior_car_from_start"].values()).inverse()
-    profile = CarProfile()
-    if meta["at_lidar"]["only_wheels"]:
-        profile = CarProfile(known_length_m=meta["length_m"], known_width_m=meta["width_m"],
-                             front_overhang_m=meta["front_overhang_m"],
-                             wheelbase_m=CAR_SHAPES[meta["options"]["car"]].wheelbase_m)
+    profile = data_sheet(meta) if is_below_widest_line(meta) else CarProfile()
     try:
-        return fit_files(out, prior, LocatorParameters(profile=profile))
+        return fit_files(out, prior, replace(PARAMETERS, profile=profile), scans)
     except RobotError as error:
         raise SystemFailure(f"The Car was not located: {error}") from None
+
+
+def is_below_widest_line(meta: Dict[str, Any]) -> bool:
+    """True when the plane does not meet the Car where it is longest and widest."""
+    at_lidar = meta["at_lidar"]
+    return at_lidar["only_wheels"] or min(meta["length_m"] - at_lidar["length_m"],
+                                          meta["width_m"] - at_lidar["width_m"]) > LEAST_INSET_M
+
+
+def data_sheet(meta: Dict[str, Any]) -> CarProfile:
+    """What a lab knows of its Car."""
+    return CarProfile(known_length_m=meta["length_m"], known_width_m=meta["width_m"],
+                      front_overhang_m=meta["front_overhang_m"],
+                      wheelbase_m=CAR_SHAPES[meta["options"]["car"]].wheelbase_m)
 
 
 def car_pose(found: CarFit) -> CarPose:
@@ -100,12 +115,19 @@ def car_figures(found: CarFit, frames: Trajectory, truth: DriveTruth) -> Dict[st
     true = at(truth.track, frames.stamps_s)
     true_from_found = aligned(frames.poses, true) @ car.pose
     away = (compose(aligned(frames.poses, true), frames.poses) - true)[:, :2]
-    at_lidar = meta["at_lidar"]
     return {"position_error_m": math.hypot(true_from_found.x, true_from_found.y),
             "along_error_m": true_from_found.x, "across_error_m": true_from_found.y,
             "yaw_error_deg": abs(math.degrees(true_from_found.heading)),
-            "length_error_m": car.length - at_lidar["length_m"], "width_error_m": car.width - at_lidar["width_m"],
+            **plane_errors(found, meta["at_lidar"]),
             "length_error_body_m": car.length - meta["length_m"], "width_error_body_m": car.width - meta["width_m"],
             "length_sigma_m": found.length_sigma, "width_sigma_m": found.width_sigma, "sigmas": list(found.sigmas),
-            "only_wheels": bool(at_lidar["only_wheels"]),
+            "only_wheels": bool(meta["at_lidar"]["only_wheels"]), "warning": found.warning,
             "key_frame_rmse_m": math.sqrt(float(np.mean(np.sum(away**2, axis=1))))}
+
+
+def plane_errors(found: CarFit, at_lidar: Dict[str, Any]) -> Dict[str, float]:
+    """Errors and sigmas of what was measured in the LiDARs' plane; what was not measured is what is published."""
+    size, car = found.in_plane, found.rectangle
+    return {"length_error_m": (size.length or car.length) - at_lidar["length_m"],
+            "width_error_m": (size.width or car.width) - at_lidar["width_m"],
+            "length_plane_sigma_m": size.length_sigma, "width_plane_sigma_m": size.width_sigma}

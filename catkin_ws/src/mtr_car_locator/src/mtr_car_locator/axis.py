@@ -6,7 +6,7 @@ from typing import Optional, Tuple
 
 import numpy as np
 
-from .side import BIN_M, Side
+from .side import BIN_M, MAP_SHARE, Side
 
 # The ends of a side bend towards the bumpers; with one side alone they would turn the axis.
 ENDS_M = 0.6
@@ -69,4 +69,4 @@ def robust_line(along: np.ndarray, level: np.ndarray) -> Tuple[float, float, flo
 
 
 def _sigma(side: Side) -> float:
-    return float(np.median(side.sigma)) if len(side.sigma) else 0.0
+    return MAP_SHARE * float(np.median(side.sigma)) if len(side.sigma) else 0.0

@@ -1,7 +1,7 @@
 """The Car as it was found, with everything that is known of it."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
-from typing import Tuple
+from typing import Optional, Tuple
 
 from .rectangle import Rectangle
 from .surfels import Surfels
@@ -10,11 +10,22 @@ Point = Tuple[float, float]
 
 
 @dataclass(frozen=True)
+class PlaneSize:
+    """Length and width in m of what the LiDARs' plane meets of the Car, 1 sigma each; None where an end or a side was
+    not seen."""
+
+    length: Optional[float] = None
+    length_sigma: float = 0.0
+    width: Optional[float] = None
+    width_sigma: float = 0.0
+
+
+@dataclass(frozen=True)
 class CarFit:
     """The Car in map.
 
     Attributes:
-        rectangle: pose of its centre, length and width.
+        rectangle: pose of its centre, length and width over its widest parts, as far as they are known.
         outline: counterclockwise polygon in its own frame, without the gaps at the wheels.
         sigmas: 1 sigma of x, y (in its own frame, m) and heading (rad).
         length_sigma: m, 1 sigma.
@@ -23,6 +34,8 @@ class CarFit:
         surfels: all that lie within its outline, in its own frame: sides, wheels, what is seen under it.
         quality: evidence that it is a Car, 0 to 1.
         by_wheels: length and centre come from the wheels alone.
+        in_plane: what was measured.
+        warning: sentence on a data sheet that does not agree with that.
     """
 
     rectangle: Rectangle
@@ -34,3 +47,5 @@ class CarFit:
     surfels: Surfels
     quality: float
     by_wheels: bool = False
+    in_plane: PlaneSize = PlaneSize()
+    warning: str = ""

@@ -1,7 +1,8 @@
 """Between ROS messages and the locator's plain types."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Any, List, Optional
+import pathlib
+from typing import Any, Iterator, List, Optional
 
 import numpy as np
 from geometry_msgs.msg import Point, TransformStamped
@@ -16,7 +17,8 @@ from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 
 from .drawing import Kind, Shape
 from .estimate import Drive, Estimate, Order
-from .parameters import RefinementParameters
+from .offline import FilesUnusable
+from .parameters import LocatorParameters, RefinementParameters
 from .poses import PoseMode, RobotPose
 from .scan import Scan
 from .surfels import surfels_from
@@ -55,14 +57,30 @@ def scan_from(message: LaserScan, base_from_lidar: Pose2) -> Scan:
                 base_from_lidar)
 
 
+def scans_in(bag: pathlib.Path, parameters: LocatorParameters) -> Iterator[Scan]:
+    """Sweeps of both LiDARs in a recorded drive, in the order of their times."""
+    # Not above: the node, which reads no bags, starts without it.
+    import rosbag
+
+    mounts = {names.FRONT_SCAN: parameters.base_from_front_lidar, names.REAR_SCAN: parameters.base_from_rear_lidar}
+    try:
+        with rosbag.Bag(str(bag)) as recorded:
+            for topic, message, _ in recorded.read_messages(topics=list(mounts)):
+                yield scan_from(message, mounts[topic])
+    except (rosbag.ROSBagException, OSError) as error:
+        raise FilesUnusable(f"{bag} cannot be read: {error}.") from None
+
+
 def surface_map_from(message: SurfaceMapMessage) -> SurfaceMap:
     """Localization's adjusted map; columns of different lengths make it invalid."""
     columns = [message.x, message.y, message.normal, message.length, message.sigma, message.hits]
-    frames = np.array([(frame.x, frame.y, frame.heading) for frame in message.key_frames]).reshape(-1, 3)
+    frames = np.array([(frame.stamp.to_nsec() * 1e-9, frame.x, frame.y, frame.heading)
+                       for frame in message.key_frames]).reshape(-1, 4)
     whole = len({len(column) for column in columns}) == 1
     surfels = surfels_from(np.column_stack(columns) if whole else np.empty((0, 6)))
     sentence = message.message if whole else "Localization's map of surfaces is damaged."
-    return SurfaceMap(message.map_car_id, message.revision, message.valid and whole, surfels, frames, sentence)
+    return SurfaceMap(message.map_car_id, message.revision, message.valid and whole, surfels, frames, sentence,
+                      message.range_bias_m)
 
 
 def estimate_message(estimate: Estimate, stamp: Any) -> CarEstimate:

@@ -2,23 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
-from typing import Dict, List, Optional, Tuple
+from typing import List, Optional
 
 import numpy as np
 
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 
-from .axis import Axis, axis_of
+from .axis import axis_of
 from .blobs import guess_from_blobs
-from .candidates import MIDDLE_SHARE, Candidate, candidates, is_allowed, near
+from .candidates import Candidate, candidates, is_allowed, near
 from .car_fit import CarFit
-from .outline import outline_of
+from .close_up import CloseUp
+from .measurement import BEYOND_M, Found, extents_of, measured, sized
 from .parameters import CarProfile, LocatorParameters
 from .prior import Prior
 from .rectangle import Rectangle
 from .scoring import belongs, score_of
-from .side import ENDS, LONG_SIDES, OUTWARDS, Extent, Side, middle_of, sides_of
+from .side import LONG_SIDES, sides_of
 from .surfels import Surfels
 from .wheels import Wheels, wheel_sides, wheels_between
 
@@ -30,28 +31,28 @@ LEAST_QUALITY_ON_WHEELS = 0.15
 # Two candidates are two things when their centres are so far apart, and alike when their evidence is.
 TWO_THINGS_M, ALIKE = 0.8, 0.5
 LEAST_SURFACE_M = 1.0
-# What is not known of a passenger car that is 3.6 to 5.1 m long and 1.65 to 2.05 m wide; 1 sigma.
-UNSEEN_SIGMA_M = {ENDS: 0.4, LONG_SIDES: 0.1}
 ROUNDS = 4
-# Tyres stand inside of the body by more than sills and bumpers do; 1 sigma of that on each side.
-TYRE_INSET_SIGMA_M = 0.03
-# First the rectangle is rough; in the end only what lies on the outline is the Car's.
-FIRST_BEYOND_M, LAST_BEYOND_M = 0.12, 0.06
+# First the rectangle is rough.
+FIRST_BEYOND_M = 0.12
 
 
 class NotLocated(RobotError):
     """The surfels do not show a Car that can be trusted; the text says what they show."""
 
 
-def fit_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> CarFit:
-    """The Car near the prior; NotLocated, with what was seen, when in doubt."""
+def fit_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters,
+            close_up: Optional[CloseUp] = None) -> CarFit:
+    """The Car near the prior; NotLocated, with what was seen, when in doubt.
+
+    Surfels tell what the Car is and where; close_up, all returns near it, tells its sides to millimetres.
+    """
     seen = near(surfels, prior, parameters)
     if seen.length.sum() < LEAST_SURFACE_M:
         raise NotLocated("There is nothing of a Car's size where the Car should stand.")
     best = _chosen(candidates(seen, prior, parameters))
-    car, axis, wheels = _refined(seen, best, parameters.profile)
-    fit = _measured(seen, car, axis, wheels, parameters.profile)
-    fit = replace(fit, quality=score_of(seen, fit.rectangle, prior, parameters.profile).quality)
+    found = _refined(seen, best, parameters.profile)
+    fit = measured(seen, found, parameters.profile, close_up)
+    fit = replace(fit, quality=score_of(seen, found.car, prior, parameters.profile).quality)
     _check(fit, prior, parameters)
     return fit
 
@@ -85,11 +86,11 @@ def _chosen(found: List[Candidate]) -> Candidate:
     return best
 
 
-def _refined(seen: Surfels, best: Candidate, profile: CarProfile) -> Tuple[Rectangle, Optional[Axis], Optional[Wheels]]:
+def _refined(seen: Surfels, best: Candidate, profile: CarProfile) -> Found:
     """The candidate moved to what the surfels on its outline show."""
     car, wheels, axis = best.car, best.wheels, None
     for turn in range(ROUNDS):
-        beyond_m = FIRST_BEYOND_M if turn == 0 else LAST_BEYOND_M
+        beyond_m = FIRST_BEYOND_M if turn == 0 else BEYOND_M
         in_car = seen.in_frame(car.pose)
         sides = sides_of(in_car.where(belongs(in_car, car, beyond_m)))
         axis = axis_of(*(sides[name] for name in LONG_SIDES), length=car.length)
@@ -98,8 +99,10 @@ def _refined(seen: Surfels, best: Candidate, profile: CarProfile) -> Tuple[Recta
         car = car.moved_by(Pose2(0.0, axis.offset_m if axis.is_centred else 0.0, math.atan(axis.slope)))
         if best.wheels:
             wheels = _wheels_of(seen.in_frame(car.pose), car, profile)
-        car = _sized(seen, car, axis, wheels, profile)
-    return car, axis, wheels
+        in_car = seen.in_frame(car.pose)
+        extents = extents_of(sides_of(in_car.where(belongs(in_car, car, FIRST_BEYOND_M))), car)
+        car = sized(car, extents, axis, wheels, profile)
+    return Found(car, axis, wheels)
 
 
 def _wheels_of(in_car: Surfels, car: Rectangle, profile: CarProfile) -> Wheels:
@@ -109,81 +112,12 @@ def _wheels_of(in_car: Surfels, car: Rectangle, profile: CarProfile) -> Wheels:
     return found
 
 
-def _sized(seen: Surfels, car: Rectangle, axis: Axis, wheels: Optional[Wheels], profile: CarProfile) -> Rectangle:
-    """Centre and size from the outermost levels."""
-    in_car = seen.in_frame(car.pose)
-    extents = _extents(sides_of(in_car.where(belongs(in_car, car, FIRST_BEYOND_M))), car)
-    y, width = _span([extents.get(name) for name in LONG_SIDES], profile.width_m)
-    if wheels:
-        x, length = wheels.centre_m, wheels.length_m
-    else:
-        x, length = _span([extents.get(name) for name in ENDS], profile.length_m)
-    # The axis of symmetry tells more than two outermost points.
-    return Rectangle(car.pose @ Pose2(x, 0.0 if axis.is_centred else y, 0.0), length, width)
-
-
-def _extents(sides: Dict[str, Side], car: Rectangle) -> Dict[str, Extent]:
-    """Levels of the sides that were seen."""
-    reach = {name: (-0.5 * size, 0.5 * size) for name, size in _sizes(car).items()}
-    parts = {name: side.within(*middle_of(reach[name], MIDDLE_SHARE)) if name in ENDS else side
-             for name, side in sides.items()}
-    found = {name: part.extent() for name, part in parts.items()}
-    return {name: extent for name, extent in found.items() if extent is not None}
-
-
-def _sizes(car: Rectangle) -> Dict[str, float]:
-    return {name: car.width if name in ENDS else car.length for name in OUTWARDS}
-
-
-def _span(pair: List[Optional[Extent]], expected_m: float) -> Tuple[float, float]:
-    ahead, behind = pair
-    if ahead and behind:
-        return 0.5 * (ahead.level - behind.level), ahead.level + behind.level
-    if ahead:
-        return ahead.level - 0.5 * expected_m, expected_m
-    return (0.5 * expected_m - behind.level, expected_m) if behind else (0.0, expected_m)
-
-
-def _measured(seen: Surfels, car: Rectangle, axis: Axis, wheels: Optional[Wheels], profile: CarProfile) -> CarFit:
-    """Sigmas, outline and the surfels that are the Car's."""
-    in_car = seen.in_frame(car.pose)
-    mine = in_car.where(belongs(in_car, car, LAST_BEYOND_M))
-    extents = _extents(sides_of(mine), car)
-    names = tuple(name for name in OUTWARDS if name in extents and not (wheels and name in ENDS))
-    y_sigma, width_sigma = _sigmas(LONG_SIDES, extents, profile.known_width_m, profile)
-    if axis.is_centred:
-        y_sigma = axis.offset_sigma_m
-    if wheels:
-        x_sigma, length_sigma = wheels.centre_sigma_m, wheels.length_sigma_m
-        width_sigma = math.hypot(width_sigma, 0.0 if profile.known_width_m else math.sqrt(2.0) * TYRE_INSET_SIGMA_M)
-    else:
-        x_sigma, length_sigma = _sigmas(ENDS, extents, profile.known_length_m, profile)
-    if wheels and profile.known_width_m:
-        car = replace(car, width=profile.known_width_m)
-    elif all(name in extents for name in LONG_SIDES):
-        car = replace(car, width=car.width + 2.0 * profile.side_inset_m)
-    whole = in_car.where(car.outside(in_car.position) <= LAST_BEYOND_M)
-    return CarFit(car, outline_of(mine, car, names), (x_sigma, y_sigma, axis.slope_sigma), length_sigma, width_sigma,
-                  names, whole, 0.0, wheels is not None)
-
-
-def _sigmas(pair: Tuple[str, str], extents: Dict[str, Extent], known_m: float,
-            profile: CarProfile) -> Tuple[float, float]:
-    """1 sigma of the middle between two opposite sides and of their distance."""
-    found = [extents[name].sigma for name in pair if name in extents]
-    inset = math.sqrt(2.0) * profile.side_inset_sigma_m
-    if len(found) == 2:
-        own = math.hypot(*found)
-        return 0.5 * own, math.hypot(own, inset)
-    size_sigma = inset if known_m else UNSEEN_SIGMA_M[pair]
-    return math.hypot(0.5 * size_sigma, found[0] if found else size_sigma), size_sigma
-
-
 def _check(fit: CarFit, prior: Prior, parameters: LocatorParameters) -> None:
-    profile, car = parameters.profile, fit.rectangle
-    for name, size, expected in (("length", car.length, profile.length_m), ("width", car.width, profile.width_m)):
-        if abs(size - expected) > profile.size_tolerance_m:
-            raise NotLocated(f"What was found has a {name} of {size:.2f} m; expected is {expected:.2f} m, at most "
+    profile, car, size = parameters.profile, fit.rectangle, fit.in_plane
+    for name, found_m, expected in (("length", size.length or car.length, profile.length_m),
+                                    ("width", size.width or car.width, profile.width_m)):
+        if abs(found_m - expected) > profile.size_tolerance_m:
+            raise NotLocated(f"What was found has a {name} of {found_m:.2f} m; expected is {expected:.2f} m, at most "
                              f"{profile.size_tolerance_m:.2f} m off.")
     off_m, off_rad = prior.error_of(car.pose)
     if not is_allowed(car, prior, parameters):

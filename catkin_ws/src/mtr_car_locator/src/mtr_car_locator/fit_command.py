@@ -3,7 +3,7 @@
 import argparse
 import pathlib
 import sys
-from typing import List, Optional, Tuple
+from typing import Callable, Iterable, List, Optional, Tuple
 
 from mtr_core.errors import RobotError
 from mtr_core.parameters import parameters_from
@@ -11,14 +11,18 @@ from mtr_core.se2 import Pose2
 
 from .offline import fit_files, summary_of
 from .parameters import LocatorParameters
+from .scan import Scan
+
+ReadBag = Callable[[pathlib.Path, LocatorParameters], Iterable[Scan]]
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(read_bag: ReadBag, arguments: Optional[List[str]] = None) -> int:
     """Print the Car; the exit status is 0 when it was found and 2 after one sentence when not."""
     options = _parser().parse_args(arguments)
     try:
         parameters = parameters_from(dict(options.parameter), LocatorParameters)
-        fit = fit_files(options.folder, Pose2(*options.prior) if options.prior else None, parameters)
+        scans = read_bag(options.bag, parameters) if options.bag else ()
+        fit = fit_files(options.folder, Pose2(*options.prior) if options.prior else None, parameters, scans)
     except RobotError as error:
         print(error, file=sys.stderr)
         return 2
@@ -29,6 +33,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="fit", description="Finds and measures the Car in surfaces.csv of a replay.")
     parser.add_argument("folder", type=pathlib.Path, help="folder with surfaces.csv and key_frames.csv")
+    parser.add_argument("--bag", type=pathlib.Path, help="the drive that was replayed; its scans make the size exact")
     parser.add_argument("--prior", type=float, nargs=3, metavar=("X", "Y", "HEADING"),
                         help="guessed pose of the Car in map, m and rad; default: from the starting place")
     parser.add_argument("--parameter", type=_assignment, action="append", default=[], metavar="NAME=VALUE",

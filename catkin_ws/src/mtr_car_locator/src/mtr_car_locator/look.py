@@ -1,5 +1,6 @@
 """A look at the Car from where the robot stands."""
 # SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
 from typing import List, Optional, Sequence
 
 import numpy as np
@@ -50,5 +51,5 @@ class Look:
 
 def _near(seen: Returns, car: CarFit) -> Returns:
     pose, reach = car.rectangle.pose, 0.5 * car.rectangle.length + NEAR_M
-    points = seen.points[np.hypot(seen.points[:, 0] - pose.x, seen.points[:, 1] - pose.y) < reach + 0.5]
-    return Returns(points, seen.viewer)
+    near = np.hypot(seen.points[:, 0] - pose.x, seen.points[:, 1] - pose.y) < reach + 0.5
+    return replace(seen, points=seen.points[near])

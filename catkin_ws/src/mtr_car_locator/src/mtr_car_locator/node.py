@@ -78,6 +78,8 @@ class CarLocatorNode:
         was_corrected = estimate.revision > 1 and estimate.state == CarState.LOCATED and estimate.correction.x
         log = rospy.logwarn if was_corrected or estimate.state == CarState.FAILED else rospy.loginfo
         log("%s", estimate.message)
+        if estimate.fit and estimate.fit.warning and estimate.revision != self._said[1]:
+            rospy.logwarn("%s", estimate.fit.warning)
         self._said = said
 
 

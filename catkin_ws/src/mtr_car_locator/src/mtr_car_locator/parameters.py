@@ -16,11 +16,13 @@ class CarProfile(ParameterSet):
         expected_length_m: length of an ordinary Car.
         expected_width_m: width of an ordinary Car.
         size_tolerance_m: a length or width farther from the expected one is not believed.
-        known_length_m: length from the Car's data sheet; used for an end that cannot be seen.
-        known_width_m: width without mirrors from the data sheet; used for a side that cannot be seen.
+        known_length_m: length from the Car's data sheet; it is published, for distances count from the widest parts,
+            and what the LiDARs' plane shows is compared with it.
+        known_width_m: the same of the width without mirrors.
         front_overhang_m: front axle to the front's tip, from the data sheet; used when only the wheels are seen.
         wheelbase_m: distance of the axles, from the data sheet; used when only the wheels are seen.
-        side_inset_m: how far the surfaces in the LiDAR's plane lie inside of the Car's widest part, on each side.
+        side_inset_m: how far the surfaces in the LiDAR's plane lie inside of the Car's widest part, on each side; used
+            when the width is not known.
         side_inset_sigma_m: 1 sigma of that.
     """
 

@@ -26,10 +26,12 @@ class Scan:
 
 @dataclass(frozen=True)
 class Returns:
-    """Points (n, 2) in map, and where the LiDAR was in the middle of the sweep."""
+    """Points (n, 2) in map, and where the LiDAR and the robot were in the middle of the sweep, at time_s."""
 
     points: np.ndarray
     viewer: np.ndarray
+    time_s: float
+    robot: Pose2
 
 
 def returns_in_map(scan: Scan, poses: PoseHistory) -> Optional[Returns]:
@@ -48,4 +50,5 @@ def returns_in_map(scan: Scan, poses: PoseHistory) -> Optional[Returns]:
     ahead, aside = mount.x + ranges[good] * np.cos(beam), mount.y + ranges[good] * np.sin(beam)
     cos, sin = np.cos(heading), np.sin(heading)
     points = np.column_stack((x + cos * ahead - sin * aside, y + sin * ahead + cos * aside))
-    return Returns(points, np.array(middle.apply(mount.x, mount.y)))
+    time_s = scan.start_s + (count // 2) * scan.beam_period_s
+    return Returns(points, np.array(middle.apply(mount.x, mount.y)), time_s, middle)

@@ -11,6 +11,7 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import Result
 
 from .car_fit import CarFit
+from .close_up import CloseUp, WayRound
 from .fit import NotLocated, fit_car, rough_car
 from .parameters import LocatorParameters
 from .poses import PoseHistory, PoseMode, RobotPose
@@ -36,8 +37,9 @@ class SurfaceMap:
     Attributes:
         map_id: of the survey that it was made for.
         revision: poses that say so are in it.
-        key_frames: (n, 3) poses of base_link.
+        key_frames: rows (time in s, x, y, heading) of base_link.
         message: why it is not valid.
+        range_bias_m: constant error of the LiDARs' ranges, which the surfels are free of.
     """
 
     map_id: int
@@ -46,6 +48,7 @@ class SurfaceMap:
     surfels: Surfels
     key_frames: np.ndarray
     message: str = ""
+    range_bias_m: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -71,6 +74,7 @@ class Survey:
     def __init__(self, prior: Prior, map_id: int, first_place_id: int, parameters: LocatorParameters):
         self._parameters = parameters
         self._grid = SurfelGrid(prior.car.pose.x, prior.car.pose.y)
+        self._way = WayRound(prior.car.pose.x, prior.car.pose.y)
         self._ring: Optional[Ring] = None
         self._place_id = first_place_id
         self._begun_s: Optional[float] = None
@@ -121,6 +125,7 @@ class Survey:
             seen = returns_in_map(scan, poses)
             if seen is not None:
                 self._grid.add(seen.points, seen.viewer)
+                self._way.add(seen, scan.base_from_lidar)
 
     def advance(self, now_s: float, robot: RobotPose, result: Result) -> None:
         """Lay the way round after the first look; later go on to the next place.
@@ -147,7 +152,7 @@ class Survey:
             if not surfaces.valid:
                 raise NotLocated(surfaces.message or "Localization could not make a map of what was seen.")
             if robot.map_revision == surfaces.revision:
-                self._fit(surfaces.surfels)
+                self._fit(surfaces.surfels, self._way.close_up(surfaces.key_frames, surfaces.range_bias_m))
         elif now_s - self._frozen_since_s > self._parameters.map_limit_s:
             raise NotLocated(f"Localization has not made its map within {self._parameters.map_limit_s:g} s.")
 
@@ -171,9 +176,9 @@ class Survey:
         self._place_id += 1
         self._blocked_since_s = None
 
-    def _fit(self, surfels: Surfels) -> None:
+    def _fit(self, surfels: Surfels, close_up: Optional[CloseUp] = None) -> None:
         self.surfels = surfels
-        self.fit = fit_car(surfels, self.prior, self._parameters)
+        self.fit = fit_car(surfels, self.prior, self._parameters, close_up)
 
     def _look_first(self, since_s: float, robot: RobotPose) -> None:
         """Begin the way round once the Car is seen: nobody goes round what may stand elsewhere."""

@@ -88,10 +88,13 @@ class Mapper:
         self.revision = 0
         self.mode = PoseMode.DEAD_RECKONING
         self.map: Optional[SurfaceMap] = None
+        self._frames: List[Tuple[float, float, float, float]] = []
 
     def add_pose(self, now_s: float, pose: Pose2) -> None:
-        """True pose."""
+        """True pose; each half second it is a key-frame."""
         self._poses.add(RobotPose(now_s, pose))
+        if not self._frames or now_s - self._frames[-1][0] >= 0.5:
+            self._frames.append((now_s, pose.x, pose.y, pose.heading))
 
     def obey(self, now_s: float, estimate: Estimate, scans: Sequence[Scan]) -> None:
         """Take the locator's order."""
@@ -109,8 +112,8 @@ class Mapper:
             valid = not self._scene.map_problem
             self.revision = 1 + (self.map.revision if self.map else 0) if valid else 0
             self.mode = PoseMode.LOCALIZED
-            self.map = SurfaceMap(self._map_id, self.revision, valid, self._grid.surfels(0.002), np.zeros((0, 3)),
-                                  self._scene.map_problem)
+            self.map = SurfaceMap(self._map_id, self.revision, valid, self._grid.surfels(0.002),
+                                  np.array(self._frames), self._scene.map_problem)
 
 
 class World:

@@ -6,7 +6,9 @@ from dataclasses import replace
 import genpy
 import numpy as np
 import pytest
+import rosbag
 from locator_surfels import PARAMETERS, box, prior, surfels
+from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import Marker
 
 from mtr_car_locator.conversions import (
@@ -17,14 +19,17 @@ from mtr_car_locator.conversions import (
     markers_message,
     order_from,
     robot_pose_from,
+    scans_in,
     surface_map_from,
 )
 from mtr_car_locator.drawing import shapes_of
 from mtr_car_locator.estimate import Estimate
 from mtr_car_locator.fit import fit_car
+from mtr_car_locator.offline import FilesUnusable
 from mtr_car_locator.poses import PoseMode
 from mtr_car_locator.self_check import CheckReport
 from mtr_car_locator.survey import MapPhase, Place
+from mtr_core import names
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Check, Result
 from mtr_msgs.msg import (
@@ -75,11 +80,13 @@ def test_pose_carries_mode_map_and_motion():
 def test_surface_map_becomes_surfels_and_a_damaged_one_is_not_valid():
     message = SurfaceMap(map_car_id=77, revision=3, valid=True, x=[1.0, 2.0], y=[0.0, 0.0], normal=[0.0, math.pi / 2.0],
                          length=[0.1, 0.2], sigma=[0.003, 0.004], hits=[9, 8],
-                         key_frames=[KeyFrame(x=1.0, y=2.0, heading=0.3)])
+                         key_frames=[KeyFrame(stamp=genpy.Time(5, 250_000_000), x=1.0, y=2.0, heading=0.3)],
+                         range_bias_m=0.012)
     found = surface_map_from(message)
     assert (found.map_id, found.revision, found.valid, len(found.surfels)) == (77, 3, True, 2)
     assert found.surfels.normal[1] == pytest.approx((0.0, 1.0), abs=1e-6)
-    assert found.key_frames.tolist() == [[1.0, 2.0, 0.3]]
+    assert found.key_frames.tolist() == [[5.25, 1.0, 2.0, 0.3]]
+    assert found.range_bias_m == 0.012
     message.hits = [9]
     assert not surface_map_from(message).valid and "damaged" in surface_map_from(message).message
 
@@ -125,3 +132,25 @@ def test_markers_show_outline_band_surfels_and_places(estimate):
 def test_before_the_car_is_found_only_the_guess_is_shown(estimate):
     rough = replace(estimate, state=CarState.COLLECTING, fit=None, places=())
     assert {shape.name for shape in shapes_of(rough)} == {"outline", "front"}
+
+
+def test_scans_in_a_bag_come_in_order_with_their_mounting(tmp_path):
+    bag = tmp_path / "drive.bag"
+    with rosbag.Bag(str(bag), "w") as recorded:
+        for time_s, topic in ((2, names.REAR_SCAN), (1, names.FRONT_SCAN)):
+            message = LaserScan(angle_increment=0.01, range_max=30.0, ranges=[1.0, 2.0])
+            message.header.stamp = genpy.Time(time_s)
+            recorded.write(topic, message, message.header.stamp)
+    found = list(scans_in(bag, PARAMETERS))
+    assert [scan.start_s for scan in found] == [1.0, 2.0]
+    assert [scan.base_from_lidar for scan in found] == [PARAMETERS.base_from_front_lidar,
+                                                        PARAMETERS.base_from_rear_lidar]
+
+
+@pytest.mark.parametrize("content", [None, b"no bag"])
+def test_bag_that_cannot_be_read_is_named(tmp_path, content):
+    bag = tmp_path / "drive.bag"
+    if content is not None:
+        bag.write_bytes(content)
+    with pytest.raises(FilesUnusable, match=r"drive\.bag cannot be read"):
+        list(scans_in(bag, PARAMETERS))

@@ -1,0 +1,91 @@
+"""All returns of the way round the Car, moved to where localization's adjusted map puts them."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+from typing import Dict, List, Optional
+
+import numpy as np
+
+from mtr_core.se2 import Pose2
+
+from .scan import Returns
+from .surfels import rotated_back
+
+# The Car's farthest corner from where it was guessed: half its diagonal and the Operator's error.
+REACH_M = 4.5
+# A robot that stands sees the same again; a way round has some 2500 sweeps of two LiDARs.
+LEAST_MOTION_M, LEAST_TURN_RAD, MOST_SWEEPS = 0.005, 0.005, 10_000
+
+
+@dataclass(frozen=True)
+class CloseUp:
+    """Points (n, 2) in map and the unit vectors of their beams, away from the LiDAR."""
+
+    points: np.ndarray
+    beams: np.ndarray
+
+    def in_frame(self, pose: Pose2) -> "CloseUp":
+        """The same as seen from a pose in map."""
+        return CloseUp(rotated_back(self.points - (pose.x, pose.y), pose.heading),
+                       rotated_back(self.beams, pose.heading))
+
+
+class WayRound:
+    """Collects the returns near a place in map, while poses are still those of a map that is not adjusted."""
+
+    def __init__(self, x: float, y: float):
+        self._centre = np.array([x, y])
+        self._sweeps: List[Returns] = []
+        self._last: Dict[Pose2, Pose2] = {}
+
+    def add(self, seen: Returns, lidar: Pose2) -> None:
+        """Take a sweep of the LiDAR with that mounting, if the robot has moved since its last one."""
+        last = self._last.get(lidar)
+        if len(self._sweeps) >= MOST_SWEEPS or (last is not None and not _has_moved(last, seen.robot)):
+            return
+        self._last[lidar] = seen.robot
+        near = np.all(np.abs(seen.points - self._centre) < REACH_M, axis=1)
+        self._sweeps.append(Returns(seen.points[near].astype(np.float32), seen.viewer, seen.time_s, seen.robot))
+
+    def close_up(self, key_frames: np.ndarray, range_bias_m: float) -> Optional[CloseUp]:
+        """What was collected between the first and the last key-frame; None when that is nothing.
+
+        key_frames: rows (time in s, x, y, heading) after adjustment. Each sweep is moved as the key-frames before and
+        after it were.
+        """
+        if len(self._sweeps) < 2 or len(key_frames) < 2:
+            return None
+        times = np.array([sweep.time_s for sweep in self._sweeps])
+        order = np.argsort(times, kind="stable")
+        frames = key_frames[(key_frames[:, 0] >= times.min()) & (key_frames[:, 0] <= times.max())]
+        if len(frames) < 2:
+            return None
+        raw = np.array([[sweep.robot.x, sweep.robot.y, sweep.robot.heading] for sweep in self._sweeps])[order]
+        changes = _changes(frames, times[order], raw)
+        moved = [_moved(self._sweeps[index], change, range_bias_m)
+                 for index, change in zip(order, _interpolated(times[order], frames[:, 0], changes))
+                 if frames[0, 0] <= times[index] <= frames[-1, 0]]
+        return CloseUp(*(np.concatenate(columns) for columns in zip(*moved))) if moved else None
+
+
+def _has_moved(last: Pose2, now: Pose2) -> bool:
+    turn = abs((last.inverse() @ now).heading)
+    return last.distance_to(now) >= LEAST_MOTION_M or turn >= LEAST_TURN_RAD
+
+
+def _changes(frames: np.ndarray, times_s: np.ndarray, raw: np.ndarray) -> np.ndarray:
+    """Transform (x, y, heading) of each key-frame's surroundings from where the robot took itself to be."""
+    unwrapped = np.column_stack((raw[:, :2], np.unwrap(raw[:, 2])))
+    before = _interpolated(frames[:, 0], times_s, unwrapped)
+    changes = [Pose2(*frame[1:]) @ Pose2(*robot).inverse() for frame, robot in zip(frames, before)]
+    rows = np.array([(change.x, change.y, change.heading) for change in changes])
+    return np.column_stack((rows[:, :2], np.unwrap(rows[:, 2])))
+
+
+def _interpolated(wanted_s: np.ndarray, known_s: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    return np.column_stack([np.interp(wanted_s, known_s, rows[:, column]) for column in range(3)])
+
+
+def _moved(sweep: Returns, change: np.ndarray, range_bias_m: float) -> tuple:
+    away = sweep.points - sweep.viewer
+    beams = rotated_back(away / np.maximum(np.linalg.norm(away, axis=1), 1e-6)[:, np.newaxis], -change[2])
+    return rotated_back(sweep.points, -change[2]) + change[:2] - range_bias_m * beams, beams

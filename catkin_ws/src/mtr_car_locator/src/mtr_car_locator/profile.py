@@ -1,0 +1,164 @@
+"""The profile of one side of the Car from all returns near it, and the outermost level that it reaches."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import Iterator, Optional
+
+import numpy as np
+
+from .side import Extent
+
+BIN_M = 0.02
+# A bin with fewer returns is the smeared edge of something; the share is of the median bin.
+LEAST_RETURNS, LEAST_OF_MEDIAN = 20, 0.3
+# Returns farther than this from the middle of their bin are strays: 2.5 sigma of a LiDAR with 2 cm of noise.
+STRAY_M = 0.05
+# Bins farther than this from a parabola count less.
+STRAY_SIGMAS = 3.0
+ROUNDS = 3
+# A piece of a long side is straight as long as the means scatter about its line by no more than their noise and this,
+# 1 sigma; the largest mean square, and the largest of one bin and of the bend, in sigmas.
+LEAST_STRAIGHT_BINS, STRAIGHT_SIGMA_M, MOST_SQUARE, MOST_SIGMAS, MOST_BEND = 5, 0.0005, 3.0, 4.0, 3.0
+# Where the next bin falls away from the line by so much, a wheel arch begins in it, and its mean is smeared.
+# Where in it is not known: somewhere within half a bin, as the standard deviation of a uniform distribution.
+STEP_M, STEP_SIGMAS, EDGE_SIGMA_BINS = 0.003, 2.0, 0.29
+# A bumper is a parabola as far as it lies within this distance of its top; 1 sigma of its scatter about that.
+TOP_M, SHAPE_SIGMA_M, LEAST_BUMPER_BINS = 0.01, 0.001, 8
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Mean distance outwards of each bin along a side, in the order of the bins, with the mean's 1 sigma."""
+
+    number: np.ndarray
+    level: np.ndarray
+    sigma: np.ndarray
+
+    @property
+    def along(self) -> np.ndarray:
+        """Middles of the bins along the side, m."""
+        return (self.number + 0.5) * BIN_M
+
+    def below(self, level_m: float) -> "Profile":
+        """Without the bins that reach farther out."""
+        keep = self.level <= level_m
+        return Profile(self.number[keep], self.level[keep], self.sigma[keep])
+
+
+def profile_of(along: np.ndarray, outward: np.ndarray) -> Optional[Profile]:
+    """Profile of returns; None when there are next to none."""
+    if len(along) < LEAST_RETURNS:
+        return None
+    number = np.floor(along / BIN_M).astype(int)
+    first = number.min()
+    index, count = number - first, number.max() - first + 1
+    level = _medians(index, outward, count)
+    for _ in range(ROUNDS):
+        near = np.abs(outward - level[index]) < STRAY_M
+        returns, sums, squares = (np.bincount(index[near], weights=weights, minlength=count) for weights in (
+            None, outward[near], np.square(outward[near])))
+        level = sums / np.maximum(returns, 1)
+    variance = np.maximum(squares / np.maximum(returns, 1) - level ** 2, 0.0)
+    least = max(LEAST_RETURNS, LEAST_OF_MEDIAN * float(np.median(returns[returns > 0])))
+    good = np.nonzero(returns >= least)[0]
+    return Profile(good + first, level[good], np.sqrt(variance[good] / returns[good])) if len(good) else None
+
+
+def outermost(side: Profile) -> Optional[Extent]:
+    """Where a long side reaches farthest out: at the end of a straight piece, as beside a wheel arch."""
+    found = [end for piece in _straight_pieces(side) for end in piece.ends(side)]
+    return max(found, key=lambda each: each.level - each.sigma, default=None)
+
+
+def summit(end: Profile) -> Optional[Extent]:
+    """How far an end reaches out: the top of the parabola through what is near it."""
+    if len(end.number) < LEAST_BUMPER_BINS:
+        return None
+    top, near = None, np.ones(len(end.number), dtype=bool)
+    for _ in range(ROUNDS):
+        if np.count_nonzero(near) < LEAST_BUMPER_BINS:
+            break
+        top = _top_of_parabola(end.along[near], end.level[near], np.hypot(end.sigma[near], SHAPE_SIGMA_M))
+        near = np.abs(end.level - top.level) < TOP_M
+    return top
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """Bins first to last of a profile, and the line through them: at its middle, and its rise from bin to bin."""
+
+    first: int
+    last: int
+    middle_m: float
+    rise_m: float
+    sigma_m: float
+
+    def ends(self, side: Profile) -> Iterator[Extent]:
+        """Levels at both ends; beside a wheel arch the piece goes on into the bin in which that begins."""
+        half = 0.5 * (self.last - self.first)
+        count = self.last - self.first + 1
+        for sign, beside, neighbour in ((1.0, self.last, self.last + 1), (-1.0, self.first, self.first - 1)):
+            expected_m = self.middle_m + sign * self.rise_m * (half + 1.0)
+            is_arch = _falls_away(side, beside, neighbour, expected_m)
+            reach = half + (1.0 if is_arch else 0.5)
+            spread = math.sqrt(1.0 / count + 12.0 * reach ** 2 / (count * (count ** 2 - 1.0)))
+            sigma_m = math.hypot(spread * self.sigma_m, EDGE_SIGMA_BINS * self.rise_m if is_arch else 0.0)
+            yield Extent(self.middle_m + sign * self.rise_m * reach, sigma_m)
+
+
+def _straight_pieces(side: Profile) -> Iterator[_Piece]:
+    """Pieces that are as long as they can be."""
+    last = ended = -1
+    for first in range(len(side.number) - LEAST_STRAIGHT_BINS + 1):
+        last = max(last, first + LEAST_STRAIGHT_BINS - 1)
+        piece = longer = _straight(side, first, last)
+        while longer is not None:
+            piece = longer
+            longer = _straight(side, first, piece.last + 1)
+        if piece is not None and piece.last > ended:
+            last = ended = piece.last
+            yield piece
+
+
+def _straight(side: Profile, first: int, last: int) -> Optional[_Piece]:
+    """The piece between two bins; None when it has gaps or is not straight."""
+    if last >= len(side.number) or side.number[last] - side.number[first] != last - first:
+        return None
+    bins = np.arange(last - first + 1) - 0.5 * (last - first)
+    level, sigma = side.level[first:last + 1], np.hypot(side.sigma[first:last + 1], STRAIGHT_SIGMA_M)
+    middle, rise = float(level.mean()), float(bins @ level / (bins @ bins))
+    rest = (level - middle - rise * bins) / sigma
+    bend = np.square(bins) - np.square(bins).mean()
+    if (rest @ rest > MOST_SQUARE * (len(bins) - 2) or np.abs(rest).max() > MOST_SIGMAS
+            or abs(rest @ bend) > MOST_BEND * math.sqrt(bend @ bend)):
+        return None
+    return _Piece(first, last, middle, rise, float(sigma.mean()))
+
+
+def _top_of_parabola(along: np.ndarray, level: np.ndarray, sigma: np.ndarray) -> Extent:
+    scale = max(float(np.abs(along).max()), BIN_M)
+    matrix = np.vander(along / scale, 3)
+    shape, weights = np.array([0.0, 0.0, float(np.median(level))]), 1.0 / sigma
+    for _ in range(2 * ROUNDS):
+        robust = weights / np.sqrt(1.0 + np.square((level - matrix @ shape) * weights / STRAY_SIGMAS))
+        shape = np.linalg.lstsq(matrix * robust[:, np.newaxis], level * robust, rcond=None)[0]
+    bend, slope, _ = shape
+    top = float(np.clip(-0.5 * slope / bend, -0.5, 0.5)) if bend < 0.0 else 0.0
+    at_top = np.array([top * top, top, 1.0])
+    covariance = np.linalg.inv((matrix * robust[:, np.newaxis] ** 2).T @ matrix)
+    return Extent(float(at_top @ shape), math.sqrt(float(at_top @ covariance @ at_top)))
+
+
+def _falls_away(side: Profile, beside: int, neighbour: int, expected_m: float) -> bool:
+    """True when the bin next to another lies clearly inside of where a straight line would go on."""
+    if not 0 <= neighbour < len(side.number) or abs(side.number[neighbour] - side.number[beside]) != 1:
+        return False
+    return bool(side.level[neighbour] < expected_m - STEP_M - STEP_SIGMAS * side.sigma[neighbour])
+
+
+def _medians(index: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
+    """Median of each group, 0 for an empty one."""
+    order = np.lexsort((values, index))
+    sizes = np.bincount(index, minlength=count)
+    middle = np.minimum(np.cumsum(sizes) - sizes + sizes // 2, len(values) - 1)
+    return np.where(sizes > 0, values[order][middle], 0.0)

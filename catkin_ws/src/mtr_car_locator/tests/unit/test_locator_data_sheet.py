@@ -1,0 +1,52 @@
+"""Data sheet against the LiDARs' plane: what is published, what stays measured, and when a sentence warns."""
+# SPDX-License-Identifier: Apache-2.0
+import re
+
+import numpy as np
+import pytest
+from locator_surfels import LENGTH_M, WIDTH_M, box, prior, surfels
+
+from mtr_car_locator.fit import fit_car
+from mtr_car_locator.parameters import CarProfile, LocatorParameters
+
+
+def fit_with(sides=("front", "rear", "left", "right"), **sheet):
+    return fit_car(surfels(box(sides=sides)), prior(0.2, 0.1, 0.05), LocatorParameters(profile=CarProfile(**sheet)))
+
+
+def test_size_is_that_of_the_data_sheet_and_the_measured_one_stays_in_the_fit():
+    plain, known = fit_with(), fit_with(known_length_m=LENGTH_M + 0.04, known_width_m=WIDTH_M + 0.03)
+    assert (known.rectangle.length, known.rectangle.width) == (LENGTH_M + 0.04, WIDTH_M + 0.03)
+    assert (known.length_sigma, known.width_sigma) == (0.005, 0.005)
+    assert (known.in_plane.length, known.in_plane.width) == pytest.approx((plain.in_plane.length, plain.in_plane.width))
+    assert known.in_plane.length == pytest.approx(LENGTH_M, abs=0.006)
+    assert known.rectangle.pose.distance_to(plain.rectangle.pose) < 1e-6
+    assert known.sigmas == pytest.approx(plain.sigmas)
+    assert not known.warning and not plain.warning
+
+
+def test_outline_grows_with_the_data_sheet_and_never_shrinks():
+    plain, large, small = (np.abs(fit_with(**sheet).outline).max(axis=0) for sheet in (
+        {}, {"known_length_m": LENGTH_M + 0.05}, {"known_length_m": LENGTH_M - 0.2}))
+    assert large == pytest.approx((plain[0] + 0.025, plain[1]), abs=0.003)
+    assert small == pytest.approx(plain)
+
+
+@pytest.mark.parametrize("sheet, words", [({"known_length_m": LENGTH_M - 0.05}, "m long .* cm more"),
+                                          ({"known_width_m": WIDTH_M - 0.05}, "m wide .* cm more"),
+                                          ({"known_length_m": LENGTH_M + 0.2}, "m long .* cm less"),
+                                          ({"known_width_m": WIDTH_M + 0.2}, "m wide .* cm less")])
+def test_data_sheet_of_another_car_is_warned_of(sheet, words):
+    assert re.fullmatch(f"The Car is [0-9.]+ {words} than its data sheet says; check which car stands there[.]",
+                        fit_with(**sheet).warning)
+
+
+@pytest.mark.parametrize("more_m", [-0.005, 0.0, 0.10])
+def test_ordinary_inset_is_not_warned_of(more_m):
+    assert not fit_with(known_length_m=LENGTH_M + more_m, known_width_m=WIDTH_M + more_m).warning
+
+
+def test_end_that_was_not_seen_is_not_compared():
+    fit = fit_with(sides=("front", "left", "right"), known_length_m=LENGTH_M + 0.3)
+    assert fit.in_plane.length is None and not fit.warning
+    assert fit.rectangle.length == LENGTH_M + 0.3
