@@ -104,4 +104,40 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The robot is {} by an obstacle."),
     QT_TRANSLATE_NOOP("Sentence", "The robot stands because a LiDAR that should see its way is silent."),
     QT_TRANSLATE_NOOP("Sentence", "The press was cut short; it may have pressed or not."),
+    QT_TRANSLATE_NOOP("Sentence", "Stand still: measuring the gyro's bias."),
+    QT_TRANSLATE_NOOP("Sentence", "Waiting for wheel odometry."),
+    QT_TRANSLATE_NOOP("Sentence", "Wheel odometry is silent, or its stamps are old."),
+    QT_TRANSLATE_NOOP("Sentence", "Wheel odometry is not a finite number."),
+    QT_TRANSLATE_NOOP("Sentence", "Wheel odometry was silent for {} s."),
+    QT_TRANSLATE_NOOP("Sentence", "Wheel odometry jumped by {} m."),
+    QT_TRANSLATE_NOOP("Sentence", "Waiting for the IMU."),
+    QT_TRANSLATE_NOOP("Sentence", "The IMU is silent."),
+    QT_TRANSLATE_NOOP("Sentence", "The IMU was silent for {} s."),
+    QT_TRANSLATE_NOOP("Sentence", "The IMU's rate is not a number."),
+    QT_TRANSLATE_NOOP("Sentence", "Position lost: {} Map the Car again."),
+    QT_TRANSLATE_NOOP("Sentence", "Position lost: {} Searching near the last position."),
+    QT_TRANSLATE_NOOP("Sentence", "Position lost: the LiDAR does not see what the map shows here. Searching near "
+                                  "the last position."),
+    QT_TRANSLATE_NOOP("Sentence", "Position lost: the LiDAR does not see what it saw on the way. Unless it does "
+                                  "again, map the Car again."),
+    QT_TRANSLATE_NOOP("Sentence", "Position lost: nothing of the map has been in view for too long. Searching near "
+                                  "the last position."),
+    QT_TRANSLATE_NOOP("Sentence", "Position lost: by satellites the robot is {} m from there. Searching near the "
+                                  "last position."),
+    QT_TRANSLATE_NOOP("Sentence", "There is no transform from {} to '{}'. The satellite receiver is not used."),
+    QT_TRANSLATE_NOOP("Sentence", "Its fixes are none, or they do not say that they are within 5 m (1 sigma). The "
+                                  "satellite receiver is not used."),
+    QT_TRANSLATE_NOOP("Sentence", "The key-frames gave no map. {}"),
+    QT_TRANSLATE_NOOP("Sentence", "The position was lost on the way round the Car, and the robot went on; map the "
+                                  "Car again."),
+    QT_TRANSLATE_NOOP("Sentence", "Only {} key-frames were taken, {} are needed: drive round the Car."),
+    QT_TRANSLATE_NOOP("Sentence", "The way round the Car was not closed: it must end within {} m of where it "
+                                  "passed before."),
+    QT_TRANSLATE_NOOP("Sentence", "What the LiDARs saw from different places disagrees by {} times its uncertainty."),
+    QT_TRANSLATE_NOOP("Sentence", "Wheels and gyro disagree with the LiDARs by {} times their uncertainty."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car is {} m {} at the LiDARs' height, {} cm {} than its data sheet says; "
+                                  "check which car stands there."),
+    QT_TRANSLATE_NOOP("Sentence", "The lift is not calibrated while an application or the manual controller is in "
+                                  "control."),
+    QT_TRANSLATE_NOOP("Sentence", "The calibration of the lift was ended: calibrate_lift is silent."),
 )

@@ -48,4 +48,8 @@ WORDS = (
     QT_TRANSLATE_NOOP("Word", "to the left"),
     QT_TRANSLATE_NOOP("Word", "to the right"),
     QT_TRANSLATE_NOOP("Word", "away"),
+    QT_TRANSLATE_NOOP("Word", "long"),
+    QT_TRANSLATE_NOOP("Word", "wide"),
+    QT_TRANSLATE_NOOP("Word", "more"),
+    QT_TRANSLATE_NOOP("Word", "less"),
 )

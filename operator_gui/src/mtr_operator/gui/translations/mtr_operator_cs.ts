@@ -1960,6 +1960,141 @@
         <source>The press was cut short; it may have pressed or not.</source>
         <translation>Stisk byl přerušen; mohl, ale nemusel zabrat.</translation>
     </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Stand still: measuring the gyro&apos;s bias.</source>
+        <translation>Stůjte: měří se posun gyroskopu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Waiting for wheel odometry.</source>
+        <translation>Čeká se na odometrii kol.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Wheel odometry is silent, or its stamps are old.</source>
+        <translation>Odometrie kol mlčí, nebo má staré časy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Wheel odometry is not a finite number.</source>
+        <translation>Odometrie kol není konečné číslo.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Wheel odometry was silent for {} s.</source>
+        <translation>Odometrie kol mlčela {0} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Wheel odometry jumped by {} m.</source>
+        <translation>Odometrie kol skočila o {0} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Waiting for the IMU.</source>
+        <translation>Čeká se na IMU.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The IMU is silent.</source>
+        <translation>IMU mlčí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The IMU was silent for {} s.</source>
+        <translation>IMU mlčela {0} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The IMU&apos;s rate is not a number.</source>
+        <translation>Úhlová rychlost z IMU není číslo.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Position lost: {} Map the Car again.</source>
+        <translation>Poloha ztracena: {0} Zmapujte vůz znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Position lost: {} Searching near the last position.</source>
+        <translation>Poloha ztracena: {0} Hledá se blízko poslední polohy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Position lost: the LiDAR does not see what the map shows here. Searching near the last position.</source>
+        <translation>Poloha ztracena: LiDAR nevidí, co zde ukazuje mapa. Hledá se blízko poslední polohy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Position lost: the LiDAR does not see what it saw on the way. Unless it does again, map the Car again.</source>
+        <translation>Poloha ztracena: LiDAR nevidí, co viděl cestou. Neuvidí-li to znovu, zmapujte vůz znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Position lost: nothing of the map has been in view for too long. Searching near the last position.</source>
+        <translation>Poloha ztracena: příliš dlouho není vidět nic z mapy. Hledá se blízko poslední polohy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Position lost: by satellites the robot is {} m from there. Searching near the last position.</source>
+        <translation>Poloha ztracena: podle družic je robot {0} m odtud. Hledá se blízko poslední polohy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>There is no transform from {} to &apos;{}&apos;. The satellite receiver is not used.</source>
+        <translation>Chybí transformace z {0} do '{1}'. Družicový přijímač se nepoužívá.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Its fixes are none, or they do not say that they are within 5 m (1 sigma). The satellite receiver is not used.</source>
+        <translation>Družicové polohy chybějí, nebo neříkají, že jsou do 5 m (1 sigma). Družicový přijímač se nepoužívá.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The key-frames gave no map. {}</source>
+        <translation>Z měření nevznikla mapa. {0}</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The position was lost on the way round the Car, and the robot went on; map the Car again.</source>
+        <translation>Při objíždění vozu se ztratila poloha a robot jel dál; zmapujte vůz znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Only {} key-frames were taken, {} are needed: drive round the Car.</source>
+        <translation>Je jen {0} klíčových snímků, potřeba je {1}: objeďte vůz.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The way round the Car was not closed: it must end within {} m of where it passed before.</source>
+        <translation>Cesta kolem vozu se neuzavřela: musí skončit do {0} m od místa, kudy už vedla.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>What the LiDARs saw from different places disagrees by {} times its uncertainty.</source>
+        <translation>Co LiDARy viděly z různých míst, se liší o {0}násobek nejistoty.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>Wheels and gyro disagree with the LiDARs by {} times their uncertainty.</source>
+        <translation>Kola a gyroskop se od LiDARů liší o {0}násobek své nejistoty.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car is {} m {} at the LiDARs&apos; height, {} cm {} than its data sheet says; check which car stands there.</source>
+        <translation>Ve výšce LiDARů měří vůz {0} m ({1}), o {2} cm {3}, než říká jeho technický list; ověřte, který vůz tam stojí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The lift is not calibrated while an application or the manual controller is in control.</source>
+        <translation>Zdvih se nekalibruje, dokud řídí aplikace nebo ruční ovladač.</translation>
+    </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The calibration of the lift was ended: calibrate_lift is silent.</source>
+        <translation>Kalibrace zdvihu skončila: calibrate_lift mlčí.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -2558,6 +2693,26 @@
         <location filename="../texts/words.py" line="5"/>
         <source>away</source>
         <translation>daleko</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>long</source>
+        <translation>délka</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>wide</source>
+        <translation>šířka</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>more</source>
+        <translation>více</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>less</source>
+        <translation>méně</translation>
     </message>
 </context>
 </TS>
