@@ -28,6 +28,9 @@ TURNING_RADPS = 0.05
 # A way longer than the straight line by more than this is compared with a stop and a new beginning.
 DETOUR_SHARE, DETOUR_M = 1.15, 0.3
 
+# By so much the estimate of a candidate's time may be too high.
+DOUBT_S = 0.3
+
 
 class Effort(NamedTuple):
     """How much is tried for the quickest way.
@@ -117,7 +120,7 @@ class Planning:
         best: Optional[List[Part]] = None
         compared = 0
         for candidate in self._candidates.between(start, goal)[:effort.tried]:
-            if compared == effort.compared or best is not None and candidate.time_s >= duration_of(best):
+            if compared == effort.compared or best is not None and candidate.time_s >= duration_of(best) + DOUBT_S:
                 break
             best_s = math.inf if best is None else duration_of(best)
             parts = self._assembly.work_out(candidate, start, goal.pose, best_s)
