@@ -15,7 +15,7 @@ from .plan import Moving, Plan
 from .planning import Planning, moves
 from .tracking import deviation
 
-# From the order to a moving robot until it goes on with the new plan; a plan takes 0.35 s at most.
+# From the order to a moving robot until it goes on with the new plan, which takes less time to make (planning.py).
 LEAD_S = 0.4
 ROUNDING_S = 0.001
 # A reference that is farther from the plan's start when the plan is due has waited for the robot meanwhile.
