@@ -31,16 +31,17 @@ class KeepOut:
     """The Car in the frame of the plan.
 
     Attributes:
-        hull: convex hull of the outline.
+        outline: as it was measured.
+        hull: its convex hull.
         plain: around the hull, with few corners.
     """
 
     def __init__(self, outline: Sequence[Point], footprint: Footprint):
         self._footprint = footprint
-        self._outline = polygon_of(outline)
-        self.hull: Polygon = orient(self._outline.convex_hull)
+        self.outline = polygon_of(outline)
+        self.hull: Polygon = orient(self.outline.convex_hull)
         self.plain: Polygon = plain_of(self.hull)
-        self._edge = _sampled(self._outline)
+        self._edge = _sampled(self.outline)
 
     def clearances(self, poses: np.ndarray) -> np.ndarray:
         """Distance of the footprint from the outline at each pose (rows of x, y, heading); 0 when they overlap."""
@@ -53,7 +54,7 @@ class KeepOut:
 
     def clearance(self, pose: Pose2) -> float:
         """Distance of the footprint from the outline, 0 inside it."""
-        if self._outline.contains(ShapelyPoint(pose.x, pose.y)):
+        if self.outline.contains(ShapelyPoint(pose.x, pose.y)):
             return 0.0
         return float(self.clearances(np.array([[pose.x, pose.y, pose.heading]]))[0])
 
