@@ -27,7 +27,7 @@ class Inline(Executor):
 
     def submit(self, work: Callable[..., Any], *arguments: Any, **named: Any) -> "Future[Any]":
         """The work's result."""
-        done: "Future[Any]" = Future()
+        done: Future = Future()
         try:
             done.set_result(work(*arguments, **named))
         except Exception as error:
