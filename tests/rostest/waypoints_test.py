@@ -2,16 +2,21 @@
 """A waypoint's way from the Operator to the motion planner, and the answer's way back."""
 # SPDX-License-Identifier: Apache-2.0
 import math
+import pathlib
 import sys
 import unittest
 
+import rospkg
 import rospy
 import rostest
+import yaml
+from geometry_msgs.msg import PoseStamped
 from operator_link import OperatorLink
-from scripted_time import NS, STEP_NS, Listener, ScriptedTime, Speaker
+from scripted_time import NS, STEP_NS, Listener, ScriptedTime, Speaker, wait_for
 
 from mtr_core import names, schedule
 from mtr_core.se2 import Pose2
+from mtr_motion_planner.nav_goal import FIRST_ID as FIRST_NAV_ID
 from mtr_msgs.msg import (
     CarCheck,
     CarEstimate,
@@ -56,6 +61,13 @@ class ScriptedRobot(Speaker):
         super().speak(tick_ns)
 
 
+def nav_goal_topic():
+    """Topic of the tool "2D Nav Goal" in the shipped configuration of rviz."""
+    config = pathlib.Path(rospkg.RosPack().get_path("mtr_description")) / "rviz" / "robot.rviz"
+    tools = yaml.safe_load(config.read_text(encoding="utf-8"))["Visualization Manager"]["Tools"]
+    return next(tool["Topic"] for tool in tools if tool["Class"] == "rviz/SetGoal")
+
+
 def located_car():
     """A Car that has been found."""
     car = CarEstimate(state=CarEstimate.LOCATED, x=MAP_FROM_CAR.x, y=MAP_FROM_CAR.y, heading=MAP_FROM_CAR.heading,
@@ -80,8 +92,10 @@ class Waypoints(unittest.TestCase):
         cls.motion = Listener(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER)
         cls.mode = Listener(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
         cls.time = ScriptedTime(["/dispatcher", "/state_machine", "/motion_planner"], speakers, [cls.motion, cls.mode])
+        cls.nav_goal = rospy.Publisher(nav_goal_topic(), PoseStamped, queue_size=1)
         cls.operator = OperatorLink(rospy.get_param("~status_port"), rospy.get_param("~command_port"))
         cls.time.start()
+        wait_for(cls.nav_goal.get_num_connections, "the planner's ear for goals from rviz")
 
     @classmethod
     def tearDownClass(cls):
@@ -92,6 +106,17 @@ class Waypoints(unittest.TestCase):
         Waypoints.waypoint_id += 1
         self.operator.order(waypoint=link.Waypoint(id=self.waypoint_id, x=x, y=y, heading=heading))
         return self.waypoint_id
+
+    def nav_goal_at(self, x, y):
+        """A person sets a goal in rviz, by its place in the Car's frame, while the Operator wants nothing."""
+        self.operator.order()
+        self.time.advance_until(lambda: not 0 < self.motion_now().goal_id < FIRST_NAV_ID, within_s=5.0)
+        before, pose = self.motion_now().goal_id, MAP_FROM_CAR @ Pose2(x, y, 0.0)
+        goal = PoseStamped()
+        goal.header.frame_id, goal.pose.position.x, goal.pose.position.y = names.MAP, pose.x, pose.y
+        goal.pose.orientation.w = 1.0
+        self.nav_goal.publish(goal)
+        self.time.advance_until(lambda: self.motion_now().goal_id not in (0, before), within_s=20.0)
 
     def seen(self, waypoint_id, result):
         """True when the Operator has heard this of the waypoint."""
@@ -152,6 +177,30 @@ class Waypoints(unittest.TestCase):
         self.assertEqual(self.operator.status.waypoint_message, self.motion_now().message)
         after = self.operator.status.state
         self.assertEqual((after.x, after.y, after.speed), (before.x, before.y, 0.0))
+
+    def test_goal_from_rviz_is_driven_to_while_the_operator_wants_nothing(self):
+        self.await_result(self.go_to(4.0, -1.0), link.WAYPOINT_RESULT_REACHED)
+        self.nav_goal_at(4.5, 1.5)
+        self.time.advance_until(lambda: self.motion_now().result == MotionStatus.REACHED, REACH_WITHIN_S)
+        state = self.operator.status.state
+        self.assertLess(math.hypot(state.x - 4.5, state.y - 1.5), TOLERANCE_M)
+
+    def test_goal_from_rviz_inside_the_keep_out_zone_is_refused_with_a_sentence_and_nothing_moves(self):
+        self.await_result(self.go_to(4.0, -1.0), link.WAYPOINT_RESULT_REACHED)
+        before = self.operator.status.state
+        self.nav_goal_at(HALF_LENGTH_M + 0.2, 0.0)
+        self.assertEqual(self.motion_now().result, MotionStatus.REFUSED)
+        self.assertIn("to the Car", self.motion_now().message)
+        self.time.advance_for(1.0)
+        after = self.operator.status.state
+        self.assertEqual((after.x, after.y, after.speed), (before.x, before.y, 0.0))
+
+    def test_waypoint_of_the_operator_goes_before_a_goal_from_rviz(self):
+        self.await_result(self.go_to(4.0, -1.0), link.WAYPOINT_RESULT_REACHED)
+        self.nav_goal_at(-4.0, 2.5)
+        self.await_motion()
+        self.await_result(self.go_to(4.5, 2.0), link.WAYPOINT_RESULT_REACHED)
+        self.assertLess(self.motion_now().goal_id, FIRST_NAV_ID)
 
     def test_refused_waypoint_in_mid_motion_stops_the_robot(self):
         self.go_to(-4.0, -2.5)

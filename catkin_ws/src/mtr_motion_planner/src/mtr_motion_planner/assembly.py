@@ -69,8 +69,8 @@ class Assembly:
     def _blends(self, candidate: Candidate, begin: Moving, end: Pose2, transit: List[Begun], best_s: float
                 ) -> Iterator[Blend]:
         """The transit with turns that overlap with the drive, the quickest first."""
-        turns = self._turns(transit)
-        for overlap_s in overlaps_of(turns) if turns else []:
+        turns, slip = self._turns(transit), self._parameters.footprint.slip
+        for overlap_s in overlaps_of(turns, self._parameters.limits, slip) if turns else []:
             if self.blends_left == 0 or turns.duration_s - sum(overlap_s) >= best_s:
                 return
             self.blends_left -= 1
@@ -80,20 +80,24 @@ class Assembly:
 
     def _blend(self, candidate: Candidate, begin: Moving, end: Pose2, overlap_s: Tuple[float, float]
                ) -> Optional[Blend]:
-        """What the overlap adds to the way is taken from where the drive aims at, until it ends at the end."""
-        aim = end
+        """What the overlaps add to the way is taken from where the drive begins and ends, until it is as planned."""
+        start, aim = begin.pose, end
         for _ in range(ATTEMPTS):
-            transit = self._transit(candidate, begin, aim)
+            transit = self._transit(candidate, Moving(start, begin.linear_mps, begin.angular_radps), aim)
             turns = transit and self._turns(transit)
             if not turns:
                 return None
-            trajectory = overlapped(turns, overlap_s, self._parameters.footprint.slip)
+            trajectory, aside = overlapped(turns, overlap_s, self._parameters.footprint.slip,
+                                           complex(begin.pose.x, begin.pose.y))
             if not keeps(trajectory, self._parameters.limits):
                 return None
             x, y = trajectory.poses[-1, :2]
             if math.hypot(end.x - x, end.y - y) < CLOSE_M:
                 return Blend(next(motion for motion, _ in transit if isinstance(motion, Drive)), trajectory)
-            aim = Pose2(aim.x + end.x - x, aim.y + end.y - y, end.heading)
+            # Once the first turn is done the robot is to be on the drive's own way, which keeps away from the Car.
+            begun = Pose2(begin.pose.x + aside.real, begin.pose.y + aside.imag, begin.pose.heading)
+            aim = Pose2(aim.x + end.x - x + begun.x - start.x, aim.y + end.y - y + begun.y - start.y, end.heading)
+            start = begun
         return None
 
     def _turns(self, transit: List[Begun]) -> Optional[Turns]:

@@ -4,8 +4,9 @@ The robot leaves before it faces its way and turns away from it before it has co
 motions are added; where that leads is integrated, sideways slip included.
 """
 # SPDX-License-Identifier: Apache-2.0
+import itertools
 from dataclasses import dataclass
-from typing import List, Optional, Tuple
+from typing import Iterator, List, Optional, Tuple
 
 import numpy as np
 
@@ -14,11 +15,13 @@ from .parameters import Slip
 from .timing import SAMPLE_S
 from .trajectory import Drive, Trajectory
 
-# Time by which the turns before and after the drive may overlap with it. The longest that keep the limits are taken. In
-# an overlap of 1.8 s the robot slides 2 cm farther aside than calculated: at the beginning the drive takes that out, at
-# the end a correction of 4.5 s would have to.
-FIRST_S, LAST_S = (2.2, 1.8, 1.4, 1.0), (1.6, 1.2)
-PAIRS_S = tuple(sorted(((first, last) for first in FIRST_S for last in LAST_S), key=sum, reverse=True))
+# Time by which the turns before and after the drive may overlap with it at most. In an overlap of 1.8 s the robot
+# slides 2 cm farther aside than calculated: at the beginning the drive takes that out, at the end a correction of 4.5 s
+# would have to.
+FIRST_S, LAST_S = 2.2, 1.6
+STEP_S = 0.2
+# So many times for each turn are tried together.
+CHOICES = 4
 # Sampled rates differ from the limits by this; drive control allows more than the planner's limits.
 SAMPLING_SHARE = 1.03
 
@@ -62,14 +65,24 @@ class Blend:
         """The rest of it needs another plan."""
 
 
-def overlaps_of(turns: Turns) -> List[Tuple[float, float]]:
-    """Times by which both turns may overlap, the longest first."""
-    longest = [turn.duration_s if turn else 0.0 for turn in (turns.first, turns.last)]
-    return list(dict.fromkeys((min(first, longest[0]), min(last, longest[1])) for first, last in PAIRS_S))
+def overlaps_of(turns: Turns, limits: MotionLimits, slip: Slip) -> Iterator[Tuple[float, float]]:
+    """Times by which both turns may overlap within the limits, the longest first."""
+    def keep(pair: Tuple[float, float]) -> bool:
+        return keeps(overlapped(turns, pair, slip)[0], limits)
+
+    firsts = [time for time in _times(turns.first, FIRST_S) if keep((time, 0.0))][:CHOICES]
+    lasts = [time for time in _times(turns.last, LAST_S) if keep((0.0, time))][:CHOICES]
+    pairs = itertools.product([*firsts, 0.0], [*lasts, 0.0])
+    return (pair for pair in sorted(pairs, key=sum, reverse=True)[:-1] if keep(pair))
 
 
-def overlapped(turns: Turns, overlap_s: Tuple[float, float], slip: Slip) -> Trajectory:
-    """The three at once, as far as they overlap."""
+def _times(turn: Optional[Trajectory], most_s: float) -> List[float]:
+    return np.arange(min(turn.duration_s, most_s), 0.0, -STEP_S).tolist() if turn else []
+
+
+def overlapped(turns: Turns, overlap_s: Tuple[float, float], slip: Slip, begin: complex = 0j
+               ) -> Tuple[Trajectory, complex]:
+    """The three at once, as far as they overlap, from x + iy; and how far the first turn leads aside of the drive."""
     drive = turns.drive
     before, after = (max(0.0, turn.duration_s - overlap) if turn else 0.0
                      for turn, overlap in zip((turns.first, turns.last), overlap_s))
@@ -91,13 +104,14 @@ def overlapped(turns: Turns, overlap_s: Tuple[float, float], slip: Slip) -> Traj
             turned = spread(turn.poses[:, 2], which)
             heading = heading + turned - (turned[-1] if which == 0 else turned[0])
             angular = angular + spread(turn.angular, which)
-    begin = (turns.first or drive).poses[0]
     aside = angular * (slip.acceleration_slip_s2 * np.gradient(linear, SAMPLE_S)
                        - slip.curve_slip_s2 * linear * np.abs(angular))
     steps = np.sign(linear.sum()) * np.diff(ways) + 0.5j * SAMPLE_S * (aside[1:] + aside[:-1])
     places = np.concatenate(([0.0], np.cumsum(steps * np.exp(0.5j * (heading[1:] + heading[:-1])))))
-    poses = np.column_stack((begin[0] + places.real, begin[1] + places.imag, heading))
-    return Trajectory(ways, poses, linear, angular, drive.length_m)
+    poses = np.column_stack((begin.real + places.real, begin.imag + places.imag, heading))
+    done = starts[0] + lengths[0] - 1 if turns.first else starts[1]
+    alone = drive.poses[np.clip(done - starts[1], 0, lengths[1] - 1), :2] - drive.poses[0, :2]
+    return Trajectory(ways, poses, linear, angular, drive.length_m), places[done] - complex(*alone)
 
 
 def keeps(trajectory: Trajectory, limits: MotionLimits) -> bool:

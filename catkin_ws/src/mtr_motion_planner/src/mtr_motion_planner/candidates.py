@@ -4,10 +4,12 @@ import itertools
 from dataclasses import dataclass
 from typing import Iterator, List, Optional, Sequence, Tuple
 
+from shapely.geometry import Point as ShapelyPoint
+
 from mtr_core.se2 import Pose2
 
 from .estimate import time_of
-from .keep_out import KeepOut
+from .keep_out import KeepOut, centres
 from .limits import MotionLimits, rest_to_rest_time
 from .options import Goal, Straight, arrivals, departures
 from .parameters import MotionParameters
@@ -44,7 +46,8 @@ class Candidates:
         self._radii = sorted({*(radius for radius in TIGHT_RADII_M if radius < 0.9 * cruise), cruise})
         gap = parameters.route_gap_m
         sizes = {gap, min(LARGEST_RING_M, max(gap, cruise)), min(LARGEST_RING_M, max(gap, 0.6 * cruise))}
-        self._rings = [Ring(keep_out.centres(size, gap), size) for size in sorted(sizes)]
+        self._rings, self._close_rings = ([Ring(centres(zone, size, gap), size) for size in sorted(sizes)]
+                                          for zone in (keep_out.plain, keep_out.hull))
 
     def between(self, start: Moving, goal: Goal) -> List[Candidate]:
         """Candidates, the quickest first; PlanRefused when start or goal lies too close to the Car."""
@@ -98,7 +101,9 @@ class Candidates:
         gap = min(self._parameters.route_gap_m, self._keep_out.distance(begin), self._keep_out.distance(finish))
         if begin.distance_to(finish) < 1e-6 or not self._keep_out.crosses(line, gap):
             return [(None, 1)]
-        return list(itertools.product(self._rings, (1, -1)))
+        is_near = any(self._keep_out.plain.distance(ShapelyPoint(pose.x, pose.y)) < self._parameters.route_gap_m
+                      for pose in (begin, finish))
+        return list(itertools.product(self._close_rings if is_near else self._rings, (1, -1)))
 
     def _signed_radii(self, on_the_spot: bool) -> List[float]:
         return [*([0.0] if on_the_spot else []), *self._radii, *(-radius for radius in self._radii)]

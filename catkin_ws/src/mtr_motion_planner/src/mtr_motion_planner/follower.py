@@ -67,10 +67,20 @@ class Follower:
             return Reference(self.plan.goal, 0.0, 0.0, 0.0)
         return self._part.trajectory.at(self._time_s + ahead_s)
 
-    def moving(self) -> Moving:
+    def moving(self, ahead_s: float = 0.0) -> Moving:
         """The reference as the beginning of another plan."""
-        now = self.reference()
-        return Moving(now.pose, now.linear_mps, now.angular_radps)
+        then = self._later(ahead_s)
+        return Moving(then.pose, then.linear_mps, then.angular_radps)
+
+    def _later(self, ahead_s: float) -> Reference:
+        """The reference after a time in which the robot keeps up with it, in the next parts too."""
+        index, time_s = self._index, self._time_s + ahead_s
+        part = self._part
+        while part is not None and time_s >= part.trajectory.duration_s and index + 1 < len(self.plan.parts):
+            time_s -= part.trajectory.duration_s
+            index += 1
+            part = self.plan.parts[index]
+        return self.reference() if part is None else part.trajectory.at(time_s)
 
     def is_near(self, pose: Pose2) -> bool:
         """True when the robot is close enough to its reference to go on from there."""

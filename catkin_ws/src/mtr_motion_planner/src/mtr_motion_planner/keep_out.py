@@ -1,7 +1,7 @@
 """The Car's outline as something to stay away from, for the robot's true footprint at poses of its turn centre."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import List, Sequence, Tuple
+from typing import Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
 from shapely.geometry import LineString, MultiPoint, Polygon
@@ -19,6 +19,8 @@ OUTLINE_STEP_M = 0.04
 LEAST_AREA_M2 = 0.05
 # A line that only grazes a zone by less than this runs along its edge.
 GRAZE_M = 0.005
+# Sides shorter than this give way to a corner that lies no farther than that from the hull.
+SHORT_SIDE_M, CORNER_REACH_M = 1.0, 0.3
 
 
 class OutlineUnusable(RobotError):
@@ -29,14 +31,17 @@ class KeepOut:
     """The Car in the frame of the plan.
 
     Attributes:
-        hull: convex hull of the outline.
+        outline: as it was measured.
+        hull: its convex hull.
+        plain: around the hull, with few corners.
     """
 
     def __init__(self, outline: Sequence[Point], footprint: Footprint):
         self._footprint = footprint
-        self._outline = polygon_of(outline)
-        self.hull: Polygon = orient(self._outline.convex_hull)
-        self._edge = _sampled(self._outline)
+        self.outline = polygon_of(outline)
+        self.hull: Polygon = orient(self.outline.convex_hull)
+        self.plain: Polygon = plain_of(self.hull)
+        self._edge = _sampled(self.outline)
 
     def clearances(self, poses: np.ndarray) -> np.ndarray:
         """Distance of the footprint from the outline at each pose (rows of x, y, heading); 0 when they overlap."""
@@ -49,7 +54,7 @@ class KeepOut:
 
     def clearance(self, pose: Pose2) -> float:
         """Distance of the footprint from the outline, 0 inside it."""
-        if self._outline.contains(ShapelyPoint(pose.x, pose.y)):
+        if self.outline.contains(ShapelyPoint(pose.x, pose.y)):
             return 0.0
         return float(self.clearances(np.array([[pose.x, pose.y, pose.heading]]))[0])
 
@@ -61,20 +66,57 @@ class KeepOut:
         """True when the turn centre would come closer to the hull than the gap on the line."""
         return bool(self.hull.distance(LineString(line)) < gap_m - GRAZE_M)
 
-    def centres(self, radius: float, gap_m: float) -> List[Point]:
-        """Corners, counterclockwise, of the polygon that is the zone of the gap when it is grown by the radius.
 
-        Each corner of the hull moves inwards on its bisector by radius - gap, so that it stays within that distance
-        of the new polygon: grown by the radius this covers the hull grown by the gap, and no bend is tighter.
-        """
-        corners = list(self.hull.exterior.coords)[:-1]
-        inset = radius - gap_m
-        moved = [_inwards(corners[i - 1], corner, corners[(i + 1) % len(corners)], inset)
-                 for i, corner in enumerate(corners)]
-        core = MultiPoint(moved).convex_hull
-        if not isinstance(core, Polygon):
-            core = MultiPoint(corners).convex_hull.buffer(-0.1 * gap_m)
-        return list(orient(core).exterior.coords)[:-1]
+def centres(zone: Polygon, radius: float, gap_m: float) -> List[Point]:
+    """Corners, counterclockwise, of the polygon that is the convex zone grown by the gap when grown by the radius.
+
+    Each corner of the zone moves inwards on its bisector by radius - gap, so that it stays within that distance of the
+    new polygon: grown by the radius this covers the zone grown by the gap, and no bend is tighter.
+    """
+    corners = list(zone.exterior.coords)[:-1]
+    inset = radius - gap_m
+    moved = [_inwards(corners[i - 1], corner, corners[(i + 1) % len(corners)], inset)
+             for i, corner in enumerate(corners)]
+    core = MultiPoint(moved).convex_hull
+    if not isinstance(core, Polygon):
+        core = MultiPoint(corners).convex_hull.buffer(-0.1 * gap_m)
+    return list(orient(core).exterior.coords)[:-1]
+
+
+def plain_of(hull: Polygon) -> Polygon:
+    """The counterclockwise hull with corners in place of its short sides, the shortest first.
+
+    A measured Car is round at its corners. A way that bends once about each is quicker than one that bends at every
+    corner of the outline.
+    """
+    corners = list(hull.exterior.coords)[:-1]
+    while True:
+        found = next(_corners_for_short_sides(corners, hull), None)
+        if found is None:
+            return Polygon(corners)
+        index, corner = found
+        corners[index] = corner
+        del corners[(index + 1) % len(corners)]
+
+
+def _corners_for_short_sides(corners: Sequence[Point], hull: Polygon) -> Iterator[Tuple[int, Point]]:
+    count = len(corners)
+    lengths = [math.dist(corner, corners[(i + 1) % count]) for i, corner in enumerate(corners)]
+    for i in sorted(range(count), key=lengths.__getitem__):
+        if lengths[i] < SHORT_SIDE_M:
+            corner = _meeting(*(corners[(i + k) % count] for k in (-1, 0, 1, 2)))
+            if corner and hull.distance(ShapelyPoint(corner)) <= CORNER_REACH_M:
+                yield i, corner
+
+
+def _meeting(before: Point, first: Point, last: Point, after: Point) -> Optional[Point]:
+    """Where two sides would meet without the one between first and last; None when they would not."""
+    ax, ay, bx, by = first[0] - before[0], first[1] - before[1], last[0] - after[0], last[1] - after[1]
+    cross = bx * ay - by * ax
+    if cross <= 0.0:
+        return None
+    along = (bx * (last[1] - first[1]) - by * (last[0] - first[0])) / cross
+    return first[0] + along * ax, first[1] + along * ay
 
 
 def polygon_of(points: Sequence[Point]) -> Polygon:

@@ -1,5 +1,7 @@
 """The motion planner as a ROS node: topics in, velocity and status out, 25 times a second."""
 # SPDX-License-Identifier: Apache-2.0
+from concurrent.futures import ThreadPoolExecutor
+
 import rospy
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
@@ -8,7 +10,7 @@ from visualization_msgs.msg import MarkerArray
 
 from mtr_core import names, schedule
 from mtr_lockstep import Ticker, TickInput, publisher, run_node
-from mtr_lockstep.clock import stamp_of
+from mtr_lockstep.clock import is_simulated, stamp_of
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
 from .conversions import (
@@ -23,6 +25,7 @@ from .conversions import (
     velocity_message,
 )
 from .inputs import Inputs
+from .making import Inline
 from .nav_goal import NavGoals
 from .parameters import MotionParameters
 from .picture import picture_of
@@ -32,6 +35,8 @@ from .planner import MotionPlanner
 NAV_GOAL = "/move_base_simple/goal"
 # One of so many ticks shows the markers: 2.5 times a second.
 MARKER_TICKS = 10
+# The newest plan does not wait for one that is no longer wanted.
+PLANS_AT_ONCE = 2
 
 
 class MotionPlannerNode:
@@ -39,7 +44,8 @@ class MotionPlannerNode:
 
     def __init__(self, parameters: MotionParameters):
         self._parameters = parameters
-        self._planner = MotionPlanner(parameters)
+        # In simulation time waits for the plan.
+        self._planner = MotionPlanner(parameters, Inline() if is_simulated() else ThreadPoolExecutor(PLANS_AT_ONCE))
         self._ticker = Ticker(schedule.MOTION_PLANNER)
         self._pose = TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)

@@ -17,7 +17,7 @@ class Picture:
     """Lines in map or in the Car's frame.
 
     Attributes:
-        keep_out: where the robot's centre is not led on its way; closed.
+        keep_out: into what the robot's footprint is never led; closed.
         trajectory: where the robot is to be, and how fast in m/s.
         reference: where it is to be now.
         goal: of base_link.
@@ -35,7 +35,7 @@ def picture_of(planner: MotionPlanner, parameters: MotionParameters) -> Optional
     site, follower = planner.site, planner.follower
     if site is None:
         return None
-    zone = site.keep_out.hull.buffer(parameters.route_gap_m, ROUND_STEPS)
+    zone = site.keep_out.outline.buffer(parameters.margins.keep_out_m, ROUND_STEPS)
     parts = follower.plan.parts if follower else ()
     trajectory = tuple((float(x), float(y), abs(float(speed))) for part in parts for (x, y, _), speed in zip(
         part.trajectory.poses[::5], part.trajectory.linear[::5]))

@@ -1,5 +1,6 @@
 """The motion planner: at each tick from the inputs to a velocity and a status."""
 # SPDX-License-Identifier: Apache-2.0
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
@@ -9,10 +10,11 @@ from mtr_core.states import Result
 
 from .follower import Follower, Wanted
 from .inputs import NO_GOAL, Car, Inputs, Order, Point, RobotState, Zone, fault_of
+from .making import LEAD_S, Making
 from .options import Goal
 from .parameters import MotionParameters
-from .plan import Moving
-from .planning import Planning
+from .plan import Moving, Plan
+from .planning import Planning, moves
 from .ramp import Ramp
 from .site import Site
 from .tolerance import miss_of, sentence_about, was_displaced
@@ -20,6 +22,7 @@ from .watch import StallWatch, is_heading_into
 from .watch import sentence_about as sentence_about_drive
 
 SETTLED = (Result.REACHED, Result.REFUSED)
+ROUNDING_MPS = 0.005
 STANDING = (Zone.BLOCKED, Zone.BLIND)
 
 
@@ -56,8 +59,10 @@ class MotionPlanner:
         follower: at work, None when there is nothing to follow.
     """
 
-    def __init__(self, parameters: MotionParameters):
+    def __init__(self, parameters: MotionParameters, executor: Executor):
+        """executor: makes the plans."""
         self._parameters = parameters
+        self._making = Making(executor)
         self._ramp = Ramp(parameters.limits)
         self._stall = StallWatch()
         self._goal = NO_GOAL
@@ -80,6 +85,7 @@ class MotionPlanner:
         if self._goal.goal_id == 0:
             self._ramp.brake()
             self.follower = None
+            self._making.forget()
             return self._output(Result.IDLE)
         self._take_car(inputs.car)
         return self._pursue(inputs)
@@ -88,6 +94,7 @@ class MotionPlanner:
         """Start anew with the goal; a follower stays until the new plan goes on from its motion."""
         self._result, self._message = result, ""
         self._must_plan = True
+        self._making.forget()
         self._corrections = 0
         self._settled_at: Optional[Pose2] = None
         self._stall.reset()
@@ -95,6 +102,7 @@ class MotionPlanner:
     def _stop_at_once(self, fault: str) -> Output:
         self._ramp.drop()
         self._stall.reset()
+        self._making.forget()
         self.follower, self._must_plan = None, True
         if self._goal.goal_id == 0:
             return self._output(Result.IDLE)
@@ -118,7 +126,11 @@ class MotionPlanner:
                 return self._stay()
             self._begin(Result.PENDING)
         speed = self._speed(inputs.order, inputs.robot)
-        if self._must_plan and not self._plan(pose, inputs.robot, speed):
+        if self._must_plan:
+            self._plan(pose, inputs, speed)
+        if self._making.is_at_work:
+            self._take_plan(pose, inputs.tick_s, speed)
+        if self.follower is None:
             return self._stay()
         return self._follow(pose, inputs, speed)
 
@@ -137,26 +149,50 @@ class MotionPlanner:
         speed = min(order.max_speed_mps, self._parameters.limits.max_linear_mps)
         return min(speed, self._parameters.degenerate_speed_mps) if robot.is_degenerate else speed
 
-    def _plan(self, pose: Pose2, robot: RobotState, speed: float) -> bool:
-        """Make a plan that goes on from the present motion; False when the robot must stay."""
+    def _plan(self, pose: Pose2, inputs: Inputs, speed: float) -> None:
+        """Adopt a plan that is quickly made, or begin to make another; without a reference the robot stops first."""
         planning = Planning(self.site.keep_out, self.site.fence, self._parameters, speed)
+        goal = Goal(self.site.goal, self._goal.direction, is_correction=self._corrections > 0)
+        # Another frame has other coordinates: what was followed means nothing in it.
+        if self._followed_in_car != self.site.in_car_frame or not (self.follower and self.follower.is_near(pose)):
+            self.follower = None
+        robot, follower = inputs.robot, self.follower
+        present = follower.moving() if follower else Moving(pose, robot.speed_mps, robot.yaw_rate_radps)
         try:
-            goal = Goal(self.site.goal, self._goal.direction, is_correction=self._corrections > 0)
-            plan = planning.plan(self._present(pose, robot), goal)
+            plan = planning.straight(present, goal)
         except RobotError as refusal:
             self._settle(Result.REFUSED, str(refusal), pose)
-            return False
-        self._must_plan, self._followed_in_car = False, self.site.in_car_frame
+            return
+        if plan:
+            self._adopt(plan, speed)
+        elif not moves(present):
+            self._making.begin(planning, goal, present, inputs.tick_s)
+        elif follower:
+            # A robot that is, or gets, faster than it now may be does not go on so.
+            fastest = max(abs(present.linear_mps), abs(follower.moving(LEAD_S).linear_mps))
+            lead_s = LEAD_S if fastest <= speed + ROUNDING_MPS else 0.0
+            self._making.begin(planning, goal, follower.moving(lead_s), inputs.tick_s + lead_s)
+        self._must_plan = plan is None and not self._making.is_at_work
+
+    def _take_plan(self, pose: Pose2, tick_s: float, speed: float) -> None:
+        """Change over to the plan that is due; a robot whose plan is late stops."""
+        if not self._making.is_due(tick_s):
+            return
+        if not self._making.is_done():
+            self.follower = None
+        elif not self._making.fits(self.follower):
+            self._making.forget()
+            self._must_plan = True
+        else:
+            try:
+                self._adopt(self._making.take(), speed)
+            except RobotError as refusal:
+                self._settle(Result.REFUSED, str(refusal), pose)
+
+    def _adopt(self, plan: Plan, speed: float) -> None:
+        self._followed_in_car = self.site.in_car_frame
         self.follower = Follower(plan, self._parameters, speed)
         self._path = Path(self.site.in_car_frame, tuple(plan.points))
-        return True
-
-    def _present(self, pose: Pose2, robot: RobotState) -> Moving:
-        # Another frame has other coordinates: what was followed means nothing in it.
-        same_frame = self._followed_in_car == self.site.in_car_frame
-        if self.follower is not None and same_frame and self.follower.is_near(pose):
-            return self.follower.moving()
-        return Moving(pose, robot.speed_mps, robot.yaw_rate_radps)
 
     def _follow(self, pose: Pose2, inputs: Inputs, speed: float) -> Output:
         robot, follower = inputs.robot, self.follower
@@ -164,12 +200,14 @@ class MotionPlanner:
             self._must_plan = True
         wanted = follower.step(pose, robot, self._ramp.step_s)
         if wanted.lost:
-            # The next tick plans from where the robot is; until then it goes on slowing down.
+            # It is planned from where the robot comes to stand.
+            self._making.forget()
             self.follower, self._must_plan = None, True
             self._ramp.brake()
             return self._output(Result.PENDING, wanted.remaining_m)
         if wanted.finished:
-            self._arrive(pose)
+            if not self._making.is_at_work:
+                self._arrive(pose)
             return self._stay()
         if is_heading_into(self.site.keep_out, pose, robot, wanted.velocity, self._parameters):
             self._ramp.brake()

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import List, Optional, Union
 
 import numpy as np
@@ -40,7 +41,10 @@ class Trajectory:
         self.duration_s = SAMPLE_S * (len(ways) - 1)
         self.length_m = length_m
         self.ways, self.poses, self.linear, self.angular = ways, poses, linear, angular
-        self._rows: List[List[float]] = np.column_stack((ways, poses, linear, angular)).tolist()
+
+    @cached_property
+    def _rows(self) -> List[List[float]]:
+        return np.column_stack((self.ways, self.poses, self.linear, self.angular)).tolist()
 
     def at(self, time_s: float) -> Reference:
         """Reference at a time since the beginning."""

@@ -60,6 +60,16 @@ def test_blended_plan_keeps_speed_yaw_rate_and_accelerations(end, speed):
         assert np.abs(np.diff(linear)).max() <= 1.03 * SAMPLE_S * LIMITS.acceleration_mps2
 
 
+def test_blend_around_the_car_follows_its_drive_once_the_first_turn_is_done():
+    start, end = Pose2(4.0, -2.0, 2.6), Pose2(-3.5, 1.0, -1.2)
+    keep_out = KeepOut(car_at().outline, PARAMETERS.footprint)
+    part, = Planning(keep_out, None, PARAMETERS, 0.7).plan(Moving(start), Goal(end, Direction.ANY)).parts
+    curve, poses = part.motion.drive.curve, part.trajectory.poses
+    assert math.hypot(curve.x[0] - start.x, curve.y[0] - start.y) > 0.05
+    for x, y, _ in poses[round(3.0 / SAMPLE_S):-round(3.0 / SAMPLE_S):10]:
+        assert np.hypot(curve.x - x, curve.y - y).min() < 0.5 * curve.step_m + 0.002
+
+
 def test_robot_held_in_a_blend_is_reported_blocked_and_goes_on_when_released():
     robot = SimulatedRobot(Pose2(0.0, -6.0, 0.0), held=True)
     robot.go(1, 1.5, -3.0, 60.0)

@@ -6,14 +6,18 @@ import math
 import numpy as np
 import pytest
 from motion_simulation import OUTLINE, PARAMETERS, SimulatedRobot, car_at
-from shapely.geometry import Polygon
+from shapely.geometry import Polygon, box
+from shapely.geometry.polygon import orient
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
 from mtr_motion_planner.inputs import Drive, Zone
-from mtr_motion_planner.keep_out import KeepOut, OutlineUnusable
+from mtr_motion_planner.keep_out import KeepOut, OutlineUnusable, centres, plain_of
+from mtr_motion_planner.options import Goal
 from mtr_motion_planner.parameters import Margins, Slip
+from mtr_motion_planner.plan import Moving
+from mtr_motion_planner.planning import Planning
 
 TEST_AREA = (-7.0, -7.0, 7.0, -7.0, 7.0, 1.5, -7.0, 1.5)  # on the Car's left there is no room to pass
 FENCED = dataclasses.replace(PARAMETERS, margins=Margins(geofence_xy=TEST_AREA))
@@ -41,8 +45,28 @@ def test_clearance_is_zero_on_and_inside_the_outline():
 @pytest.mark.parametrize("radius", [0.465, 0.8, 1.4])
 def test_ring_grown_by_its_radius_covers_the_hull_grown_by_the_gap(radius):
     keep_out = KeepOut(OUTLINE, PARAMETERS.footprint)
-    ring = Polygon(keep_out.centres(radius, 0.465)).buffer(radius, 64)
+    ring = Polygon(centres(keep_out.hull, radius, 0.465)).buffer(radius, 64)
     assert ring.buffer(0.002).contains(keep_out.hull.buffer(0.465, 64))
+
+
+@pytest.mark.parametrize("roundness_m", [0.2, 0.6])
+def test_plain_zone_of_a_round_car_has_four_corners_and_covers_it(roundness_m):
+    hull = orient(box(-2.2, -0.9, 2.2, 0.9).buffer(-roundness_m).buffer(roundness_m, 4))
+    plain = plain_of(hull)
+    assert len(plain.exterior.coords) == 5
+    assert plain.buffer(1e-6).contains(hull)
+
+
+def test_plain_zone_does_not_reach_far_beyond_a_blunt_corner():
+    hull = orient(Polygon([(2.0, 0.0), (1.2, 0.9), (-2.0, 0.9), (-2.0, -0.9), (1.2, -0.9)]))
+    assert plain_of(hull).equals(hull)
+
+
+def test_way_around_a_car_with_cut_corners_takes_no_longer_than_around_its_box():
+    def time_s(outline):
+        planning = Planning(KeepOut(outline, PARAMETERS.footprint), None, PARAMETERS, 0.7)
+        return planning.plan(Moving(Pose2(4.0, -2.0, 2.6)), Goal(Pose2(-3.5, 1.0, -1.2), Direction.ANY)).duration_s
+    assert time_s(OUTLINE) < time_s(box(-2.25, -0.9, 2.25, 0.9).exterior.coords[:-1]) + 0.1
 
 
 @pytest.mark.parametrize("outline", [(), ((0, 0), (1, 1)), ((1, 1), (1, 1), (1, 1)), ((0, 0), (4, 0), (2, 0)),

@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 
+import pytest
 from geometry_msgs.msg import PoseStamped
-from motion_simulation import PARAMETERS, SimulatedRobot
+from motion_simulation import OUTLINE, PARAMETERS, SimulatedRobot
+from shapely.geometry import Polygon
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction
@@ -68,6 +70,7 @@ def test_picture_shows_zone_way_and_goal_in_the_frame_of_the_plan():
     assert {marker.header.frame_id for marker in markers.values()} == {"car"}
     assert len(markers["trajectory"].points) == len(markers["trajectory"].colors) > 10
     assert abs(markers["goal"].points[0].x + 4.0) < 1e-6
+    assert Polygon(picture.keep_out).exterior.distance(Polygon(OUTLINE)) == pytest.approx(0.10, abs=1e-3)
     path = next(each.path for each in robot.outputs if each.path)
     assert path_message(path, None).header.frame_id == "car"
     assert output.goal_id == 1

@@ -1,0 +1,87 @@
+"""Makes plans while the robot goes on: each begins where the present motion will be when the plan is due.
+
+On the robot's own clock a plan is made in a thread and may be late; in simulation it is made within the tick that asks
+for it, however long that takes, so that the result does not depend on the machine's speed.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from concurrent.futures import Executor, Future
+from dataclasses import dataclass
+from typing import Any, Callable, Optional
+
+from .follower import Follower
+from .options import Goal
+from .plan import Moving, Plan
+from .planning import Planning, moves
+from .tracking import deviation
+
+# From the order to a moving robot until it goes on with the new plan, which takes less time to make (planning.py).
+LEAD_S = 0.4
+ROUNDING_S = 0.001
+# A reference that is farther from the plan's start when the plan is due has waited for the robot meanwhile.
+START_M, START_RAD = 0.03, math.radians(3.0)
+
+
+class Inline(Executor):
+    """Does its work before it returns."""
+
+    def submit(self, work: Callable[..., Any], *arguments: Any, **named: Any) -> "Future[Any]":
+        """The work's result."""
+        done: Future = Future()
+        try:
+            done.set_result(work(*arguments, **named))
+        except Exception as error:
+            done.set_exception(error)
+        return done
+
+
+@dataclass(frozen=True)
+class Coming:
+    """A plan that is being made, and from when on it may be followed."""
+
+    plan: "Future[Plan]"
+    start: Moving
+    due_s: float
+
+
+class Making:
+    """Makes the newest plan that was asked for; older ones are forgotten."""
+
+    def __init__(self, executor: Executor):
+        self._executor = executor
+        self._coming: Optional[Coming] = None
+
+    @property
+    def is_at_work(self) -> bool:
+        """True from the order until the plan was taken or forgotten."""
+        return self._coming is not None
+
+    def forget(self) -> None:
+        """The plan is no longer wanted."""
+        self._coming = None
+
+    def begin(self, planning: Planning, goal: Goal, start: Moving, due_s: float) -> None:
+        """Make a plan from the start, where the robot is when it is due."""
+        self._coming = Coming(self._executor.submit(planning.plan, start, goal), start, due_s)
+
+    def is_due(self, tick_s: float) -> bool:
+        """True when the plan is to be followed from this tick on."""
+        return tick_s > self._coming.due_s - ROUNDING_S
+
+    def is_done(self) -> bool:
+        """True when there is a result."""
+        return self._coming.plan.done()
+
+    def fits(self, follower: Optional[Follower]) -> bool:
+        """True when the robot is where the plan begins: it stands there still, or its reference has come there."""
+        if not moves(self._coming.start):
+            return True
+        if follower is None:
+            return False
+        off = deviation(follower.reference(), self._coming.start.pose)
+        return math.hypot(off.x, off.y) < START_M and abs(off.heading) < START_RAD
+
+    def take(self) -> Plan:
+        """The plan; PlanRefused when there is none."""
+        coming, self._coming = self._coming, None
+        return coming.plan.result()
