@@ -31,7 +31,10 @@ NormalEquations equations_of(const Adjustment& state, const std::vector<Observat
   const Layout layout = layout_of(state);
   NormalEquations equations(layout.size(), static_cast<Eigen::Index>(state.surfels.size()));
   for (const Observation& seen : observations) {
-    equations.add(surface_residual(state, seen), seen.surfel, -1.0 / seen.sigma_m);
+    equations.add(surface_residual(state, seen), seen.surfel, Eigen::RowVector2d(-1.0, -seen.rise_m) / seen.sigma_m);
+  }
+  for (std::size_t i = 0; i < state.surfels.size(); ++i) {
+    equations.add_prior(static_cast<Eigen::Index>(i), state.surfels[i].lean, kLeanSigma);
   }
   for (std::size_t i = 1; i < state.key_frames.size(); ++i) {
     equations.add(motion_residual(state, i));
@@ -57,7 +60,9 @@ double take(const Step& step, Adjustment& state) {
     largest_m = std::max(largest_m, change.head<2>().norm());
   }
   for (std::size_t i = 0; i < state.surfels.size(); ++i) {
-    state.surfels[i].position += step.separate[static_cast<Eigen::Index>(i)] * state.surfels[i].normal;
+    const Eigen::Vector2d change = step.separate.col(static_cast<Eigen::Index>(i));
+    state.surfels[i].position += change[0] * state.surfels[i].normal;
+    state.surfels[i].lean += change[1];
   }
   state.range_bias_m += step.joint[layout.range_bias()];
   state.wheel_scale += step.joint[layout.wheel_scale()];
@@ -111,13 +116,16 @@ Uncertainty uncertainty_of(const Adjustment& state, const std::vector<Observatio
   const Layout layout = layout_of(state);
   const NormalEquations equations = equations_of(state, observations, parameters);
   const Eigen::MatrixXd joint = equations.joint_covariance();
-  const Eigen::VectorXd surfels = equations.separate_variances(joint).cwiseSqrt();
+  const Eigen::Matrix2Xd surfels = equations.separate_variances(joint).cwiseSqrt();
   Uncertainty uncertainty;
   for (std::size_t i = 0; i < state.key_frames.size(); ++i) {
     const Eigen::Index place = Layout::pose(static_cast<Eigen::Index>(i));
     uncertainty.poses.emplace_back(joint.block<3, 3>(place, place));
   }
-  uncertainty.surfels_m.assign(surfels.data(), surfels.data() + surfels.size());
+  for (Eigen::Index i = 0; i < surfels.cols(); ++i) {
+    uncertainty.surfels_m.push_back(surfels(0, i));
+    uncertainty.leans.push_back(surfels(1, i));
+  }
   uncertainty.range_bias_m = std::sqrt(joint(layout.range_bias(), layout.range_bias()));
   return uncertainty;
 }

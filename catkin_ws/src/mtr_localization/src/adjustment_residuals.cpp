@@ -35,7 +35,8 @@ Residual<1, 4> surface_residual(const Adjustment& state, const Observation& seen
   const Eigen::Vector2d lever = turn * seen.position - state.range_bias_m * seen_along;
   const Eigen::Vector2d& normal = surfel.normal;
   Residual<1, 4> residual;
-  residual.value[0] = normal.dot(lever + pose.head<2>() - surfel.position) / seen.sigma_m;
+  const double distance_m = normal.dot(lever + pose.head<2>() - surfel.position);
+  residual.value[0] = (distance_m - surfel.lean * seen.rise_m) / seen.sigma_m;
   residual.jacobian << normal.x(), normal.y(), normal.y() * lever.x() - normal.x() * lever.y(), -normal.dot(seen_along);
   residual.jacobian /= seen.sigma_m;
   const Eigen::Index place = Layout::pose(seen.key_frame);

@@ -41,6 +41,8 @@ void GrowingMap::insert(const PoseVector& pose, const ScanPoints& scan) {
     Cell& cell = cells_[met.back()];
     cell.sum += position;
     cell.seen_along += turn * point.direction;
+    cell.lowest_rise_m = cell.hits > 0 ? std::min(cell.lowest_rise_m, point.rise_m) : point.rise_m;
+    cell.highest_rise_m = cell.hits > 0 ? std::max(cell.highest_rise_m, point.rise_m) : point.rise_m;
     ++cell.hits;
   }
   std::sort(met.begin(), met.end());
@@ -102,7 +104,7 @@ Surfel GrowingMap::surfel_of(const Cell& cell) const {
     normal = -normal;
   }
   const Eigen::Vector2d position = is_line ? own + normal * normal.dot(mean) : own;
-  return {position, normal, std::sqrt(2.0) * kCellM, kSigmaM, cell.hits};
+  return {position, normal, std::sqrt(2.0) * kCellM, kSigmaM, cell.hits, cell.lowest_rise_m, cell.highest_rise_m};
 }
 
 }  // namespace mtr_localization

@@ -208,7 +208,9 @@ void Localizer::lose(const std::string& reason) {
   } else {
     state_ = MotionState::kTracking;
     message_.clear();
-    keeper_.lose("Position lost: " + reason + " Searching near the last position.");
+    const bool is_mapping = keeper_.tracker().state() == ScanTracker::State::kMapping;
+    keeper_.lose("Position lost: " + reason +
+                 (is_mapping ? " Map the Car again." : " Searching near the last position."));
   }
 }
 

@@ -82,6 +82,21 @@ std::vector<Observation> finish(Adjustment& state, const AdjustmentParameters& p
   return observations;
 }
 
+/// With the beams of all views, and the heights at which they met the surfels.
+std::vector<Surfel> as_seen(std::vector<Surfel> surfels, const std::vector<Observation>& observations) {
+  for (Surfel& surfel : surfels) {
+    surfel.hits = 0;
+  }
+  for (const Observation& seen : observations) {
+    Surfel& surfel = surfels[static_cast<std::size_t>(seen.surfel)];
+    const bool is_first = surfel.hits == 0;
+    surfel.lowest_rise_m = is_first ? seen.lowest_rise_m : std::min(surfel.lowest_rise_m, seen.lowest_rise_m);
+    surfel.highest_rise_m = is_first ? seen.highest_rise_m : std::max(surfel.highest_rise_m, seen.highest_rise_m);
+    surfel.hits += seen.beams;
+  }
+  return surfels;
+}
+
 AdjustedMap result_of(const Adjustment& state, const std::vector<Observation>& observations,
                       const AdjustmentParameters& parameters) {
   const Uncertainty uncertainty = uncertainty_of(state, observations, parameters);
@@ -93,16 +108,13 @@ AdjustedMap result_of(const Adjustment& state, const std::vector<Observation>& o
   for (const Eigen::Matrix3d& covariance : uncertainty.poses) {
     map.pose_covariances.emplace_back(factor * factor * covariance);
   }
-  std::vector<int> hits(state.surfels.size(), 0);
-  for (const Observation& seen : observations) {
-    hits[seen.surfel] += seen.beams;
-  }
-  for (std::size_t i = 0; i < state.surfels.size(); ++i) {
-    if (hits[i] > 0) {
-      Surfel surfel = state.surfels[i];
-      surfel.sigma_m = std::hypot(factor * uncertainty.surfels_m[i], kShapeShare * parameters.surface_sigma_m);
-      surfel.hits = hits[i];
-      map.surfels.push_back(surfel);
+  const std::vector<Surfel> surfels = as_seen(state.surfels, observations);
+  for (std::size_t i = 0; i < surfels.size(); ++i) {
+    if (surfels[i].hits > 0) {
+      map.surfels.push_back(surfels[i]);
+      map.surfels.back().sigma_m =
+          std::hypot(factor * uncertainty.surfels_m[i], kShapeShare * parameters.surface_sigma_m);
+      map.surfels.back().lean_sigma = std::min(kLeanSigma, factor * uncertainty.leans[i]);
     }
   }
   map.range_bias_m = state.range_bias_m;

@@ -18,7 +18,8 @@ constexpr std::int64_t kLockstepLagNs = 20'000'000;
 constexpr std::int64_t kOrderLagNs = 100'000'000;
 // Without a scan for so long, the LiDARs are taken to be silent: seven sweeps of 25 Hz, three of 10 Hz.
 constexpr std::int64_t kSilentNs = 300'000'000;
-// A robot that stops when it is lost goes less far; a way round that went on is not of one piece.
+// A robot that stops when it is lost goes less far. One that went on and was not sure of its place again has a way
+// round with an open end.
 constexpr double kMostLostTravelM = 1.0;
 // What the growing map adds to the uncertainty of the place where the frozen one is entered.
 constexpr double kEntrySigmaM = 0.02;
@@ -68,7 +69,7 @@ bool MapKeeper::advance(FilterHistory& history, bool standing) {
   if (history.newest().input.kind == FilterInput::Kind::kMove) {
     builder_.travel(motion.distance_m, motion.gyro_angle_rad);
     mapped_travel_m_ += std::abs(motion.distance_m);
-    lost_travel_m_ += tracker_.lost() ? std::abs(motion.distance_m) : 0.0;
+    lost_travel_m_ = tracker_.lost() ? lost_travel_m_ + std::abs(motion.distance_m) : 0.0;
   }
   bool begins = false;
   while (!orders_.empty() && orders_.front().stamp_ns + kOrderLagNs <= now_ns) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "mtr_localization/se2.hpp"
@@ -21,6 +22,9 @@ struct Sums {
   double variance = 0.0;
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   Eigen::Vector2d direction = Eigen::Vector2d::Zero();
+  double rise_m = 0.0;
+  double lowest_rise_m = std::numeric_limits<double>::infinity();
+  double highest_rise_m = -std::numeric_limits<double>::infinity();
   int beams = 0;
 };
 
@@ -61,7 +65,8 @@ class Collector {
       const double surface = parameters_.surface_sigma_m;
       const double variance = sums.variance / (sums.weight * sums.weight) + surface * surface;
       observations.push_back({key_frame, surfel, sums.position / sums.weight, sums.direction / sums.weight,
-                              std::sqrt(variance), sums.beams});
+                              std::sqrt(variance), sums.beams, sums.rise_m / sums.weight, sums.lowest_rise_m,
+                              sums.highest_rise_m});
       sums = Sums{};
     }
     touched_.clear();
@@ -77,6 +82,9 @@ class Collector {
     sums.variance += weight * weight * variance;
     sums.position += weight * point.position;
     sums.direction += weight * point.direction;
+    sums.rise_m += weight * point.rise_m;
+    sums.lowest_rise_m = std::min(sums.lowest_rise_m, point.rise_m);
+    sums.highest_rise_m = std::max(sums.highest_rise_m, point.rise_m);
     ++sums.beams;
   }
 

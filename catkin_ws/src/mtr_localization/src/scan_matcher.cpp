@@ -21,9 +21,6 @@ constexpr double kSmallTurnRad = 2e-5;
 constexpr double kCauchy = 2.385;
 // Surfaces are looked for within this, and 3 sigma of the prior.
 constexpr double kLeastGateM = 0.08;
-// Sides of cars lean by up to 1 in 5: what a tilted LiDAR meets higher or lower than the map lies as much aside.
-constexpr double kLean = 0.2;
-
 // Beyond its ends a surface may go on so far.
 constexpr double kEndM = 0.05;
 
@@ -72,35 +69,38 @@ void ScanMatcher::for_each_match(const PoseVector& pose, const ScanPoints& scan,
     const Eigen::Vector2d position = pose.head<2>() + lever;
     const auto match = map.surfaces.match(position, gate, direction);
     if (!match || passes_beside(*match, position, direction, position_sigma + heading_sigma * point.range_m)) {
-      visit(nullptr, Eigen::Vector3d::Zero(), 0.0, 0.0, 0.0);
+      visit(nullptr, Eigen::Vector3d::Zero(), 0.0, 0.0, 0.0, 0.0);
       continue;
     }
     const Eigen::Vector2d& normal = match->surfel->normal;
     const Eigen::Vector3d slope(normal.x(), normal.y(), lever.x() * normal.y() - lever.y() * normal.x());
     const double along = normal.dot(direction);
+    // As long as the robot stands or the map lasts, and alike for all beams on one surface.
+    const double lasting = std::hypot(match->surfel->sigma_m, match->surfel->lean_sigma * point.rise_m);
     const double variance = square(parameters_.range_sigma_m * along) +
                             square(parameters_.beam_angle_sigma_rad * point.range_m) * (1.0 - square(along)) +
-                            square(match->surfel->sigma_m) + square(kLean * point.rise_m);
-    visit(match->surfel, slope, match->distance_along_normal_m, variance, along);
+                            square(lasting);
+    const double distance = match->distance_along_normal_m - match->surfel->lean * point.rise_m;
+    visit(match->surfel, slope, distance, variance, lasting, along);
   }
 }
 
 ScanMatcher::Sums ScanMatcher::sum_at(const PoseVector& pose, const ScanPoints& scan, const ReferenceMap& map,
                                       const PosePrior& prior) const {
   Sums sums;
-  for_each_match(pose, scan, map, prior,
-                 [&](const Surfel* surfel, const Eigen::Vector3d& slope, double distance, double variance, double) {
-                   ++sums.points;
-                   if (surfel) {
-                     const double in_sigmas = square(distance) / variance;
-                     const double weight =
-                         parameters_.independent_share / variance / (1.0 + in_sigmas / square(kCauchy));
-                     sums.information += weight * slope * slope.transpose();
-                     sums.gradient += weight * distance * slope;
-                     sums.squares += in_sigmas;
-                     ++sums.matched;
-                   }
-                 });
+  for_each_match(
+      pose, scan, map, prior,
+      [&](const Surfel* surfel, const Eigen::Vector3d& slope, double distance, double variance, double, double) {
+        ++sums.points;
+        if (surfel) {
+          const double in_sigmas = square(distance) / variance;
+          const double weight = parameters_.independent_share / variance / (1.0 + in_sigmas / square(kCauchy));
+          sums.information += weight * slope * slope.transpose();
+          sums.gradient += weight * distance * slope;
+          sums.squares += in_sigmas;
+          ++sums.matched;
+        }
+      });
   return sums;
 }
 
@@ -138,17 +138,17 @@ void ScanMatcher::add_error_pulls(const PoseVector& pose, const ScanPoints& scan
   }
   correction.error_pull.setZero(3, map.sources.count + 1);
   const Surfel* first = map.surfaces.surfels().data();
-  for_each_match(
-      pose, scan, map, prior,
-      [&](const Surfel* surfel, const Eigen::Vector3d& slope, double distance, double variance, double along) {
-        if (surfel) {
-          const Eigen::Vector3d pull =
-              parameters_.independent_share / variance / (1.0 + square(distance) / variance / square(kCauchy)) * slope;
-          const auto source = map.sources.of_surfel[static_cast<std::size_t>(surfel - first)];
-          correction.error_pull.col(source) += surfel->sigma_m * pull;
-          correction.error_pull.col(map.sources.count) -= map.range_bias_sigma_m * along * pull;
-        }
-      });
+  for_each_match(pose, scan, map, prior,
+                 [&](const Surfel* surfel, const Eigen::Vector3d& slope, double distance, double variance,
+                     double lasting, double along) {
+                   if (surfel) {
+                     const Eigen::Vector3d pull = parameters_.independent_share / variance /
+                                                  (1.0 + square(distance) / variance / square(kCauchy)) * slope;
+                     const auto source = map.sources.of_surfel[static_cast<std::size_t>(surfel - first)];
+                     correction.error_pull.col(source) += lasting * pull;
+                     correction.error_pull.col(map.sources.count) -= map.range_bias_sigma_m * along * pull;
+                   }
+                 });
 }
 
 }  // namespace mtr_localization

@@ -24,6 +24,9 @@ constexpr double kTolerancePerM = 0.02;
 // What is met so far above or below the LiDAR's own height need not be what the map shows: sills and bumpers are about
 // as high.
 constexpr double kSameHeightM = 0.1;
+// The heights at which a surface has been met are known so well: bumps of the ground, and the tilt's error.
+constexpr double kRiseToleranceM = 0.02;
+constexpr double kTiltSigmaRad = 0.003;
 // Surfaces so far aside, in bins, are not compared any more: 10 degrees.
 constexpr int kMostAside = 20;
 
@@ -32,19 +35,29 @@ int bin_of(double angle_rad) {
   return bin < 0 ? bin + kBins : bin;
 }
 
-/// Nearest and farthest expected range in each direction from one place.
+/// Nearest surface in each direction from one place.
 class ExpectedView {
  public:
   ExpectedView(const Eigen::Vector2d& eye, const std::vector<Surfel>& surfels, double range_max_m)
-      : ranges_(kBins, kNothing) {
+      : ranges_(kBins, kNothing), surfels_(kBins, nullptr) {
     for (const Surfel& surfel : surfels) {
       draw(surfel, surfel.position - eye, range_max_m);
     }
   }
 
-  double nearest(int bin) const { return ranges_[static_cast<std::size_t>((bin + kBins) % kBins)]; }
+  double nearest(int bin) const { return ranges_[index_of(bin)]; }
+
+  /// No beam has met the surface there at the height at which this one would.
+  bool is_at_new_height(int bin, double climb) const {
+    const Surfel& surfel = *surfels_[index_of(bin)];
+    const double rise_m = climb * nearest(bin);
+    const double tolerance_m = kRiseToleranceM + kTiltSigmaRad * nearest(bin);
+    return rise_m < surfel.lowest_rise_m - tolerance_m || rise_m > surfel.highest_rise_m + tolerance_m;
+  }
 
  private:
+  static std::size_t index_of(int bin) { return static_cast<std::size_t>((bin % kBins + kBins) % kBins); }
+
   void draw(const Surfel& surfel, const Eigen::Vector2d& offset, double range_max_m) {
     const double distance = offset.norm();
     const double facing = -surfel.normal.dot(offset) / distance;
@@ -56,17 +69,22 @@ class ExpectedView {
     const int first = static_cast<int>(std::floor((middle - half_width) * kBinsPerRad));
     const int last = static_cast<int>(std::floor((middle + half_width) * kBinsPerRad));
     for (int bin = first; bin <= last; ++bin) {
-      double& range = ranges_[static_cast<std::size_t>((bin % kBins + kBins) % kBins)];
-      range = std::min(range, distance);
+      if (distance < nearest(bin)) {
+        ranges_[index_of(bin)] = distance;
+        surfels_[index_of(bin)] = &surfel;
+      }
     }
   }
 
   std::vector<double> ranges_;
+  std::vector<const Surfel*> surfels_;
 };
 
 /// One beam.
 struct Beam {
   int bin;
+  Eigen::Vector2d eye;
+  Eigen::Vector2d direction;
   double shown;
   /// Rise per metre.
   double climb;
@@ -98,16 +116,26 @@ Surroundings look_around(const ExpectedView& view, const Beam& beam, double tole
   return found;
 }
 
-void count(const ExpectedView& view, const Beam& beam, double tolerance_m, Agreement& agreement) {
+/// What the beam shows is on the map, although behind something that was met at another height.
+bool is_on_surface(const SurfelMap& map, const Beam& beam, double tolerance_m) {
+  return beam.shown < kNothing &&
+         map.match(beam.eye + beam.shown * beam.direction, tolerance_m + kTolerancePerM * beam.shown, beam.direction);
+}
+
+void count(const ExpectedView& view, const SurfelMap& map, const Beam& beam, double tolerance_m, Agreement& agreement) {
   const double expected = view.nearest(beam.bin);
   const Surroundings around = look_around(view, beam, tolerance_m);
+  const bool agrees = around.agrees || is_on_surface(map, beam, tolerance_m);
   if (expected == kNothing) {
-    const bool is_known = beam.shown == kNothing || around.agrees;
+    const bool is_known = beam.shown == kNothing || agrees;
     agreement.unknown += is_known || beam.is_off_plane_at(beam.shown) ? 0 : 1;
-  } else if (around.agrees) {
+  } else if (agrees) {
     ++agreement.seen;
   } else if (beam.is_off_plane_at(std::min(beam.shown, expected))) {
     // It looks over or under what is expected, or at the ground before it.
+    return;
+  } else if (beam.shown > expected && view.is_at_new_height(beam.bin, beam.climb)) {
+    // The same, by less: bumpers and sills end a few centimetres beside the LiDAR's plane.
     return;
   } else if (beam.shown < expected) {
     ++agreement.hidden;
@@ -150,7 +178,7 @@ Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap
   const double turn = view.turned_at_last_beam_rad - view.turned_at_first_beam_rad;
   for (int beam = 0; beam < beams; beam += stride) {
     const double turned = view.turned_at_first_beam_rad + turn * beam / beams;
-    const int bin = bin_of(eye.z() + turned + sweep.angle_min_rad + beam * sweep.angle_increment_rad);
+    const double angle = eye.z() + turned + sweep.angle_min_rad + beam * sweep.angle_increment_rad;
     const double measured = sweep.ranges_m[static_cast<std::size_t>(beam)];
     if (!(measured >= sweep.range_min_m && measured > 0.0)) {
       // No number, or too near to tell (REP-117): it says nothing.
@@ -159,7 +187,8 @@ Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap
     const double shown = measured <= sweep.range_max_m ? measured : kNothing;
     const double angle_in_base = sweep.mount.z() + sweep.angle_min_rad + beam * sweep.angle_increment_rad;
     const double climb = view.slope.dot(Eigen::Vector2d(std::cos(angle_in_base), std::sin(angle_in_base)));
-    count(expected, {bin, shown, climb}, tolerance_m, agreement);
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    count(expected, map, {bin_of(angle), eye.head<2>(), direction, shown, climb}, tolerance_m, agreement);
   }
   return agreement;
 }

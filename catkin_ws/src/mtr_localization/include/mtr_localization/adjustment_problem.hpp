@@ -29,6 +29,8 @@ struct Uncertainty {
   std::vector<Eigen::Matrix3d> poses;
   /// 1 sigma along the normal; 0 for a surfel that nobody saw.
   std::vector<double> surfels_m;
+  /// 1 sigma of the surfels' leans.
+  std::vector<double> leans;
   double range_bias_m = 0.0;
 };
 

@@ -39,7 +39,7 @@ struct Layout {
 inline Layout layout_of(const Adjustment& state) { return {static_cast<Eigen::Index>(state.key_frames.size())}; }
 
 /// Distance of a view from its surfel; by pose and range bias. Its derivative by a shift of the surfel along the normal
-/// is -1 / sigma.
+/// is -1 / sigma, by its lean -rise / sigma.
 Residual<1, 4> surface_residual(const Adjustment& state, const Observation& seen);
 
 /// Motion from the key-frame before to this one against that of wheels and gyro; by both poses and the scales of

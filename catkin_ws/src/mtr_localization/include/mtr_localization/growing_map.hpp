@@ -28,6 +28,8 @@ class GrowingMap {
     Eigen::Vector2i place;
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     Eigen::Vector2d seen_along = Eigen::Vector2d::Zero();
+    double lowest_rise_m = 0.0;
+    double highest_rise_m = 0.0;
     int hits = 0;
     Surfel surfel{};
   };

@@ -72,7 +72,7 @@ class MapKeeper {
   std::optional<PoseVector> external_;
   std::int64_t looked_ns_ = 0;
   double mapped_travel_m_ = 0.0;
-  /// Of that, while the pose was lost.
+  /// Since the pose was lost; 0 when it is not.
   double lost_travel_m_ = 0.0;
   std::uint32_t newest_revision_ = 0;
   std::uint32_t revision_ = 0;

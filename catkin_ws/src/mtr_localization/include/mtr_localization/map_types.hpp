@@ -43,6 +43,10 @@ struct KeyFrame {
   int sweeps = 1;
 };
 
+/// Lean of surfaces of which nothing is known, 1 sigma: sides of cars and cones lean by up to 1 in 5, the fronts of
+/// tyres by more, walls not at all.
+inline constexpr double kLeanSigma = 0.2;
+
 /// A short straight piece of surface in map.
 struct Surfel {
   Eigen::Vector2d position;
@@ -52,6 +56,13 @@ struct Surfel {
   /// 1 sigma of its position along the normal, in the frame of the map.
   double sigma_m;
   int hits;
+  /// Heights at which beams met it, above the LiDAR's own height by the robot's tilt.
+  double lowest_rise_m = 0.0;
+  double highest_rise_m = 0.0;
+  /// How far it stands out along its normal per metre of rise, and its 1 sigma: cones narrow upwards, bumpers recede
+  /// downwards.
+  double lean = 0.0;
+  double lean_sigma = kLeanSigma;
 };
 
 /// Result of the adjustment of all key-frames.

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
+#include <vector>
 
 namespace mtr_localization {
 
@@ -18,14 +20,14 @@ struct Residual {
   double weight = 1.0;
 };
 
-/// Changes of the unknowns.
+/// Changes of the unknowns; a column for each separate pair.
 struct Step {
   Eigen::VectorXd joint;
-  Eigen::VectorXd separate;
+  Eigen::Matrix2Xd separate;
 };
 
-/// Normal equations of residuals that each hold at most one of the separate unknowns. These are eliminated by the Schur
-/// complement, so that the effort grows with the joint ones only.
+/// Normal equations of residuals that each hold at most one of the separate pairs of unknowns. These are eliminated by
+/// the Schur complement, so that the effort grows with the joint ones only.
 class NormalEquations {
  public:
   NormalEquations(Eigen::Index joint, Eigen::Index separate);
@@ -44,17 +46,20 @@ class NormalEquations {
     }
   }
 
-  /// Adds a residual that also holds a separate unknown, by which its derivative is `by_separate`.
+  /// Adds a residual that also holds a separate pair, by which its derivatives are `by_separate`.
   template <int N>
-  void add(const Residual<1, N>& residual, Eigen::Index separate, double by_separate) {
+  void add(const Residual<1, N>& residual, Eigen::Index separate, const Eigen::RowVector2d& by_separate) {
     add(residual);
-    const double weighted = residual.weight * by_separate;
+    const Eigen::RowVector2d weighted = residual.weight * by_separate;
     for (int i = 0; i < N; ++i) {
-      across_(residual.places[i], separate) += weighted * residual.jacobian[i];
+      across_.block<1, 2>(residual.places[i], 2 * separate) += residual.jacobian[i] * weighted;
     }
-    own_[separate] += weighted * by_separate;
-    own_gradient_[separate] += weighted * residual.value[0];
+    own_[static_cast<std::size_t>(separate)] += by_separate.transpose() * weighted;
+    own_gradient_.col(separate) += residual.value[0] * weighted.transpose();
   }
+
+  /// Adds what is known beforehand of the second one of a separate pair, as a value in sigmas.
+  void add_prior(Eigen::Index separate, double value, double sigma);
 
   /// Fixes a joint unknown.
   void hold(Eigen::Index place);
@@ -64,18 +69,19 @@ class NormalEquations {
 
   /// Covariance of the joint unknowns.
   Eigen::MatrixXd joint_covariance() const;
-  /// Variances of the separate unknowns; 0 for those that no residual holds.
-  Eigen::VectorXd separate_variances(const Eigen::MatrixXd& joint_covariance) const;
+  /// Variances of the separate unknowns; 0 for pairs that no residual holds.
+  Eigen::Matrix2Xd separate_variances(const Eigen::MatrixXd& joint_covariance) const;
 
  private:
-  Eigen::VectorXd own_variances() const;
+  Eigen::Matrix2d own_covariance(Eigen::Index separate) const;
+  Eigen::MatrixXd gain() const;
   Eigen::MatrixXd reduced_information() const;
 
   Eigen::MatrixXd joint_;
   Eigen::MatrixXd across_;
-  Eigen::VectorXd own_;
+  std::vector<Eigen::Matrix2d> own_;
   Eigen::VectorXd joint_gradient_;
-  Eigen::VectorXd own_gradient_;
+  Eigen::Matrix2Xd own_gradient_;
 };
 
 }  // namespace mtr_localization

@@ -23,6 +23,10 @@ struct Observation {
   /// 1 sigma of the position along the surfel's normal.
   double sigma_m;
   int beams;
+  /// Mean of the beams' rises, the lowest and the highest one.
+  double rise_m = 0.0;
+  double lowest_rise_m = 0.0;
+  double highest_rise_m = 0.0;
 };
 
 /// All returns in map, free of a range bias.

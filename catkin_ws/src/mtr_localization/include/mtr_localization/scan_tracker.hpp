@@ -14,6 +14,7 @@
 #include "mtr_localization/pose_search.hpp"
 #include "mtr_localization/scan_matcher.hpp"
 #include "mtr_localization/sweep_queue.hpp"
+#include "mtr_localization/view_agreement.hpp"
 
 namespace mtr_localization {
 
@@ -52,11 +53,16 @@ class ScanTracker {
   /// The robot may be anywhere near; the reason is a sentence.
   void lose(const std::string& reason);
 
-  /// Corrects the history at the look's step, or, while lost, goes on searching.
+  /// Corrects the history at the look's step; while lost in a frozen map searches, in a growing one waits until the
+  /// view agrees again with where wheels and gyro have led.
   void track(const Look& look, FilterHistory& history);
 
  private:
   void judge(const Look& look, const FilterHistory& history);
+  Agreement agreement(const Look& look, const FilterHistory& history) const;
+  bool agrees(const Agreement& all);
+  bool is_beyond_patience(const Agreement& all, const FilterStep& step) const;
+  void resume(const Look& look, const FilterHistory& history);
   void correct(const Look& look, FilterHistory& history);
   void search(const Look& look, FilterHistory& history);
   double position_sigma(const PoseFilter& filter) const;
@@ -69,8 +75,12 @@ class ScanTracker {
   std::unique_ptr<const ReferenceMap> map_ = std::make_unique<ReferenceMap>();
   std::optional<PoseSearch> search_;
   std::string lost_reason_;
+  /// When and where the view agreed last.
   std::int64_t agreed_ns_ = 0;
+  PoseVector agreed_odom_ = PoseVector::Zero();
   bool agrees_ = true;
+  /// Sweeps in a row that agree again.
+  int agreeing_ = 0;
   bool degenerate_ = false;
   TrackingFigures figures_;
 };

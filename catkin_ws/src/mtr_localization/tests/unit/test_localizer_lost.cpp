@@ -81,17 +81,58 @@ TEST_F(LocalizerLostTest, GapOfOdometryWhileMovingIsOverWhenTheScansTellThePose)
   EXPECT_LT(robot.position_error_m(), 0.02);
 }
 
-TEST(LocalizerLost, WayRoundThatWentOnWhileThePoseWasLostGivesNoMap) {
-  SceneDrive robot(scenes::lot(), {});
-  robot.drive(0.0, 0.0, 2.0);
-  robot.order(1, MapOrder::Phase::kCollect);
-  robot.drive(0.6, 0.0, 4.0);
-  const synthetic::World scene = std::exchange(robot.world, {});
-  robot.drive(0.6, 0.0, 3.0);
+class LocalizerLostWhileMappingTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    robot.drive(0.0, 0.0, 2.0);
+    robot.order(1, MapOrder::Phase::kCollect);
+    robot.drive(0.6, 0.0, 4.0);
+    ASSERT_EQ(robot.newest.mode, PoseMode::kMapping);
+  }
+
+  /// The LiDAR sees nothing of what it saw while the robot goes on.
+  void drive_blind(double duration_s) {
+    const synthetic::World scene = std::exchange(robot.world, {});
+    robot.drive(0.6, 0.0, duration_s);
+    robot.world = scene;
+  }
+
+  SceneDrive robot{scenes::lot(), {}};
+};
+
+TEST_F(LocalizerLostWhileMappingTest, WheelsAndGyroLeadOverAShortStretchThatDoesNotAgree) {
+  drive_blind(2.5);
+  EXPECT_EQ(robot.lost_ticks, 0);
+  EXPECT_TRUE(robot.newest.degenerate);
+  robot.drive(0.6, 0.0, 1.0);
+  EXPECT_FALSE(robot.newest.degenerate);
+  EXPECT_LT(robot.position_error_m(), 0.03);
+}
+
+TEST_F(LocalizerLostWhileMappingTest, LongStretchIsLostAndGoesOnWhereTheViewAgreesAgain) {
+  drive_blind(4.5);
   EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
-  robot.world = scene;
+  EXPECT_FALSE(robot.newest.valid);
   robot.drive(0.0, M_PI_2 / 2.0, 2.0);
-  robot.drive(0.6, 0.0, 8.0);
+  robot.drive(0.6, 0.0, 1.0);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kMapping) << robot.newest.message;
+  EXPECT_LT(robot.position_error_m(), 0.05);
+}
+
+TEST_F(LocalizerLostWhileMappingTest, CarriedRobotStaysLostAndGuessesNothing) {
+  robot.drive(0.0, 0.0, 1.0);
+  robot.carry(-1.0, -1.7, 0.6);
+  robot.drive(0.0, 0.0, 2.0);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
+  robot.drive(0.0, 0.0, 4.0);
+  EXPECT_FALSE(robot.newest.valid);
+  EXPECT_NE(robot.newest.message.find("map the Car again"), std::string::npos) << robot.newest.message;
+}
+
+TEST_F(LocalizerLostWhileMappingTest, WayRoundThatEndsLostGivesNoMap) {
+  robot.world.clear();
+  robot.drive(0.6, 0.0, 6.0);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
   robot.order(1, MapOrder::Phase::kFreeze);
   robot.drive(0.0, 0.0, 3.0);
   ASSERT_TRUE(robot.result);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr Eigen::Index kJoint = 6;
 constexpr Eigen::Index kSeparate = 5;
+constexpr Eigen::Index kUnknowns = kJoint + 2 * kSeparate;
 
 /// Random residuals, in the equations and as one dense system.
 struct RandomSystem {
@@ -26,32 +27,43 @@ struct RandomSystem {
       residual.places = {i % 3, 3, 4, 5};
       residual.weight = 0.3 + 0.01 * i;
       const Eigen::Index separate = i % 4;
-      equations.add(residual, separate, -2.0);
-      Eigen::VectorXd row = Eigen::VectorXd::Zero(kJoint + kSeparate);
+      const Eigen::RowVector2d by_separate(-2.0, 0.1 * (i % 7));
+      equations.add(residual, separate, by_separate);
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(kUnknowns);
       for (int j = 0; j < 4; ++j) {
         row[residual.places[static_cast<std::size_t>(j)]] += residual.jacobian[j];
       }
-      row[kJoint + separate] = -2.0;
+      row.segment<2>(kJoint + 2 * separate) = by_separate.transpose();
       information += residual.weight * row * row.transpose();
       gradient += residual.weight * row * residual.value[0];
+    }
+    for (Eigen::Index separate = 0; separate < kSeparate; ++separate) {
+      equations.add_prior(separate, 0.3, 0.5);
+      information(kJoint + 2 * separate + 1, kJoint + 2 * separate + 1) += 4.0;
+      gradient[kJoint + 2 * separate + 1] += 0.3 * 4.0;
     }
   }
 
   NormalEquations equations{kJoint, kSeparate};
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kJoint + kSeparate, kJoint + kSeparate);
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(kJoint + kSeparate);
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(kUnknowns);
 };
 
-/// All but the last separate unknown, which no residual holds.
-constexpr Eigen::Index kHeld = kJoint + kSeparate - 1;
+/// All but the last separate pair, which no residual holds.
+constexpr Eigen::Index kHeld = kUnknowns - 2;
+
+/// The same of the separate pairs, one below the other.
+Eigen::VectorXd held(const Eigen::Matrix2Xd& separate) {
+  return Eigen::Map<const Eigen::VectorXd>(separate.data(), kHeld - kJoint);
+}
 
 TEST(NormalEquations, StepIsThatOfTheWholeSystem) {
   const RandomSystem system;
   const Step step = system.equations.solve();
   const Eigen::VectorXd whole = -system.information.topLeftCorner(kHeld, kHeld).inverse() * system.gradient.head(kHeld);
   EXPECT_TRUE(step.joint.isApprox(whole.head(kJoint), 1e-9));
-  EXPECT_TRUE(step.separate.head(kSeparate - 1).isApprox(whole.tail(kSeparate - 1), 1e-9));
-  EXPECT_EQ(step.separate[kSeparate - 1], 0.0);
+  EXPECT_TRUE(held(step.separate).isApprox(whole.tail(kHeld - kJoint), 1e-9));
+  EXPECT_EQ(step.separate.col(kSeparate - 1).norm(), 0.0);
 }
 
 TEST(NormalEquations, VariancesAreThoseOfTheWholeSystem) {
@@ -59,8 +71,8 @@ TEST(NormalEquations, VariancesAreThoseOfTheWholeSystem) {
   const Eigen::MatrixXd whole = system.information.topLeftCorner(kHeld, kHeld).inverse();
   const Eigen::MatrixXd joint = system.equations.joint_covariance();
   EXPECT_TRUE(joint.isApprox(whole.topLeftCorner(kJoint, kJoint), 1e-9));
-  const Eigen::VectorXd separate = system.equations.separate_variances(joint);
-  EXPECT_TRUE(separate.head(kSeparate - 1).isApprox(whole.diagonal().tail(kSeparate - 1), 1e-9));
+  const Eigen::Matrix2Xd separate = system.equations.separate_variances(joint);
+  EXPECT_TRUE(held(separate).isApprox(whole.diagonal().tail(kHeld - kJoint), 1e-9));
 }
 
 TEST(NormalEquations, HeldUnknownDoesNotMove) {

@@ -42,7 +42,7 @@ class ScanMatcherTest : public ::testing::Test {
       double range = synthetic::cast(world, kTruth.head<2>(), rotation(kTruth.z()) * direction);
       if (range > 0.0) {
         range += range_bias_m + 0.01 * normal(random);
-        points.points.push_back({range * direction, direction, range});
+        points.points.push_back({range * direction, direction, range, rise_m});
       }
     }
     return points;
@@ -64,6 +64,7 @@ class ScanMatcherTest : public ::testing::Test {
   std::vector<Surfel> surfels;
   ReferenceMap map;
   double range_bias_m = 0.0;
+  double rise_m = 0.0;
   std::mt19937 random{1};
   std::normal_distribution<double> normal;
 };
@@ -101,6 +102,22 @@ TEST_F(ScanMatcherTest, KnownRangeBiasIsTakenOff) {
   range_bias_m = 0.03;
   map.range_bias_m = 0.03;
   EXPECT_LT((match({0.0, 0.0, 0.0}).pose - kTruth).head<2>().norm(), 0.003);
+}
+
+TEST_F(ScanMatcherTest, KnownLeanIsTakenOffWhatIsMetHigher) {
+  room();
+  // Two of the walls lean inwards by 1 in 5; what is met 0.1 m higher is 2 cm nearer.
+  rise_m = 0.1;
+  world[1] = {{3.98, -3.0}, {3.98, 3.0}};
+  world[2] = {{4.0, 2.98}, {-4.0, 2.98}};
+  for (Surfel& surfel : surfels) {
+    surfel.lean_sigma = 0.01;
+  }
+  EXPECT_GT((match(PoseVector::Zero()).pose - kTruth).head<2>().norm(), 0.006);
+  for (Surfel& surfel : surfels) {
+    surfel.lean = surfel.normal.x() < -0.5 || surfel.normal.y() < -0.5 ? 0.2 : 0.0;
+  }
+  EXPECT_LT((match(PoseVector::Zero()).pose - kTruth).head<2>().norm(), 0.003);
 }
 
 TEST_F(ScanMatcherTest, SingleWallLeavesTheDirectionAlongItFree) {

@@ -137,6 +137,14 @@ TEST_F(LeaningViewTest, LookingUnderTheMapOrAtTheGroundSaysNothing) {
   EXPECT_EQ(agreement.unknown, 0);
 }
 
+TEST_F(LeaningViewTest, SurfaceMetAtAnotherHeightIsNotMissed) {
+  const double slope = 0.01;
+  EXPECT_EQ(seen(12.0F, slope).beyond, 0);
+  // Until it has been met at that height, too.
+  wall = SurfelMap({{{5.0, 0.0}, {-1.0, 0.0}, 4.0, 0.002, 50, 0.0, 0.05}});
+  EXPECT_GT(seen(12.0F, slope).beyond, 20);
+}
+
 TEST_F(LeaningViewTest, WhatStandsNearInTheWayCountsHoweverTheRobotLeans) { EXPECT_GT(seen(2.0F, -0.03).hidden, 20); }
 
 }  // namespace

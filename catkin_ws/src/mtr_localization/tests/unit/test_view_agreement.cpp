@@ -43,6 +43,19 @@ TEST_F(ViewAgreementTest, TyreWhereItIsExpectedAgreesAndNothingBesideItContradic
   EXPECT_DOUBLE_EQ(agreement.share_of_expected(), 1.0);
 }
 
+TEST_F(ViewAgreementTest, KnownWallBehindWhatIsExpectedIsSeen) {
+  EXPECT_GT(seen(fan(8.0F)).beyond + seen(fan(8.0F)).passed, 3);
+  // A fan of 8 m meets a wall of short pieces, each at a right angle to its beam.
+  std::vector<Surfel> surfels = tyre.surfels();
+  for (double angle = -0.5; angle <= 0.5; angle += 0.02) {
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    surfels.push_back({8.0 * direction, -direction, 0.2, 0.002, 50});
+  }
+  tyre = SurfelMap(surfels);
+  EXPECT_EQ(seen(fan(8.0F)).beyond + seen(fan(8.0F)).passed, 0);
+  EXPECT_GT(seen(fan(7.0F)).hidden, 20);
+}
+
 TEST_F(ViewAgreementTest, SomethingBesideTheEndOfASurfaceDoesNotAgreeWithNothing) {
   const Agreement agreement = seen(fan(2.0F));
   EXPECT_EQ(agreement.seen, 0);
