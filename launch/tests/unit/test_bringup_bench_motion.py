@@ -6,7 +6,7 @@ import mtr_drive_control_core
 import pytest
 from shapely.geometry import Polygon
 
-from mtr_bringup.bench_motion.__main__ import merged
+from mtr_bringup.bench_motion.__main__ import is_met, lines, merged
 from mtr_bringup.bench_motion.bound import Ends, lower_bound, shortest_way
 from mtr_bringup.bench_motion.limiter import PERIOD_S, Limiter
 from mtr_core.se2 import Pose2
@@ -76,6 +76,15 @@ def test_limiter_reaches_what_is_allowed_and_never_jumps(wanted):
     assert sent == pytest.approx(wanted, abs=1e-6)
 
 
-def test_promised_figures_stand_on_top_and_details_below():
-    figures = merged({"tracking": {"time_ratio_p95": 1.1, "pairs": 200}})
-    assert figures == {"time_ratio_p95": 1.1, "tracking": {"time_ratio_p95": 1.1, "pairs": 200}}
+def test_promised_figures_are_numbers_on_top_and_everything_is_below():
+    parts = {"tracking": {"time_ratio_p95": 1.1, "pairs": 200}, "encounters": {"encounters": 1049}}
+    assert merged(parts) == {"time_ratio_p95": 1.1, "encounters": 1049, "details": parts}
+
+
+@pytest.mark.parametrize("key, value, is_good", [
+    ("time_ratio_p95", 1.15, True), ("time_ratio_p95", 1.151, False), ("encounters", 999, False),
+    ("contacts_while_moving", 1, False), ("tip_margin_n", 0.0, False), ("stop_latency_p99_ms", math.nan, False),
+    ("time_ratio_median", 9.0, True)])
+def test_figure_is_met_or_the_benchmark_says_so(key, value, is_good):
+    assert is_met(key, value) == is_good
+    assert ("NOT MET" in lines({key: value})[0]) != is_good

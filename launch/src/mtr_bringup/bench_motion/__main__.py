@@ -11,13 +11,16 @@ import sys
 from typing import Dict, List, Optional
 
 PARTS = ("tracking", "encounters", "tip_over", "latency")
-KEYS = ("time_ratio_median", "time_ratio_p95", "cross_track_p95_m", "heading_p95_deg", "stop_error_p95_m",
-        "stop_heading_p95_deg", "encounters", "contacts_while_moving", "false_stops", "stop_latency_p99_ms",
-        "drive_control_cpu_percent", "tip_margin_n")
+# What each figure must be, at most or at least; None: it is only told. A wheel that carries nothing is in the air.
+FIGURES = {
+    "time_ratio_median": None, "time_ratio_p95": ("<=", 1.15), "cross_track_p95_m": ("<=", 0.02),
+    "heading_p95_deg": ("<=", 1.0), "stop_error_p95_m": ("<=", 0.02), "stop_heading_p95_deg": ("<=", 1.0),
+    "encounters": (">=", 1000), "contacts_while_moving": ("<=", 0), "false_stops": ("<=", 0),
+    "stop_latency_p99_ms": ("<=", 20.0), "drive_control_cpu_percent": ("<=", 5.0), "tip_margin_n": (">=", 1.0)}
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Run the parts; 0 when each has given its figures."""
+    """Run the parts; the exit status says whether every figure is what it must be."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of motion.json")
     parser.add_argument("--only", choices=PARTS, action="append", help="run this part only")
@@ -31,16 +34,31 @@ def main(arguments: Optional[List[str]] = None) -> int:
     for name in options.only or PARTS:
         details[name] = importlib.import_module(f"{__package__}.{name}").run(options)
         path.write_text(json.dumps(merged(details), indent=2) + "\n", encoding="utf-8")
-    for key, value in merged(details).items():
-        if key not in PARTS:
-            print(f"{key:28} {value}")
-    return 0
+    figures = merged(details)
+    print("\n".join(lines(figures)))
+    return 0 if all(is_met(key, figures[key]) for key in FIGURES if key in figures) else 1
 
 
 def merged(details: Dict[str, Dict[str, object]]) -> Dict[str, object]:
-    """The promised figures on top, everything else below the part it comes from."""
-    found = {key: value for part in details.values() for key, value in part.items() if key in KEYS}
-    return {**{key: found[key] for key in KEYS if key in found}, **details}
+    """The promised figures on top, everything below the part it comes from in `details`."""
+    found = {key: value for part in details.values() for key, value in part.items()}
+    return {**{key: found[key] for key in FIGURES if key in found}, "details": details}
+
+
+def lines(figures: Dict[str, object]) -> List[str]:
+    """The figures for a person."""
+    shown = []
+    for key in (key for key in FIGURES if key in figures):
+        limit = FIGURES[key]
+        must = f"must be {limit[0]} {limit[1]:g}: {'met' if is_met(key, figures[key]) else 'NOT MET'}" if limit else ""
+        shown.append(f"{key:28} {figures[key]:<10.4g} {must}".rstrip())
+    return shown
+
+
+def is_met(key: str, value: float) -> bool:
+    """True when a figure is what it must be; a figure that is no number is not."""
+    limit = FIGURES[key]
+    return limit is None or (value <= limit[1] if limit[0] == "<=" else value >= limit[1])
 
 
 if __name__ == "__main__":

@@ -19,9 +19,10 @@ from .parameters import CarProfile, LocatorParameters
 from .prior import Prior
 from .rectangle import Rectangle
 from .scoring import belongs, score_of
-from .side import LONG_SIDES, sides_of
+from .side import ENDS, LONG_SIDES, sides_of
 from .surfels import Surfels
-from .wheels import Wheels, wheel_sides, wheels_between
+from .tyre_faces import faces_in
+from .wheels import Wheels, wheel_sides, wheels_between, wheels_from
 
 # Fit of a whole Car, seen from all sides, is 0.7 and more, of one seen from one side and one end 0.35; a wall, a group
 # of persons or a neighbour's near side stays below 0.2 (tests/unit/test_locator_scenes.py).
@@ -50,7 +51,7 @@ def fit_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters,
     if seen.length.sum() < LEAST_SURFACE_M:
         raise NotLocated("There is nothing of a Car's size where the Car should stand.")
     best = _chosen(candidates(seen, prior, parameters))
-    found = _refined(seen, best, parameters.profile)
+    found = _refined(seen, best, parameters.profile, close_up)
     fit = measured(seen, found, parameters.profile, close_up)
     fit = replace(fit, quality=score_of(seen, found.car, prior, parameters.profile).quality)
     _check(fit, prior, parameters)
@@ -86,8 +87,8 @@ def _chosen(found: List[Candidate]) -> Candidate:
     return best
 
 
-def _refined(seen: Surfels, best: Candidate, profile: CarProfile) -> Found:
-    """The candidate moved to what the surfels on its outline show."""
+def _refined(seen: Surfels, best: Candidate, profile: CarProfile, close_up: Optional[CloseUp]) -> Found:
+    """The candidate moved to what the surfels on its outline show, and, on wheels, all returns near them."""
     car, wheels, axis = best.car, best.wheels, None
     for turn in range(ROUNDS):
         beyond_m = FIRST_BEYOND_M if turn == 0 else BEYOND_M
@@ -97,15 +98,26 @@ def _refined(seen: Surfels, best: Candidate, profile: CarProfile) -> Found:
         if axis is None:
             raise NotLocated("The Car's long sides were seen too little to tell its heading.")
         car = car.moved_by(Pose2(0.0, axis.offset_m if axis.is_centred else 0.0, math.atan(axis.slope)))
-        if best.wheels:
-            wheels = _wheels_of(seen.in_frame(car.pose), car, profile)
         in_car = seen.in_frame(car.pose)
         extents = extents_of(sides_of(in_car.where(belongs(in_car, car, FIRST_BEYOND_M))), car)
+        wheels = None
+        if best.wheels or (profile.front_overhang_m and not all(name in extents for name in ENDS)):
+            wheels = _exact_wheels(car, profile, close_up)
+        if best.wheels and wheels is None:
+            wheels = _rough_wheels(in_car, car, profile)
         car = sized(car, extents, axis, wheels, profile)
     return Found(car, axis, wheels)
 
 
-def _wheels_of(in_car: Surfels, car: Rectangle, profile: CarProfile) -> Wheels:
+def _exact_wheels(car: Rectangle, profile: CarProfile, close_up: Optional[CloseUp]) -> Optional[Wheels]:
+    """Wheels tell more of the Car than one end does: how far that stands back at the LiDARs' height is not known."""
+    if close_up is None:
+        return None
+    in_car = close_up.in_frame(car.pose)
+    return wheels_from([faces_in(in_car, name, 0.5 * car.width) for name in LONG_SIDES], profile)
+
+
+def _rough_wheels(in_car: Surfels, car: Rectangle, profile: CarProfile) -> Wheels:
     found = wheels_between(wheel_sides(in_car), 0.0, car.width, profile)
     if found is None:
         raise NotLocated("Only wheels of the Car were seen, and they do not stand as a car's do.")

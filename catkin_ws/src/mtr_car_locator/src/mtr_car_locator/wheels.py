@@ -1,12 +1,13 @@
 """A Car whose bumpers the LiDARs look under: its length and centre from the wheels alone."""
 # SPDX-License-Identifier: Apache-2.0
+import itertools
 import math
 from dataclasses import dataclass
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
-from .axles import Axles, axles_at
+from .axles import Axles, axles_at, axles_between
 from .parameters import CarProfile
 from .side import ENDS, LONG_SIDES, Side, side_of
 from .surfels import Surfels
@@ -17,6 +18,8 @@ LEAST_FACE_M, MOST_FACE_M = 0.25, 0.95
 SHORTEST_WHEELBASE_M, LONGEST_WHEELBASE_M = 1.8, 4.0
 # The axles of one side must not differ more from those of the other; the ends of the faces may be missing.
 SQUARE_M = 0.20
+# The same of faces that all returns tell.
+EXACT_SQUARE_M = 0.05
 # A tread is square to the Car within 18 degrees, which its rounded shoulder is not; it is no broader than this.
 TREAD_COSINE, TYRE_WIDTH_M = 0.95, 0.30
 # Of passenger cars the wheelbase is 0.56 to 0.63 of the length, and the front overhang 0.15 m shorter than the rear one
@@ -57,6 +60,31 @@ def wheels_between(sides: Dict[str, Side], y: float, width: float, profile: CarP
     widths = ((y + 0.5 * width - TYRE_WIDTH_M, y + 0.5 * width), (y - 0.5 * width, y - 0.5 * width + TYRE_WIDTH_M))
     ahead, behind = ([sides[name].within(*each) for each in widths] for name in ENDS)
     return _from_axles(axles_at(front, rear, ahead, behind, profile.wheelbase_m), profile)
+
+
+def wheels_from(faces: Sequence[Sequence[float]], profile: CarProfile) -> Optional[Wheels]:
+    """Both axles from exact middles of the outer faces along the left and the right side; None when these do not stand
+    as a car's do.
+
+    What else is as long as a tyre at that level, such as the end of a bumper, is told by the other side and by the
+    wheelbase.
+    """
+    pairs = [[pair for pair in itertools.combinations(sorted(each), 2)
+              if SHORTEST_WHEELBASE_M <= pair[1] - pair[0] <= LONGEST_WHEELBASE_M] for each in faces]
+    both = [(left, right) for left, right in itertools.product(*pairs)
+            if max(abs(left[0] - right[0]), abs(left[1] - right[1])) <= EXACT_SQUARE_M]
+    if profile.wheelbase_m:
+        both = [each for each in both if all(abs(rear_to_front(pair) - profile.wheelbase_m) <= EXACT_SQUARE_M
+                                             for pair in each)]
+    if len(both) != 1:
+        return None
+    rears, fronts = zip(*both[0])
+    return _from_axles(axles_between(fronts, rears, profile.wheelbase_m), profile)
+
+
+def rear_to_front(pair: Sequence[float]) -> float:
+    """Distance of the wheels of one side."""
+    return pair[1] - pair[0]
 
 
 def wheel_faces(side: Side, level: float) -> List[float]:

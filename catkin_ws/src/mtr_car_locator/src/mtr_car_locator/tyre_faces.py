@@ -1,0 +1,56 @@
+"""Outer faces of the tyres from all returns of the way round: what stands at a level, as long as a tyre is."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import List, Tuple
+
+import numpy as np
+
+from .close_up import CloseUp
+from .side import OUTWARDS
+from .wheels import LEAST_FACE_M, MOST_FACE_M
+
+BIN_M = 0.01
+# Returns so near the level are the face's: noise, the robot's sway, and how far the level itself may be off. What is
+# seen at more than 73 degrees from the normal is the smeared edge of something.
+NEAR_M, LEAST_FACING = 0.06, 0.3
+# Sills and bumpers that the LiDARs meet now and then, where the ground is uneven, have a tenth of a face's returns.
+LEAST_OF_DENSEST, DENSEST_PERCENT = 0.25, 90.0
+LEAST_RETURNS = 100
+# A gap that is no end, in bins; bins at both ends that are smeared.
+GAP_BINS, SMEARED_BINS = 5, 3
+
+
+def faces_in(close_up: CloseUp, name: str, level_m: float) -> List[float]:
+    """Middles along the side `name` of the faces at its level, in m, from the rear; close_up is in the Car's frame.
+
+    A face ends where half as many returns are as in its midst: noise and the heights at which it was met smear both its
+    ends alike, so the middle is exact to millimetres although the length is not.
+    """
+    outwards = np.array(OUTWARDS[name])
+    facing = close_up.beams @ outwards < -LEAST_FACING
+    along = close_up.points[facing & (np.abs(close_up.points @ outwards - level_m) < NEAR_M)] @ np.abs(outwards[::-1])
+    if len(along) < LEAST_RETURNS:
+        return []
+    first = np.floor(along.min() / BIN_M) - GAP_BINS
+    count = np.bincount((np.floor(along / BIN_M) - first).astype(int), minlength=2 * GAP_BINS)
+    density = np.convolve(np.append(count, np.zeros(GAP_BINS)), np.full(3, 1.0 / 3.0), "same")
+    least = LEAST_OF_DENSEST * np.percentile(density[density > 0.0], DENSEST_PERCENT)
+    ends = [_ends(density, *piece) for piece in _pieces(np.nonzero(density > least)[0])]
+    return [(first + 0.5 + 0.5 * (low + high)) * BIN_M for low, high in ends
+            if LEAST_FACE_M <= (high - low) * BIN_M <= MOST_FACE_M]
+
+
+def _pieces(bins: np.ndarray) -> List[Tuple[int, int]]:
+    parts = np.split(bins, np.nonzero(np.diff(bins) > GAP_BINS)[0] + 1)
+    return [(part[0], part[-1]) for part in parts if (part[-1] - part[0]) * BIN_M >= LEAST_FACE_M]
+
+
+def _ends(density: np.ndarray, low: int, high: int) -> Tuple[float, float]:
+    """Where the density crosses half of what it is in the midst, in bins."""
+    half = 0.5 * float(np.median(density[low + SMEARED_BINS:high + 1 - SMEARED_BINS]))
+    full = np.nonzero(density[low:high + 1] >= half)[0] + low
+    return _crossing(density, full[0], -1, half), _crossing(density, full[-1], 1, half)
+
+
+def _crossing(density: np.ndarray, last: int, step: int, half: float) -> float:
+    inside, outside = density[last], density[last + step]
+    return last + step * (inside - half) / (inside - outside) if outside < inside else float(last)
