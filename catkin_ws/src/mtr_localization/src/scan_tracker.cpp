@@ -103,9 +103,15 @@ void ScanTracker::freeze(const AdjustedMap& adjusted, FilterHistory& history) {
 }
 
 void ScanTracker::lose(const std::string& reason) {
+  lose_sight(reason);
+  is_reckoned_ = state_ == State::kMapping;
+}
+
+void ScanTracker::lose_sight(const std::string& reason) {
   lost_reason_ = reason;
   degenerate_ = false;
   agreeing_ = 0;
+  is_reckoned_ = true;
 }
 
 void ScanTracker::track(const Look& look, FilterHistory& history) {
@@ -115,10 +121,15 @@ void ScanTracker::track(const Look& look, FilterHistory& history) {
   if (!lost()) {
     judge(look, history);
   }
-  if (lost() && state_ == State::kMapping) {
-    resume(look, history);
-  } else if (lost()) {
-    search(look, history);
+  if (lost()) {
+    // Where the view is the expected one again, the pose by wheels and gyro is better than one that is searched for. A
+    // half-made map is not searched at all.
+    if (is_reckoned_) {
+      resume(look, history);
+    }
+    if (lost() && state_ == State::kLocalized) {
+      search(look, history);
+    }
   } else if (agrees_) {
     correct(look, history);
   } else {
@@ -155,10 +166,10 @@ void ScanTracker::judge(const Look& look, const FilterHistory& history) {
     agreed_ns_ = step.stamp_ns;
     agreed_odom_ = step.odom;
   } else if (is_beyond_patience(all, step)) {
-    lose(state_ == State::kMapping ? kLostWhileMapping : kLost);
+    lose_sight(state_ == State::kMapping ? kLostWhileMapping : kLost);
   }
   if (position_sigma(history.newest().filter) > parameters_.lost_sigma_m && state_ == State::kLocalized) {
-    lose("Position lost: nothing of the map has been in view for too long. Searching near the last position.");
+    lose_sight("Position lost: nothing of the map has been in view for too long. Searching near the last position.");
   }
 }
 
@@ -180,6 +191,7 @@ void ScanTracker::resume(const Look& look, const FilterHistory& history) {
     agreed_ns_ = history.at(look.step).stamp_ns;
     agreed_odom_ = history.at(look.step).odom;
     agrees_ = true;
+    search_.reset();
   }
 }
 

@@ -50,7 +50,7 @@ class ScanTracker {
   void extend(const PoseVector& pose, const ScanPoints& scan);
   /// Poses are in the adjusted map from now on.
   void freeze(const AdjustedMap& map, FilterHistory& history);
-  /// The robot may be anywhere near; the reason is a sentence.
+  /// The robot may be anywhere near, whatever wheels and gyro say; the reason is a sentence.
   void lose(const std::string& reason);
 
   /// Corrects the history at the look's step; while lost in a frozen map searches, in a growing one waits until the
@@ -59,6 +59,7 @@ class ScanTracker {
 
  private:
   void judge(const Look& look, const FilterHistory& history);
+  void lose_sight(const std::string& reason);
   Agreement agreement(const Look& look, const FilterHistory& history) const;
   bool agrees(const Agreement& all);
   bool is_beyond_patience(const Agreement& all, const FilterStep& step) const;
@@ -75,6 +76,8 @@ class ScanTracker {
   std::unique_ptr<const ReferenceMap> map_ = std::make_unique<ReferenceMap>();
   std::optional<PoseSearch> search_;
   std::string lost_reason_;
+  /// While lost: wheels and gyro have told all of the motion.
+  bool is_reckoned_ = false;
   /// When and where the view agreed last.
   std::int64_t agreed_ns_ = 0;
   PoseVector agreed_odom_ = PoseVector::Zero();

@@ -42,6 +42,18 @@ TEST_F(LocalizerLostTest, KidnappedRobotFindsItselfAgain) {
   EXPECT_LT(std::abs(robot.error().z()), 0.005);
 }
 
+TEST_F(LocalizerLostTest, LostPoseIsTheWheelsAndGyrosWhenTheViewIsTheExpectedOneAgain) {
+  const synthetic::World scene = std::exchange(robot.world, {});
+  lost_after(3.0);
+  robot.drive(-0.5, 0.2, 2.0);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
+  robot.world = scene;
+  // Sooner than a search could end.
+  robot.drive(-0.5, 0.2, 0.4);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLocalized) << robot.newest.message;
+  EXPECT_LT(robot.position_error_m(), 0.02);
+}
+
 TEST_F(LocalizerLostTest, KidnappedToWhereNothingIsInViewIsLostToo) {
   robot.world.clear();
   EXPECT_LT(lost_after(3.0), 2.0);
