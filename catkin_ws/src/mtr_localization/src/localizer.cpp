@@ -4,16 +4,14 @@
 #include "mtr_localization/localizer.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "mtr_localization/interruption.hpp"
 #include "mtr_localization/se2.hpp"
 
 namespace mtr_localization {
 namespace {
 
-// Faster than any base of this class: such an odometry was reset, not driven.
-constexpr double kFastestWheelsMps = 3.0;
 // Wheel motion over an interruption up to which the robot is taken not to have moved.
 constexpr double kUnmovedM = 0.01;
 constexpr double kUnmovedRad = 0.02;
@@ -25,12 +23,6 @@ constexpr double kLevelEveryM = 0.3;
 constexpr double kLevelEveryRad = 0.3;
 
 double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-9; }
-
-std::string with_number(const char* format, double number) {
-  char text[120];
-  std::snprintf(text, sizeof(text), format, number);
-  return text;
-}
 
 }  // namespace
 
@@ -102,7 +94,7 @@ Estimate Localizer::process(const WheelSample& wheels) {
   }
   std::string interruption = std::exchange(restart_, "");
   if (last_ && interruption.empty()) {
-    interruption = interruption_between(*last_, wheels);
+    interruption = interruption_between(*last_, wheels, gyro_, gap_limit_ns());
   }
   if (last_ && interruption.empty()) {
     history_.advance(wheels.stamp_ns, input_since_last(wheels));
@@ -170,22 +162,6 @@ double Localizer::rate_for_standstill(double gyro_rate_radps) const {
   // As long as the bias is unknown, only a rate beyond any bias betrays a turn.
   const bool bias_unknown = state_ == MotionState::kStarting && std::abs(gyro_rate_radps) <= kLargestBiasRadps;
   return bias_unknown ? 0.0 : filter().corrected_rate(gyro_rate_radps);
-}
-
-std::string Localizer::interruption_between(const WheelSample& last, const WheelSample& wheels) const {
-  const std::int64_t wheel_gap_ns = wheels.stamp_ns - last.stamp_ns;
-  if (wheel_gap_ns > gap_limit_ns()) {
-    return with_number("Wheel odometry was silent for %.2f s.", seconds(wheel_gap_ns));
-  }
-  const std::int64_t imu_gap_ns = gyro_.longest_gap_ns(last.stamp_ns, wheels.stamp_ns);
-  if (imu_gap_ns > gap_limit_ns()) {
-    return with_number("The IMU was silent for %.2f s.", seconds(imu_gap_ns));
-  }
-  const double distance_m = std::hypot(wheels.x_m - last.x_m, wheels.y_m - last.y_m);
-  if (distance_m > kFastestWheelsMps * seconds(wheel_gap_ns) + kUnmovedM) {
-    return with_number("Wheel odometry jumped by %.2f m.", distance_m);
-  }
-  return "";
 }
 
 void Localizer::interrupt(const std::string& reason, const WheelSample& wheels) {

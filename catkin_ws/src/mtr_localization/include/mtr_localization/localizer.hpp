@@ -68,7 +68,6 @@ class Localizer {
   Estimate process(const WheelSample& wheels);
   double rate_for_standstill(double gyro_rate_radps) const;
 
-  std::string interruption_between(const WheelSample& last, const WheelSample& wheels) const;
   void interrupt(const std::string& reason, const WheelSample& wheels);
   void lose(const std::string& reason);
 
