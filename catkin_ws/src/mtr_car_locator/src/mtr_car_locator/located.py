@@ -15,6 +15,9 @@ from .refinement import Change, Refinement
 from .self_check import CheckReport, SelfCheck
 from .survey import Place
 
+# A length that is less sure than this is not of a data sheet.
+KNOWN_SIGMA_M = 0.05
+
 
 class LocatedCar:
     """Frame, self-check and corrections of a Car.
@@ -100,6 +103,6 @@ def found_sentence(fit: CarFit) -> str:
     size = (f"{car.length:.2f} m long (1 sigma {100.0 * fit.length_sigma:.1f} cm), {car.width:.2f} m wide (1 sigma "
             f"{100.0 * fit.width_sigma:.1f} cm)")
     if fit.by_wheels:
-        return (f"The Car was found by its wheels, {size}; the LiDARs look under its bumpers. Known length and front "
-                "overhang make it more exact.")
+        hint = "" if fit.length_sigma < KNOWN_SIGMA_M else " Known length and front overhang make it more exact."
+        return f"The Car was found by its wheels, {size}; the LiDARs look under its bumpers.{hint}"
     return f"The Car was found: {size}."

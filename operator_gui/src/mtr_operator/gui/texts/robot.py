@@ -75,6 +75,8 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The Car was found by its wheels, {} m long (1 sigma {} cm), {} m wide (1 sigma "
                                   "{} cm); the LiDARs look under its bumpers. Known length and front overhang make "
                                   "it more exact."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car was found by its wheels, {} m long (1 sigma {} cm), {} m wide (1 sigma "
+                                  "{} cm); the LiDARs look under its bumpers."),
     QT_TRANSLATE_NOOP("Sentence", "The Car's frame was corrected by {} cm and {} deg, as it is seen now; it has "
                                   "revision {}."),
     QT_TRANSLATE_NOOP("Sentence", "The Car is no longer seen where it was measured."),

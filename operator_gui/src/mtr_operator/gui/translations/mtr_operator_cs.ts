@@ -2095,6 +2095,11 @@
         <source>The calibration of the lift was ended: calibrate_lift is silent.</source>
         <translation>Kalibrace zdvihu skončila: calibrate_lift mlčí.</translation>
     </message>
+    <message>
+        <location filename="../texts/robot.py" line="5"/>
+        <source>The Car was found by its wheels, {} m long (1 sigma {} cm), {} m wide (1 sigma {} cm); the LiDARs look under its bumpers.</source>
+        <translation>Auto nalezeno podle kol: délka {} m (1 sigma {} cm), šířka {} m (1 sigma {} cm); lidary hledí pod jeho nárazníky.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
