@@ -2013,7 +2013,7 @@
     <message>
         <location filename="../texts/robot.py" line="5"/>
         <source>Position lost: {} Map the Car again.</source>
-        <translation>Poloha ztracena: {0} Zmapujte vůz znovu.</translation>
+        <translation>Poloha ztracena: {0} Zmapujte auto znovu.</translation>
     </message>
     <message>
         <location filename="../texts/robot.py" line="5"/>
@@ -2023,12 +2023,12 @@
     <message>
         <location filename="../texts/robot.py" line="5"/>
         <source>Position lost: the LiDAR does not see what the map shows here. Searching near the last position.</source>
-        <translation>Poloha ztracena: LiDAR nevidí, co zde ukazuje mapa. Hledá se blízko poslední polohy.</translation>
+        <translation>Poloha ztracena: lidar nevidí, co zde ukazuje mapa. Hledá se blízko poslední polohy.</translation>
     </message>
     <message>
         <location filename="../texts/robot.py" line="5"/>
         <source>Position lost: the LiDAR does not see what it saw on the way. Unless it does again, map the Car again.</source>
-        <translation>Poloha ztracena: LiDAR nevidí, co viděl cestou. Neuvidí-li to znovu, zmapujte vůz znovu.</translation>
+        <translation>Poloha ztracena: lidar nevidí, co viděl cestou. Neuvidí-li to znovu, zmapujte auto znovu.</translation>
     </message>
     <message>
         <location filename="../texts/robot.py" line="5"/>
@@ -2058,32 +2058,32 @@
     <message>
         <location filename="../texts/robot.py" line="5"/>
         <source>The position was lost on the way round the Car, and the robot went on; map the Car again.</source>
-        <translation>Při objíždění vozu se ztratila poloha a robot jel dál; zmapujte vůz znovu.</translation>
+        <translation>Při objíždění auta se ztratila poloha a robot jel dál; zmapujte auto znovu.</translation>
     </message>
     <message>
         <location filename="../texts/robot.py" line="5"/>
         <source>Only {} key-frames were taken, {} are needed: drive round the Car.</source>
-        <translation>Je jen {0} klíčových snímků, potřeba je {1}: objeďte vůz.</translation>
+        <translation>Je jen {0} klíčových snímků, potřeba je {1}: objeďte auto.</translation>
     </message>
     <message>
         <location filename="../texts/robot.py" line="5"/>
         <source>The way round the Car was not closed: it must end within {} m of where it passed before.</source>
-        <translation>Cesta kolem vozu se neuzavřela: musí skončit do {0} m od místa, kudy už vedla.</translation>
+        <translation>Cesta kolem auta se neuzavřela: musí skončit do {0} m od místa, kudy už vedla.</translation>
     </message>
     <message>
         <location filename="../texts/robot.py" line="5"/>
         <source>What the LiDARs saw from different places disagrees by {} times its uncertainty.</source>
-        <translation>Co LiDARy viděly z různých míst, se liší o {0}násobek nejistoty.</translation>
+        <translation>Co lidary viděly z různých míst, se liší o {0}násobek nejistoty.</translation>
     </message>
     <message>
         <location filename="../texts/robot.py" line="5"/>
         <source>Wheels and gyro disagree with the LiDARs by {} times their uncertainty.</source>
-        <translation>Kola a gyroskop se od LiDARů liší o {0}násobek své nejistoty.</translation>
+        <translation>Kola a gyroskop se od lidarů liší o {0}násobek své nejistoty.</translation>
     </message>
     <message>
         <location filename="../texts/robot.py" line="5"/>
         <source>The Car is {} m {} at the LiDARs&apos; height, {} cm {} than its data sheet says; check which car stands there.</source>
-        <translation>Ve výšce LiDARů měří vůz {0} m ({1}), o {2} cm {3}, než říká jeho technický list; ověřte, který vůz tam stojí.</translation>
+        <translation>Ve výšce lidarů měří auto {0} m ({1}), o {2} cm {3}, než říká jeho technický list; ověřte, které auto tam stojí.</translation>
     </message>
     <message>
         <location filename="../texts/robot.py" line="5"/>
