@@ -71,11 +71,15 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
 
 void Node::spin() {
   while (mtr_lockstep::run_callbacks(mtr_lockstep::kShutdownCheckS)) {
-    while (!waiting_.empty()) {
-      const WheelSample wheels = waiting_.front();
-      waiting_.pop_front();
-      answer(wheels);
-    }
+    answer_waiting();
+  }
+}
+
+void Node::answer_waiting() {
+  while (!waiting_.empty()) {
+    const WheelSample wheels = waiting_.front();
+    waiting_.pop_front();
+    answer(wheels);
   }
 }
 
@@ -96,6 +100,10 @@ void Node::watch_silence(ros::NodeHandle& node) {
 }
 
 void Node::receive_sweep(Sweep sweep) {
+  if (!mtr_lockstep::is_simulated()) {
+    // A node that was woken late has heard both at once: the wheels came first.
+    answer_waiting();
+  }
   const std::int64_t end_ns = sweep.end_ns();
   const bool is_good = localizer_.add_scan(std::move(sweep));
   const std::string& problem = localizer_.keeper().sweeps().problem();

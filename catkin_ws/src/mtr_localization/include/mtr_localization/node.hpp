@@ -46,6 +46,7 @@ class Node {
   void receive_sweep(Sweep sweep);
   void receive_order(const mtr_msgs::MappingOrder& message);
   void answer(const WheelSample& wheels);
+  void answer_waiting();
   void hear_other_localization();
   void publish(const std::vector<Estimate>& estimates);
   void publish_map(const MapResult& result);
