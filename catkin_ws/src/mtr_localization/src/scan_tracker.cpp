@@ -185,7 +185,10 @@ bool ScanTracker::is_beyond_patience(const Agreement& all, const FilterStep& ste
 
 void ScanTracker::resume(const Look& look, const FilterHistory& history) {
   const Agreement all = agreement(look, history);
-  agreeing_ = agrees(all) && all.expected() >= kLeastEvidence ? agreeing_ + 1 : 0;
+  // What is expected of a place that is hardly known agrees with much.
+  const bool is_known =
+      state_ == State::kMapping || position_sigma(history.newest().filter) <= parameters_.lost_sigma_m;
+  agreeing_ = is_known && agrees(all) && all.expected() >= kLeastEvidence ? agreeing_ + 1 : 0;
   if (agreeing_ >= kAgreementsToResume) {
     lost_reason_.clear();
     agreed_ns_ = history.at(look.step).stamp_ns;

@@ -160,4 +160,7 @@ def _pair_sigmas(pair: Tuple[str, str], extents: Dict[str, Extent], known_m: flo
         own = math.hypot(*found)
         return 0.5 * own, math.hypot(own, inset)
     size_sigma = inset if known_m else UNSEEN_SIGMA_M[pair]
-    return math.hypot(0.5 * size_sigma, found[0] if found else size_sigma), size_sigma
+    if not found:
+        return math.hypot(0.5 * size_sigma, size_sigma), size_sigma
+    # Opposite insets cancel in the middle between two sides; that of a single one does not.
+    return math.hypot(math.hypot(0.5 * size_sigma, profile.side_inset_sigma_m), found[0]), size_sigma

@@ -54,6 +54,21 @@ TEST_F(LocalizerLostTest, LostPoseIsTheWheelsAndGyrosWhenTheViewIsTheExpectedOne
   EXPECT_LT(robot.position_error_m(), 0.02);
 }
 
+TEST_F(LocalizerLostTest, PoseThatIsTooUncertainIsSearchedForAndNeverCalledValidBefore) {
+  robot.lidar_works = false;
+  for (int lap = 0; lap < 150; ++lap) {
+    robot.drive(0.5, 0.0, 4.0);
+    robot.drive(0.0, M_PI / 2.0, 6.0);
+  }
+  robot.lidar_works = true;
+  robot.drive(0.0, 0.0, 0.2);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
+  for (int tick = 0; tick < 300; ++tick) {
+    robot.tick(0.0, 0.0);
+    EXPECT_FALSE(robot.newest.valid && robot.position_sigma_m() > LocalizerParameters{}.tracking.lost_sigma_m);
+  }
+}
+
 TEST_F(LocalizerLostTest, KidnappedToWhereNothingIsInViewIsLostToo) {
   robot.world.clear();
   EXPECT_LT(lost_after(3.0), 2.0);
