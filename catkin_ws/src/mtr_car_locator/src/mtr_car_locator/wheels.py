@@ -63,8 +63,8 @@ def wheels_between(sides: Dict[str, Side], y: float, width: float, profile: CarP
 
 
 def wheels_from(faces: Sequence[Sequence[float]], profile: CarProfile) -> Optional[Wheels]:
-    """Both axles from exact middles of the outer faces along the left and the right side; None when these do not stand
-    as a car's do.
+    """Both axles from exact middles of the outer faces along the left and the right side, m; None when these do not
+    stand as a car's do.
 
     What else is as long as a tyre at that level, such as the end of a bumper, is told by the other side and by the
     wheelbase.
@@ -74,17 +74,12 @@ def wheels_from(faces: Sequence[Sequence[float]], profile: CarProfile) -> Option
     both = [(left, right) for left, right in itertools.product(*pairs)
             if max(abs(left[0] - right[0]), abs(left[1] - right[1])) <= EXACT_SQUARE_M]
     if profile.wheelbase_m:
-        both = [each for each in both if all(abs(rear_to_front(pair) - profile.wheelbase_m) <= EXACT_SQUARE_M
-                                             for pair in each)]
+        both = [each for each in both if all(abs(front - rear - profile.wheelbase_m) <= EXACT_SQUARE_M
+                                             for rear, front in each)]
     if len(both) != 1:
         return None
     rears, fronts = zip(*both[0])
     return _from_axles(axles_between(fronts, rears, profile.wheelbase_m), profile)
-
-
-def rear_to_front(pair: Sequence[float]) -> float:
-    """Distance of the wheels of one side."""
-    return pair[1] - pair[0]
 
 
 def wheel_faces(side: Side, level: float) -> List[float]:
