@@ -77,7 +77,7 @@ system: setup build ## Only the tests of the whole stack
 	@$(RUN) python setup/run_tests.py system
 
 bench: setup build firmware ## Benchmarks; figures in out/bench
-	@$(RUN) python -m mtr_bringup.bench --out out/bench
+	@$(RUN) python -m mtr_benchmarks.components --out out/bench
 
 firmware: setup ## Build the firmware of both boards and its emulator; prints sizes
 	@$(MAKE) --no-print-directory -s -C firmware all
@@ -86,14 +86,14 @@ flash: setup ## Write the firmware to a board: BOARD=mega|uno PORT=/dev/serial/b
 	@$(MAKE) --no-print-directory -s -C firmware flash BOARD=$(BOARD) PORT=$(PORT)
 
 bench-motion: setup build ## Benchmark of the robot's motion; figures in out/bench/motion.json
-	@$(RUN) python -m mtr_bringup.bench_motion --seed $(SEED) --out out/bench
+	@$(RUN) python -m mtr_benchmarks.motion --seed $(SEED) --out out/bench
 
 # Set by a developer: --quick, --only NAME, --keep FOLDER.
 BENCH_OPTIONS ?=
 bench-localization: setup build ## Localization and Car locator against the truth, odometry and MRPT's SLAM
 	@setup/install.sh setup/debian-bench-packages.txt
-	@cmake -S launch/bench/mrpt_icp_slam -B out/bench/mrpt >/dev/null && cmake --build out/bench/mrpt >/dev/null
-	@$(RUN) python -m mtr_bringup.bench_localization --mrpt out/bench/mrpt/mrpt_icp_slam --out out/bench $(BENCH_OPTIONS)
+	@cmake -S catkin_ws/src/mtr_benchmarks/mrpt_icp_slam -B out/bench/mrpt >/dev/null && cmake --build out/bench/mrpt >/dev/null
+	@$(RUN) python -m mtr_benchmarks.localization --mrpt out/bench/mrpt/mrpt_icp_slam --out out/bench $(BENCH_OPTIONS)
 
 clean: ## Remove everything that was built or written
 	rm -rf out firmware/build $(STAMPS) .venv catkin_ws/{build,devel,logs,.catkin_tools} proto/src/mtr_proto/*_pb2.py

@@ -4,6 +4,4 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-PACKAGES = ["mtr_bringup", "mtr_bringup.bench", "mtr_bringup.bench_localization", "mtr_bringup.bench_motion"]
-
-setup(**generate_distutils_setup(packages=PACKAGES, package_dir={"": "src"}))
+setup(**generate_distutils_setup(packages=["mtr_bringup"], package_dir={"": "src"}))

@@ -16,30 +16,33 @@ ROS_MESSAGES = {"std_msgs", "sensor_msgs", "nav_msgs", "geometry_msgs", "rosgrap
 QT = {"PyQt5", "qasync", "pyqtgraph"}
 SOCKETS = {"socket", "zmq", "serial", "asyncio"}
 CAN = {"can", "cantools"}
-OWN_ROBOT = {"mtr_core", "mtr_lockstep"}
+OWN_ROBOT = {"mtr_core"}
+# The part of mtr_core that is made of ROS.
+LOCKSTEP = "mtr_core.lockstep"
 
 # Files of a robot package that may import ROS: the shell around the core.
 SHELL = {"node.py", "conversions.py", "connections.py", "sensors.py", "calibrate_lift.py"}
 # Packages whose job is the border itself.
-BORDER_PACKAGES = {"mtr_lockstep", "mtr_bringup", "mtr_tests"}
+BORDER_PACKAGES = {"mtr_benchmarks", "mtr_bringup", "mtr_tests"}
 
 
 def imports(path: pathlib.Path) -> Set[str]:
-    """Top-level names of all absolute imports of a file."""
+    """All absolute imports of a file: each dotted name and its top-level name."""
     found = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
-            found |= {alias.name.split(".")[0] for alias in node.names}
+            found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
-            found.add(node.module.split(".")[0])
-    return found
+            found.add(node.module)
+            found |= {f"{node.module}.{alias.name}" for alias in node.names}
+    return found | {name.split(".")[0] for name in found}
 
 
 def robot_files() -> Iterator[pathlib.Path]:
-    """Python files of the robot's packages, tests and set-up excluded."""
+    """Python files of the robot's packages; tests, set-up and what is made of ROS excluded."""
     for package in sorted(PACKAGES.iterdir()):
         if package.name not in BORDER_PACKAGES:
-            yield from sorted((package / "src").rglob("*.py"))
+            yield from (path for path in sorted((package / "src").rglob("*.py")) if "lockstep" not in path.parts)
 
 
 def operator_files(folder: pathlib.Path = OPERATOR) -> Iterator[pathlib.Path]:
@@ -59,7 +62,7 @@ def test_there_are_files_to_look_at():
 
 @pytest.mark.parametrize("path", [path for path in robot_files() if path.name not in SHELL], ids=ids)
 def test_robot_core_imports_no_ros(path):
-    assert not imports(path) & (ROS | ROS_MESSAGES | {"mtr_lockstep"})
+    assert not imports(path) & (ROS | ROS_MESSAGES | {LOCKSTEP})
 
 
 @pytest.mark.parametrize("path", list(robot_files()), ids=ids)
@@ -67,7 +70,7 @@ def test_robot_imports_nothing_of_the_operator(path):
     assert not imports(path) & (QT | {"mtr_operator"})
 
 
-@pytest.mark.parametrize("path", sorted((PACKAGES / "mtr_core").rglob("src/**/*.py")), ids=ids)
+@pytest.mark.parametrize("path", [path for path in robot_files() if "mtr_core" in path.parts], ids=ids)
 def test_shared_core_imports_neither_ros_nor_sockets(path):
     assert not imports(path) & (ROS | ROS_MESSAGES | SOCKETS | CAN | QT)
 

@@ -18,7 +18,7 @@ from scripted_yard import START, YardRobot
 from tf2_msgs.msg import TFMessage
 
 from mtr_core import names, schedule
-from mtr_lockstep.clock import stamp_of
+from mtr_core.lockstep.clock import stamp_of
 from mtr_msgs.msg import LocalizedPose, MappingOrder, SurfaceMap
 
 STANDSTILL_S = 1.7

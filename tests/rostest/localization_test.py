@@ -14,7 +14,7 @@ from scripted_time import NS, STEP_NS, Listener, ScriptedTime, Speaker, wait_for
 from sensor_msgs.msg import Imu, NavSatFix
 
 from mtr_core import names, schedule
-from mtr_lockstep.publishers import direct_publisher
+from mtr_core.lockstep.publishers import direct_publisher
 from mtr_msgs.msg import LocalizedPose
 
 # Parameters of mtr_localization: gap_limit_s; standstill_settling_s and bias_time_s together.

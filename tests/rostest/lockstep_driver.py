@@ -10,7 +10,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
 
 from mtr_core import names, schedule
-from mtr_lockstep import Ticker, TickInput
+from mtr_core.lockstep import Ticker, TickInput
 
 CRUISE_MPS = 0.4
 TURN_GAIN_PER_M = 1.5

@@ -14,7 +14,7 @@ from scripted_time import NS, Speaker
 from sensor_msgs.msg import Joy
 
 from mtr_core import names, schedule
-from mtr_lockstep import Ticker, TickInput
+from mtr_core.lockstep import Ticker, TickInput
 from mtr_msgs.msg import ButtonPress, DesiredState, DriveStatus, PeripheralsState, RobotMode
 from mtr_simulation.truth.log import FILE_NAME
 

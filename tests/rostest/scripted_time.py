@@ -10,9 +10,9 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Header
 
 from mtr_core import names
+from mtr_core.lockstep.clock import stamp_of
+from mtr_core.lockstep.samples import Samples
 from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS, Slot
-from mtr_lockstep.clock import stamp_of
-from mtr_lockstep.samples import Samples
 from mtr_simulation.connections import wait_until_complete
 
 STEP_NS = CLOCK_STEP.period_ns

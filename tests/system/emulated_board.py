@@ -14,7 +14,7 @@ from mtr_peripherals.core import Orders, Outcome, Peripherals
 from mtr_peripherals.firmware_clock import FirmwareClock
 from mtr_peripherals.parameters import Parameters
 from mtr_peripherals.presses import PressOrder, PressResult
-from mtr_peripherals.serial_link.connections import md5_of
+from mtr_serial_link.connections import md5_of
 from mtr_simulation.firmware.emulated import EmulatedFirmware
 
 ELF = pathlib.Path(__file__).resolve().parents[2] / "firmware" / "build" / "mtr_firmware_atmega2560.elf"

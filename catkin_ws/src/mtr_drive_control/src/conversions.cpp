@@ -5,13 +5,13 @@
 
 #include <cmath>
 
-#include "mtr_lockstep/clock.hpp"
-#include "mtr_lockstep/names.hpp"
+#include "mtr_core/clock.hpp"
+#include "mtr_core/names.hpp"
 
 namespace mtr_drive_control {
 namespace {
 
-using mtr_lockstep::to_ns;
+using mtr_core::to_ns;
 
 }  // namespace
 
@@ -47,8 +47,8 @@ std::optional<KeyHeight> key_height_of(const mtr_msgs::PeripheralsState::ConstPt
 
 mtr_msgs::DriveStatus status_message(std::int64_t tick_ns, const Decision& decision) {
   mtr_msgs::DriveStatus status;
-  status.header.stamp = mtr_lockstep::stamp_of(tick_ns);
-  status.header.frame_id = mtr_lockstep::names::kBase;
+  status.header.stamp = mtr_core::stamp_of(tick_ns);
+  status.header.frame_id = mtr_core::names::kBase;
   status.source = decision.source;
   status.linear_mps = decision.velocity.linear_mps;
   status.angular_radps = decision.velocity.angular_radps;

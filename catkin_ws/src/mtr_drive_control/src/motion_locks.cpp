@@ -9,12 +9,12 @@
 namespace mtr_drive_control {
 namespace {
 
-using mtr_lockstep::Samples;
-using mtr_lockstep::Slot;
+using mtr_core::Samples;
+using mtr_core::Slot;
 
-const std::map<std::string, Slot> kOwnerSlots{{"dispatcher", mtr_lockstep::kDispatcher},
-                                              {"state_machine", mtr_lockstep::kStateMachine},
-                                              {"controller_input", mtr_lockstep::kControllerInput}};
+const std::map<std::string, Slot> kOwnerSlots{{"dispatcher", mtr_core::kDispatcher},
+                                              {"state_machine", mtr_core::kStateMachine},
+                                              {"controller_input", mtr_core::kControllerInput}};
 
 }  // namespace
 
@@ -23,20 +23,20 @@ bool is_fresh(std::int64_t stamp_ns, std::int64_t tick_ns, double timeout_s) {
 }
 
 MotionLocks::MotionLocks(const std::vector<std::string>& required_owners, double timeout_s,
-                         const std::optional<mtr_lockstep::Waiting>& waiting)
+                         const std::optional<mtr_core::Waiting>& waiting)
     : timeout_s_(timeout_s) {
   for (const std::string& owner : required_owners) {
     const auto slot = kOwnerSlots.find(owner);
     if (slot != kOwnerSlots.end()) {
-      locks_.emplace(owner, Samples<Lock>(slot->second, mtr_lockstep::kClockStep.period_ns, waiting));
+      locks_.emplace(owner, Samples<Lock>(slot->second, mtr_core::kClockStep.period_ns, waiting));
     } else {
-      locks_.emplace(owner, Samples<Lock>(mtr_lockstep::kClockStep));
+      locks_.emplace(owner, Samples<Lock>(mtr_core::kClockStep));
     }
   }
 }
 
 bool MotionLocks::take(const std::string& owner, const Lock& lock) {
-  locks_.try_emplace(owner, mtr_lockstep::kClockStep).first->second.add(lock.stamp_ns, lock);
+  locks_.try_emplace(owner, mtr_core::kClockStep).first->second.add(lock.stamp_ns, lock);
   if (!lock.engaged) {
     engaged_owners_.erase(owner);
     return false;

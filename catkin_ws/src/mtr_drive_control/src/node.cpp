@@ -5,17 +5,17 @@
 
 #include <geometry_msgs/Twist.h>
 
+#include "mtr_core/names.hpp"
 #include "mtr_drive_control/tip_over.hpp"
-#include "mtr_lockstep/names.hpp"
 
 namespace mtr_drive_control {
 namespace {
 
-namespace names = mtr_lockstep::names;
+namespace names = mtr_core::names;
 
-constexpr double kPeriodS = static_cast<double>(mtr_lockstep::kDriveControl.period_ns) * 1e-9;
+constexpr double kPeriodS = static_cast<double>(mtr_core::kDriveControl.period_ns) * 1e-9;
 // A scan bears its first beam's time and comes when the sweep has ended, before the clock.
-constexpr std::int64_t kScanLagNs = mtr_lockstep::kLidar.period_ns;
+constexpr std::int64_t kScanLagNs = mtr_core::kLidar.period_ns;
 
 std::vector<std::string> owners_of(const NodeParameters& parameters) {
   std::vector<std::string> owners = parameters.lock_owners;
@@ -41,9 +41,9 @@ void log_limits(const NodeParameters& parameters) {
 }  // namespace
 
 LidarInput::LidarInput(ros::NodeHandle& node, const std::string& topic, const std::string& frame)
-    : scans_(node, topic, mtr_lockstep::kLidar, kScanLagNs), reader_(frame) {}
+    : scans_(node, topic, mtr_core::kLidar, kScanLagNs), reader_(frame) {}
 
-NodeParameters Node::read(mtr_lockstep::ParameterReader& reader) {
+NodeParameters Node::read(mtr_core::ParameterReader& reader) {
   NodeParameters parameters;
   reader.read_numbers(kRows, parameters.limits);
   reader.read_numbers(kCollisionRows, parameters.collision);
@@ -56,13 +56,13 @@ NodeParameters Node::read(mtr_lockstep::ParameterReader& reader) {
 
 Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
     : drive_control_(parameters.limits, parameters.collision, parameters.rear_lidar, kPeriodS),
-      locks_(owners_of(parameters), parameters.limits.lock_timeout_s, mtr_lockstep::lockstep_waiting()),
-      ticker_(node, mtr_lockstep::kDriveControl),
-      manual_(node, names::kManualVelocity, mtr_lockstep::kControllerInput, mtr_lockstep::kClockStep.period_ns,
+      locks_(owners_of(parameters), parameters.limits.lock_timeout_s, mtr_core::lockstep_waiting()),
+      ticker_(node, mtr_core::kDriveControl),
+      manual_(node, names::kManualVelocity, mtr_core::kControllerInput, mtr_core::kClockStep.period_ns,
               parameters.manual_expected),
-      planner_(node, names::kPlannerVelocity, mtr_lockstep::kMotionPlanner),
-      odometry_(node, names::kWheelOdometry, mtr_lockstep::kSensors, 0),
-      peripherals_(node, names::kPeripheralsState, mtr_lockstep::kPeripherals),
+      planner_(node, names::kPlannerVelocity, mtr_core::kMotionPlanner),
+      odometry_(node, names::kWheelOdometry, mtr_core::kSensors, 0),
+      peripherals_(node, names::kPeripheralsState, mtr_core::kPeripherals),
       front_(node, names::kFrontScan, names::kFrontLidar),
       markers_(node),
       wheels_(node.advertise<geometry_msgs::Twist>(names::kWheelCommand, 10)),
@@ -79,8 +79,7 @@ void Node::listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>
   lock_subscribers_.push_back(node.subscribe<mtr_msgs::MotionLock>(
       names::kMotionLock, 50,
       [this](const mtr_msgs::MotionLock::ConstPtr& message) {
-        const Lock lock{mtr_lockstep::to_ns(message->header.stamp), static_cast<bool>(message->engaged),
-                        message->reason};
+        const Lock lock{mtr_core::to_ns(message->header.stamp), static_cast<bool>(message->engaged), message->reason};
         take(message->owner, lock);
       },
       ros::VoidConstPtr(), hints));
@@ -98,7 +97,7 @@ void Node::listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>
 void Node::take(const std::string& owner, const Lock& lock) {
   // Callbacks run while the node waits for its next tick. A stop does not wait: its first step is taken now, and the
   // next one a little early. In lock-step a tick is a tick.
-  if (locks_.take(owner, lock) && !mtr_lockstep::is_simulated()) {
+  if (locks_.take(owner, lock) && !mtr_core::is_simulated()) {
     tick(ticker_.now_ns());
   }
 }

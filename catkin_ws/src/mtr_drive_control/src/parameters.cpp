@@ -9,17 +9,17 @@ namespace mtr_drive_control {
 
 void check(const Parameters& parameters) {
   for (const Row& row : kRows) {
-    mtr_lockstep::check_range(row.name, parameters.*(row.member), row.low, row.high, row.unit);
+    mtr_core::check_range(row.name, parameters.*(row.member), row.low, row.high, row.unit);
   }
-  mtr_lockstep::check_range("emergency_linear_deceleration_mps2", parameters.emergency_linear_deceleration_mps2,
-                            parameters.max_linear_mps / kStopWithinS, 10.0, "m/s2");
-  mtr_lockstep::check_range("emergency_angular_deceleration_radps2", parameters.emergency_angular_deceleration_radps2,
-                            parameters.max_angular_radps / kStopWithinS, 20.0, "rad/s2");
+  mtr_core::check_range("emergency_linear_deceleration_mps2", parameters.emergency_linear_deceleration_mps2,
+                        parameters.max_linear_mps / kStopWithinS, 10.0, "m/s2");
+  mtr_core::check_range("emergency_angular_deceleration_radps2", parameters.emergency_angular_deceleration_radps2,
+                        parameters.max_angular_radps / kStopWithinS, 20.0, "rad/s2");
 }
 
 void check(const CollisionParameters& parameters) {
   for (const CollisionRow& row : kCollisionRows) {
-    mtr_lockstep::check_range(row.name, parameters.*(row.member), row.low, row.high, row.unit);
+    mtr_core::check_range(row.name, parameters.*(row.member), row.low, row.high, row.unit);
   }
 }
 

@@ -5,13 +5,13 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
-#include "mtr_lockstep/clock.hpp"
-#include "mtr_lockstep/names.hpp"
+#include "mtr_core/clock.hpp"
+#include "mtr_core/names.hpp"
 
 namespace mtr_drive_control {
 namespace {
 
-constexpr std::int64_t kPeriodNs = 200 * mtr_lockstep::kMillisecondNs;
+constexpr std::int64_t kPeriodNs = 200 * mtr_core::kMillisecondNs;
 
 std_msgs::ColorRGBA colour_of(Zone zone) {
   std_msgs::ColorRGBA colour;
@@ -33,15 +33,15 @@ geometry_msgs::Point message_of(const Point& point) {
 }  // namespace
 
 ZoneMarkers::ZoneMarkers(ros::NodeHandle& node)
-    : publisher_(node.advertise<visualization_msgs::MarkerArray>(mtr_lockstep::names::kDriveMarkers, 1)) {}
+    : publisher_(node.advertise<visualization_msgs::MarkerArray>(mtr_core::names::kDriveMarkers, 1)) {}
 
 void ZoneMarkers::publish(std::int64_t tick_ns, const Decision& decision, const DriveControl& drive_control) {
   if (tick_ns % kPeriodNs != 0 || publisher_.getNumSubscribers() == 0) {
     return;
   }
   visualization_msgs::Marker marker;
-  marker.header.stamp = mtr_lockstep::stamp_of(tick_ns);
-  marker.header.frame_id = mtr_lockstep::names::kBase;
+  marker.header.stamp = mtr_core::stamp_of(tick_ns);
+  marker.header.frame_id = mtr_core::names::kBase;
   marker.ns = "stop_zone";
   marker.type = visualization_msgs::Marker::LINE_LIST;
   marker.scale.x = 0.02;

@@ -7,7 +7,7 @@ namespace mtr_localization {
 
 void check(const AdjustmentParameters& parameters) {
   for (const AdjustmentRow& row : kAdjustmentRows) {
-    mtr_lockstep::check_range(row.name, parameters.*(row.member), row.low, row.high, row.unit);
+    mtr_core::check_range(row.name, parameters.*(row.member), row.low, row.high, row.unit);
   }
 }
 

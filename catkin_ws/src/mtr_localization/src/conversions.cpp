@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mtr_core/clock.hpp"
+#include "mtr_core/names.hpp"
 #include "mtr_localization/se2.hpp"
-#include "mtr_lockstep/clock.hpp"
-#include "mtr_lockstep/names.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -42,7 +42,7 @@ ImuSample imu_sample_of(const sensor_msgs::Imu& message) {
   const auto& force = message.linear_acceleration;
   // REP-145: a covariance of -1 says that the sensor does not measure this.
   const bool has_force = message.linear_acceleration_covariance[0] != -1.0;
-  return {mtr_lockstep::to_ns(message.header.stamp),
+  return {mtr_core::to_ns(message.header.stamp),
           rate.z,
           {rate.x, rate.y},
           has_force ? Eigen::Vector3d(force.x, force.y, force.z) : Eigen::Vector3d::Zero()};
@@ -56,17 +56,17 @@ NavsatSample navsat_sample_of(const sensor_msgs::NavSatFix& message, const Eigen
   const double mean = 0.5 * (covariance[0] + covariance[4]);
   const double variance = mean + std::hypot(0.5 * (covariance[0] - covariance[4]), covariance[1]);
   const double rad = M_PI / 180.0;
-  return {mtr_lockstep::to_ns(message.header.stamp), rad * message.latitude, rad * message.longitude,
+  return {mtr_core::to_ns(message.header.stamp), rad * message.latitude, rad * message.longitude,
           is_told ? std::sqrt(variance) : 0.0, antenna};
 }
 
 WheelSample wheel_sample_of(const nav_msgs::Odometry& message) {
-  return {mtr_lockstep::to_ns(message.header.stamp), message.pose.pose.position.x, message.pose.pose.position.y,
+  return {mtr_core::to_ns(message.header.stamp),     message.pose.pose.position.x, message.pose.pose.position.y,
           heading_of(message.pose.pose.orientation), message.twist.twist.linear.x, message.twist.twist.angular.z};
 }
 
 MapOrder order_of(const mtr_msgs::MappingOrder& message) {
-  MapOrder order{mtr_lockstep::to_ns(message.header.stamp), message.map_car_id, MapOrder::Phase::kIdle};
+  MapOrder order{mtr_core::to_ns(message.header.stamp), message.map_car_id, MapOrder::Phase::kIdle};
   if (message.phase == mtr_msgs::MappingOrder::COLLECT) {
     order.phase = MapOrder::Phase::kCollect;
   } else if (message.phase == mtr_msgs::MappingOrder::FREEZE) {
@@ -79,7 +79,7 @@ Sweep sweep_of(const sensor_msgs::LaserScan& message, Lidar lidar, const Mount& 
   const double sense = mount.upside_down ? -1.0 : 1.0;
   Sweep sweep;
   sweep.lidar = lidar;
-  sweep.stamp_ns = mtr_lockstep::to_ns(message.header.stamp);
+  sweep.stamp_ns = mtr_core::to_ns(message.header.stamp);
   sweep.mount = mount.pose;
   sweep.mount_height_m = mount.height_m;
   sweep.angle_min_rad = sense * message.angle_min;
@@ -108,8 +108,8 @@ PoseVector pose_of(const geometry_msgs::Transform& transform) {
 
 mtr_msgs::LocalizedPose message_of(const Estimate& estimate) {
   mtr_msgs::LocalizedPose message;
-  message.header.stamp = mtr_lockstep::stamp_of(estimate.stamp_ns);
-  message.header.frame_id = mtr_lockstep::names::kMap;
+  message.header.stamp = mtr_core::stamp_of(estimate.stamp_ns);
+  message.header.frame_id = mtr_core::names::kMap;
   message.valid = estimate.valid;
   message.x = estimate.x_m;
   message.y = estimate.y_m;
@@ -128,13 +128,13 @@ geometry_msgs::TransformStamped map_from_odom_message(const Estimate& estimate, 
   const PoseVector pose(estimate.x_m, estimate.y_m, estimate.heading_rad);
   const PoseVector base(odom[0], odom[1], odom[2]);
   const PoseVector map_from_odom = compose(pose, relative(base, PoseVector::Zero()));
-  return transform_message(estimate.stamp_ns, {mtr_lockstep::names::kMap, mtr_lockstep::names::kOdom, map_from_odom.x(),
+  return transform_message(estimate.stamp_ns, {mtr_core::names::kMap, mtr_core::names::kOdom, map_from_odom.x(),
                                                map_from_odom.y(), map_from_odom.z()});
 }
 
 geometry_msgs::TransformStamped transform_message(std::int64_t stamp_ns, const Transform2& parent_from_child) {
   geometry_msgs::TransformStamped message;
-  message.header.stamp = mtr_lockstep::stamp_of(stamp_ns);
+  message.header.stamp = mtr_core::stamp_of(stamp_ns);
   message.header.frame_id = parent_from_child.parent;
   message.child_frame_id = parent_from_child.child;
   message.transform.translation.x = parent_from_child.x_m;

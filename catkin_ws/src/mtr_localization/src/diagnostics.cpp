@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "mtr_lockstep/clock.hpp"
+#include "mtr_core/clock.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -66,7 +66,7 @@ diagnostic_msgs::DiagnosticArray diagnostics_of(const Localizer& localizer, cons
                    key_value("navsat_residual_m", localizer.navsat().residual_m),
                    key_value("map_revision", estimate.map_revision)};
   diagnostic_msgs::DiagnosticArray array;
-  array.header.stamp = mtr_lockstep::stamp_of(estimate.stamp_ns);
+  array.header.stamp = mtr_core::stamp_of(estimate.stamp_ns);
   array.status = {status};
   return array;
 }

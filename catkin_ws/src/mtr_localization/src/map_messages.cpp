@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mtr_lockstep/clock.hpp"
-#include "mtr_lockstep/names.hpp"
+#include "mtr_core/clock.hpp"
+#include "mtr_core/names.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -21,7 +21,7 @@ constexpr double kShownAtM = 0.2;
 
 mtr_msgs::KeyFrame message_of(const KeyFrame& frame, const Eigen::Matrix3d& covariance) {
   mtr_msgs::KeyFrame message;
-  message.stamp = mtr_lockstep::stamp_of(frame.stamp_ns);
+  message.stamp = mtr_core::stamp_of(frame.stamp_ns);
   message.x = frame.pose.x();
   message.y = frame.pose.y();
   message.heading = frame.pose.z();
@@ -39,8 +39,8 @@ geometry_msgs::Point point_of(const Eigen::Vector2d& position) {
 
 Marker marker(const Estimate& estimate, const char* what, int type) {
   Marker marker;
-  marker.header.frame_id = mtr_lockstep::names::kMap;
-  marker.header.stamp = mtr_lockstep::stamp_of(estimate.stamp_ns);
+  marker.header.frame_id = mtr_core::names::kMap;
+  marker.header.stamp = mtr_core::stamp_of(estimate.stamp_ns);
   marker.ns = what;
   marker.type = type;
   marker.pose.orientation.w = 1.0;
@@ -93,8 +93,8 @@ Marker ellipse_marker(const Estimate& estimate) {
 
 mtr_msgs::SurfaceMap message_of(const MapResult& result) {
   mtr_msgs::SurfaceMap message;
-  message.header.stamp = mtr_lockstep::stamp_of(result.stamp_ns);
-  message.header.frame_id = mtr_lockstep::names::kMap;
+  message.header.stamp = mtr_core::stamp_of(result.stamp_ns);
+  message.header.frame_id = mtr_core::names::kMap;
   message.map_car_id = result.map_car_id;
   message.revision = result.revision;
   message.valid = result.map.valid;
@@ -116,8 +116,8 @@ mtr_msgs::SurfaceMap message_of(const MapResult& result) {
 
 nav_msgs::OccupancyGrid grid_message_of(const MapResult& result) {
   nav_msgs::OccupancyGrid message;
-  message.header.stamp = mtr_lockstep::stamp_of(result.stamp_ns);
-  message.header.frame_id = mtr_lockstep::names::kMap;
+  message.header.stamp = mtr_core::stamp_of(result.stamp_ns);
+  message.header.frame_id = mtr_core::names::kMap;
   message.info.map_load_time = message.header.stamp;
   message.info.resolution = static_cast<float>(result.grid.cell_m);
   message.info.width = static_cast<std::uint32_t>(result.grid.size.x());

@@ -7,12 +7,12 @@
 
 #include <utility>
 
+#include "mtr_core/names.hpp"
 #include "mtr_localization/conversions.hpp"
-#include "mtr_lockstep/names.hpp"
 
 namespace mtr_localization {
 
-namespace names = mtr_lockstep::names;
+namespace names = mtr_core::names;
 
 NavsatInput::NavsatInput(ros::NodeHandle& node, const tf2_ros::Buffer& frames,
                          std::function<bool(const NavsatSample&)> take)

@@ -8,21 +8,21 @@
 
 #include <utility>
 
+#include "mtr_core/clock.hpp"
+#include "mtr_core/names.hpp"
 #include "mtr_localization/conversions.hpp"
 #include "mtr_localization/diagnostics.hpp"
 #include "mtr_localization/map_messages.hpp"
-#include "mtr_lockstep/clock.hpp"
-#include "mtr_lockstep/names.hpp"
 
 namespace mtr_localization {
 namespace {
 
-namespace names = mtr_lockstep::names;
+namespace names = mtr_core::names;
 
-constexpr double kPeriodS = static_cast<double>(mtr_lockstep::kLocalization.period_ns) * 1e-9;
+constexpr double kPeriodS = static_cast<double>(mtr_core::kLocalization.period_ns) * 1e-9;
 
 LocalizerParameters in_lockstep(LocalizerParameters parameters) {
-  parameters.lockstep = mtr_lockstep::is_simulated();
+  parameters.lockstep = mtr_core::is_simulated();
   return parameters;
 }
 
@@ -35,7 +35,7 @@ ros::Subscriber subscribe(ros::NodeHandle& node, const char* topic, Callback cal
 
 }  // namespace
 
-NodeParameters Node::read(mtr_lockstep::ParameterReader& reader) {
+NodeParameters Node::read(mtr_core::ParameterReader& reader) {
   NodeParameters parameters;
   reader.read_numbers(kRows, parameters.localizer.motion);
   reader.read_numbers(kTrackingRows, parameters.localizer.tracking);
@@ -59,7 +59,7 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
       front_(node, Lidar::kFront, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
       rear_(node, Lidar::kRear, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
       navsat_(node, frames_, [this](const NavsatSample& fix) { return localizer_.add_fix(fix); }),
-      orders_heard_(mtr_lockstep::kCarLocator, mtr_lockstep::kClockStep.period_ns, input_waiting()),
+      orders_heard_(mtr_core::kCarLocator, mtr_core::kClockStep.period_ns, input_waiting()),
       orders_(subscribe<mtr_msgs::MappingOrder>(node, names::kMappingOrder,
                                                 [this](const auto& message) { receive_order(message); })),
       imu_(subscribe<sensor_msgs::Imu>(
@@ -70,7 +70,7 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
 }
 
 void Node::spin() {
-  while (mtr_lockstep::run_callbacks(mtr_lockstep::kShutdownCheckS)) {
+  while (mtr_core::run_callbacks(mtr_core::kShutdownCheckS)) {
     answer_waiting();
   }
 }
@@ -84,23 +84,23 @@ void Node::answer_waiting() {
 }
 
 void Node::watch_silence(ros::NodeHandle& node) {
-  if (mtr_lockstep::is_simulated()) {
+  if (mtr_core::is_simulated()) {
     // By the simulated clock's own steps, so that silence is noticed at the same instant on any machine.
     clock_ = node.subscribe<rosgraph_msgs::Clock>(
         "/clock", 1,
         [this](const rosgraph_msgs::Clock::ConstPtr& message) {
-          publish(localizer_.check_silence(mtr_lockstep::to_ns(message->clock)));
+          publish(localizer_.check_silence(mtr_core::to_ns(message->clock)));
         },
         ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
   } else {
     timer_ = node.createWallTimer(ros::WallDuration(kPeriodS), [this](const ros::WallTimerEvent&) {
-      publish(localizer_.check_silence(mtr_lockstep::to_ns(ros::Time::now())));
+      publish(localizer_.check_silence(mtr_core::to_ns(ros::Time::now())));
     });
   }
 }
 
 void Node::receive_sweep(Sweep sweep) {
-  if (!mtr_lockstep::is_simulated()) {
+  if (!mtr_core::is_simulated()) {
     // A node that was woken late has heard both at once: the wheels came first.
     answer_waiting();
   }
@@ -148,7 +148,7 @@ void Node::hear_other_localization() {
   }
   try {
     const auto map_from_odom = frames_.lookupTransform(names::kMap, names::kOdom, ros::Time(0));
-    localizer_.set_external(mtr_lockstep::to_ns(map_from_odom.header.stamp), pose_of(map_from_odom.transform));
+    localizer_.set_external(mtr_core::to_ns(map_from_odom.header.stamp), pose_of(map_from_odom.transform));
   } catch (const tf2::TransformException&) {
     // Not there yet: the localizer says that it waits for it.
   }
@@ -195,7 +195,7 @@ void Node::publish_transforms(const Estimate& estimate) {
 }
 
 void Node::publish_each_second(const Estimate& estimate) {
-  const std::int64_t second = estimate.stamp_ns / mtr_lockstep::kSecondNs;
+  const std::int64_t second = estimate.stamp_ns / mtr_core::kSecondNs;
   if (second == told_second_) {
     return;
   }

@@ -11,7 +11,7 @@ namespace {
 template <typename Rows, typename P>
 void check_rows(const Rows& rows, const P& parameters) {
   for (const auto& row : rows) {
-    mtr_lockstep::check_range(row.name, parameters.*(row.member), row.low, row.high, row.unit);
+    mtr_core::check_range(row.name, parameters.*(row.member), row.low, row.high, row.unit);
   }
 }
 

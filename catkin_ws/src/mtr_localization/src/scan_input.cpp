@@ -5,16 +5,16 @@
 
 #include <utility>
 
-#include "mtr_lockstep/clock.hpp"
-#include "mtr_lockstep/names.hpp"
+#include "mtr_core/clock.hpp"
+#include "mtr_core/names.hpp"
 
 namespace mtr_localization {
 namespace {
 
-namespace names = mtr_lockstep::names;
+namespace names = mtr_core::names;
 
 // A sweep is due one turn and one step of the clock after its first beam, see docs/lock-step.md.
-constexpr std::int64_t kDueAfterNs = mtr_lockstep::kLidar.period_ns + mtr_lockstep::kClockStep.period_ns;
+constexpr std::int64_t kDueAfterNs = mtr_core::kLidar.period_ns + mtr_core::kClockStep.period_ns;
 // Of the patience of those that wait for localization.
 constexpr double kPatience = 0.4;
 // Wall time within which the description's static transforms have arrived in simulation.
@@ -23,8 +23,8 @@ constexpr double kPollS = 0.01;
 
 }  // namespace
 
-std::optional<mtr_lockstep::Waiting> input_waiting() {
-  auto waiting = mtr_lockstep::lockstep_waiting();
+std::optional<mtr_core::Waiting> input_waiting() {
+  auto waiting = mtr_core::lockstep_waiting();
   if (waiting) {
     waiting->patience_s *= kPatience;
   }
@@ -35,7 +35,7 @@ ScanInput::ScanInput(ros::NodeHandle& node, Lidar lidar, const tf2_ros::Buffer& 
     : lidar_(lidar),
       frames_(frames),
       take_(std::move(take)),
-      heard_(mtr_lockstep::kLidar, kDueAfterNs, input_waiting()),
+      heard_(mtr_core::kLidar, kDueAfterNs, input_waiting()),
       subscriber_(node.subscribe<sensor_msgs::LaserScan>(
           lidar == Lidar::kFront ? names::kFrontScan : names::kRearScan, 10,
           [this](const sensor_msgs::LaserScan::ConstPtr& message) { receive(*message); }, ros::VoidConstPtr(),
@@ -49,7 +49,7 @@ void ScanInput::wait_until_due(std::int64_t stamp_ns) {
 }
 
 void ScanInput::receive(const sensor_msgs::LaserScan& message) {
-  const std::int64_t stamp_ns = mtr_lockstep::to_ns(message.header.stamp);
+  const std::int64_t stamp_ns = mtr_core::to_ns(message.header.stamp);
   heard_.add(stamp_ns, stamp_ns);
   if (const Mount* mount = mount_of(message.header.frame_id)) {
     take_(sweep_of(message, lidar_, *mount));
@@ -61,9 +61,9 @@ const Mount* ScanInput::mount_of(const std::string& frame) {
   if (known != mounts_.end()) {
     return &known->second;
   }
-  if (frame != unknown_frame_ && mtr_lockstep::is_simulated()) {
-    const double deadline = mtr_lockstep::wall_seconds() + kFramesWithinS;
-    while (ros::ok() && !look_up(frame) && mtr_lockstep::wall_seconds() < deadline) {
+  if (frame != unknown_frame_ && mtr_core::is_simulated()) {
+    const double deadline = mtr_core::wall_seconds() + kFramesWithinS;
+    while (ros::ok() && !look_up(frame) && mtr_core::wall_seconds() < deadline) {
       ros::WallDuration(kPollS).sleep();
     }
   }

@@ -5,9 +5,9 @@ import tf2_ros
 from visualization_msgs.msg import MarkerArray
 
 from mtr_core import names, schedule
+from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
+from mtr_core.lockstep.clock import stamp_of
 from mtr_core.states import CarState
-from mtr_lockstep import Ticker, TickInput, publisher, run_node
-from mtr_lockstep.clock import stamp_of
 from mtr_msgs.msg import CarCheck, CarEstimate, MappingOrder, MotionStatus, RobotMode
 
 from .conversions import (

@@ -9,9 +9,9 @@ from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import LaserScan
 
 from mtr_core import names, schedule
+from mtr_core.lockstep import StampedQueue
+from mtr_core.lockstep.clock import is_simulated
 from mtr_core.schedule import MILLISECOND_NS
-from mtr_lockstep import StampedQueue
-from mtr_lockstep.clock import is_simulated
 from mtr_msgs.msg import LocalizedPose
 from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 

@@ -8,7 +8,7 @@ import rospy
 import sensor_msgs.msg
 
 from mtr_core import names, schedule
-from mtr_lockstep import Ticker, clock, publisher, run_node
+from mtr_core.lockstep import Ticker, clock, publisher, run_node
 from mtr_msgs.msg import LiftCommand, MotionLock, VelocityCommand
 
 from .core import RELEASED, Controller, Joy, Outcome

@@ -8,7 +8,7 @@ import rospy
 from rosgraph_msgs.msg import Log
 
 from mtr_core import names, schedule
-from mtr_lockstep import Ticker, TickInput, clock, publisher, run_node
+from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_msgs.msg import CarCheck, CarEstimate, DesiredState, LocalizedPose, MotionLock, PeripheralsState, RobotMode
 
 from .conversions import desired_message, lock_message

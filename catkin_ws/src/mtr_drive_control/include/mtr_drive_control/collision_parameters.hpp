@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "mtr_lockstep/parameter.hpp"
+#include "mtr_core/parameter.hpp"
 
 namespace mtr_drive_control {
 
@@ -39,7 +39,7 @@ struct CollisionParameters {
   double ground_memory_s = 20.0;
 };
 
-using CollisionRow = mtr_lockstep::ParameterRow<CollisionParameters>;
+using CollisionRow = mtr_core::ParameterRow<CollisionParameters>;
 
 inline constexpr std::array<CollisionRow, 17> kCollisionRows{{
     {"front_m", &CollisionParameters::front_m, 0.1, 1.0, "m"},

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "mtr_lockstep/samples.hpp"
+#include "mtr_core/samples.hpp"
 
 namespace mtr_drive_control {
 
@@ -36,7 +36,7 @@ class MotionLocks {
  public:
   /// @param waiting given in lock-step: the required owners with a slot in the schedule are waited for
   MotionLocks(const std::vector<std::string>& required_owners, double timeout_s,
-              const std::optional<mtr_lockstep::Waiting>& waiting);
+              const std::optional<mtr_core::Waiting>& waiting);
 
   /// Takes an owner's word; true when it engages a lock that was released or never heard.
   bool take(const std::string& owner, const Lock& lock);
@@ -50,7 +50,7 @@ class MotionLocks {
  private:
   double timeout_s_;
   double age_s_ = 0.0;
-  std::map<std::string, mtr_lockstep::Samples<Lock>> locks_;
+  std::map<std::string, mtr_core::Samples<Lock>> locks_;
   std::set<std::string> engaged_owners_;
 };
 

@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "mtr_core/parameter_reader.hpp"
+#include "mtr_core/tick_input.hpp"
+#include "mtr_core/ticker.hpp"
 #include "mtr_drive_control/conversions.hpp"
 #include "mtr_drive_control/drive_control.hpp"
 #include "mtr_drive_control/zone_markers.hpp"
-#include "mtr_lockstep/parameter_reader.hpp"
-#include "mtr_lockstep/tick_input.hpp"
-#include "mtr_lockstep/ticker.hpp"
 
 namespace mtr_drive_control {
 
@@ -42,15 +42,15 @@ class LidarInput {
   std::shared_ptr<const Sweep> at(std::int64_t tick_ns) { return reader_.read(scans_.at(tick_ns)); }
 
  private:
-  mtr_lockstep::TickInput<sensor_msgs::LaserScan> scans_;
+  mtr_core::TickInput<sensor_msgs::LaserScan> scans_;
   SweepReader reader_;
 };
 
 /// Publishes the wheel command and the status at each tick.
 class Node {
  public:
-  /// Throws mtr_lockstep::ConfigurationError.
-  static NodeParameters read(mtr_lockstep::ParameterReader& reader);
+  /// Throws mtr_core::ConfigurationError.
+  static NodeParameters read(mtr_core::ParameterReader& reader);
 
   Node(ros::NodeHandle& node, const NodeParameters& parameters);
 
@@ -66,11 +66,11 @@ class Node {
 
   DriveControl drive_control_;
   MotionLocks locks_;
-  mtr_lockstep::Ticker ticker_;
-  mtr_lockstep::TickInput<mtr_msgs::VelocityCommand> manual_;
-  mtr_lockstep::TickInput<mtr_msgs::VelocityCommand> planner_;
-  mtr_lockstep::TickInput<nav_msgs::Odometry> odometry_;
-  mtr_lockstep::TickInput<mtr_msgs::PeripheralsState> peripherals_;
+  mtr_core::Ticker ticker_;
+  mtr_core::TickInput<mtr_msgs::VelocityCommand> manual_;
+  mtr_core::TickInput<mtr_msgs::VelocityCommand> planner_;
+  mtr_core::TickInput<nav_msgs::Odometry> odometry_;
+  mtr_core::TickInput<mtr_msgs::PeripheralsState> peripherals_;
   LidarInput front_;
   std::optional<LidarInput> rear_;
   ZoneMarkers markers_;

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "mtr_lockstep/parameter.hpp"
+#include "mtr_core/parameter.hpp"
 
 namespace mtr_drive_control {
 
@@ -52,7 +52,7 @@ struct Parameters {
   double peripherals_timeout_s = 0.5;
 };
 
-using Row = mtr_lockstep::ParameterRow<Parameters>;
+using Row = mtr_core::ParameterRow<Parameters>;
 
 /// Range and unit of each parameter.
 inline constexpr std::array<Row, 18> kRows{{

@@ -12,7 +12,7 @@
 namespace mtr_drive_control {
 namespace {
 
-constexpr std::int64_t kMs = mtr_lockstep::kMillisecondNs;
+constexpr std::int64_t kMs = mtr_core::kMillisecondNs;
 constexpr std::int64_t kTickNs = 5000 * kMs;
 
 class DriveControlTest : public ::testing::Test {
@@ -144,7 +144,7 @@ TEST_F(DriveControlTest, UnknownKeyHeightLowersTheSpeedToThatOfTheRaisedKey) {
 TEST_F(DriveControlTest, WrongParameterIsRefusedAtConstruction) {
   Parameters parameters;
   parameters.max_linear_mps = -1.0;
-  EXPECT_THROW(DriveControl(parameters, CollisionParameters{}, false, 0.02), mtr_lockstep::ConfigurationError);
+  EXPECT_THROW(DriveControl(parameters, CollisionParameters{}, false, 0.02), mtr_core::ConfigurationError);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace mtr_drive_control {
 namespace {
 
-constexpr std::int64_t kMs = mtr_lockstep::kMillisecondNs;
+constexpr std::int64_t kMs = mtr_core::kMillisecondNs;
 
 MotionLocks locks_of(const std::vector<std::string>& owners) { return MotionLocks(owners, 0.35, std::nullopt); }
 
@@ -75,12 +75,12 @@ TEST(MotionLocks, OwnerBeyondTheRequiredOnesIsObeyedAndThenWatched) {
 TEST(MotionLocks, InLockStepTheLockOfTheOwnersLastTickIsWaitedFor) {
   MotionLocks* target = nullptr;
   int waits = 0;
-  const mtr_lockstep::Waiting waiting{[&](double) {
-                                        ++waits;
-                                        target->take("state_machine", {2020 * kMs, true, "Fault."});
-                                        return true;
-                                      },
-                                      [] { return 0.0; }};
+  const mtr_core::Waiting waiting{[&](double) {
+                                    ++waits;
+                                    target->take("state_machine", {2020 * kMs, true, "Fault."});
+                                    return true;
+                                  },
+                                  [] { return 0.0; }};
   MotionLocks locks({"state_machine"}, 0.35, waiting);
   target = &locks;
   locks.take("state_machine", {1920 * kMs, false, ""});

@@ -14,7 +14,7 @@ namespace {
 std::string refusal_of(const Parameters& parameters) {
   try {
     check(parameters);
-  } catch (const mtr_lockstep::ConfigurationError& error) {
+  } catch (const mtr_core::ConfigurationError& error) {
     return error.what();
   }
   return "";

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "mtr_lockstep/parameter.hpp"
+#include "mtr_core/parameter.hpp"
 
 namespace mtr_localization {
 
@@ -28,7 +28,7 @@ struct AdjustmentParameters {
   double closing_distance_m = 1.5;
 };
 
-using AdjustmentRow = mtr_lockstep::ParameterRow<AdjustmentParameters>;
+using AdjustmentRow = mtr_core::ParameterRow<AdjustmentParameters>;
 
 /// Range and unit of each parameter.
 inline constexpr std::array<AdjustmentRow, 7> kAdjustmentRows{{

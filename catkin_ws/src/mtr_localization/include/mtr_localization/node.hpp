@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "mtr_core/parameter_reader.hpp"
 #include "mtr_localization/localizer.hpp"
 #include "mtr_localization/navsat_input.hpp"
 #include "mtr_localization/scan_input.hpp"
 #include "mtr_localization/work_load.hpp"
-#include "mtr_lockstep/parameter_reader.hpp"
 
 namespace mtr_localization {
 
@@ -33,8 +33,8 @@ struct NodeParameters {
 /// Answers each wheel odometry message; needs no tick of its own.
 class Node {
  public:
-  /// Throws mtr_lockstep::ConfigurationError.
-  static NodeParameters read(mtr_lockstep::ParameterReader& reader);
+  /// Throws mtr_core::ConfigurationError.
+  static NodeParameters read(mtr_core::ParameterReader& reader);
 
   Node(ros::NodeHandle& node, const NodeParameters& parameters);
 
@@ -68,7 +68,7 @@ class Node {
   ScanInput front_;
   ScanInput rear_;
   NavsatInput navsat_;
-  mtr_lockstep::Samples<std::int64_t> orders_heard_;
+  mtr_core::Samples<std::int64_t> orders_heard_;
   ros::Subscriber orders_;
   ros::Subscriber imu_;
   ros::Subscriber wheels_;

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "mtr_lockstep/parameter.hpp"
+#include "mtr_core/parameter.hpp"
 
 namespace mtr_localization {
 
@@ -39,7 +39,7 @@ struct Parameters {
   double gap_limit_s = 0.2;
 };
 
-using Row = mtr_lockstep::ParameterRow<Parameters>;
+using Row = mtr_core::ParameterRow<Parameters>;
 
 /// Range and unit of each parameter.
 inline constexpr std::array<Row, 12> kRows{{

@@ -13,13 +13,13 @@
 #include <optional>
 #include <string>
 
+#include "mtr_core/samples.hpp"
 #include "mtr_localization/conversions.hpp"
-#include "mtr_lockstep/samples.hpp"
 
 namespace mtr_localization {
 
 /// Waiting for inputs in lock-step; less patient than those that wait for localization, lest they give up on it.
-std::optional<mtr_lockstep::Waiting> input_waiting();
+std::optional<mtr_core::Waiting> input_waiting();
 
 /// Subscription to one LiDAR. Its mounting comes from tf, once for each frame that its scans name.
 class ScanInput {
@@ -42,7 +42,7 @@ class ScanInput {
   std::function<void(Sweep)> take_;
   std::map<std::string, Mount> mounts_;
   std::string unknown_frame_;
-  mtr_lockstep::Samples<std::int64_t> heard_;
+  mtr_core::Samples<std::int64_t> heard_;
   ros::Subscriber subscriber_;
 };
 

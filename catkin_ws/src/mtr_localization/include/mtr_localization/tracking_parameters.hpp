@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "mtr_lockstep/parameter.hpp"
+#include "mtr_core/parameter.hpp"
 
 namespace mtr_localization {
 
@@ -49,7 +49,7 @@ struct TrackingParameters {
   double external_timeout_s = 1.0;
 };
 
-using TrackingRow = mtr_lockstep::ParameterRow<TrackingParameters>;
+using TrackingRow = mtr_core::ParameterRow<TrackingParameters>;
 
 /// Range and unit of each parameter.
 inline constexpr std::array<TrackingRow, 19> kTrackingRows{{

@@ -14,14 +14,14 @@
 #include <stdexcept>
 #include <vector>
 
+#include "mtr_core/clock.hpp"
+#include "mtr_core/names.hpp"
 #include "mtr_localization/conversions.hpp"
-#include "mtr_lockstep/clock.hpp"
-#include "mtr_lockstep/names.hpp"
 
 namespace mtr_localization::replay {
 namespace {
 
-namespace names = mtr_lockstep::names;
+namespace names = mtr_core::names;
 
 const char kStaticFrames[] = "/tf_static";
 // Messages were recorded at most so much later than they were complete, or than others.
@@ -90,7 +90,7 @@ bool BagReader::next(Event& event) {
 }
 
 void BagReader::read_message(const rosbag::MessageInstance& message) {
-  recorded_ns_ = mtr_lockstep::to_ns(message.getTime());
+  recorded_ns_ = mtr_core::to_ns(message.getTime());
   const std::string& topic = message.getTopic();
   if (topic == names::kImuData) {
     const ImuSample sample = imu_sample_of(*message_of<sensor_msgs::Imu>(message));

@@ -29,7 +29,7 @@ template <typename Rows, typename P>
 bool set(const Rows& rows, P& parameters, const std::string& name, double value) {
   for (const auto& row : rows) {
     if (name == row.name) {
-      parameters.*(row.member) = mtr_lockstep::check_range(name, value, row.low, row.high, row.unit);
+      parameters.*(row.member) = mtr_core::check_range(name, value, row.low, row.high, row.unit);
       return true;
     }
   }

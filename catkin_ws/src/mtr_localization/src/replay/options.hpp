@@ -23,7 +23,7 @@ struct Mounting {
   double rear_lidar_heading_rad = 3.141592653589793;
 };
 
-inline constexpr std::array<mtr_lockstep::ParameterRow<Mounting>, 6> kMountingRows{{
+inline constexpr std::array<mtr_core::ParameterRow<Mounting>, 6> kMountingRows{{
     {"front_lidar_x_m", &Mounting::front_lidar_x_m, -2.0, 2.0, "m"},
     {"front_lidar_y_m", &Mounting::front_lidar_y_m, -2.0, 2.0, "m"},
     {"front_lidar_heading_rad", &Mounting::front_lidar_heading_rad, -3.2, 3.2, "rad"},

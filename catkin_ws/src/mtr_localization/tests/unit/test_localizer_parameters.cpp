@@ -19,7 +19,7 @@ TEST(LocalizerParameters, EachValueBeyondItsRangeIsRefusedByName) {
     try {
       check(parameters);
       ADD_FAILURE() << row.name << " was accepted";
-    } catch (const mtr_lockstep::ConfigurationError& error) {
+    } catch (const mtr_core::ConfigurationError& error) {
       EXPECT_NE(std::string(error.what()).find(row.name), std::string::npos);
     }
   }

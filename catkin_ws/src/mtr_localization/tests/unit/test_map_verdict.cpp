@@ -79,7 +79,7 @@ TEST(MapVerdict, ParameterOutOfItsRangeIsRefusedByName) {
   try {
     adjust({}, parameters);
     ADD_FAILURE() << "accepted";
-  } catch (const mtr_lockstep::ConfigurationError& error) {
+  } catch (const mtr_core::ConfigurationError& error) {
     EXPECT_NE(std::string(error.what()).find("range_noise_m"), std::string::npos);
   }
 }

@@ -9,8 +9,8 @@ from std_msgs.msg import Header
 from visualization_msgs.msg import MarkerArray
 
 from mtr_core import names, schedule
-from mtr_lockstep import Ticker, TickInput, publisher, run_node
-from mtr_lockstep.clock import is_simulated, stamp_of
+from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
+from mtr_core.lockstep.clock import is_simulated, stamp_of
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
 from .conversions import (

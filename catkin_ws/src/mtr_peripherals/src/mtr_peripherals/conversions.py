@@ -7,7 +7,7 @@ import rospy
 from sensor_msgs.msg import JointState
 
 from mtr_core.crc import seal
-from mtr_lockstep import clock
+from mtr_core.lockstep import clock
 from mtr_msgs.msg import (
     DesiredState,
     FirmwareCommand,

@@ -8,8 +8,8 @@ from sensor_msgs.msg import BatteryState, JointState
 
 from mtr_core import names, schedule
 from mtr_core.crc import is_sound
-from mtr_lockstep import Ticker, TickInput, clock, publisher, run_node
-from mtr_lockstep.samples import Samples
+from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
+from mtr_core.lockstep.samples import Samples
 from mtr_msgs.msg import (
     DesiredState,
     DriveStatus,

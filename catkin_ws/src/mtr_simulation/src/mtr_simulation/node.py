@@ -14,8 +14,8 @@ from sensor_msgs.msg import BatteryState, Imu
 from std_msgs.msg import Header
 
 from mtr_core import names
+from mtr_core.lockstep import direct_publisher, run_node
 from mtr_core.schedule import CLOCK_STEP, LIDAR, SIMULATION_START_NS, slot
-from mtr_lockstep import direct_publisher, run_node
 
 from . import connections, conversions
 from .firmware.connections import emulated_firmware, firmware_topics

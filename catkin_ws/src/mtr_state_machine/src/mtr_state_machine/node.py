@@ -3,8 +3,8 @@
 import rospy
 
 from mtr_core import names, schedule
+from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_core.states import State
-from mtr_lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_msgs.msg import (
     CarCheck,
     CarEstimate,

@@ -8,8 +8,8 @@ import rospy
 from sensor_msgs.msg import Joy
 
 from mtr_core import names
+from mtr_core.lockstep import run_node
 from mtr_core.parameters import ParameterSet, number
-from mtr_lockstep import run_node
 
 from .device import State, find, states
 

@@ -5,8 +5,8 @@ import pathlib
 from typing import Any, Callable, List, Tuple, Union
 
 from mtr_core import names
+from mtr_core.lockstep import direct_publisher
 from mtr_core.schedule import FIRMWARE
-from mtr_lockstep import direct_publisher
 from mtr_msgs.msg import (
     FirmwareCalibrate,
     FirmwareCommand,
@@ -15,7 +15,7 @@ from mtr_msgs.msg import (
     FirmwarePress,
     FirmwareState,
 )
-from mtr_peripherals.serial_link.connections import md5_of
+from mtr_serial_link.connections import md5_of
 
 from ..conversions import firmware_message
 from .emulated import EmulatedFirmware

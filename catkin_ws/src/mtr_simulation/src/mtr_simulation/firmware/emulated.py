@@ -8,9 +8,9 @@ import select
 from typing import Any, Callable, List, Optional, Tuple
 
 from mtr_core.errors import RobotError
-from mtr_peripherals.serial_link.parameters import LinkParameters
-from mtr_peripherals.serial_link.port import SerialPort
-from mtr_peripherals.serial_link.session import Session
+from mtr_serial_link.parameters import LinkParameters
+from mtr_serial_link.port import SerialPort
+from mtr_serial_link.session import Session
 
 NS_PER_US = 1000
 NS = 1e-9

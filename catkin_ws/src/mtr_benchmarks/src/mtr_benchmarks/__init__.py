@@ -1,0 +1,2 @@
+"""Benchmarks of localization, motion, simulation and the serial line."""
+# SPDX-License-Identifier: Apache-2.0

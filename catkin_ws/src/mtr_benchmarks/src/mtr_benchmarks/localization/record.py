@@ -1,0 +1,143 @@
+"""Records one drive round the Car on the simulator's core: drive.bag, truth.csv and meta.json.
+
+Usage: python -m mtr_benchmarks.localization.record --scene lot --car hatchback --lidar-height 0.3 --seed 1 --out DIR
+"""
+# SPDX-License-Identifier: Apache-2.0
+import argparse
+import math
+import pathlib
+import sys
+from dataclasses import asdict, fields
+from typing import Any, Dict, List, Optional
+
+from mtr_core.errors import ConfigurationError
+from mtr_core.parameters import LIMITS
+from mtr_core.schedule import CAR_LOCATOR, CLOCK_STEP, LIDAR, SIMULATION_START_NS
+from mtr_core.se2 import Pose2
+from mtr_msgs.msg import MappingOrder
+from mtr_simulation.car_shape import size_at
+from mtr_simulation.sim import TICK_S, Sim
+
+from .drive_options import DriveOptions
+from .legs import LegFollower, Lift
+from .pattern import LOOP, START, Piece, Plan, pieces
+from .recording import Recording, pose_values
+
+# Options are the fields of DriveOptions, some without their unit.
+ALIASES = {"lidar_height_m": "lidar-height", "range_bias_m": "range-bias", "range_noise_m": "range-noise",
+           "duration_s": "duration"}
+MAP_CAR_ID = 1
+# The map is frozen when the loop is complete.
+PHASES = {START: MappingOrder.IDLE, LOOP: MappingOrder.COLLECT}
+LEG_LIMIT_S = 120.0
+EIGHTH_RAD = math.pi / 4.0
+# Distance from the Car that leaves room before what stands in the lot.
+REACH_M = {"lot": 3.5}
+FULL_REACH_M = 10.0
+
+
+class DriveError(Exception):
+    """The robot did not get to the end of the drive."""
+
+
+def plan(options: DriveOptions) -> Plan:
+    """Axes and radials of a drive: seeds take turns so that all directions are seen."""
+    first = options.seed % 8
+    axes = tuple(EIGHTH_RAD * ((first + 3 * step) % 8) for step in range(4))
+    # None to the right, where a person may walk.
+    radials = tuple(EIGHTH_RAD * ((options.seed + step) % 5) for step in (0, 2))
+    return Plan(axes, radials, REACH_M.get(options.scene, FULL_REACH_M), options.duration_s > 0.0, options.kidnap)
+
+
+def record(options: DriveOptions, folder: pathlib.Path) -> Dict[str, Any]:
+    """Drive and write; returns what meta.json says."""
+    sim = options.sim()
+    start = sim.truth()
+    segments: List[Dict[str, Any]] = []
+    with Recording(folder, options.lidar_height_m) as files:
+        files.mounts(SIMULATION_START_NS)
+        driving = _Driving(sim, files, options)
+        for index, piece in enumerate(pieces(options.shape, start.car_from_base, plan(options))):
+            segments.append(driving.follow(index, piece))
+            if options.duration_s and sim.time_ns * 1e-9 > options.duration_s:
+                break
+        meta = _meta(options, start.world_from_base, segments)
+        files.meta(meta)
+    return meta
+
+
+def _meta(options: DriveOptions, world_from_start: Pose2, segments: List[Dict[str, Any]]) -> Dict[str, Any]:
+    site, shape = options.scenario(), options.shape
+    end_s = segments[-1]["end_s"]
+    return {"options": asdict(options), "map_from_car": pose_values(world_from_start.inverse() @ site.world_from_car),
+            "prior_car_from_start": pose_values(site.start_in_car), "world_from_car": pose_values(site.world_from_car),
+            "length_m": shape.length_m, "width_m": shape.width_m,
+            "front_overhang_m": 0.5 * (shape.length_m - shape.wheelbase_m),
+            "at_lidar": size_at(shape, options.lidar_height_m)._asdict(),
+            "loop_end_s": max((each["end_s"] for each in segments if each["kind"] == LOOP), default=end_s),
+            "end_s": end_s, "segments": segments}
+
+
+class _Driving:
+    """Follows legs and writes what the sensors say meanwhile."""
+
+    def __init__(self, sim: Sim, files: Recording, options: DriveOptions):
+        self._sim, self._files, self._options = sim, files, options
+
+    def follow(self, index: int, piece: Piece) -> Dict[str, Any]:
+        """Follow one leg to its end; what it was, for meta.json."""
+        sim, begin_ns = self._sim, self._sim.time_ns
+        if isinstance(piece.leg, Lift):
+            sim.kidnap(sim.truth().world_from_base @ Pose2(0.0, piece.leg.aside_m, piece.leg.turn_rad))
+        follower = LegFollower(piece.leg, sim.truth().car_from_base, TICK_S)
+        done = False
+        while not done:
+            velocity, done = follower.update(sim.truth().car_from_base)
+            sim.command(*velocity)
+            self._tick(index, PHASES.get(piece.kind, MappingOrder.FREEZE))
+            if (sim.time_ns - begin_ns) * 1e-9 > LEG_LIMIT_S:
+                raise DriveError(f"Leg {index}, {piece.leg}, is not finished after {LEG_LIMIT_S:.0f} s at "
+                                 f"{sim.truth().car_from_base}.")
+            if sim.contacts():
+                raise DriveError(f"The robot touches {', '.join(sorted(sim.contacts()))} on leg {index}, {piece.leg}.")
+        return {"index": index, "kind": piece.kind, "leg": type(piece.leg).__name__.lower(),
+                "line_rad": piece.line_rad, "begin_s": begin_ns * 1e-9, "end_s": sim.time_ns * 1e-9}
+
+    def _tick(self, index: int, phase: int) -> None:
+        sim, files = self._sim, self._files
+        sweep = (sim.time_ns - SIMULATION_START_NS) // LIDAR.period_ns
+        sim.scans_wanted = sweep % self._options.sweeps_apart == 0
+        sensors = sim.step()
+        if CAR_LOCATOR.last_at(sim.time_ns) == sim.time_ns:
+            files.order(sim.time_ns, MAP_CAR_ID if phase else 0, phase)
+        files.sensors(sensors)
+        # The truth of a long drive is written as seldom as its sweeps.
+        if sim.time_ns // CLOCK_STEP.period_ns % self._options.sweeps_apart == 0:
+            files.truth(sim.truth(), index)
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    """Record the drive that the command line describes."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for item in fields(DriveOptions):
+        name = "--" + ALIASES.get(item.name, item.name.replace("_", "-"))
+        if isinstance(item.default, bool):
+            parser.add_argument(name, dest=item.name, action="store_true")
+        else:
+            parser.add_argument(name, dest=item.name, type=type(item.default), default=item.default,
+                                metavar=item.metadata[LIMITS].unit.strip("()") or None if item.metadata else None,
+                                help=f"default {item.default}")
+    parser.add_argument("--out", type=pathlib.Path, required=True, help="folder of the files")
+    values = vars(parser.parse_args(arguments))
+    folder = values.pop("out")
+    try:
+        meta = record(DriveOptions(**values), folder)
+    except (ConfigurationError, DriveError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    print(f"{folder}: {meta['end_s'] - SIMULATION_START_NS * 1e-9:.0f} s, loop ends at {meta['loop_end_s']:.2f} s.")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

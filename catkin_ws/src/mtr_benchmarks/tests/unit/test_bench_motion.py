@@ -1,0 +1,90 @@
+"""The motion benchmark's yardsticks: bounds that nothing beats, and drive control's own limits."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+import mtr_drive_control_core
+import pytest
+from shapely.geometry import Polygon
+
+from mtr_benchmarks.motion.__main__ import is_met, lines, merged
+from mtr_benchmarks.motion.bound import Ends, lower_bound, shortest_way
+from mtr_benchmarks.motion.limiter import PERIOD_S, Limiter
+from mtr_core.se2 import Pose2
+from mtr_motion_planner.keep_out import KeepOut
+from mtr_motion_planner.options import Goal
+from mtr_motion_planner.parameters import MotionParameters
+from mtr_motion_planner.plan import Moving
+from mtr_motion_planner.planning import Planning
+from mtr_motion_planner.ramp import ANGULAR_SHARE, LINEAR_SHARE
+
+PARAMETERS = MotionParameters()
+CAR = Polygon([(2.25, 0.9), (-2.25, 0.9), (-2.25, -0.9), (2.25, -0.9)])
+FAR = Polygon([(90.0, 90.0), (91.0, 90.0), (91.0, 91.0)])
+LIMITS = PARAMETERS.limits
+
+
+def bound(start, end, car=FAR, speed=0.5):
+    return lower_bound(Ends(start, end), car, 0.315, LIMITS, speed)
+
+
+def test_straight_motion_takes_its_bound():
+    assert bound(Pose2(0, 0, 0), Pose2(4, 0, 0)) == pytest.approx(4.0 / 0.5 + 0.5 / 0.8 + 0.2, abs=0.1)
+
+
+@pytest.mark.parametrize("angle", [0.5, 2.0, math.pi])
+def test_turn_on_the_spot_takes_its_bound(angle):
+    assert bound(Pose2(0, 0, 0), Pose2(0, 0, angle)) == pytest.approx(LIMITS.turn_time(angle))
+
+
+@pytest.mark.parametrize("car", [CAR, FAR])
+@pytest.mark.parametrize("heading", [0.0, 1.2, 2.5, -2.0, 3.1])
+@pytest.mark.parametrize("speed", [0.4, 1.0])
+def test_no_plan_is_quicker_than_the_bound(car, heading, speed):
+    start, end = Pose2(4.0, 1.0, heading), Pose2(-4.0, -1.5, 0.3 - heading)
+    keep_out = KeepOut(list(car.exterior.coords)[:-1], PARAMETERS.footprint)
+    plan = Planning(keep_out, None, PARAMETERS, speed).plan(Moving(start), Goal(end))
+    assert plan.duration_s >= bound(start, end, car, speed) - 0.1
+
+
+def test_shortest_way_goes_around_the_nearer_side():
+    way = shortest_way((4.0, 0.5), (-4.0, 0.5), CAR.buffer(0.3))
+    assert min(y for _, y in way) >= 0.5
+
+
+def test_planned_motion_with_what_the_controller_adds_passes_drive_controls_limits():
+    allowed = mtr_drive_control_core.limits_at(1.55)
+    assert LINEAR_SHARE * LIMITS.acceleration_mps2 <= allowed["linear_acceleration_mps2"]
+    assert ANGULAR_SHARE * LIMITS.angular_acceleration_radps2 <= allowed["angular_acceleration_radps2"]
+    assert LIMITS.max_angular_radps < allowed["max_angular_radps"]
+    assert LIMITS.lateral_acceleration_mps2 < allowed["lateral_acceleration_mps2"]
+
+
+@pytest.mark.parametrize("curvature", [0.0, 0.2, 0.5, 1.0, 2.0, 4.0])
+def test_planned_curve_passes_drive_controls_limits_with_the_key_raised(curvature):
+    speed = LIMITS.corner_speed(curvature)
+    assert speed * curvature <= mtr_drive_control_core.yaw_rate_at(1.55, speed)
+
+
+@pytest.mark.parametrize("wanted", [(0.7, 0.3), (0.4, -1.4), (-0.5, 1.0), (0.79, 0.0)])
+def test_limiter_reaches_what_is_allowed_and_never_jumps(wanted):
+    limiter, before = Limiter(), (0.0, 0.0)
+    for _ in range(200):
+        sent = limiter.follow(wanted)
+        assert abs(sent[0] - before[0]) <= 1.5 * PERIOD_S + 1e-9
+        assert abs(sent[0] * sent[1]) <= 1.0 + 1e-9
+        before = sent
+    assert sent == pytest.approx(wanted, abs=1e-6)
+
+
+def test_promised_figures_are_numbers_on_top_and_everything_is_below():
+    parts = {"tracking": {"time_ratio_p95": 1.1, "pairs": 200}, "encounters": {"encounters": 1049}}
+    assert merged(parts) == {"time_ratio_p95": 1.1, "encounters": 1049, "details": parts}
+
+
+@pytest.mark.parametrize("key, value, is_good", [
+    ("time_ratio_p95", 1.15, True), ("time_ratio_p95", 1.151, False), ("encounters", 999, False),
+    ("contacts_while_moving", 1, False), ("tip_margin_n", 0.0, False), ("stop_latency_p99_ms", math.nan, False),
+    ("time_ratio_median", 9.0, True)])
+def test_figure_is_met_or_the_benchmark_says_so(key, value, is_good):
+    assert is_met(key, value) == is_good
+    assert ("NOT MET" in lines({key: value})[0]) != is_good

@@ -1,0 +1,87 @@
+/// @file
+/// Time of the ROS clock in integer nanoseconds, and waiting for it while callbacks run.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+#include "mtr_core/samples.hpp"
+
+namespace mtr_core {
+
+/// Bounds how late a shutdown is noticed, in s of wall time; every message ends the wait earlier.
+inline constexpr double kShutdownCheckS = 0.2;
+
+/// True when /use_sim_time is set, so that time comes from /clock. Valid after the first ros::NodeHandle exists.
+inline bool is_simulated() { return ros::Time::isSimTime(); }
+
+/// Stamp of a message in nanoseconds.
+inline std::int64_t to_ns(const ros::Time& time) { return static_cast<std::int64_t>(time.toNSec()); }
+
+/// Nanoseconds as the stamp of a message.
+inline ros::Time stamp_of(std::int64_t time_ns) {
+  return ros::Time(static_cast<std::uint32_t>(time_ns / kSecondNs), static_cast<std::uint32_t>(time_ns % kSecondNs));
+}
+
+/// Monotonic wall time in s.
+inline double wall_seconds() { return ros::SteadyTime::now().toSec(); }
+
+/// Runs the callbacks of the global queue, blocking at most max_wall_s for the first one; false on shutdown.
+inline bool run_callbacks(double max_wall_s) {
+  ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(std::min(max_wall_s, kShutdownCheckS)));
+  return ros::ok();
+}
+
+/// Waiting of inputs in lock-step; none on the robot's own clock. Tests that silence many producers set less patience.
+inline std::optional<Waiting> lockstep_waiting() {
+  if (!is_simulated()) {
+    return std::nullopt;
+  }
+  return Waiting{run_callbacks, wall_seconds, ros::param::param("/lockstep_patience_s", kProducerLostAfterWallS)};
+}
+
+/// The ROS clock of a single-threaded node.
+///
+/// It listens to /clock itself, on the global callback queue: ros::Time is set by another thread, and
+/// ros::Time::sleepUntil polls it, which would cost 1 ms per tick.
+class Clock {
+ public:
+  explicit Clock(ros::NodeHandle& node) {
+    if (is_simulated()) {
+      subscriber_ = node.subscribe<rosgraph_msgs::Clock>(
+          "/clock", 1, [this](const rosgraph_msgs::Clock::ConstPtr& message) { simulated_ns_ = to_ns(message->clock); },
+          ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+    }
+  }
+  Clock(const Clock&) = delete;
+  Clock& operator=(const Clock&) = delete;
+
+  /// ROS time in ns; 0 before the first /clock.
+  std::int64_t now_ns() const { return is_simulated() ? simulated_ns_ : to_ns(ros::Time::now()); }
+
+  /// Runs callbacks until the given ROS time; false on shutdown.
+  bool wait_until(std::int64_t time_ns) {
+    // On the robot the wait is counted on the steady clock, so that a corrected system clock cannot prolong it.
+    const double deadline = wall_seconds() + static_cast<double>(time_ns - now_ns()) * 1e-9;
+    const auto remaining_s = [&] {
+      return is_simulated() ? (simulated_ns_ < time_ns ? kShutdownCheckS : 0.0) : deadline - wall_seconds();
+    };
+    double remaining = remaining_s();
+    while (remaining > 0.0 && run_callbacks(remaining)) {
+      remaining = remaining_s();
+    }
+    return ros::ok();
+  }
+
+ private:
+  ros::Subscriber subscriber_;
+  std::int64_t simulated_ns_ = 0;
+};
+
+}  // namespace mtr_core

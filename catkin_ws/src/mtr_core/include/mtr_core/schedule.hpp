@@ -1,0 +1,50 @@
+/// @file
+/// Ticks of the periodic nodes, mirrored from mtr_core/schedule.py; a unit test compares the two.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace mtr_core {
+
+constexpr std::int64_t kMillisecondNs = 1'000'000;
+constexpr std::int64_t kSecondNs = 1'000 * kMillisecondNs;
+
+/// Period and phase of one periodic producer, in ns of the ROS clock; its ticks are n * period + phase.
+struct Slot {
+  std::int64_t period_ns;
+  std::int64_t phase_ns;
+
+  /// First tick later than time_ns.
+  constexpr std::int64_t next_after(std::int64_t time_ns) const { return last_at(time_ns) + period_ns; }
+
+  /// Last tick not later than time_ns.
+  constexpr std::int64_t last_at(std::int64_t time_ns) const {
+    const std::int64_t since_phase = time_ns - phase_ns;
+    const std::int64_t past_tick = (since_phase % period_ns + period_ns) % period_ns;
+    return time_ns - past_tick;
+  }
+};
+
+/// Slot with period and phase in milliseconds.
+constexpr Slot slot(std::int64_t period_ms, std::int64_t phase_ms = 0) {
+  return {period_ms * kMillisecondNs, phase_ms * kMillisecondNs};
+}
+
+inline constexpr Slot kClockStep = slot(20);
+inline constexpr Slot kSensors = slot(20);
+inline constexpr Slot kLocalization = slot(20);
+inline constexpr Slot kDriveControl = slot(20);
+inline constexpr Slot kMotionPlanner = slot(40);
+inline constexpr Slot kLidar = slot(40);
+inline constexpr Slot kFirmware = slot(40);
+inline constexpr Slot kControllerInput = slot(40);
+inline constexpr Slot kDispatcher = slot(100);
+inline constexpr Slot kStateMachine = slot(100, 20);
+inline constexpr Slot kPeripherals = slot(100, 40);
+inline constexpr Slot kCarLocator = slot(100, 60);
+
+/// Time at which a simulated clock starts; no tick lies before it.
+inline constexpr std::int64_t kSimulationStartNs = 1'000 * kMillisecondNs;
+
+}  // namespace mtr_core

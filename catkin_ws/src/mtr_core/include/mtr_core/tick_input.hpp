@@ -1,0 +1,42 @@
+/// @file
+/// A topic as input of a periodic node.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/ros.h>
+
+#include <cstdint>
+#include <string>
+
+#include "mtr_core/clock.hpp"
+#include "mtr_core/samples.hpp"
+
+namespace mtr_core {
+
+/// Subscription to a periodic topic with a header; `at(tick)` gives the message to use at a tick.
+///
+/// In simulation it waits for the message that is due at that tick, so that the outcome does not depend on the speed
+/// of the machine. On the robot's own clock, and where waits is false, it is the newest message.
+template <typename M>
+class TickInput {
+ public:
+  using ConstPtr = typename M::ConstPtr;
+
+  TickInput(ros::NodeHandle& node, const std::string& topic, Slot slot, std::int64_t lag_ns = kClockStep.period_ns,
+            bool waits = true)
+      : samples_(slot, lag_ns, waits ? lockstep_waiting() : std::nullopt),
+        subscriber_(node.subscribe<M>(
+            topic, 50, [this](const ConstPtr& message) { samples_.add(to_ns(message->header.stamp), message); },
+            ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay())) {}
+  TickInput(const TickInput&) = delete;
+  TickInput& operator=(const TickInput&) = delete;
+
+  /// Message to use at the tick, null before the first one.
+  ConstPtr at(std::int64_t tick_ns) { return samples_.at(tick_ns).value_or(nullptr); }
+
+ private:
+  Samples<ConstPtr> samples_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace mtr_core

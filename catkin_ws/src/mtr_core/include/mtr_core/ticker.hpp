@@ -1,0 +1,62 @@
+/// @file
+/// The rate of a periodic node: a simulated clock does not pass a tick before its work is done.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/ros.h>
+#include <std_msgs/Header.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "mtr_core/clock.hpp"
+#include "mtr_core/names.hpp"
+#include "mtr_core/schedule.hpp"
+
+namespace mtr_core {
+
+/// Wakes at the ticks of a slot of the schedule; the node's callbacks run while it sleeps.
+///
+/// In simulation each sleep first publishes a hold: frame_id is the node, stamp its next tick, seq the number of
+/// messages that it has sent to the simulator so far. The simulator does not advance past the stamp and waits until
+/// the messages have arrived. On the robot's own clock nothing is published.
+class Ticker {
+ public:
+  Ticker(ros::NodeHandle& node, Slot slot) : slot_(slot), clock_(node) {
+    if (is_simulated()) {
+      holds_ = node.advertise<std_msgs::Header>(names::kSimHold, 20, true);
+    }
+  }
+
+  /// Waits for the next tick and returns it in ns of the ROS clock; nothing on shutdown.
+  /// A node that took longer than a period goes on at the next tick that is still to come.
+  std::optional<std::int64_t> sleep() {
+    const std::int64_t tick_ns = slot_.next_after(clock_.now_ns());
+    hold(tick_ns);
+    return clock_.wait_until(tick_ns) ? std::optional<std::int64_t>(tick_ns) : std::nullopt;
+  }
+
+  /// Present time in ns of the ROS clock.
+  std::int64_t now_ns() const { return clock_.now_ns(); }
+
+  /// The owner calls this with each message that it sends to the simulator.
+  void count_message_sent() { ++messages_sent_; }
+
+ private:
+  void hold(std::int64_t tick_ns) {
+    if (holds_) {
+      std_msgs::Header message;
+      message.seq = messages_sent_;
+      message.stamp = stamp_of(tick_ns);
+      message.frame_id = ros::this_node::getName();
+      holds_.publish(message);
+    }
+  }
+
+  Slot slot_;
+  Clock clock_;
+  ros::Publisher holds_;
+  std::uint32_t messages_sent_ = 0;
+};
+
+}  // namespace mtr_core

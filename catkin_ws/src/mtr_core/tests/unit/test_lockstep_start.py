@@ -1,0 +1,71 @@
+"""Life of a node: exit status, and what it prints."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+
+import pytest
+import rospy
+
+from mtr_core.errors import RobotError
+from mtr_core.lockstep import run_node
+from mtr_core.parameters import ParameterSet, number
+
+
+@dataclass(frozen=True)
+class Parameters(ParameterSet):
+    """One number."""
+
+    speed_mps: float = number(0.5, 0.05, 2.0, "m/s")
+
+
+class Node:
+    """Ends as it is told."""
+
+    def __init__(self, parameters, end=None):
+        self.parameters, self._end = parameters, end
+
+    def spin(self):
+        """Once."""
+        if self._end:
+            raise self._end
+
+
+@pytest.fixture
+def printed(monkeypatch):
+    """Lines of the log as (level, sentence); there is no master."""
+    lines = []
+    monkeypatch.setattr(rospy, "init_node", lambda name: None)
+    monkeypatch.setattr(rospy, "get_param", lambda name, default: {})
+    monkeypatch.setattr(rospy, "loginfo", lambda text, *values: lines.append(("info", text % values)))
+    monkeypatch.setattr(rospy, "logfatal", lambda text, *values: lines.append(("fatal", text % values)))
+    return lines
+
+
+def test_node_prints_its_parameters_in_one_line_and_ends_with_0(printed):
+    assert run_node("walker", Parameters, Node) == 0
+    assert printed == [("info", "Parameters: speed_mps 0.5 m/s")]
+
+
+def test_wrong_parameter_ends_it_with_2_after_one_sentence(printed, monkeypatch):
+    monkeypatch.setattr(rospy, "get_param", lambda name, default: {"speed_mps": 3.0})
+    assert run_node("walker", Parameters, Node) == 2
+    assert printed == [("fatal", "The node walker cannot start. Parameter speed_mps is 3 m/s; "
+                                 "allowed is 0.05 to 2 m/s.")]
+
+
+def test_node_that_cannot_be_made_ends_with_2(printed):
+    def make(parameters):
+        raise RobotError("The port is busy.")
+    assert run_node("walker", Parameters, make) == 2
+    assert printed[-1] == ("fatal", "The node walker cannot start. The port is busy.")
+
+
+@pytest.mark.parametrize("end", [rospy.ROSInterruptException("sleep"), rospy.ROSException("publish")])
+def test_shutdown_in_the_middle_of_work_ends_with_0(printed, monkeypatch, end):
+    monkeypatch.setattr(rospy, "is_shutdown", lambda: True)
+    assert run_node("walker", Parameters, lambda parameters: Node(parameters, end)) == 0
+
+
+def test_error_while_running_is_not_swallowed(printed, monkeypatch):
+    monkeypatch.setattr(rospy, "is_shutdown", lambda: False)
+    with pytest.raises(rospy.ROSException):
+        run_node("walker", Parameters, lambda parameters: Node(parameters, rospy.ROSException("broken")))

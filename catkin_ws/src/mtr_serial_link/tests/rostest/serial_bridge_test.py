@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""The serial bridge as its users see it: topics, a service, unplugging, a frozen device, and its sentences."""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import roslib.packages
+import rospy
+import rostest
+from device_on_pty import DeviceOnPty
+from diagnostic_msgs.msg import DiagnosticArray
+from roscpp.srv import GetLoggers
+
+from mtr_msgs.msg import FirmwareEcho, FirmwareHealth
+from mtr_serial_link.connections import _bytes_of, md5_of
+from mtr_serial_link.fake_device import FakeDevice
+from mtr_serial_link.wire import Special, TopicInfo
+
+LIMIT_S = 10.0
+SAY_EVERY_S = 0.1
+ECHO, HEALTH, CALL, ANSWER = 125, 126, 101, 127
+
+
+def info(topic_id, name, type_name, part=""):
+    """Description with this machine's own checksum."""
+    return TopicInfo(topic_id, name, type_name, md5_of(type_name + part), 280)
+
+
+ENDPOINTS = (
+    (Special.PUBLISHER, info(ECHO, "/device/echo", "mtr_msgs/FirmwareEcho")),
+    (Special.SUBSCRIBER, info(102, "/device/health", "mtr_msgs/FirmwareHealth")),
+    (Special.SERVICE_REQUEST, info(CALL, "/device/loggers", "roscpp/GetLoggers", "Request")),
+    (Special.SERVICE_RESPONSE, info(ANSWER, "/device/loggers", "roscpp/GetLoggers", "Response")),
+)
+
+
+class Heard:
+    """Waits for a message that fits."""
+
+    def __init__(self, topic, message_class):
+        self._changed = threading.Condition()
+        self._messages = []
+        self._subscriber = rospy.Subscriber(topic, message_class, self._take)
+
+    def _take(self, message):
+        with self._changed:
+            self._messages.append(message)
+            self._changed.notify_all()
+
+    def clear(self):
+        with self._changed:
+            self._messages.clear()
+
+    def wait_for(self, fits, limit_s=LIMIT_S):
+        with self._changed:
+            return self._changed.wait_for(lambda: any(fits(message) for message in self._messages), limit_s)
+
+
+class SerialBridgeTest(unittest.TestCase):
+    """One bridge; each test has a fresh device on a fresh port."""
+
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.port = pathlib.Path(self._folder.name) / "board"
+        self.board = DeviceOnPty(FakeDevice(ENDPOINTS), self.port)
+        self.board.device.answers[CALL] = (ANSWER, lambda request: (0).to_bytes(4, "little"))
+        self.diagnostics = Heard("/diagnostics", DiagnosticArray)
+        self.echoes = Heard("/device/echo", FirmwareEcho)
+        self.bridge = subprocess.Popen([roslib.packages.find_node("mtr_serial_link", "serial_bridge_node")[0],
+                                        f"_port:={self.port}", "_service_timeout_s:=0.5"])
+
+    def tearDown(self):
+        self.bridge.send_signal(signal.SIGINT)
+        self.assertEqual(self.bridge.wait(LIMIT_S), 0)
+        self._folder.cleanup()
+
+    def says(self, part):
+        return self.diagnostics.wait_for(lambda message: part in message.status[0].message)
+
+    def hears_device(self, seq):
+        """The device says it again and again, as firmware does: its first word may come before ROS has connected."""
+        self.echoes.clear()
+        for _ in range(round(LIMIT_S / SAY_EVERY_S)):
+            self.board.say(self.board.device.say(ECHO, bytes((seq,))))
+            if self.echoes.wait_for(lambda message: message.seq == seq, SAY_EVERY_S):
+                return True
+        return False
+
+    def call(self):
+        rospy.wait_for_service("/device/loggers", LIMIT_S)
+        return rospy.ServiceProxy("/device/loggers", GetLoggers)()
+
+    def test_topics_and_service_pass_and_are_back_after_a_replug(self):
+        self.assertTrue(self.says("is missing"))
+        for _ in range(2):
+            self.board.plug()
+            self.assertEqual(self.call().loggers, [])
+            self.assertTrue(self.hears_device(7))
+            self.diagnostics.clear()
+            self.board.unplug()
+            self.assertTrue(self.says("is missing"))
+
+    def test_message_reaches_the_device_as_it_was_sent(self):
+        self.board.plug()
+        publisher = rospy.Publisher("/device/health", FirmwareHealth, queue_size=1, latch=True)
+        publisher.publish(FirmwareHealth(resets=513))
+        self.call()
+        self.assertTrue(self.says("linked"))
+        self.assertTrue(self.hears_device(9))
+        wanted = _bytes_of(FirmwareHealth(resets=513))
+        deadline = rospy.Time.now() + rospy.Duration(LIMIT_S)
+        while not self.board.device.received and rospy.Time.now() < deadline:
+            rospy.sleep(0.02)
+        self.assertEqual([frame.payload for frame in self.board.device.received], [wanted])
+
+    def test_call_to_a_frozen_device_fails_in_time_and_works_again_later(self):
+        self.board.plug()
+        self.call()
+        self.board.frozen = True
+        with self.assertRaises(rospy.ServiceException):
+            self.call()
+        self.assertTrue(self.says("fallen silent"))
+        self.board.frozen = False
+        self.diagnostics.clear()
+        self.assertTrue(self.says("linked"))
+
+    def test_port_that_another_program_has_is_called_busy(self):
+        self.board.plug()
+        self.call()
+        second = subprocess.Popen([roslib.packages.find_node("mtr_serial_link", "serial_bridge_node")[0],
+                                   f"_port:={self.port}", "__name:=second"])
+        self.assertTrue(self.says("is busy"))
+        second.send_signal(signal.SIGINT)
+        second.wait(LIMIT_S)
+
+
+if __name__ == "__main__":
+    rospy.init_node("serial_bridge_test")
+    rostest.rosrun("mtr_serial_link", "serial_bridge", SerialBridgeTest, sys.argv)
