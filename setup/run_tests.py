@@ -50,6 +50,7 @@ def lint() -> Counts:
         "ruff": ["ruff", "check", "--quiet", *python],
         "python-3.8": ["vermin", "--quiet", "-t=3.8-", "--no-tips", "--violations", *robot],
         "clang-format": ["clang-format", "--dry-run", "-Werror", *cpp],
+        "mypy": [sys.executable, "-m", "mypy"],
         "catkin-lint": ["/usr/bin/catkin_lint", "--quiet", "-W1", *packages],
     }
     results = [check(name, command) for name, command in checks.items()]

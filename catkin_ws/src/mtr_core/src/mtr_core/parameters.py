@@ -27,6 +27,7 @@ def number(default: float, low: float, high: float, unit: str = "") -> Any:
     return dataclasses.field(default=default, metadata={LIMITS: Limits(low, high, unit)})
 
 
+@dataclass(frozen=True)
 class ParameterSet:
     """Base of the frozen dataclasses; ConfigurationError names the first number out of its range when one is made.
 

@@ -21,7 +21,7 @@ class TickInput:
     """
 
     def __init__(self, topic: str, message_type: Any, slot: Slot, lag_ns: int = CLOCK_STEP.period_ns):
-        self._samples = Samples(slot, lag_ns, waits=clock.is_simulated())
+        self._samples: Samples[Any] = Samples(slot, lag_ns, waits=clock.is_simulated())
         self._samples.patience_s = rospy.get_param(PATIENCE_PARAMETER, PRODUCER_LOST_AFTER_WALL_S)
         self._subscriber = rospy.Subscriber(topic, message_type, self._take, queue_size=50, tcp_nodelay=True)
 

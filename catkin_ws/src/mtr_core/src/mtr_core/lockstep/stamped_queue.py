@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import time
 from collections import deque
-from typing import Any, Deque, List
+from typing import Any, Deque, List, Optional
 
 import rospy
 
@@ -28,9 +28,9 @@ class StampedQueue:
 
     def __init__(self, topic: str, message_type: Any, slot: Slot, lag_ns: int):
         self._lag_ns = lag_ns
-        self._samples = Samples(slot, lag_ns, waits=is_simulated())
+        self._samples: Samples[Any] = Samples(slot, lag_ns, waits=is_simulated())
         self._queue: Deque[Any] = deque(maxlen=KEPT)
-        self._opened_ns = None
+        self._opened_ns: Optional[int] = None
         self._subscriber = rospy.Subscriber(topic, message_type, self._take_in, queue_size=50, tcp_nodelay=True)
         if is_simulated():
             self._connect(topic)
