@@ -63,28 +63,24 @@ class Controller:
         if self._joy is None:
             return Outcome()
         wanted = velocity(self._parameters, self._joy.axes, self._joy.buttons)
-        self._watch(now_s, is_present, wanted)
-        self._watch_release(now_s)
+        self._watch(now_s, is_present, wanted, self._lift(self._joy.axes))
+        self._watch_release(now_s, self._joy.buttons)
         if self._is_stopped:
             return Outcome(lock_reason="The emergency stop of the manual controller is pressed.")
         if self._lost:
             return Outcome(lock_reason=self._lost)
         return Outcome(wanted, self._lift(self._joy.axes) if wanted.active else 0.0)
 
-    def _watch(self, now_s: float, is_present: bool, wanted: Velocity) -> None:
+    def _watch(self, now_s: float, is_present: bool, wanted: Velocity, lift_mps: float) -> None:
         if not is_present or not 0.0 <= now_s - self._heard_s <= self._parameters.silent_after_s:
             self._lost = "The manual controller is lost; the robot stands until it is back and released."
-        elif self._moves(wanted) and now_s - self._changed_s > self._parameters.frozen_after_s:
+        elif _moves(wanted, lift_mps) and now_s - self._changed_s > self._parameters.frozen_after_s:
             self._lost = "The manual controller does not change any more; release it to go on."
         elif not wanted.active:
             self._lost = ""
 
-    def _moves(self, wanted: Velocity) -> bool:
-        lift_mps = self._lift(self._joy.axes)
-        return wanted.active and (wanted.linear_mps, wanted.angular_radps, lift_mps) != (0.0, 0.0, 0.0)
-
-    def _watch_release(self, now_s: float) -> None:
-        held = {index for index, value in enumerate(self._joy.buttons) if value == 1}
+    def _watch_release(self, now_s: float, buttons: Sequence[int]) -> None:
+        held = {index for index, value in enumerate(buttons) if value == 1}
         if self._lost or held != set(self._parameters.release_buttons):
             self._release_since_s = None
         elif self._release_since_s is None:
@@ -106,6 +102,10 @@ def velocity(parameters: Parameters, axes: Sequence[float], buttons: Sequence[in
         return RELEASED
     return Velocity(linear_mps * _deflection(parameters, axes, parameters.linear_axis),
                     angular_radps * _deflection(parameters, axes, parameters.angular_axis), True)
+
+
+def _moves(wanted: Velocity, lift_mps: float) -> bool:
+    return wanted.active and (wanted.linear_mps, wanted.angular_radps, lift_mps) != (0.0, 0.0, 0.0)
 
 
 def _is_held(buttons: Sequence[int], index: int) -> bool:

@@ -1,7 +1,7 @@
 """Bytes of the link to a Command."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Optional
+from typing import Any, Optional
 
 from google.protobuf.message import DecodeError
 
@@ -32,13 +32,17 @@ def decode(data: bytes) -> Command:
     return Command(
         session_id=message.session_id, id=message.id, seen_status_id=message.seen_status_id,
         seen_robot_time_s=_float(message, "seen_robot_time_s", math.nan), stop=message.stop,
-        waypoint=_waypoint(message), max_speed_mps=_float(message, "max_speed_mps", None),
-        key_height_m=_float(message, "device_height_m", None), press=_press(message), map_car_id=message.map_car_id,
+        waypoint=_waypoint(message), max_speed_mps=_choice(message, "max_speed_mps"),
+        key_height_m=_choice(message, "device_height_m"), press=_press(message), map_car_id=message.map_car_id,
         end_session=message.end_session, check_car_id=message.check_car_id)
 
 
-def _float(message: object, name: str, absent: Optional[float]) -> Optional[float]:
+def _float(message: Any, name: str, absent: float) -> float:
     return getattr(message, name) if message.HasField(name) else absent
+
+
+def _choice(message: Any, name: str) -> Optional[float]:
+    return getattr(message, name) if message.HasField(name) else None
 
 
 def _waypoint(message: link.Command) -> Optional[Waypoint]:

@@ -55,7 +55,7 @@ class LinkServer:
         """Messages that have arrived, in order; waits up to timeout_s for the first one."""
         if not self._subscriber.poll(math.ceil(1000.0 * max(timeout_s, 0.0))):
             return []
-        messages = []
+        messages: List[bytes] = []
         while len(messages) < MESSAGES_PER_TURN:
             try:
                 frames = self._subscriber.recv_multipart(zmq.NOBLOCK)
@@ -69,7 +69,7 @@ class LinkServer:
         """Release both ports."""
         self._context.destroy(LINGER_MS)
 
-    def _socket(self, kind: int) -> zmq.Socket:
+    def _socket(self, kind: int) -> "zmq.Socket[bytes]":
         socket = self._context.socket(kind)
         socket.setsockopt(zmq.HEARTBEAT_IVL, HEARTBEAT_MS)
         socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, HEARTBEAT_TIMEOUT_MS)

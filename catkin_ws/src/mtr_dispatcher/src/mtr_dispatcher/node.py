@@ -1,7 +1,7 @@
 """The dispatcher's node: wires the link and the topics to the core."""
 # SPDX-License-Identifier: Apache-2.0
 import secrets
-from typing import Optional
+from typing import List, Optional
 
 import rospkg
 import rospy
@@ -35,7 +35,7 @@ class DispatcherNode:
         self._parameters, self._core, self._server = parameters, core, server
         self._wait = OperatorWait(parameters.operator_lost_after_wall_s)
         self._published: Optional[Desired] = None
-        self._confirmed: Optional[list] = None
+        self._confirmed: Optional[List[object]] = None
         self._status = b""
         self._pose = TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0)
         self._car = TickInput(names.CAR_ESTIMATE, CarEstimate, schedule.CAR_LOCATOR)

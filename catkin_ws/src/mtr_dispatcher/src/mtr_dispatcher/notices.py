@@ -1,7 +1,7 @@
 """Sentences that concern the Operator now."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Iterator, List, NamedTuple
+from typing import Dict, Iterator, List, NamedTuple, Tuple
 
 from mtr_core.states import State
 
@@ -27,7 +27,7 @@ class RecentNotices:
     """Events of which the Operator reads for a while."""
 
     def __init__(self) -> None:
-        self._notices = {}
+        self._notices: Dict[str, Tuple[float, Notice]] = {}
 
     def add(self, notice: Notice, now_s: float) -> None:
         """Show the notice from now on; a newer one of the same code replaces it."""
@@ -42,7 +42,7 @@ class ForeignApplications:
     """Applications that want the robot while another one controls it."""
 
     def __init__(self) -> None:
-        self._heard = {}
+        self._heard: Dict[int, float] = {}
 
     def hear(self, controlling_id: int, session_id: int, now_s: float) -> str:
         """A Command of one came; the sentence about it."""

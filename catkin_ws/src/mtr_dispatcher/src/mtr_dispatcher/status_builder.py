@@ -8,7 +8,7 @@ from mtr_core.states import CarState, Result
 from mtr_proto import robot_link_pb2 as link
 
 from .car_pose import CarPose, UncertainPose, base_in_car
-from .inputs import Inputs
+from .inputs import CarReport, CheckReport, Inputs, ModeReport, PeripheralsReport, PoseReport
 from .log_buffer import Entry
 from .notices import Notice
 
@@ -65,7 +65,7 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
     return status.SerializeToString()
 
 
-def _add_mode(status: link.Status, mode: Optional[object], session_id: int) -> None:
+def _add_mode(status: link.Status, mode: Optional[ModeReport], session_id: int) -> None:
     if mode is None:
         return
     status.mode = mode.mode
@@ -96,16 +96,18 @@ def _add_pose(state: link.RobotState, fresh: Inputs) -> None:
     state.pose_valid = pose.valid and fresh.car.state == CarState.LOCATED
 
 
-def _in_car(pose: object, car: object) -> CarPose:
+def _in_car(pose: PoseReport, car: CarReport) -> CarPose:
     return base_in_car(UncertainPose(Pose2(pose.x, pose.y, pose.heading), pose.covariance),
                        UncertainPose(Pose2(car.x, car.y, car.heading), car.covariance))
 
 
-def _add_car(dimensions: link.CarDimensions, car: Optional[object]) -> None:
-    dimensions.mapped = car is not None and car.state == CarState.LOCATED
-    if car is not None:
-        dimensions.length, dimensions.width = car.length, car.width
-        dimensions.length_sigma, dimensions.width_sigma = car.length_sigma, car.width_sigma
+def _add_car(dimensions: link.CarDimensions, car: Optional[CarReport]) -> None:
+    dimensions.mapped = False
+    if car is None:
+        return
+    dimensions.length, dimensions.width = car.length, car.width
+    dimensions.length_sigma, dimensions.width_sigma = car.length_sigma, car.width_sigma
+    dimensions.mapped = car.state == CarState.LOCATED
     if dimensions.mapped:
         dimensions.outline_x.extend(car.outline_x)
         dimensions.outline_y.extend(car.outline_y)
@@ -114,7 +116,7 @@ def _add_car(dimensions: link.CarDimensions, car: Optional[object]) -> None:
         dimensions.correction_heading = car.correction_heading
 
 
-def _add_check(message: link.CarCheck, check: Optional[object], check_car_id: int) -> None:
+def _add_check(message: link.CarCheck, check: Optional[CheckReport], check_car_id: int) -> None:
     """The answer to an order of the session in control; what the limits are is told always."""
     if check is None:
         return
@@ -126,7 +128,7 @@ def _add_check(message: link.CarCheck, check: Optional[object], check_car_id: in
         message.difference_m, message.difference_rad = check.difference_m, check.difference_rad
 
 
-def _add_peripherals(status: link.Status, peripherals: Optional[object], session_id: int) -> None:
+def _add_peripherals(status: link.Status, peripherals: Optional[PeripheralsReport], session_id: int) -> None:
     if peripherals is None:
         return
     status.state.device_height = peripherals.key_height_m

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from typing import Callable, NamedTuple, Optional, Tuple
 
-from mtr_core.parameters import check_range
+from mtr_core.errors import check_range
 
 UNDER_WAY, DONE, REFUSED = 1, 2, 3
 # Of FirmwareCalibrate.stroke_m.
@@ -57,12 +57,14 @@ class Calibration:
     def run(self, stroke_m: float) -> Tuple[bool, str]:
         """Whether it has succeeded, with a sentence."""
         for _ in range(round(ANSWER_WITHIN_S / PERIOD_S)):
-            if self._state() is not None:
-                break
+            state = self._state()
+            if state is not None:
+                return self._order(order_of(stroke_m, state.calibration_id))
             self._sleep(PERIOD_S)
-        else:
-            return False, "The firmware is silent, so nothing was ordered."
-        order, waited_s = order_of(stroke_m, self._state().calibration_id), 0.0
+        return False, "The firmware is silent, so nothing was ordered."
+
+    def _order(self, order: Order) -> Tuple[bool, str]:
+        waited_s = 0.0
         while True:
             verdict = verdict_of(self._state(), order.id, waited_s)
             if verdict:

@@ -1,7 +1,7 @@
 """The peripherals' node: wires the topics to the core."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
-from typing import Optional, Tuple
+from typing import Any, Optional, Tuple
 
 import rospy
 from sensor_msgs.msg import BatteryState, JointState
@@ -38,6 +38,7 @@ from .firmware import FirmwareReport
 from .firmware_clock import FirmwareClock, SharedClock
 from .health_watch import HealthWatch
 from .parameters import Parameters
+from .presses import PressResult
 
 NS = 1e-9
 # Each report of emulated firmware is there by then: it reports every 40 ms, needs 10 ms on the line, and the simulator
@@ -59,13 +60,13 @@ class PeripheralsNode:
         self._core = Peripherals(parameters)
         start_us, lag_ns = (EMULATED_CLOCK_START_US, EMULATED_LAG_NS) if parameters.emulated_firmware else (0, 0)
         self._times = SharedClock(start_us) if clock.is_simulated() else FirmwareClock()
-        self._reports = Samples(schedule.FIRMWARE, lag_ns, clock.is_simulated())
+        self._reports: Samples[FirmwareReport] = Samples(schedule.FIRMWARE, lag_ns, clock.is_simulated())
         self._battery: Tuple[int, Optional[float]] = (0, None)
         self._manual_lift = LiftCommand()
         self._calibrate_ns: Optional[int] = None
         self._health = HealthWatch()
         self._seq = 0
-        self._logged = None
+        self._logged: Optional[Tuple[str, Optional[PressResult]]] = None
         self._desired = TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER)
         # Lock-step waits for each input, so only for what is needed.
         self._drive = None if parameters.rear_lidar else TickInput(names.DRIVE_STATUS, DriveStatus,
@@ -110,7 +111,7 @@ class PeripheralsNode:
         if not is_sound(message):
             return
         stamp_ns = self._times.observe(message.time_us, clock.now_ns())
-        report: FirmwareReport = firmware_report(message, stamp_ns, self._times)
+        report = firmware_report(message, stamp_ns, self._times)
         self._reports.add(stamp_ns, report)
         self._reports.wait_until_wanted()
 
@@ -145,7 +146,7 @@ class PeripheralsNode:
         stale = (tick - taken_ns) * NS > self._parameters.battery_silent_after_s
         return battery_charge(None if stale else percentage)
 
-    def _fresh(self, message: Optional[object], tick: int) -> Optional[object]:
+    def _fresh(self, message: Optional[Any], tick: int) -> Optional[Any]:
         if message is None or (tick - message.header.stamp.to_nsec()) * NS > self._parameters.order_silent_after_s:
             return None
         return message
@@ -153,7 +154,7 @@ class PeripheralsNode:
     def _log(self, outcome: Outcome) -> None:
         newest = outcome.results[-1] if outcome.results else None
         now = (outcome.message.split(" for ")[0], newest)
-        if self._logged and now[1] != self._logged[1]:
+        if newest and self._logged and newest != self._logged[1]:
             rospy.loginfo("Press %d: %s", newest.id, newest.error or "done.")
         if outcome.message and (not self._logged or now[0] != self._logged[0]):
             rospy.logwarn("%s", outcome.message)

@@ -73,13 +73,13 @@ class Presses:
         if self._running:
             self._follow(self._running, report, now_ns)
         if self._running is None and order.id and (order.session_id, order.id) != self._newest:
-            self._begin(order, now_ns)
+            self._begin(order, self._firmware_id % MAX_FIRMWARE_ID + 1, now_ns)
         return self._running.firmware if self._running and not self._running.seen else None
 
-    def _begin(self, order: PressOrder, now_ns: int) -> None:
-        self._newest = (order.session_id, order.id)
+    def _begin(self, order: PressOrder, firmware_id: int, now_ns: int) -> None:
+        self._newest, self._firmware_id = (order.session_id, order.id), firmware_id
         try:
-            firmware = FirmwareOrder(self._next_id(), self._calibration.servos(order.buttons),
+            firmware = FirmwareOrder(firmware_id, self._calibration.servos(order.buttons),
                                      self._calibration.strength(order.strength),
                                      self._calibration.hold_ms(order.duration_s))
         except OrderRefused as refused:
@@ -104,7 +104,3 @@ class Presses:
     def _finish(self, order: PressOrder, start_ns: int, end_ns: int, error: str = "") -> None:
         self.results.append(PressResult(order.session_id, order.id, start_ns, end_ns, error))
         self._running = None
-
-    def _next_id(self) -> int:
-        self._firmware_id = self._firmware_id % MAX_FIRMWARE_ID + 1
-        return self._firmware_id

@@ -1,5 +1,7 @@
 """The state machine's node: wires the topics to the core."""
 # SPDX-License-Identifier: Apache-2.0
+from typing import Optional, Tuple
+
 import rospy
 
 from mtr_core import names, schedule
@@ -28,7 +30,7 @@ class StateMachineNode:
 
     def __init__(self, parameters: Parameters):
         self._core = StateMachine(parameters)
-        self._logged = (None, "", 0)
+        self._logged: Tuple[Optional[State], str, int] = (None, "", 0)
         self._inputs = {
             Part.DISPATCHER: TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER),
             Part.LOCALIZATION: TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0),

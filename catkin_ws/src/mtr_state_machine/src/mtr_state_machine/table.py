@@ -2,7 +2,7 @@
 and faults)."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
-from typing import Tuple
+from typing import Callable, Tuple
 
 from transitions import Machine, MachineError
 
@@ -69,9 +69,11 @@ class StateTable:
 
     Attributes:
         state: where the robot is now (set by the library).
+        trigger: handles an event by its name (set by the library).
     """
 
     state: State
+    trigger: Callable[[str], bool]
 
     def __init__(self) -> None:
         rows = [[event.value, state, target] for state, event, target in TABLE]
