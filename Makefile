@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations clean \
-	bench bench-motion bench-localization firmware flash
+	bench bench-motion bench-localization firmware flash bare-root
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -75,6 +75,11 @@ rostest: setup build ## Only the rostest suites
 
 system: setup build ## Only the tests of the whole stack
 	@$(RUN) python setup/run_tests.py system
+
+# What a stranger's machine shall do: the targets of BARE, in a root that has only git, make and sudo.
+BARE ?= test
+bare-root: ## The whole test on a fresh clone in a fresh Debian 12; needs root and debootstrap
+	@setup/bare_root.sh $(BARE)
 
 bench: setup build firmware ## Benchmarks; figures in out/bench
 	@$(RUN) python -m mtr_benchmarks.components --out out/bench
