@@ -15,7 +15,7 @@ from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import CarEvent, CarLink, LockState
 from mtr_operator.gui.app import Application
 from mtr_operator.robot_link.fake import FakeRobotLink
-from mtr_operator.robot_link.virtual_robot import VirtualRobot, VirtualWorld
+from mtr_operator.robot_link.virtual.robot import VirtualRobot, VirtualWorld
 from mtr_operator.station.connection import SIMULATED, CanChoice, LinkOpener
 
 TIME_FACTOR = 150.0

@@ -4,11 +4,11 @@ import threading
 
 from mtr_operator.domain.ports import LockState, RobotStatus
 from mtr_operator.gui.bridge import FRAME_MS, Bridge
-from mtr_operator.gui.pictures.layer import Layer
+from mtr_operator.gui.pictures.layers.layer import Layer
 from mtr_operator.gui.pictures.picture_view import PictureView
 from mtr_operator.gui.theme.appearance import Appearance
-from mtr_operator.station.desk import Desk
-from mtr_operator.station.news import Acting, RobotNews
+from mtr_operator.station.events import Acting, RobotNews
+from mtr_operator.station.view_model import Desk
 
 STATUSES = 5000
 

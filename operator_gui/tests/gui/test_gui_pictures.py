@@ -8,10 +8,10 @@ from PyQt5.QtGui import QMouseEvent
 from PyQt5.QtTest import QTest
 from PyQt5.QtWidgets import QApplication
 
-from mtr_operator.domain.pose import Pose
+from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.gui.pictures.glide import Glide
+from mtr_operator.gui.pictures.layers.surroundings import step_for
 from mtr_operator.gui.pictures.picture_panel import PicturePanel
-from mtr_operator.gui.pictures.surroundings import step_for
 from mtr_operator.gui.pictures.viewport import Viewport
 from mtr_operator.gui.theme.appearance import Appearance
 

@@ -8,7 +8,7 @@ from PyQt5.QtGui import QImage
 from PyQt5.QtSvg import QSvgRenderer
 
 from mtr_operator.gui.pictures.export import png
-from mtr_operator.gui.pictures.points_layer import PointsLayer
+from mtr_operator.gui.pictures.layers.points_layer import PointsLayer
 from mtr_operator.gui.pictures.protocol_sheet import ProtocolSheet
 from mtr_operator.gui.theme.palette import LIGHT
 

@@ -205,9 +205,9 @@ def spoil(world):
 @pytest.fixture
 def run_scenario(robot_link, car_link):
     """run_scenario(scenario, parameters, ...) runs a whole test; the saved copies of its results are in `saved`."""
-    from mtr_operator.domain.progress import Progress
+    from mtr_operator.domain.actions.control_loop import Session
+    from mtr_operator.domain.results.progress import Progress
     from mtr_operator.domain.runner import Runner
-    from mtr_operator.domain.session import Session
 
     def run(scenario, parameters, progress=None, is_cancelled=lambda: False, observer=None):
         run.progress = progress or Progress(scenario.name, parameters.to_mapping())

@@ -22,8 +22,8 @@ DEMO = pathlib.Path(__file__).resolve().parents[2] / "examples" / "demo"
 
 @pytest.fixture
 def fakes(monkeypatch, robot_link, car_link):
-    monkeypatch.setattr("mtr_operator.cli.measuring.robot_link", lambda options: robot_link)
-    monkeypatch.setattr("mtr_operator.cli.measuring.car_link", lambda options: car_link)
+    monkeypatch.setattr("mtr_operator.cli.run.robot_link", lambda options: robot_link)
+    monkeypatch.setattr("mtr_operator.cli.run.car_link", lambda options: car_link)
 
 
 @pytest.fixture
@@ -212,7 +212,7 @@ def test_ctrl_c_while_the_report_is_written_completes_it(parameters, tmp_path, m
     def interrupted(*arguments):
         os.kill(os.getpid(), signal.SIGINT)
         write_report(*arguments)
-    monkeypatch.setattr("mtr_operator.cli.measuring.write_report", interrupted)
+    monkeypatch.setattr("mtr_operator.cli.run.write_report", interrupted)
     assert run("autolock", parameters, tmp_path / "out") == 130
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
         "progress.json", "protocol.png", "results.csv"]

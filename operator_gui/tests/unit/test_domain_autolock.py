@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import pytest
 
+from mtr_operator.domain.actions.observer import RunObserver
+from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import LinkLost, RobotFailed
-from mtr_operator.domain.observer import RunObserver
 from mtr_operator.domain.ports import KEY_BUTTON, CarCheck, CarDimensions, CheckState, Direction, Mode
-from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenarios.autolock import SCENARIO
 from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
-from mtr_operator.domain.trouble import Cancelled
 
 CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
 PARAMETERS = AutolockParameters(measurements_distance_m=10.0, measuring_speed_mps=0.4)

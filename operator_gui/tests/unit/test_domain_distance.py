@@ -4,11 +4,11 @@ import math
 
 import pytest
 
-from mtr_operator.domain.distance import distance_to_outline, measure, outline_sigma
+from mtr_operator.domain.actions.distance import distance_to_outline, measure, outline_sigma
+from mtr_operator.domain.actions.pose_history import PoseHistory, PoseSample, PoseUnknown
+from mtr_operator.domain.geometry.pose import Pose
+from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.ports import CarDimensions, RobotStatus
-from mtr_operator.domain.pose import Pose
-from mtr_operator.domain.pose_history import PoseHistory, PoseSample, PoseUnknown
-from mtr_operator.domain.ray import Ray
 
 CAR = CarDimensions(4.5, 1.8, 0.04, 0.02)
 LEFT = Ray(0.0, 0.9, 0.0, 1.0)

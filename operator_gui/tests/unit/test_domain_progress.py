@@ -6,7 +6,7 @@ import pytest
 
 from mtr_operator.domain.errors import OutputError, ProgressFileError
 from mtr_operator.domain.ports import CarDimensions
-from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 from mtr_operator.storage.atomic import output_folder, write_bytes

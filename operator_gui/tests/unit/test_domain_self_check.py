@@ -7,14 +7,14 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.cli import main
+from mtr_operator.domain.actions.control_loop import Session
+from mtr_operator.domain.actions.observer import RunObserver
+from mtr_operator.domain.actions.robot import CHECK_LIMIT_S, Robot
 from mtr_operator.domain.errors import ProgressFileError, RobotFailed
-from mtr_operator.domain.observer import RunObserver
 from mtr_operator.domain.ports import CarCheck, CarDimensions, CarFrame, CheckState
-from mtr_operator.domain.progress import progress_from_document
-from mtr_operator.domain.robot import CHECK_LIMIT_S, Robot
+from mtr_operator.domain.results.progress import progress_from_document
 from mtr_operator.domain.scenarios.autolock import SCENARIO
 from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
-from mtr_operator.domain.session import Session
 from mtr_operator.report.results_csv import results_csv
 
 PARAMETERS = AutolockParameters(measurements_distance_m=10.0)

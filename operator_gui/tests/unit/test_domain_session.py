@@ -4,14 +4,14 @@ from dataclasses import replace
 
 import pytest
 
-from mtr_operator.domain.car import Car
+from mtr_operator.domain.actions.car import Car
+from mtr_operator.domain.actions.control_loop import Session
+from mtr_operator.domain.actions.preparation import prepare
+from mtr_operator.domain.actions.robot import Robot
+from mtr_operator.domain.actions.trouble import Cancelled, LineInvalid
 from mtr_operator.domain.errors import ConnectionFailed, LinkLost, RobotFailed
+from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.ports import Direction, Notification
-from mtr_operator.domain.preparation import prepare
-from mtr_operator.domain.ray import Ray
-from mtr_operator.domain.robot import Robot
-from mtr_operator.domain.session import Session
-from mtr_operator.domain.trouble import Cancelled, LineInvalid
 
 AHEAD = Ray(0.0, 0.0, 1.0, 0.0)
 

@@ -5,8 +5,8 @@ import math
 import pytest
 
 from mtr_operator.domain.ports import DesiredState, Waypoint, WaypointResult
-from mtr_operator.robot_link.virtual_robot import VirtualRobot, VirtualWorld
-from mtr_operator.robot_link.virtual_route import Box, advance, route
+from mtr_operator.robot_link.virtual.robot import VirtualRobot, VirtualWorld
+from mtr_operator.robot_link.virtual.route import Box, advance, route
 
 BOX = Box(2.5, 1.2)
 QUICK = VirtualWorld(starting_s=0.0, mapping_s=0.0)

@@ -6,9 +6,9 @@ import struct
 import pytest
 from matplotlib.figure import Figure
 
-from mtr_operator.domain.picture import Picture, Stretch
 from mtr_operator.domain.ports import CarDimensions
-from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.results.picture import Picture, Stretch
+from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.report.files import write_report
 from mtr_operator.report.protocol_png import label_stretches

@@ -12,8 +12,8 @@ from mtr_operator.domain.ports import LockState, Mode, Notification, RobotStatus
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.connection import CanChoice, Connection, RobotChoice
 from mtr_operator.station.estimate import USUAL_CAR, TimeLeft, plan_of
+from mtr_operator.station.events import Acting, RobotNews
 from mtr_operator.station.mailbox import MAXIMUM_TRAIL, Mailbox
-from mtr_operator.station.news import Acting, RobotNews
 from mtr_operator.station.number_text import Fault, parse_number, read, shown_number, written
 from mtr_operator.station.readiness import Cause, Phase, Word, can_resume, judge
 from mtr_operator.station.settings import Settings

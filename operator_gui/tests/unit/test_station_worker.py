@@ -9,11 +9,11 @@ from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.connection import SIMULATED, CanChoice, Connection, LinkOpener, robot_choice
-from mtr_operator.station.idle import CalibrationOrder
+from mtr_operator.station.events import CarLinkOpened, Connected, Ended, Measured, Outcome, Refused, Saved
+from mtr_operator.station.links.idle_loop import CalibrationOrder
+from mtr_operator.station.links.worker import Worker
 from mtr_operator.station.mailbox import Mailbox
-from mtr_operator.station.news import CarLinkOpened, Connected, Ended, Measured, Outcome, Refused, Saved
 from mtr_operator.station.test import new_test, open_test
-from mtr_operator.station.worker import Worker
 
 LIMIT_S = 30.0
 CONNECTION = Connection(can=CanChoice(SIMULATED))

@@ -6,11 +6,11 @@ import argparse
 import contextlib
 
 from mtr_operator.domain.absent_car import AbsentCarLink
+from mtr_operator.domain.actions.control_loop import Session
+from mtr_operator.domain.actions.preparation import check_car, prepare_to_check
+from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.errors import RobotFailed
 from mtr_operator.domain.ports import CheckState
-from mtr_operator.domain.preparation import check_car, prepare_to_check
-from mtr_operator.domain.robot import Robot
-from mtr_operator.domain.session import Session
 
 from .display import Display
 from .interrupt import Interrupt

@@ -5,15 +5,15 @@ from __future__ import annotations
 import argparse
 import sys
 
+from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.parameters import with_unit
 from mtr_operator.domain.scenarios import SCENARIOS
-from mtr_operator.domain.trouble import Cancelled
 
 from .arguments import argument_parser
 from .checking import check
 from .entry import EXIT_INTERRUPTED
-from .measuring import Measuring
+from .run import Measuring
 from .window import open_window
 
 EXIT_ERROR = 2

@@ -7,7 +7,7 @@ from typing import Any, Mapping, TextIO
 
 import tqdm
 
-from mtr_operator.domain.observer import RunObserver
+from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.ports import Mode, RobotStatus
 from mtr_operator.domain.scenario import Scenario
 from mtr_operator.report.table import line_text

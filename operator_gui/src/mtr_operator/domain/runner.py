@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import Any, Callable
 
-from .car import Car
+from .actions.car import Car
+from .actions.control_loop import Session
+from .actions.preparation import check_car, prepare
+from .actions.robot import Robot
 from .errors import ProgressFileError, RobotFailed
 from .parameters import ParameterSet
 from .ports import CheckState
-from .preparation import check_car, prepare
-from .progress import Progress
-from .robot import Robot
+from .results.progress import Progress
 from .scenario import Scenario
-from .session import Session
 
 
 class Runner:

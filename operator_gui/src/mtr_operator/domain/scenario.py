@@ -7,12 +7,12 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, Dict, Generic, Sequence, TypeVar
 
-from .car import Car
-from .distance import Distance
+from .actions.car import Car
+from .actions.distance import Distance
+from .actions.robot import Robot
 from .parameters import ParameterSet
-from .picture import Picture
 from .ports import CarDimensions
-from .robot import Robot
+from .results.picture import Picture
 
 Parameters = TypeVar("Parameters", bound=ParameterSet)
 Line = TypeVar("Line")

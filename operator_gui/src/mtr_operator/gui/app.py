@@ -12,8 +12,8 @@ from PyQt5.QtGui import QGuiApplication
 from PyQt5.QtWidgets import QApplication, QWidget
 
 from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
-from mtr_operator.station.desk import Desk
 from mtr_operator.station.settings_file import SettingsStore, default_path
+from mtr_operator.station.view_model import Desk
 
 from .bridge import Bridge
 from .flow import Flow

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from PyQt5.QtCore import QObject, QTimer, pyqtSignal
 
-from mtr_operator.station.desk import Desk
 from mtr_operator.station.mailbox import Mailbox
+from mtr_operator.station.view_model import Desk
 
 FRAME_MS = 33
 # Without any news the view still learns that the robot is silent, and time goes on.

@@ -12,12 +12,12 @@ from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.parameters import ParameterSet
 from mtr_operator.domain.scenario import Scenario
 from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
-from mtr_operator.station.idle import CalibrationOrder, CarLook
-from mtr_operator.station.news import CarLinkOpened, Connected, Ended, Measured, News, Outcome, Refused, Saved
+from mtr_operator.station.events import CarLinkOpened, Connected, Ended, Measured, News, Outcome, Refused, Saved
+from mtr_operator.station.links.idle_loop import CalibrationOrder, CarLook
+from mtr_operator.station.links.worker import Worker
 from mtr_operator.station.readiness import Phase
 from mtr_operator.station.settings_file import SettingsStore
 from mtr_operator.station.test import Test, new_test, note_continued, open_test
-from mtr_operator.station.worker import Worker
 
 from .bridge import Bridge
 

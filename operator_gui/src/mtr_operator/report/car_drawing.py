@@ -7,8 +7,8 @@ from typing import Sequence
 from matplotlib.axes import Axes
 from matplotlib.patches import FancyBboxPatch, Polygon
 
+from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.ports import CarDimensions
-from mtr_operator.domain.pose import Point
 
 from .car_shape import (
     HEADLAMP,

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Sequence
 
-from mtr_operator.domain.pose import Point
+from mtr_operator.domain.geometry.pose import Point
 
 # Radius of the body's corners, as a part of the width.
 ROUNDING_PART = 0.16

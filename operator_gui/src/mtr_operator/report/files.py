@@ -5,7 +5,7 @@ from __future__ import annotations
 import pathlib
 
 from mtr_operator.domain.parameters import ParameterSet
-from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import Scenario
 from mtr_operator.storage.atomic import write_bytes
 

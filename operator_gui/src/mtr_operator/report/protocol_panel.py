@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import Scenario
 
 from .protocol_rows import Row, date_text, parameter_rows, session_rows, summary_rows

@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from matplotlib.ticker import MultipleLocator
 
+from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.parameters import ParameterSet
-from mtr_operator.domain.picture import Look, Picture, PointSet
-from mtr_operator.domain.pose import Point
-from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.results.picture import Look, Picture, PointSet
+from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import Scenario
 
 from .car_drawing import draw_car

@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime
 from typing import Tuple
 
-from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import LineStatus, Scenario
 
 Row = Tuple[str, str]

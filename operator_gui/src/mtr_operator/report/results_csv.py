@@ -7,7 +7,7 @@ import io
 from typing import Any, Iterator
 
 from mtr_operator.domain.parameters import with_unit
-from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import REASON, Column, Scenario
 
 FILE_NAME = "results.csv"

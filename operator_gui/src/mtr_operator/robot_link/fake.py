@@ -8,7 +8,7 @@ from typing import Callable
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import DesiredState, LinkStatistics, RobotLink, RobotStatus
 
-from .virtual_robot import DEFAULT_WORLD, STATUS_PERIOD_S, VirtualRobot, VirtualWorld
+from .virtual.robot import DEFAULT_WORLD, STATUS_PERIOD_S, VirtualRobot, VirtualWorld
 
 _SESSION_ID = 1
 

@@ -24,7 +24,7 @@ from .conversions import (
     status_message_from,
 )
 from .server import LOOPBACK, ConnectionServer
-from .virtual_robot import DEFAULT_WORLD, STATUS_PERIOD_S, VirtualRobot, VirtualWorld
+from .virtual.robot import DEFAULT_WORLD, STATUS_PERIOD_S, VirtualRobot, VirtualWorld
 
 # Virtual time without a Command after which the robot stops and another session may take over, and the wall time that
 # it is at least: a busy laptop answers late, however fast virtual time runs.

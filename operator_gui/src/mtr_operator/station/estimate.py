@@ -6,11 +6,11 @@ import math
 from dataclasses import dataclass
 from typing import Sequence
 
+from mtr_operator.domain.geometry.pose import wrap_angle
+from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.parameters import ParameterSet
-from mtr_operator.domain.picture import Stretch
 from mtr_operator.domain.ports import CarDimensions
-from mtr_operator.domain.pose import wrap_angle
-from mtr_operator.domain.ray import Ray
+from mtr_operator.domain.results.picture import Stretch
 from mtr_operator.domain.scenario import Scenario
 
 # Before the robot has measured the Car: a middle-sized one.

@@ -9,9 +9,9 @@ import threading
 from dataclasses import dataclass
 from typing import Callable
 
-from mtr_operator.domain.pose import Point
+from mtr_operator.domain.geometry.pose import Point
 
-from .news import News, RobotNews
+from .events import News, RobotNews
 
 # Points of the way between two batches; more than that is thinned out.
 MAXIMUM_TRAIL = 512

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.ports import LockState, Mode, RobotStatus
 
-from .news import RobotNews
+from .events import RobotNews
 
 # Wall time without a Status after which the link counts as lost.
 SILENCE_LIMIT_S = 1.5

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from mtr_operator import __version__
 from mtr_operator.domain.parameters import ParameterSet
 from mtr_operator.domain.ports import CarDimensions
-from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import Scenario
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.atomic import output_folder

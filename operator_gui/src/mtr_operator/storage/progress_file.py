@@ -9,7 +9,7 @@ from typing import Any, Mapping, NoReturn, Sequence
 
 from mtr_operator.domain.errors import InvalidParameter, OutputError, ProgressFileError
 from mtr_operator.domain.parameters import ParameterSet
-from mtr_operator.domain.progress import Progress, progress_from_document
+from mtr_operator.domain.results.progress import Progress, progress_from_document
 from mtr_operator.domain.scenario import Scenario
 
 from .atomic import write_bytes

@@ -5,16 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Sequence
 
-from ..axes import Axis, axes_around
-from ..car import Car
-from ..distance import Distance, outline_sigma
-from ..picture import Look, Picture, PointSet, Stretch, bars_along
+from ..actions.car import Car
+from ..actions.distance import Distance, outline_sigma
+from ..actions.robot import Robot
+from ..actions.trouble import LineInvalid
+from ..geometry.axes import Axis, axes_around
+from ..geometry.pose import Point
+from ..geometry.ray import Ray
 from ..ports import KEY_BUTTON, CarDimensions, CarEvent, Direction, LockState
-from ..pose import Point
-from ..ray import Ray
-from ..robot import Robot
+from ..results.picture import Look, Picture, PointSet, Stretch, bars_along
 from ..scenario import REASON, Column, LineStatus, Measurement, Result, Scenario, distance_values
-from ..trouble import LineInvalid
 from .autolock_parameters import AutolockParameters
 
 _MEASURED = {"unlock": "the Car unlocked", "lock": "the Car locked"}

@@ -5,17 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Sequence
 
-from ..car import Car
-from ..distance import Distance, distance_to_outline
+from ..actions.car import Car
+from ..actions.distance import Distance, distance_to_outline
+from ..actions.robot import Robot
+from ..actions.trouble import LineInvalid
 from ..errors import InvalidParameter
-from ..picture import Look, Picture, PointSet, Stretch, bars_along
+from ..geometry.pose import Point
+from ..geometry.radials import Radial, radials_around
+from ..geometry.ray import Ray
 from ..ports import PASSIVE_ENTRY, CarDimensions, CarEvent, Direction, LockState
-from ..pose import Point
-from ..radials import Radial, radials_around
-from ..ray import Ray
-from ..robot import Robot
+from ..results.picture import Look, Picture, PointSet, Stretch, bars_along
 from ..scenario import REASON, Column, LineStatus, Measurement, Result, Scenario, distance_values
-from ..trouble import LineInvalid
 from .key_press_parameters import KeyPressParameters
 
 LOCK_BUTTON, UNLOCK_BUTTON = 1, 2

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PyQt5.QtCore import Qt, pyqtSignal
 from PyQt5.QtWidgets import QHBoxLayout, QWidget
 
-from mtr_operator.station.desk import Desk
+from mtr_operator.station.view_model import Desk
 
 from ..theme.appearance import Appearance
 from ..theme.scale import M, S

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from mtr_operator.domain.pose import Pose, wrap_angle
+from mtr_operator.domain.geometry.pose import Pose, wrap_angle
 
 # Status comes ten times a second; after a longer gap the robot is where the last one says.
 LONGEST_GAP_S = 0.3

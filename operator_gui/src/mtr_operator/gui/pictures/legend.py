@@ -8,14 +8,14 @@ from PyQt5.QtCore import QPointF, QRectF, QSize, Qt
 from PyQt5.QtGui import QColor, QPainter, QPaintEvent
 from PyQt5.QtWidgets import QSizePolicy, QWidget
 
-from mtr_operator.domain.picture import PointSet
+from mtr_operator.domain.results.picture import PointSet
 
 from ..i18n import translate
 from ..names import domain_word
 from ..theme.appearance import Appearance
 from ..theme.scale import XS, M
-from .layer import Canvas
-from .points_layer import colour_of, draw_marker
+from .layers.layer import Canvas
+from .layers.points_layer import colour_of, draw_marker
 from .viewport import Viewport
 
 ROW_PX = 24.0

@@ -5,17 +5,17 @@ from __future__ import annotations
 from typing import Any
 
 from mtr_operator.domain.errors import InvalidParameter
-from mtr_operator.domain.pose import Pose
-from mtr_operator.station.desk import Desk
+from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.station.estimate import USUAL_CAR, plan_of
+from mtr_operator.station.view_model import Desk
 
-from .car_layer import CarLayer
 from .glide import Glide
-from .lines_layer import LinesLayer
+from .layers.car_layer import CarLayer
+from .layers.lines_layer import LinesLayer
+from .layers.points_layer import AreasLayer, PointsLayer
+from .layers.robot_layer import RobotLayer, TrailLayer
+from .layers.surroundings import GridLayer, ScaleLayer
 from .picture_panel import PicturePanel
-from .points_layer import AreasLayer, PointsLayer
-from .robot_layer import RobotLayer, TrailLayer
-from .surroundings import GridLayer, ScaleLayer
 
 
 class MeasurementPicture:

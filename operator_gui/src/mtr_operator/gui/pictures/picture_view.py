@@ -8,11 +8,11 @@ from PyQt5.QtCore import QPoint, QRectF, QSize, Qt, pyqtSignal
 from PyQt5.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent, QWheelEvent
 from PyQt5.QtWidgets import QSizePolicy, QWidget
 
-from mtr_operator.domain.pose import Point
+from mtr_operator.domain.geometry.pose import Point
 
 from ..theme.appearance import Appearance
-from .layer import Canvas, Layer, paint_all
-from .ruler import RulerLayer
+from .layers.layer import Canvas, Layer, paint_all
+from .layers.ruler_layer import RulerLayer
 from .viewport import Viewport
 
 ZOOM_STEP = 1.25

@@ -6,16 +6,16 @@ from dataclasses import dataclass
 from typing import Sequence
 
 from mtr_operator.domain.parameters import ParameterSet
-from mtr_operator.domain.picture import Picture, Stretch
-from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.results.picture import Picture, Stretch
+from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import Scenario
 
 from ..names import domain_word
-from .car_layer import CarLayer
-from .layer import Layer
-from .lines_layer import LinesLayer
-from .points_layer import AreasLayer, PointsLayer
-from .surroundings import GridLayer, ScaleLayer
+from .layers.car_layer import CarLayer
+from .layers.layer import Layer
+from .layers.lines_layer import LinesLayer
+from .layers.points_layer import AreasLayer, PointsLayer
+from .layers.surroundings import GridLayer, ScaleLayer
 
 
 @dataclass(frozen=True)

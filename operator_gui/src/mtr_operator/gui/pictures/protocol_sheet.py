@@ -12,7 +12,7 @@ from ..i18n import decimal_sign, translate
 from ..names import domain_word, flag_title, parameter_title, scenario_title, yes_or_no
 from ..sentences import translated
 from ..theme.palette import LIGHT
-from .layer import Canvas, paint_all
+from .layers.layer import Canvas, paint_all
 from .legend import ROW_PX, legend_texts, paint_entry
 from .protocol_picture import Protocol, ProtocolPicture
 from .viewport import Viewport

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Iterable
 
-from mtr_operator.domain.pose import Point
+from mtr_operator.domain.geometry.pose import Point
 
 SMALLEST_PX_PER_M = 4.0
 LARGEST_PX_PER_M = 800.0

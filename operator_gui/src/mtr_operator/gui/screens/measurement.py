@@ -8,8 +8,8 @@ from PyQt5.QtCore import QTimer, pyqtSignal
 from PyQt5.QtGui import QHideEvent, QShowEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from mtr_operator.station.desk import Desk
 from mtr_operator.station.readiness import Phase, can_resume
+from mtr_operator.station.view_model import Desk
 
 from ..bridge import FRAME_MS
 from ..pictures.measurement_picture import MeasurementPicture

@@ -7,9 +7,9 @@ import math
 from PyQt5.QtWidgets import QFormLayout, QFrame, QLabel, QProgressBar, QVBoxLayout, QWidget
 
 from mtr_operator.domain.ports import LockState
-from mtr_operator.station.desk import Desk
-from mtr_operator.station.news import RobotNews
+from mtr_operator.station.events import RobotNews
 from mtr_operator.station.readiness import Phase
+from mtr_operator.station.view_model import Desk
 
 from ..i18n import duration, number
 from ..names import domain_word, scenario_title

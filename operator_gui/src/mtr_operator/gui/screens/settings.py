@@ -7,17 +7,17 @@ from PyQt5.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollAre
 
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.scenario import Scenario
-from mtr_operator.station.desk import Desk
 from mtr_operator.station.estimate import USUAL_CAR, Plan, plan_of
+from mtr_operator.station.view_model import Desk
 
 from ..forms.parameter_form import ParameterForm
 from ..header.reasons import reason_text
 from ..i18n import duration
 from ..names import domain_word, scenario_title
-from ..pictures.car_layer import CarLayer
-from ..pictures.lines_layer import LinesLayer
+from ..pictures.layers.car_layer import CarLayer
+from ..pictures.layers.lines_layer import LinesLayer
+from ..pictures.layers.surroundings import GridLayer, ScaleLayer
 from ..pictures.picture_panel import PicturePanel
-from ..pictures.surroundings import GridLayer, ScaleLayer
 from ..sentences import parameter_sentence
 from ..theme.appearance import Appearance
 from ..theme.scale import L, M, S

@@ -10,7 +10,7 @@ from PyQt5.QtWidgets import QCheckBox, QDialog, QHBoxLayout, QLabel, QPushButton
 from mtr_operator.domain.parameters import Declaration
 from mtr_operator.domain.ports import PressConfirmation
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
-from mtr_operator.station.idle import CalibrationOrder
+from mtr_operator.station.links.idle_loop import CalibrationOrder
 from mtr_operator.station.readiness import Word
 
 from ..flow import Flow

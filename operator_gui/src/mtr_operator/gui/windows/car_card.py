@@ -5,7 +5,7 @@ from __future__ import annotations
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
 
 from mtr_operator.domain.ports import CheckState, Mode, RobotStatus
-from mtr_operator.station.idle import CarLook
+from mtr_operator.station.links.idle_loop import CarLook
 
 from ..flow import Flow
 from ..i18n import number

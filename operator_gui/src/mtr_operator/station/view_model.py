@@ -7,12 +7,12 @@ import time
 from typing import Any, Callable, Mapping
 
 from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.ports import CarDimensions, Notification
-from mtr_operator.domain.pose import Point
 
 from .estimate import USUAL_CAR, TimeLeft, plan_of
+from .events import Acting, Ended, Measured, News, Outcome, Planned, RobotNews, Silence
 from .mailbox import Batch
-from .news import Acting, Ended, Measured, News, Outcome, Planned, RobotNews, Silence
 from .readiness import Phase, Verdict, judge
 from .test import Test
 

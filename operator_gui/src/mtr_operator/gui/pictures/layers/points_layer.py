@@ -8,11 +8,11 @@ from typing import Sequence
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QPainter
 
-from mtr_operator.domain.picture import Look, PointSet
-from mtr_operator.domain.pose import Point
+from mtr_operator.domain.geometry.pose import Point
+from mtr_operator.domain.results.picture import Look, PointSet
 
-from ..i18n import number
-from ..theme.palette import Palette
+from ...i18n import number
+from ...theme.palette import Palette
 from .layer import Canvas, Layer
 
 _RADIUS_PX = 5.5

@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass, field
 from typing import Any, Iterator
 
+from ..ports import CarCheck
 from .frame_history import KnownFrame
-from .ports import CarCheck
 
 _CM_PER_M = 100.0
 _FRAME_KEYS = ("revision", "since_s", "correction_x_m", "correction_y_m", "correction_heading_rad")

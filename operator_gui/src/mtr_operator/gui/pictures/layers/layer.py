@@ -9,10 +9,10 @@ from typing import Sequence
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QFont, QPainter, QPen, QPolygonF
 
-from mtr_operator.domain.pose import Point
+from mtr_operator.domain.geometry.pose import Point
 
-from ..theme.palette import Palette
-from .viewport import Viewport
+from ...theme.palette import Palette
+from ..viewport import Viewport
 
 
 @dataclass(frozen=True)

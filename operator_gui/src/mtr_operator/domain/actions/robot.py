@@ -5,9 +5,10 @@ from __future__ import annotations
 from contextlib import AbstractContextManager
 from typing import Callable, TypeVar
 
-from .distance import Distance, measure
-from .errors import RobotFailed
-from .ports import (
+from ..errors import RobotFailed
+from ..geometry.pose import Pose
+from ..geometry.ray import Ray
+from ..ports import (
     ButtonPress,
     CarCheck,
     CheckState,
@@ -17,10 +18,9 @@ from .ports import (
     Waypoint,
     WaypointResult,
 )
-from .pose import Pose
+from .control_loop import Session
+from .distance import Distance, measure
 from .pose_history import PoseUnknown
-from .ray import Ray
-from .session import Session
 from .trouble import LineInvalid
 
 Answer = TypeVar("Answer")

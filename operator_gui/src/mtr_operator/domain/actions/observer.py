@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Mapping
 
-from .ports import RobotStatus
+from ..ports import RobotStatus
 
 
 class RunObserver:

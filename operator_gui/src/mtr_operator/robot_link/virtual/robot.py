@@ -17,9 +17,9 @@ from mtr_operator.domain.ports import (
     WaypointResult,
 )
 
-from .virtual_check import VirtualCheck
-from .virtual_keyholder import VirtualKeyholder
-from .virtual_route import Box, Point, advance, route
+from .check import VirtualCheck
+from .keyholder import VirtualKeyholder
+from .route import Box, Point, advance, route
 
 STATUS_PERIOD_S = 0.1
 _START_TIME_S = 1.0

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from .errors import ConnectionFailed, LinkLost
-from .ports import CarDimensions, CarEvent, LockState
-from .session import Session
+from ..errors import ConnectionFailed, LinkLost
+from ..ports import CarDimensions, CarEvent, LockState
+from .control_loop import Session
 
 # Robot time that the bus may take to be understood before the robot moves, and to recover during a test.
 _START_LIMIT_S = 10.0

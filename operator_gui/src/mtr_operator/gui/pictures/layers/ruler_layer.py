@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from mtr_operator.domain.pose import Point
+from mtr_operator.domain.geometry.pose import Point
 
-from ..i18n import number
+from ...i18n import number
 from .layer import Canvas, Layer
 
 

@@ -8,7 +8,7 @@ from typing import Sequence
 from PyQt5.QtCore import QPointF, Qt
 from PyQt5.QtGui import QColor
 
-from mtr_operator.domain.pose import Point, Pose
+from mtr_operator.domain.geometry.pose import Point, Pose
 
 from .layer import Canvas, Layer
 

@@ -8,12 +8,12 @@ import datetime
 from typing import Any
 
 from mtr_operator import __version__
+from mtr_operator.domain.actions.control_loop import Session
+from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.ports import RobotLink
-from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
-from mtr_operator.domain.session import Session
-from mtr_operator.domain.trouble import Cancelled
 from mtr_operator.report.files import FILE_NAMES, write_report
 from mtr_operator.report.table import results_table
 from mtr_operator.storage import progress_file

@@ -7,8 +7,8 @@ from typing import Sequence
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QBrush, QColor
 
+from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.ports import CarDimensions
-from mtr_operator.domain.pose import Point
 from mtr_operator.report.car_shape import (
     HEADLAMP,
     REAR_WINDOW,
@@ -20,7 +20,7 @@ from mtr_operator.report.car_shape import (
     scaled,
 )
 
-from ..i18n import translate
+from ...i18n import translate
 from .layer import Canvas, Layer
 
 _LAMP, _TAIL_LAMP = "#f7e7a1", "#c0392b"

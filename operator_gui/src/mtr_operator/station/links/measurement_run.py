@@ -6,16 +6,16 @@ import contextlib
 import logging
 from typing import Callable
 
+from mtr_operator.domain.actions.control_loop import Session
+from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OperatorError, OutputError
 from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.runner import Runner
-from mtr_operator.domain.session import Session
-from mtr_operator.domain.trouble import Cancelled
 
-from .mailbox import Mailbox
-from .news import Ended, Outcome
+from ..events import Ended, Outcome
+from ..mailbox import Mailbox
+from ..test import Test
 from .reporter import Reporter, copied
-from .test import Test
 from .watched_link import WatchedRobotLink
 
 

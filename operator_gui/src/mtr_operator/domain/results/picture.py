@@ -6,8 +6,8 @@ import enum
 from dataclasses import dataclass
 from typing import Any, Iterator, Mapping, Sequence
 
-from .pose import Point
-from .ray import Ray
+from ..geometry.pose import Point
+from ..geometry.ray import Ray
 
 
 class Look(enum.Enum):

@@ -11,12 +11,12 @@ from typing import Callable
 from mtr_operator.domain.errors import InvalidParameter, OperatorError, OutputError
 from mtr_operator.domain.ports import CarLink
 
-from .connection import CanChoice, Connection, LinkOpener
-from .idle import CalibrationOrder, CarLook, IdleSession
-from .mailbox import Mailbox
-from .measuring import Measuring
-from .news import CarLinkOpened, Connected, Refused, Saved, Silence
-from .test import Test
+from ..connection import CanChoice, Connection, LinkOpener
+from ..events import CarLinkOpened, Connected, Refused, Saved, Silence
+from ..mailbox import Mailbox
+from ..test import Test
+from .idle_loop import CalibrationOrder, CarLook, IdleSession
+from .measurement_run import Measuring
 from .watched_link import WatchedRobotLink
 
 # Wall time between two attempts to open the robot's link again.

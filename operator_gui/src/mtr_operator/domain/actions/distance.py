@@ -15,9 +15,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .ports import CarDimensions
+from ..geometry.ray import Ray
+from ..ports import CarDimensions
 from .pose_history import PoseSample
-from .ray import Ray
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ from typing import Sequence
 
 from PyQt5.QtCore import QPointF, Qt
 
-from mtr_operator.domain.picture import Stretch
-from mtr_operator.domain.pose import Point
+from mtr_operator.domain.geometry.pose import Point
+from mtr_operator.domain.results.picture import Stretch
 
 from .layer import Canvas, Layer
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from mtr_operator.domain.ports import ButtonPress, CarLink, DesiredState, RobotStatus
 
-from .news import RobotNews
+from ..events import RobotNews
 from .watched_link import WatchedRobotLink
 
 # Wall time for which one step waits for a Status; the desired state is sent again after that.

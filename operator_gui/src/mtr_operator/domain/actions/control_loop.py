@@ -10,10 +10,10 @@ import contextlib
 from dataclasses import replace
 from typing import Callable, Iterator
 
-from .errors import LinkLost, RobotFailed
-from .frame_history import FrameHistory
+from ..errors import LinkLost, RobotFailed
+from ..ports import CarDimensions, CarEvent, CarLink, DesiredState, RobotLink, RobotStatus
+from ..results.frame_history import FrameHistory
 from .observer import RunObserver
-from .ports import CarDimensions, CarEvent, CarLink, DesiredState, RobotLink, RobotStatus
 from .pose_history import PoseHistory
 from .trouble import Cancelled, LineInvalid, trouble_between
 

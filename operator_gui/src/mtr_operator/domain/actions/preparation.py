@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Callable
 
+from ..errors import RobotFailed
+from ..geometry.ray import Ray
+from ..ports import CarCheck, Mode, RobotStatus
 from .car import Car
-from .errors import RobotFailed
-from .ports import CarCheck, Mode, RobotStatus
-from .ray import Ray
+from .control_loop import Session
 from .robot import Robot
-from .session import Session
 
 # Robot times after which waiting is in vain.
 START_LIMIT_S = 60.0

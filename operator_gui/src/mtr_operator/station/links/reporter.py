@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any, Callable, Iterable, Mapping
 
-from mtr_operator.domain.observer import RunObserver
+from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.ports import CarLink, RobotStatus
-from mtr_operator.domain.progress import Progress
+from mtr_operator.domain.results.progress import Progress
 
-from .mailbox import Mailbox
-from .news import Acting, Measured, Planned, RobotNews, Silence
+from ..events import Acting, Measured, Planned, RobotNews, Silence
+from ..mailbox import Mailbox
 from .watched_link import WatchedRobotLink
 
 

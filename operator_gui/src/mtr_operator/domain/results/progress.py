@@ -6,11 +6,11 @@ import dataclasses
 from dataclasses import dataclass, field
 from typing import Any
 
-from .errors import ProgressFileError
+from ..errors import ProgressFileError
+from ..ports import CarCheck, CarDimensions
+from ..scenario import REASON, LineStatus, Result, Scenario
 from .frame_history import KnownFrame
 from .frame_record import FrameRecord, record_from
-from .ports import CarCheck, CarDimensions
-from .scenario import REASON, LineStatus, Result, Scenario
 
 FORMAT = "mtr-operator progress"
 VERSION = 1
