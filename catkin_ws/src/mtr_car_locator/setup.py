@@ -4,4 +4,6 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-setup(**generate_distutils_setup(packages=["mtr_car_locator"], package_dir={"": "src"}))
+PACKAGES = ["mtr_car_locator", *(f"mtr_car_locator.{folder}" for folder in ("find", "measure", "survey", "watch"))]
+
+setup(**generate_distutils_setup(packages=PACKAGES, package_dir={"": "src"}))

@@ -6,7 +6,7 @@ import pytest
 from mtr_benchmarks.localization.drive_options import DriveOptions
 from mtr_benchmarks.localization.record import _meta
 from mtr_benchmarks.localization.system import data_sheet, is_below_widest_line, plane_errors
-from mtr_car_locator.car_fit import CarFit, PlaneSize
+from mtr_car_locator.measure.car_fit import CarFit, PlaneSize
 from mtr_car_locator.rectangle import Rectangle
 from mtr_car_locator.surfels import surfels_from
 from mtr_core.se2 import Pose2

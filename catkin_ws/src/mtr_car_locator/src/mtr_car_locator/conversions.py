@@ -22,7 +22,7 @@ from .parameters import LocatorParameters, RefinementParameters
 from .poses import PoseMode, RobotPose
 from .scan import Scan
 from .surfels import surfels_from
-from .survey import SurfaceMap
+from .survey.survey import SurfaceMap
 
 MARKER_HEIGHT_M = 0.05
 MARKER_TYPES = {Kind.LOOP: Marker.LINE_STRIP, Kind.SEGMENTS: Marker.LINE_LIST, Kind.ARROW: Marker.ARROW,

@@ -6,11 +6,11 @@ from typing import Optional, Sequence, Tuple
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Result
 
-from .car_fit import CarFit
+from .measure.car_fit import CarFit
 from .rectangle import Rectangle
 from .scan import Scan
-from .self_check import CheckReport
-from .survey import MapPhase, Place, SurfaceMap
+from .survey.survey import MapPhase, Place, SurfaceMap
+from .watch.self_check import CheckReport
 
 NO_MOTION = Pose2(0.0, 0.0, 0.0)
 

@@ -6,14 +6,14 @@ from typing import Optional, Tuple
 
 from mtr_core.se2 import Pose2
 
-from .car_fit import CarFit
 from .estimate import NO_MOTION, Inputs, result_at
-from .fit import NotLocated
+from .find.fit import NotLocated
+from .measure.car_fit import CarFit
 from .parameters import RefinementParameters
 from .poses import PoseHistory
-from .refinement import Change, Refinement
-from .self_check import CheckReport, SelfCheck
-from .survey import Place
+from .survey.survey import Place
+from .watch.refinement import Change, Refinement
+from .watch.self_check import CheckReport, SelfCheck
 
 # A length that is less sure than this is not of a data sheet.
 KNOWN_SIGMA_M = 0.05

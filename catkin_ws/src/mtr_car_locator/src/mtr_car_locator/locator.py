@@ -6,14 +6,14 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 
 from .estimate import Estimate, Inputs, Order, result_at
-from .fit import NotLocated
+from .find.fit import NotLocated
+from .find.prior import prior_at, prior_from_start
 from .located import LocatedCar
-from .outline import rounded
+from .measure.outline import rounded
 from .parameters import LocatorParameters
 from .poses import PoseHistory, RobotPose
-from .prior import prior_at, prior_from_start
 from .rectangle import Rectangle
-from .survey import MapPhase, Survey
+from .survey.survey import MapPhase, Survey
 
 # Sigma of what the starting place alone tells.
 PRIOR_POSITION_SIGMA_M, PRIOR_HEADING_SIGMA_RAD = 0.5, 0.2

@@ -12,12 +12,12 @@ import numpy as np
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 
-from .car_fit import CarFit
-from .close_up import CloseUp, WayRound
-from .fit import fit_car
+from .find.fit import fit_car
+from .find.prior import Prior, prior_at, prior_from_start
+from .measure.car_fit import CarFit
+from .measure.close_up import CloseUp, WayRound
 from .parameters import LocatorParameters
 from .poses import PoseHistory, RobotPose
-from .prior import Prior, prior_at, prior_from_start
 from .rectangle import Rectangle
 from .scan import Scan, returns_in_map
 from .surfels import surfels_from

@@ -19,7 +19,7 @@ from .conversions import robot_pose_from, scan_from, surface_map_from
 from .locator import CarLocator
 from .parameters import LocatorParameters
 from .scan import Scan
-from .survey import SurfaceMap
+from .survey.survey import SurfaceMap
 
 # A scan bears its first beam's time and is there when the sweep has ended; the pose of its last beam is there too then.
 SCAN_LAG_NS = 100 * MILLISECOND_NS

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
+from mtr_car_locator.find.prior import Prior
 from mtr_car_locator.parameters import LocatorParameters
-from mtr_car_locator.prior import Prior
 from mtr_car_locator.rectangle import Rectangle
 from mtr_car_locator.surfels import Surfels, surfels_from
 from mtr_core.se2 import Pose2

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from locator_surfels import SIGMA_M, prior, surfels
 
-from mtr_car_locator.fit import fit_car
+from mtr_car_locator.find.fit import fit_car
+from mtr_car_locator.measure.wheels import wheel_sides, wheels_between
 from mtr_car_locator.parameters import CarProfile, LocatorParameters
-from mtr_car_locator.wheels import wheel_sides, wheels_between
 
 WIDTH_M, FRONT_M, REAR_M, HALF_CHORD_M, TYRE_M = 1.8, 1.45, -1.40, 0.30, 0.2
 LENGTH_M, OVERHANG_M = 4.8, 0.95

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from mtr_car_locator.close_up import MOST_SWEEPS, WayRound
+from mtr_car_locator.measure.close_up import MOST_SWEEPS, WayRound
 from mtr_car_locator.scan import Returns
 from mtr_core.se2 import Pose2
 

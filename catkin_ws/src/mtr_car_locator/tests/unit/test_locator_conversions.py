@@ -24,11 +24,11 @@ from mtr_car_locator.conversions import (
 )
 from mtr_car_locator.drawing import shapes_of
 from mtr_car_locator.estimate import Estimate
-from mtr_car_locator.fit import fit_car
+from mtr_car_locator.find.fit import fit_car
 from mtr_car_locator.offline import FilesUnusable
 from mtr_car_locator.poses import PoseMode
-from mtr_car_locator.self_check import CheckReport
-from mtr_car_locator.survey import MapPhase, Place
+from mtr_car_locator.survey.survey import MapPhase, Place
+from mtr_car_locator.watch.self_check import CheckReport
 from mtr_core import names
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Check, Result

@@ -5,19 +5,20 @@ import math
 import numpy as np
 import pytest
 
-from mtr_car_locator.axis import robust_line
 from mtr_car_locator.estimate import Inputs
+from mtr_car_locator.find.prior import prior_from_start
 from mtr_car_locator.locator import CarLocator
-from mtr_car_locator.outline import outline_of
+from mtr_car_locator.measure.axis import robust_line
+from mtr_car_locator.measure.outline import outline_of
+from mtr_car_locator.measure.side import Side, side_of
 from mtr_car_locator.parameters import LocatorParameters
 from mtr_car_locator.poses import PoseHistory, RobotPose
-from mtr_car_locator.prior import prior_from_start
 from mtr_car_locator.rectangle import Rectangle
-from mtr_car_locator.ring import Ring, corners
 from mtr_car_locator.scan import Scan, returns_in_map
-from mtr_car_locator.side import Side, side_of
-from mtr_car_locator.surfel_grid import SurfelGrid
 from mtr_car_locator.surfels import surfels_from
+from mtr_car_locator.survey.ring import Ring
+from mtr_car_locator.survey.surfel_grid import SurfelGrid
+from mtr_car_locator.watch.corners import corners
 from mtr_core.errors import ConfigurationError
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState

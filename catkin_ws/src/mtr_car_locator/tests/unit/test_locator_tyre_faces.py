@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from mtr_car_locator.close_up import CloseUp
+from mtr_car_locator.measure.close_up import CloseUp
+from mtr_car_locator.measure.tyre_faces import faces_in
+from mtr_car_locator.measure.wheels import wheels_from
 from mtr_car_locator.parameters import CarProfile
-from mtr_car_locator.tyre_faces import faces_in
-from mtr_car_locator.wheels import wheels_from
 
 FRONT_M, REAR_M, LEVEL_M = 1.43, -1.42, 0.9
 NOISE_M = 0.02

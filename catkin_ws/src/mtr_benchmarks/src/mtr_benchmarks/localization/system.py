@@ -10,8 +10,8 @@ from typing import Any, Dict, Iterable
 import numpy as np
 from roslib.packages import find_node
 
-from mtr_car_locator.car_fit import CarFit
 from mtr_car_locator.conversions import scans_in
+from mtr_car_locator.measure.car_fit import CarFit
 from mtr_car_locator.offline import fit_files
 from mtr_car_locator.parameters import CarProfile, LocatorParameters
 from mtr_car_locator.scan import Scan

@@ -9,12 +9,12 @@ from scipy.cluster.hierarchy import fcluster, linkage
 
 from mtr_core.se2 import Pose2
 
+from ..measure.wheels import LONGEST_WHEELBASE_M, SHORTEST_WHEELBASE_M, WHEELBASE_SHARE
+from ..parameters import LocatorParameters
+from ..rectangle import Rectangle
+from ..surfels import Surfels, in_frame
 from .candidates import is_allowed, near
-from .parameters import LocatorParameters
 from .prior import Prior
-from .rectangle import Rectangle
-from .surfels import Surfels, in_frame
-from .wheels import LONGEST_WHEELBASE_M, SHORTEST_WHEELBASE_M, WHEELBASE_SHARE
 
 # Parts of a wheel are nearer to each other than this, and a wheel is larger than a leg and smaller than a sill.
 LINK_M = 0.3

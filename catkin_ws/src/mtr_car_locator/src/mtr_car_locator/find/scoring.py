@@ -5,15 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .parameters import CarProfile
+from ..measure.belonging import BEYOND_M, LEAST_FACING, belongs, facing
+from ..measure.side import OUTWARDS
+from ..parameters import CarProfile
+from ..rectangle import Rectangle
+from ..surfels import Surfels
 from .prior import Prior
-from .rectangle import Rectangle
-from .side import OUTWARDS
-from .surfels import Surfels
 
-# A surfel belongs to the Car when it is so near its outline and faces outwards; sills and round corners lie inside.
-BEYOND_M, DEPTH_M = 0.08, 0.40
-LEAST_FACING = 0.3
 # It speaks against a Car there when it lies deep inside, where no surface of a Car can be seen, or when it is a
 # continued surface that faces outwards beside the outline.
 DEEP_M, BESIDE_M = 0.55, 0.50
@@ -37,17 +35,6 @@ class Score:
     quality: float
     total: float
     cover: float
-
-
-def belongs(in_car: Surfels, car: Rectangle, beyond_m: float = BEYOND_M) -> np.ndarray:
-    """Mask of the surfels, in the Car's frame, that its outline explains."""
-    outside = car.outside(in_car.position)
-    return (outside <= beyond_m) & (outside >= -DEPTH_M) & (facing(in_car, car) > LEAST_FACING)
-
-
-def facing(in_car: Surfels, car: Rectangle) -> np.ndarray:
-    """Cosine between each normal and the direction away from the Car."""
-    return np.sum(in_car.normal * car.outwards(in_car.position), axis=1)
 
 
 def score_of(surfels: Surfels, car: Rectangle, prior: Prior, profile: CarProfile) -> Score:

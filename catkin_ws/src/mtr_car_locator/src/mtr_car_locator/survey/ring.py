@@ -1,11 +1,11 @@
 """Places around the Car from which all its sides are seen, and the order in which the robot goes there."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import List, Optional, Tuple
+from typing import List, Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
 
-from .rectangle import Rectangle
+from ..rectangle import Rectangle
 
 
 class Ring:
@@ -71,18 +71,6 @@ class Ring:
     def _first_turn(self, order: List[int], robot: Pose2, car: Rectangle) -> float:
         x, y = car.pose.apply(*_places(car, self._distance_m)[order[0]])
         return abs(wrap_angle(math.atan2(y - robot.y, x - robot.x) - robot.heading))
-
-
-def corners(car: Rectangle, distance_m: float) -> List[Pose2]:
-    """Places in map before the four corners, counterclockwise from the front's left, that face the Car's centre."""
-    reach = distance_m * math.sqrt(0.5)
-    x, y = 0.5 * car.length + reach, 0.5 * car.width + reach
-    return [car.pose @ Pose2(a, b, math.atan2(-b, -a)) for a, b in ((x, y), (-x, y), (-x, -y), (x, -y))]
-
-
-def nearest(places: List[Pose2], robot: Pose2) -> Optional[int]:
-    """Index of the place next to the robot."""
-    return min(range(len(places)), key=lambda index: places[index].distance_to(robot), default=None)
 
 
 def _places(car: Rectangle, distance_m: float) -> List[Tuple[float, float]]:

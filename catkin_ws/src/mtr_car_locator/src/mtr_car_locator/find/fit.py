@@ -9,20 +9,21 @@ import numpy as np
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 
-from .axis import axis_of
+from ..measure.axis import axis_of
+from ..measure.belonging import belongs
+from ..measure.car_fit import CarFit
+from ..measure.close_up import CloseUp
+from ..measure.measurement import BEYOND_M, Found, extents_of, measured, sized
+from ..measure.side import ENDS, LONG_SIDES, sides_of
+from ..measure.tyre_faces import faces_in
+from ..measure.wheels import Wheels, wheel_sides, wheels_between, wheels_from
+from ..parameters import CarProfile, LocatorParameters
+from ..rectangle import Rectangle
+from ..surfels import Surfels
 from .blobs import guess_from_blobs
 from .candidates import Candidate, candidates, is_allowed, near
-from .car_fit import CarFit
-from .close_up import CloseUp
-from .measurement import BEYOND_M, Found, extents_of, measured, sized
-from .parameters import CarProfile, LocatorParameters
 from .prior import Prior
-from .rectangle import Rectangle
-from .scoring import belongs, score_of
-from .side import ENDS, LONG_SIDES, sides_of
-from .surfels import Surfels
-from .tyre_faces import faces_in
-from .wheels import Wheels, wheel_sides, wheels_between, wheels_from
+from .scoring import score_of
 
 # Fit of a whole Car, seen from all sides, is 0.7 and more, of one seen from one side and one end 0.35; a wall, a group
 # of persons or a neighbour's near side stays below 0.2 (tests/unit/test_locator_scenes.py).

@@ -7,10 +7,10 @@ from typing import Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
+from ..parameters import CarProfile
+from ..surfels import Surfels
 from .axles import Axles, axles_at, axles_between
-from .parameters import CarProfile
 from .side import ENDS, LONG_SIDES, Side, side_of
-from .surfels import Surfels
 
 # Surface so near the side's level is the outer face of a tyre; pieces farther apart than the gap are two wheels.
 FACE_DEPTH_M, GAP_M = 0.08, 0.5

@@ -7,13 +7,13 @@ from typing import List, Optional, Sequence, Tuple
 from mtr_core.se2 import Pose2
 from mtr_core.states import Check, Result
 
-from .car_fit import CarFit
+from ..measure.car_fit import CarFit
+from ..parameters import RefinementParameters
+from ..poses import PoseHistory
+from ..scan import Scan
 from .comparison import Evidence, Reference, joined
+from .corners import corners, nearest
 from .look import Look
-from .parameters import RefinementParameters
-from .poses import PoseHistory
-from .ring import corners, nearest
-from .scan import Scan
 
 PLACES = 2
 # A place that is blocked longer than this is left out; the Car has four corners.

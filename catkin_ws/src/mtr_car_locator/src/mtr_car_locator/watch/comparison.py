@@ -9,9 +9,9 @@ from scipy.spatial import cKDTree
 
 from mtr_core.se2 import Pose2
 
-from .scan import Returns
-from .side import OUTWARDS
-from .surfels import Surfels, in_frame, rotated_back
+from ..measure.side import OUTWARDS
+from ..scan import Returns
+from ..surfels import Surfels, in_frame, rotated_back
 
 # Points farther from every known surface are something else: a person, an open door.
 FIRST_GATE_M, LAST_GATE_M = 0.20, 0.05

@@ -10,16 +10,16 @@ import numpy as np
 from mtr_core.se2 import Pose2
 from mtr_core.states import Result
 
-from .car_fit import CarFit
-from .close_up import CloseUp, WayRound
-from .fit import NotLocated, fit_car, rough_car
-from .parameters import LocatorParameters
-from .poses import PoseHistory, PoseMode, RobotPose
-from .prior import Prior
+from ..find.fit import NotLocated, fit_car, rough_car
+from ..find.prior import Prior
+from ..measure.car_fit import CarFit
+from ..measure.close_up import CloseUp, WayRound
+from ..parameters import LocatorParameters
+from ..poses import PoseHistory, PoseMode, RobotPose
+from ..scan import Scan, returns_in_map
+from ..surfels import Surfels
 from .ring import Ring
-from .scan import Scan, returns_in_map
 from .surfel_grid import SurfelGrid
-from .surfels import Surfels
 
 
 class MapPhase(enum.IntEnum):

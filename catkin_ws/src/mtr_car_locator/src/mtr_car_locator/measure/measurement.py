@@ -8,18 +8,17 @@ import numpy as np
 
 from mtr_core.se2 import Pose2
 
+from ..parameters import CarProfile
+from ..rectangle import Rectangle
+from ..surfels import Surfels
 from .axis import Axis
-from .candidates import MIDDLE_SHARE
+from .belonging import belongs
 from .car_fit import CarFit, PlaneSize
 from .close_up import CloseUp
 from .data_sheet import with_data_sheet
 from .outline import outline_of
-from .parameters import CarProfile
 from .profile import outermost, profile_of, summit
-from .rectangle import Rectangle
-from .scoring import belongs
-from .side import ENDS, LONG_SIDES, MAP_SHARE, OUTWARDS, Extent, Side, middle_of, sides_of
-from .surfels import Surfels
+from .side import ENDS, LONG_SIDES, MAP_SHARE, MIDDLE_SHARE, OUTWARDS, Extent, Side, middle_of, sides_of
 from .wheels import Wheels
 
 # What lies on the outline is the Car's.

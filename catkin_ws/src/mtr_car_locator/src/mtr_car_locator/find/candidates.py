@@ -9,13 +9,13 @@ import numpy as np
 
 from mtr_core.se2 import Pose2
 
-from .parameters import CarProfile, LocatorParameters
+from ..measure.side import ENDS, LONG_SIDES, MIDDLE_SHARE, Side, side_of
+from ..measure.wheels import Wheels, wheel_sides, wheels_between
+from ..parameters import CarProfile, LocatorParameters
+from ..rectangle import Rectangle
+from ..surfels import SAMPLE_M, Surfels
 from .prior import Prior
-from .rectangle import Rectangle
 from .scoring import Score, score_of
-from .side import ENDS, LONG_SIDES, Side, side_of
-from .surfels import SAMPLE_M, Surfels
-from .wheels import Wheels, wheel_sides, wheels_between
 
 # Surface within this distance beyond the expected Car and the tolerance of its place may be its own.
 REACH_M = 0.8
@@ -25,8 +25,6 @@ LEVEL_BIN_M, LEVEL_SIGMA_BINS = 0.02, 1.5
 # Surface that makes a level: half a sill, or the middle of a bumper.
 LEAST_SURFACE_M = {"front": 0.25, "rear": 0.25, "left": 0.4, "right": 0.4}
 MOST_LEVELS = 5
-# A bumper is seen in the middle of the Car; tyres, which face forwards too, are not.
-MIDDLE_SHARE = 0.6
 
 
 @dataclass(frozen=True)

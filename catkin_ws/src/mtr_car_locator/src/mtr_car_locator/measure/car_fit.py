@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
-from .rectangle import Rectangle
-from .surfels import Surfels
+from ..rectangle import Rectangle
+from ..surfels import Surfels
 
 Point = Tuple[float, float]
 

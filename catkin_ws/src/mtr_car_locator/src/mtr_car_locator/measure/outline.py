@@ -6,9 +6,9 @@ from typing import Iterable, List, Tuple
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from .rectangle import Rectangle
+from ..rectangle import Rectangle
+from ..surfels import Surfels
 from .side import ENDS, OUTWARDS
-from .surfels import Surfels
 
 Point = Tuple[float, float]
 # What reaches so far beyond the measured side is still the Car's: a mirror or a tow bar.

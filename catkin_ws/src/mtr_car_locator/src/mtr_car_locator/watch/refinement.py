@@ -6,12 +6,12 @@ from typing import Optional, Sequence
 
 from mtr_core.se2 import Pose2, wrap_angle
 
-from .car_fit import CarFit
+from ..measure.car_fit import CarFit
+from ..parameters import RefinementParameters
+from ..poses import PoseHistory
+from ..scan import Scan
 from .comparison import Evidence, Reference
 from .look import SETTLING_S, Look
-from .parameters import RefinementParameters
-from .poses import PoseHistory
-from .scan import Scan
 
 # A change has to stand out of its own uncertainty by this Mahalanobis distance (99.9 % of three degrees of freedom).
 SIGNIFICANT = 4.0

@@ -3,8 +3,8 @@
 from dataclasses import replace
 from typing import Optional
 
+from ..parameters import CarProfile
 from .car_fit import CarFit, PlaneSize
-from .parameters import CarProfile
 from .wheels import DATA_SHEET_SIGMA_M
 
 # By how much a body may be narrower, or shorter, in the LiDARs' plane than over its widest parts: both sides together.

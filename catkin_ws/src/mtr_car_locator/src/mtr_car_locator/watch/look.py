@@ -5,10 +5,10 @@ from typing import List, Optional, Sequence
 
 import numpy as np
 
-from .car_fit import CarFit
+from ..measure.car_fit import CarFit
+from ..poses import PoseHistory
+from ..scan import Returns, Scan, returns_in_map
 from .comparison import Evidence, Reference
-from .poses import PoseHistory
-from .scan import Returns, Scan, returns_in_map
 
 # A robot that has just stopped still sways.
 SETTLING_S = 0.3

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy import ndimage
 
-from .surfels import Surfels
+from ..surfels import Surfels
 
 CELL_M = 0.08
 HALF_SIDE_M = 6.0

@@ -7,8 +7,8 @@ import numpy as np
 
 from mtr_core.se2 import Pose2
 
-from .scan import Returns
-from .surfels import rotated_back
+from ..scan import Returns
+from ..surfels import rotated_back
 
 # The Car's farthest corner from where it was guessed: half its diagonal and the Operator's error.
 REACH_M = 4.5

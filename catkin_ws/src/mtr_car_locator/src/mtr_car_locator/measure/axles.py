@@ -6,8 +6,8 @@ from typing import List, Sequence, Tuple
 
 import numpy as np
 
+from ..surfels import SAMPLE_M
 from .side import Side
-from .surfels import SAMPLE_M
 
 # Half of what the LiDARs' plane cuts out of a tyre: radii of passenger cars' tyres are 0.29 to 0.36 m, the plane is
 # 0.15 to 0.35 m high; middle of the range and a quarter of its width.

@@ -6,13 +6,15 @@ from typing import Dict, Optional, Tuple
 
 import numpy as np
 
-from .surfels import SAMPLE_M, Surfels
+from ..surfels import SAMPLE_M, Surfels
 
 # Direction outwards in the Car's frame; along a side counts the other coordinate.
 OUTWARDS = {"front": (1.0, 0.0), "rear": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
 ENDS, LONG_SIDES = ("front", "rear"), ("left", "right")
 # A surfel belongs to a side when its normal is within 53 degrees of the side's direction: bumpers are round.
 LEAST_COSINE = 0.6
+# A bumper is seen in the middle of the Car; tyres, which face forwards too, are not.
+MIDDLE_SHARE = 0.6
 # What reaches farther out than the side has to be supported by so much surface within LAYER_M: a mirror or a leg has
 # less. A mirror is 0.1 to 0.25 m long.
 LAYER_M = 0.05

@@ -5,8 +5,8 @@ from typing import Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
 
-from .parameters import LocatorParameters
-from .rectangle import Rectangle
+from ..parameters import LocatorParameters
+from ..rectangle import Rectangle
 
 
 @dataclass(frozen=True)
