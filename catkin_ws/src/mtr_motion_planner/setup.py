@@ -4,4 +4,7 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-setup(**generate_distutils_setup(packages=["mtr_motion_planner"], package_dir={"": "src"}))
+PACKAGES = ["mtr_motion_planner",
+            *(f"mtr_motion_planner.{folder}" for folder in ("following", "geometry", "search", "timing"))]
+
+setup(**generate_distutils_setup(packages=PACKAGES, package_dir={"": "src"}))

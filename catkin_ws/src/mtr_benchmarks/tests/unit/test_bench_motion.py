@@ -10,12 +10,12 @@ from mtr_benchmarks.motion.__main__ import is_met, lines, merged
 from mtr_benchmarks.motion.bound import Ends, lower_bound, shortest_way
 from mtr_benchmarks.motion.limiter import PERIOD_S, Limiter
 from mtr_core.se2 import Pose2
-from mtr_motion_planner.keep_out import KeepOut
-from mtr_motion_planner.options import Goal
+from mtr_motion_planner.following.ramp import ANGULAR_SHARE, LINEAR_SHARE
+from mtr_motion_planner.geometry.keep_out import KeepOut
 from mtr_motion_planner.parameters import MotionParameters
-from mtr_motion_planner.plan import Moving
-from mtr_motion_planner.planning import Planning
-from mtr_motion_planner.ramp import ANGULAR_SHARE, LINEAR_SHARE
+from mtr_motion_planner.search.options import Goal
+from mtr_motion_planner.search.planning import Planning
+from mtr_motion_planner.timing.plan import Moving
 
 PARAMETERS = MotionParameters()
 CAR = Polygon([(2.25, 0.9), (-2.25, 0.9), (-2.25, -0.9), (2.25, -0.9)])

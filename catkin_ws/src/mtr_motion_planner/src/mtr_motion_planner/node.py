@@ -13,6 +13,7 @@ from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
 from mtr_core.lockstep.clock import is_simulated, stamp_of
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
+from .background_planning import InlineExecutor
 from .conversions import (
     car_from,
     drive_from,
@@ -25,7 +26,6 @@ from .conversions import (
     velocity_message,
 )
 from .inputs import Inputs
-from .making import Inline
 from .nav_goal import NavGoals
 from .parameters import MotionParameters
 from .picture import picture_of
@@ -45,7 +45,8 @@ class MotionPlannerNode:
     def __init__(self, parameters: MotionParameters):
         self._parameters = parameters
         # In simulation time waits for the plan.
-        self._planner = MotionPlanner(parameters, Inline() if is_simulated() else ThreadPoolExecutor(PLANS_AT_ONCE))
+        executor = InlineExecutor() if is_simulated() else ThreadPoolExecutor(PLANS_AT_ONCE)
+        self._planner = MotionPlanner(parameters, executor)
         self._ticker = Ticker(schedule.MOTION_PLANNER)
         self._pose = TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)

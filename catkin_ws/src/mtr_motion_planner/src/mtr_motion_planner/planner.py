@@ -8,18 +8,18 @@ from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 from mtr_core.states import Result
 
-from .follower import Follower, Wanted
+from .background_planning import LEAD_S, BackgroundPlanning
+from .following.follower import Follower, Wanted
+from .following.ramp import Ramp
+from .following.tolerance import miss_of, sentence_about, was_displaced
+from .following.watch import StallWatch, is_heading_into
+from .following.watch import sentence_about as sentence_about_drive
 from .inputs import NO_GOAL, Car, Inputs, Order, Point, RobotState, Zone, fault_of
-from .making import LEAD_S, Making
-from .options import Goal
 from .parameters import MotionParameters
-from .plan import Moving, Plan
-from .planning import Planning, moves
-from .ramp import Ramp
+from .search.options import Goal
+from .search.planning import Planning, moves
 from .site import Site
-from .tolerance import miss_of, sentence_about, was_displaced
-from .watch import StallWatch, is_heading_into
-from .watch import sentence_about as sentence_about_drive
+from .timing.plan import Moving, Plan
 
 SETTLED = (Result.REACHED, Result.REFUSED)
 ROUNDING_MPS = 0.005
@@ -62,7 +62,7 @@ class MotionPlanner:
     def __init__(self, parameters: MotionParameters, executor: Executor):
         """executor: makes the plans."""
         self._parameters = parameters
-        self._making = Making(executor)
+        self._background = BackgroundPlanning(executor)
         self._ramp = Ramp(parameters.limits)
         self._stall = StallWatch()
         self._goal = NO_GOAL
@@ -85,7 +85,7 @@ class MotionPlanner:
         if self._goal.goal_id == 0:
             self._ramp.brake()
             self.follower = None
-            self._making.forget()
+            self._background.forget()
             return self._output(Result.IDLE)
         self._take_car(inputs.car)
         return self._pursue(inputs)
@@ -94,7 +94,7 @@ class MotionPlanner:
         """Start anew with the goal; a follower stays until the new plan goes on from its motion."""
         self._result, self._message = result, ""
         self._must_plan = True
-        self._making.forget()
+        self._background.forget()
         self._corrections = 0
         self._settled_at: Optional[Pose2] = None
         self._stall.reset()
@@ -102,7 +102,7 @@ class MotionPlanner:
     def _stop_at_once(self, fault: str) -> Output:
         self._ramp.drop()
         self._stall.reset()
-        self._making.forget()
+        self._background.forget()
         self.follower, self._must_plan = None, True
         if self._goal.goal_id == 0:
             return self._output(Result.IDLE)
@@ -128,7 +128,7 @@ class MotionPlanner:
         speed = self._speed(inputs.order, inputs.robot)
         if self._must_plan:
             self._plan(pose, inputs, speed)
-        if self._making.is_at_work:
+        if self._background.is_at_work:
             self._take_plan(pose, inputs.tick_s, speed)
         if self.follower is None:
             return self._stay()
@@ -166,26 +166,26 @@ class MotionPlanner:
         if plan:
             self._adopt(plan, speed)
         elif not moves(present):
-            self._making.begin(planning, goal, present, inputs.tick_s)
+            self._background.begin(planning, goal, present, inputs.tick_s)
         elif follower:
             # A robot that is, or gets, faster than it now may be does not go on so.
             fastest = max(abs(present.linear_mps), abs(follower.moving(LEAD_S).linear_mps))
             lead_s = LEAD_S if fastest <= speed + ROUNDING_MPS else 0.0
-            self._making.begin(planning, goal, follower.moving(lead_s), inputs.tick_s + lead_s)
-        self._must_plan = plan is None and not self._making.is_at_work
+            self._background.begin(planning, goal, follower.moving(lead_s), inputs.tick_s + lead_s)
+        self._must_plan = plan is None and not self._background.is_at_work
 
     def _take_plan(self, pose: Pose2, tick_s: float, speed: float) -> None:
         """Change over to the plan that is due; a robot whose plan is late stops."""
-        if not self._making.is_due(tick_s):
+        if not self._background.is_due(tick_s):
             return
-        if not self._making.is_done():
+        if not self._background.is_done():
             self.follower = None
-        elif not self._making.fits(self.follower):
-            self._making.forget()
+        elif not self._background.fits(self.follower):
+            self._background.forget()
             self._must_plan = True
         else:
             try:
-                self._adopt(self._making.take(), speed)
+                self._adopt(self._background.take(), speed)
             except RobotError as refusal:
                 self._settle(Result.REFUSED, str(refusal), pose)
 
@@ -201,12 +201,12 @@ class MotionPlanner:
         wanted = follower.step(pose, robot, self._ramp.step_s)
         if wanted.lost:
             # It is planned from where the robot comes to stand.
-            self._making.forget()
+            self._background.forget()
             self.follower, self._must_plan = None, True
             self._ramp.brake()
             return self._output(Result.PENDING, wanted.remaining_m)
         if wanted.finished:
-            if not self._making.is_at_work:
+            if not self._background.is_at_work:
                 self._arrive(pose)
             return self._stay()
         if is_heading_into(self.site.keep_out, pose, robot, wanted.velocity, self._parameters):

@@ -9,11 +9,11 @@ from typing import Optional
 
 from mtr_core.se2 import Pose2
 
-from .fence import Fence, corners_of
+from .geometry.fence import Fence, corners_of
+from .geometry.keep_out import KeepOut
 from .inputs import Car, Goal
-from .keep_out import KeepOut
 from .parameters import MotionParameters
-from .plan import PlanRefused
+from .timing.plan import PlanRefused
 
 SHIFT_M, SHIFT_RAD = 0.02, math.radians(0.5)
 MAP_FROM_MAP = Pose2(0.0, 0.0, 0.0)

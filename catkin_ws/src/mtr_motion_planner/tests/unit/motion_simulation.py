@@ -8,8 +8,8 @@ from shapely.geometry import Polygon
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
+from mtr_motion_planner.background_planning import InlineExecutor
 from mtr_motion_planner.inputs import Car, Drive, Goal, Inputs, Order, RobotState
-from mtr_motion_planner.making import Inline
 from mtr_motion_planner.parameters import MotionParameters, Slip
 from mtr_motion_planner.planner import MotionPlanner, Output
 
@@ -34,7 +34,7 @@ class SimulatedRobot:
                  parameters: MotionParameters = PARAMETERS):
         self.pose, self.car, self.held, self.slip = pose, car or car_at(), held, slip
         self.speed = self.yaw_rate = 0.0
-        self.planner = MotionPlanner(parameters, Inline())
+        self.planner = MotionPlanner(parameters, InlineExecutor())
         self.drive: Optional[Drive] = None
         self.speed_cap, self.is_degenerate = math.inf, False
         self.ticks = 0

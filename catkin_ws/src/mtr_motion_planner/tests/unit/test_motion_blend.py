@@ -8,13 +8,13 @@ from motion_simulation import PARAMETERS, SimulatedRobot, car_at
 
 from mtr_core.se2 import Pose2, wrap_angle
 from mtr_core.states import Direction, Result
-from mtr_motion_planner.blend import Blend
-from mtr_motion_planner.keep_out import KeepOut
+from mtr_motion_planner.geometry.keep_out import KeepOut
 from mtr_motion_planner.limits import rest_to_rest_time
-from mtr_motion_planner.options import Goal
-from mtr_motion_planner.plan import Moving
-from mtr_motion_planner.planning import Planning
-from mtr_motion_planner.timing import SAMPLE_S
+from mtr_motion_planner.search.options import Goal
+from mtr_motion_planner.search.planning import Planning
+from mtr_motion_planner.timing.blend import Blend
+from mtr_motion_planner.timing.plan import Moving
+from mtr_motion_planner.timing.speeds import SAMPLE_S
 
 LIMITS = PARAMETERS.limits
 START = Pose2(0.0, -6.0, 0.0)

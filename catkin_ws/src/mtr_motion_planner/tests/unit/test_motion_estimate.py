@@ -3,11 +3,11 @@
 import pytest
 
 from mtr_core.se2 import Pose2
-from mtr_motion_planner.estimate import time_of
 from mtr_motion_planner.limits import MotionLimits
 from mtr_motion_planner.parameters import Slip
-from mtr_motion_planner.shaping import Driving, Shape, Start, curve_of, route_of
-from mtr_motion_planner.trajectory import Drive
+from mtr_motion_planner.search.estimate import time_of
+from mtr_motion_planner.search.shaping import Driving, Shape, Start, curve_of, route_of
+from mtr_motion_planner.timing.trajectory import Drive
 
 LIMITS = MotionLimits()
 RADIUS_M = 0.45

@@ -9,8 +9,8 @@ from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import parameters_from
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
+from mtr_motion_planner.background_planning import InlineExecutor
 from mtr_motion_planner.inputs import Car, Goal, Inputs, Order, RobotState
-from mtr_motion_planner.making import Inline
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.planner import MotionPlanner
 
@@ -55,7 +55,7 @@ BAD = {
 
 @pytest.mark.parametrize("case", BAD)
 def test_bad_input_gives_zero_velocity(case):
-    output = MotionPlanner(MotionParameters(), Inline()).step(BAD[case])
+    output = MotionPlanner(MotionParameters(), InlineExecutor()).step(BAD[case])
     assert (output.linear_mps, output.angular_radps) == (0.0, 0.0)
     assert output.result in (Result.IDLE, Result.PENDING, Result.REFUSED)
     assert output.message.endswith(".") or output.goal_id == 0
@@ -63,7 +63,7 @@ def test_bad_input_gives_zero_velocity(case):
 
 @pytest.mark.parametrize("case", BAD)
 def test_robot_sets_out_when_the_input_is_good_again(case):
-    planner = MotionPlanner(MotionParameters(), Inline())
+    planner = MotionPlanner(MotionParameters(), InlineExecutor())
     planner.step(BAD[case])
     for tick in range(1, 20):
         now = 1.0 + 0.04 * tick
@@ -80,11 +80,11 @@ SENTENCES = {"goal not a number": "not a number", "goal infinite": "not a number
 
 @pytest.mark.parametrize("case", SENTENCES)
 def test_sentence_says_what_is_wrong_with_the_input(case):
-    assert SENTENCES[case] in MotionPlanner(MotionParameters(), Inline()).step(BAD[case]).message
+    assert SENTENCES[case] in MotionPlanner(MotionParameters(), InlineExecutor()).step(BAD[case]).message
 
 
 def test_input_that_turns_bad_in_mid_motion_gives_zero_at_once_and_goes_on_from_the_measured_speed():
-    planner = MotionPlanner(MotionParameters(), Inline())
+    planner = MotionPlanner(MotionParameters(), InlineExecutor())
     moving = dataclasses.replace(ROBOT, speed_mps=0.3)
     for tick in range(40):
         now = 1.0 + 0.04 * tick

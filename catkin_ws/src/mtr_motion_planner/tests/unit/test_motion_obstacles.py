@@ -12,12 +12,12 @@ from shapely.geometry.polygon import orient
 from mtr_core.errors import ConfigurationError
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
+from mtr_motion_planner.geometry.keep_out import KeepOut, OutlineUnusable, centres, plain_of
 from mtr_motion_planner.inputs import Drive, Zone
-from mtr_motion_planner.keep_out import KeepOut, OutlineUnusable, centres, plain_of
-from mtr_motion_planner.options import Goal
 from mtr_motion_planner.parameters import Margins, Slip
-from mtr_motion_planner.plan import Moving
-from mtr_motion_planner.planning import Planning
+from mtr_motion_planner.search.options import Goal
+from mtr_motion_planner.search.planning import Planning
+from mtr_motion_planner.timing.plan import Moving
 
 TEST_AREA = (-7.0, -7.0, 7.0, -7.0, 7.0, 1.5, -7.0, 1.5)  # on the Car's left there is no room to pass
 FENCED = dataclasses.replace(PARAMETERS, margins=Margins(geofence_xy=TEST_AREA))

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from mtr_core.se2 import Pose2, wrap_angle
-from mtr_motion_planner.circles import Circle, circle_through, tangent
+from mtr_motion_planner.geometry.circles import Circle, circle_through, tangent
 from mtr_motion_planner.limits import MotionLimits
 from mtr_motion_planner.parameters import Slip
-from mtr_motion_planner.shaping import Driving, Shape, Start, curve_of
-from mtr_motion_planner.timing import SAMPLE_S
-from mtr_motion_planner.trajectory import Drive, Pivot
+from mtr_motion_planner.search.shaping import Driving, Shape, Start, curve_of
+from mtr_motion_planner.timing.speeds import SAMPLE_S
+from mtr_motion_planner.timing.trajectory import Drive, Pivot
 
 LIMITS = MotionLimits()
 NO_SLIP = Slip(0.0, 0.0, 0.0)

@@ -17,7 +17,7 @@ from shapely.geometry import Polygon
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
-from mtr_motion_planner.keep_out import KeepOut
+from mtr_motion_planner.geometry.keep_out import KeepOut
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_simulation.scenario import CarShape
 

@@ -6,8 +6,8 @@ from typing import Tuple
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
+from mtr_motion_planner.background_planning import InlineExecutor
 from mtr_motion_planner.inputs import Car, Goal, Inputs, Order, RobotState
-from mtr_motion_planner.making import Inline
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.planner import MotionPlanner
 from mtr_simulation.scenario import CarShape, Scenario
@@ -45,7 +45,7 @@ class Trial:
         self._world_from_car = scenario.world_from_car
         self._outline = outline_of(shape)
         self._centre = parameters.footprint.slip.base_from_centre
-        self._planner, self._limiter = MotionPlanner(parameters, Inline()), Limiter()
+        self._planner, self._limiter = MotionPlanner(parameters, InlineExecutor()), Limiter()
         self._ticks, self._goals = 0, 0
         self._wanted: Velocity = (0.0, 0.0)
         self.contacts: set = set()

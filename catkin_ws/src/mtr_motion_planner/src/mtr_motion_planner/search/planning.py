@@ -6,14 +6,14 @@ from typing import List, NamedTuple, Optional
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction
 
+from ..geometry.fence import Fence
+from ..geometry.keep_out import KeepOut
+from ..geometry.route import moved
+from ..parameters import MotionParameters
+from ..timing.plan import Moving, Part, Plan, PlanRefused
 from .assembly import Assembly, line, pivot
 from .candidates import MOVING_MPS, Candidates
-from .fence import Fence
-from .keep_out import KeepOut
 from .options import Goal, Straight
-from .parameters import MotionParameters
-from .plan import Moving, Part, Plan, PlanRefused
-from .route import moved
 
 # A robot this close to the goal's axis drives straight along it; the controller takes the rest out on the way, as early
 # as it can. With the direction of travel given the axis matters more than the time.
@@ -47,8 +47,8 @@ class Effort(NamedTuple):
 
 
 STANDING = Effort(120, 8, 40)
-# A robot that moves follows its old plan for as long as the new one takes (making.py). This takes 0.09 s on average,
-# 0.26 s at most (standing: 0.1 and 0.5 s).
+# A robot that moves follows its old plan for as long as the new one takes (background_planning.py). This takes 0.09 s
+# on average, 0.26 s at most (standing: 0.1 and 0.5 s).
 MOVING = Effort(6, 2, 3)
 
 

@@ -10,8 +10,8 @@ from typing import Callable, List, Optional
 
 import numpy as np
 
-from .curve import Curve
-from .limits import MotionLimits
+from ..geometry.curve import Curve
+from ..limits import MotionLimits
 
 SAMPLE_S = 0.02
 # Share of the angular acceleration that the change of curvature alone may take.

@@ -6,8 +6,8 @@ from typing import Dict, List, Optional, Sequence, Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
 
+from ..inputs import Point
 from .circles import Circle, tangent
-from .inputs import Point
 
 # More than this in one arc is a loop that no quick route has.
 LONGEST_ARC_RAD = math.radians(250.0)

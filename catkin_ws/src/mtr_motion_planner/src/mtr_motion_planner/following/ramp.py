@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from typing import Optional
 
-from .inputs import RobotState
-from .limits import MotionLimits
+from ..inputs import RobotState
+from ..limits import MotionLimits
 from .tracking import Velocity
 
 # A robot that is held (drive control, a wheel block) must not be left with a command that has wound up.

@@ -6,13 +6,13 @@ from typing import Optional
 
 from mtr_core.se2 import Pose2
 
-from .inputs import RobotState
-from .limits import MotionLimits
-from .parameters import MotionParameters
-from .plan import Moving, Part, Plan
+from ..inputs import RobotState
+from ..limits import MotionLimits
+from ..parameters import MotionParameters
+from ..timing.plan import Moving, Part, Plan
+from ..timing.trajectory import Pivot, Reference
 from .tolerance import miss_of
 from .tracking import DELAY_S, Velocity, deviation, tracked
-from .trajectory import Pivot, Reference
 
 # The reference waits for a robot that lags by more than this, and the rest is timed anew from the robot's own speed.
 LAG_M, LAG_RAD = 0.08, 0.15

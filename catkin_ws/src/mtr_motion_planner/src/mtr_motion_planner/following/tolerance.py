@@ -6,7 +6,7 @@ from typing import Optional
 
 from mtr_core.se2 import Pose2
 
-from .parameters import Arrival
+from ..parameters import Arrival
 
 # Near enough for a measurement, though not within tolerance, when no correction helped.
 NEAR_M = 0.10

@@ -10,9 +10,9 @@ from typing import Iterator, List, Optional, Tuple
 
 import numpy as np
 
-from .limits import MotionLimits
-from .parameters import Slip
-from .timing import SAMPLE_S
+from ..limits import MotionLimits
+from ..parameters import Slip
+from .speeds import SAMPLE_S
 from .trajectory import Drive, Trajectory
 
 # Time by which the turns before and after the drive may overlap with it at most. In an overlap of 1.8 s the robot

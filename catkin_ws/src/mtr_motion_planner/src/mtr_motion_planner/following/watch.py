@@ -5,9 +5,9 @@ from typing import Optional
 
 from mtr_core.se2 import Pose2
 
-from .inputs import Drive, RobotState, Zone
-from .keep_out import KeepOut
-from .parameters import MotionParameters
+from ..geometry.keep_out import KeepOut
+from ..inputs import Drive, RobotState, Zone
+from ..parameters import MotionParameters
 from .tracking import DELAY_S, Velocity
 
 STALL_AFTER_S = 2.0

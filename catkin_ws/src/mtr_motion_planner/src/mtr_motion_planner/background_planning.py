@@ -9,11 +9,11 @@ from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from typing import Any, Callable, Optional
 
-from .follower import Follower
-from .options import Goal
-from .plan import Moving, Plan
-from .planning import Planning, moves
-from .tracking import deviation
+from .following.follower import Follower
+from .following.tracking import deviation
+from .search.options import Goal
+from .search.planning import Planning, moves
+from .timing.plan import Moving, Plan
 
 # From the order to a moving robot until it goes on with the new plan, which takes less time to make (planning.py).
 LEAD_S = 0.4
@@ -22,7 +22,7 @@ ROUNDING_S = 0.001
 START_M, START_RAD = 0.03, math.radians(3.0)
 
 
-class Inline(Executor):
+class InlineExecutor(Executor):
     """Does its work before it returns."""
 
     def submit(self, work: Callable[..., Any], *arguments: Any, **named: Any) -> "Future[Any]":
@@ -36,7 +36,7 @@ class Inline(Executor):
 
 
 @dataclass(frozen=True)
-class Coming:
+class PendingPlan:
     """A plan that is being made, and from when on it may be followed."""
 
     plan: "Future[Plan]"
@@ -44,44 +44,44 @@ class Coming:
     due_s: float
 
 
-class Making:
+class BackgroundPlanning:
     """Makes the newest plan that was asked for; older ones are forgotten."""
 
     def __init__(self, executor: Executor):
         self._executor = executor
-        self._coming: Optional[Coming] = None
+        self._pending: Optional[PendingPlan] = None
 
     @property
     def is_at_work(self) -> bool:
         """True from the order until the plan was taken or forgotten."""
-        return self._coming is not None
+        return self._pending is not None
 
     def forget(self) -> None:
         """The plan is no longer wanted."""
-        self._coming = None
+        self._pending = None
 
     def begin(self, planning: Planning, goal: Goal, start: Moving, due_s: float) -> None:
         """Make a plan from the start, where the robot is when it is due."""
-        self._coming = Coming(self._executor.submit(planning.plan, start, goal), start, due_s)
+        self._pending = PendingPlan(self._executor.submit(planning.plan, start, goal), start, due_s)
 
     def is_due(self, tick_s: float) -> bool:
         """True when the plan is to be followed from this tick on."""
-        return tick_s > self._coming.due_s - ROUNDING_S
+        return tick_s > self._pending.due_s - ROUNDING_S
 
     def is_done(self) -> bool:
         """True when there is a result."""
-        return self._coming.plan.done()
+        return self._pending.plan.done()
 
     def fits(self, follower: Optional[Follower]) -> bool:
         """True when the robot is where the plan begins: it stands there still, or its reference has come there."""
-        if not moves(self._coming.start):
+        if not moves(self._pending.start):
             return True
         if follower is None:
             return False
-        off = deviation(follower.reference(), self._coming.start.pose)
+        off = deviation(follower.reference(), self._pending.start.pose)
         return math.hypot(off.x, off.y) < START_M and abs(off.heading) < START_RAD
 
     def take(self) -> Plan:
         """The plan; PlanRefused when there is none."""
-        coming, self._coming = self._coming, None
-        return coming.plan.result()
+        pending, self._pending = self._pending, None
+        return pending.plan.result()

@@ -11,8 +11,8 @@ from shapely.geometry.polygon import orient
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 
-from .inputs import Point
-from .parameters import Footprint
+from ..inputs import Point
+from ..parameters import Footprint
 
 # The outline is sampled this densely; a footprint 0.1 m beside it is then seen at most 2 mm too far away.
 OUTLINE_STEP_M = 0.04

@@ -9,9 +9,9 @@ from shapely.prepared import prep
 from mtr_core.errors import ConfigurationError
 from mtr_core.se2 import Pose2
 
-from .inputs import Point
-from .limits import MotionLimits
-from .parameters import Footprint
+from ..inputs import Point
+from ..limits import MotionLimits
+from ..parameters import Footprint
 
 
 def corners_of(numbers: Sequence[float]) -> Sequence[Point]:

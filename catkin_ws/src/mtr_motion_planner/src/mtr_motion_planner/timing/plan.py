@@ -6,7 +6,7 @@ from typing import List, Tuple
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 
-from .inputs import Point
+from ..inputs import Point
 from .trajectory import Motion, Trajectory
 
 

@@ -9,10 +9,10 @@ import numpy as np
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction
 
-from .keep_out import KeepOut
-from .parameters import MotionParameters
-from .plan import PlanRefused
-from .route import moved
+from ..geometry.keep_out import KeepOut
+from ..geometry.route import moved
+from ..parameters import MotionParameters
+from ..timing.plan import PlanRefused
 
 STEP_M = 0.05
 LONGEST_STRAIGHT_M = 6.0

@@ -9,9 +9,9 @@ import numpy as np
 
 from mtr_core.se2 import Pose2, wrap_angle
 
-from .curve import STEP_M, Curve
-from .limits import MotionLimits
-from .timing import SAMPLE_S, history_way, speeds_along, speeds_on, ways_at_samples
+from ..geometry.curve import STEP_M, Curve
+from ..limits import MotionLimits
+from .speeds import SAMPLE_S, history_way, speeds_along, speeds_on, ways_at_samples
 
 PIVOT_STEP_RAD = 0.02
 # A robot slower than this is taken to stand.

@@ -7,17 +7,17 @@ import numpy as np
 
 from mtr_core.se2 import Pose2, wrap_angle
 
-from .blend import Blend, Turns, keeps, overlapped, overlaps_of
+from ..geometry.curve import trace
+from ..geometry.fence import Fence
+from ..geometry.keep_out import KeepOut
+from ..geometry.route import facing, moved
+from ..parameters import MotionParameters
+from ..timing.blend import Blend, Turns, keeps, overlapped, overlaps_of
+from ..timing.plan import Moving, Part
+from ..timing.trajectory import Drive, Motion, Pivot, Trajectory
 from .candidates import MOVING_MPS, Candidate
-from .curve import trace
-from .fence import Fence
-from .keep_out import KeepOut
 from .options import ROUNDING_M, Straight
-from .parameters import MotionParameters
-from .plan import Moving, Part
-from .route import facing, moved
 from .shaping import ATTEMPTS, CLOSE_M, Driving, Start, curve_of
-from .trajectory import Drive, Motion, Pivot, Trajectory
 
 # Away from start and goal a rounded corner may use up the route's margin to this share of it.
 CORNER_SHARE = 0.4

@@ -8,13 +8,13 @@ from shapely.geometry import Point as ShapelyPoint
 
 from mtr_core.se2 import Pose2
 
+from ..geometry.keep_out import KeepOut, centres
+from ..geometry.route import Ring, facing, moved
+from ..limits import MotionLimits, rest_to_rest_time
+from ..parameters import MotionParameters
+from ..timing.plan import Moving
 from .estimate import time_of
-from .keep_out import KeepOut, centres
-from .limits import MotionLimits, rest_to_rest_time
 from .options import Goal, Straight, arrivals, departures
-from .parameters import MotionParameters
-from .plan import Moving
-from .route import Ring, facing, moved
 from .shaping import Shape, route_of
 
 # Radii of the turns at both ends, in m, beside the one that is driven at full speed: about as tight as linear and

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from mtr_core.se2 import Pose2
 
-from .trajectory import Reference
+from ..timing.trajectory import Reference
 
 # Time between a pose and the effect of the velocity computed from it: half of the planner's period, one tick of drive
 # control, and the wheels' response.

@@ -8,7 +8,7 @@ from motion_simulation import PARAMETERS, PERIOD_S, SimulatedRobot
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Result
-from mtr_motion_planner.making import LEAD_S
+from mtr_motion_planner.background_planning import LEAD_S
 from mtr_motion_planner.planner import MotionPlanner
 
 START = Pose2(4.0, 2.6, math.radians(-147.0))

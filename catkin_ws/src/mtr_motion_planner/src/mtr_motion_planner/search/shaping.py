@@ -8,12 +8,12 @@ import numpy as np
 
 from mtr_core.se2 import Pose2, wrap_angle
 
-from .circles import Circle, circle_through
-from .curve import Curve, Piece, breakpoints, merged, trace
-from .limits import MotionLimits
-from .parameters import Slip
-from .route import Ring, Route, around, moved, route_along
-from .timing import speeds_on
+from ..geometry.circles import Circle, circle_through
+from ..geometry.curve import Curve, Piece, breakpoints, merged, trace
+from ..geometry.route import Ring, Route, around, moved, route_along
+from ..limits import MotionLimits
+from ..parameters import Slip
+from ..timing.speeds import speeds_on
 
 # Rounding the joints moves the end; the route is bent until it is this close.
 CLOSE_M, CLOSE_RAD = 0.001, 0.0005

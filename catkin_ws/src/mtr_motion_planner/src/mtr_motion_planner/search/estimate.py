@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 
-from .limits import MotionLimits
-from .route import Leg, Route
+from ..geometry.route import Leg, Route
+from ..limits import MotionLimits
 from .shaping import Shape
 
 # Most turns on the spot can overlap with the drive by this (blend.py).
