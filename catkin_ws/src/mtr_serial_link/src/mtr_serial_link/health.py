@@ -16,6 +16,7 @@ class LineProblem(enum.Enum):
     """What is wrong with an open port; the value says it to a person."""
 
     NONE = ""
+    WAITING = "is open and waits for the board's first message"
     SILENT = "is open but silent; check the board's power, the cable and that the firmware is flashed"
     WRONG_BAUD = "gives bytes but no messages; check the baud rate on both sides, and that nothing else prints there"
     REVISION = "speaks revision 1 of the rosserial protocol, this machine revision 2; flash a newer firmware"
@@ -84,4 +85,4 @@ class Health:
             return LineProblem.WRONG_BAUD
         if self._frame_s is not None:
             return LineProblem.LOST
-        return LineProblem.SILENT if now_s - self._started_s > self._parameters.lost_after_s else LineProblem.NONE
+        return LineProblem.SILENT if now_s - self._started_s > self._parameters.lost_after_s else LineProblem.WAITING

@@ -6,7 +6,7 @@ import os
 import select
 import threading
 import time
-from typing import Any, Callable, Deque, Dict, Optional
+from typing import Any, Callable, Deque, Dict
 
 from .port import PortError, SerialPort
 from .session import Event, Session
@@ -146,11 +146,3 @@ class Line:
         self.session.outbox.clear()
         if self._unsent:
             self._unsent = self._unsent[port.write(self._unsent):]
-
-
-def state_sentence(line: Line, path: str, now_s: Optional[float] = None) -> str:
-    """What is wrong with the line, for a person; empty when nothing is."""
-    if line.trouble:
-        return line.trouble
-    problem = line.session.problem(time.monotonic() if now_s is None else now_s)
-    return f"The port {path} {problem.value}." if problem.value else ""

@@ -10,13 +10,16 @@ from mtr_core.errors import check_range
 from mtr_core.lockstep import run_node
 
 from .connections import Connections, md5_of
-from .line import Line, LineHandler, state_sentence
+from .line import Line, LineHandler
 from .parameters import LinkParameters
 from .port import SerialPort
 from .session import Event, Session
+from .status import LINKED, LineStatus, Severity, StatusReports, line_status
 
 LOG = (rospy.logdebug, rospy.loginfo, rospy.logwarn, rospy.logerr, rospy.logfatal)
-DIAGNOSTICS_PERIOD_S = 1.0
+LEVELS = {Severity.OK: DiagnosticStatus.OK, Severity.WARN: DiagnosticStatus.WARN, Severity.ERROR: DiagnosticStatus.ERROR}
+# Changes in quick succession all leave.
+DIAGNOSTICS_QUEUED = 10
 
 
 @dataclass(frozen=True)
@@ -40,9 +43,9 @@ class SerialBridgeNode(LineHandler):
         session = Session(parameters, md5_of, lambda: rospy.Time.now().to_nsec())
         self._line = Line(lambda: SerialPort(parameters.port, parameters.baud), session, self)
         self._connections = Connections(self._line.send, parameters.service_timeout_s)
-        self._diagnostics = rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1)
-        self._diagnosed_s = 0.0
-        self._said = None
+        self._diagnostics = rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=DIAGNOSTICS_QUEUED)
+        self._reports = StatusReports()
+        self._logged = ""
         self._stopped = threading.Event()
 
     def spin(self) -> None:
@@ -78,19 +81,25 @@ class SerialBridgeNode(LineHandler):
         self._stopped.set()
 
     def tick(self, now_s: float) -> None:
-        """Say what is wrong, once; called in the line's thread."""
-        sentence = state_sentence(self._line, self._parameters.port, now_s)
-        if sentence != self._said:
-            if sentence:
-                rospy.logwarn("%s", sentence)
-            else:
-                rospy.loginfo("The port %s is open at %d baud.", self._parameters.port, self._parameters.baud)
-            self._said = sentence
-        if now_s - self._diagnosed_s >= DIAGNOSTICS_PERIOD_S:
-            self._diagnosed_s = now_s
-            self._diagnostics.publish(self._diagnostics_message(sentence))
+        """Report how the line is, and log it when it changes; called in the line's thread."""
+        session = self._line.session
+        status = line_status(self._parameters.port, self._line.trouble, session.problem(now_s),
+                             bool(session.health.refusals))
+        if self._reports.is_due(status, now_s):
+            self._diagnostics.publish(self._diagnostics_message(status))
+        if status.sentence != self._logged:
+            self._logged = status.sentence
+            self._log(status)
 
-    def _diagnostics_message(self, sentence: str) -> DiagnosticArray:
+    def _log(self, status: LineStatus) -> None:
+        if status.sentence == LINKED:
+            rospy.loginfo("The port %s is open at %d baud.", self._parameters.port, self._parameters.baud)
+        elif status.severity is Severity.WARN:
+            rospy.loginfo("%s", status.sentence)
+        else:
+            rospy.logwarn("%s", status.sentence)
+
+    def _diagnostics_message(self, line: LineStatus) -> DiagnosticArray:
         health = self._line.session.health
         values = {
             "bytes_received": health.bytes_in, "frames": health.frames,
@@ -99,18 +108,12 @@ class SerialBridgeNode(LineHandler):
             "messages_without_topic": health.unroutable, "outrun_messages": self._line.dropped, **health.refusals,
         }
         status = DiagnosticStatus(
-            level=_level(sentence, bool(health.refusals)), name=f"{rospy.get_name()}: serial line",
-            message=sentence or "linked", hardware_id=self._parameters.port,
+            level=LEVELS[line.severity], name=f"{rospy.get_name()}: serial line", message=line.sentence,
+            hardware_id=self._parameters.port,
             values=[KeyValue(key, str(value)) for key, value in values.items()])
         message = DiagnosticArray(status=[status])
         message.header.stamp = rospy.Time.now()
         return message
-
-
-def _level(sentence: str, has_refused: bool) -> bytes:
-    if sentence:
-        return DiagnosticStatus.ERROR
-    return DiagnosticStatus.WARN if has_refused else DiagnosticStatus.OK
 
 
 def main() -> int:

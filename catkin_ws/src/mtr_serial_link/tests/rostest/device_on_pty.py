@@ -1,52 +1,75 @@
-"""A scripted device at the other end of a pseudo-terminal that can be unplugged."""
+"""A scripted device at the other end of a pseudo-terminal that can be unplugged; it speaks as real firmware does."""
 # SPDX-License-Identifier: Apache-2.0
-import contextlib
 import os
 import pathlib
+import select
 import threading
+import time
 import tty
 
 from mtr_serial_link.fake_device import FakeDevice
 
+# Real firmware reports 25 times a second once it has been asked for its topics.
+REPORT_PERIOD_S = 0.04
+
 
 class DeviceOnPty:
-    """Answers in a thread of its own while it is plugged in.
+    """Reports and answers in a thread of its own while it is plugged in.
 
     Attributes:
         device: what answers.
         path: of the port; a link that comes and goes.
-        frozen: it hears and says nothing.
+        report: message of its own that it sends in each period.
+        frozen: it takes what comes and says nothing.
     """
 
-    def __init__(self, device: FakeDevice, path: pathlib.Path):
-        self.device, self.path = device, path
+    def __init__(self, device: FakeDevice, path: pathlib.Path, report: bytes):
+        self.device, self.path, self.report = device, path, report
         self.frozen = False
+        self._changed = threading.Condition()
         self._thread = None
+        self._unplugged = threading.Event()
         self._master = self._slave = None
 
     def plug(self) -> None:
         """The port appears."""
         self._master, self._slave = os.openpty()
         tty.setraw(self._slave)
-        self.path.symlink_to(os.ttyname(self._slave))
-        self._thread = threading.Thread(target=self._serve, args=(self._master,), daemon=True)
+        self._unplugged.clear()
+        self._thread = threading.Thread(target=self._serve, daemon=True)
         self._thread.start()
+        self.path.symlink_to(os.ttyname(self._slave))
 
     def unplug(self) -> None:
-        """The port vanishes."""
+        """The port vanishes, if it is there."""
+        if not self._thread:
+            return
         self.path.unlink()
-        os.close(self._slave)
-        master, self._master = self._master, None
-        os.close(master)
+        self._unplugged.set()
+        self._thread.join()
         self._thread = None
+        os.close(self._slave)
+        os.close(self._master)
 
-    def say(self, data: bytes) -> None:
-        """Bytes for the host."""
-        os.write(self._master, data)
+    def received(self, limit_s: float) -> list:
+        """Payloads of messages on its own topics; waits for the first."""
+        with self._changed:
+            self._changed.wait_for(lambda: self.device.received, limit_s)
+            return [frame.payload for frame in self.device.received]
 
-    def _serve(self, master: int) -> None:
-        with contextlib.suppress(OSError):
-            while True:
-                data = os.read(master, 4096)
-                if not self.frozen:
-                    os.write(master, self.device.receive(data))
+    def _serve(self) -> None:
+        asked_before, due_s = self.device.asked, time.monotonic()
+        while not self._unplugged.is_set():
+            if select.select([self._master], [], [], max(0.0, due_s - time.monotonic()))[0]:
+                self._answer(os.read(self._master, 4096))
+            elif time.monotonic() >= due_s:
+                due_s += REPORT_PERIOD_S
+                if self.device.asked > asked_before and not self.frozen:
+                    os.write(self._master, self.report)
+
+    def _answer(self, data: bytes) -> None:
+        if self.frozen:
+            return
+        with self._changed:
+            os.write(self._master, self.device.receive(data))
+            self._changed.notify_all()

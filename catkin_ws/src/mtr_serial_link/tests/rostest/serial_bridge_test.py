@@ -19,16 +19,21 @@ from roscpp.srv import GetLoggers
 from mtr_msgs.msg import FirmwareEcho, FirmwareHealth
 from mtr_serial_link.connections import _bytes_of, md5_of
 from mtr_serial_link.fake_device import FakeDevice
+from mtr_serial_link.frames import Frame, encode
 from mtr_serial_link.wire import Special, TopicInfo
 
 LIMIT_S = 10.0
-SAY_EVERY_S = 0.1
 ECHO, HEALTH, CALL, ANSWER = 125, 126, 101, 127
 
 
 def info(topic_id, name, type_name, part=""):
     """Description with this machine's own checksum."""
     return TopicInfo(topic_id, name, type_name, md5_of(type_name + part), 280)
+
+
+def echo(seq):
+    """A report of the device on its topic /device/echo."""
+    return encode(Frame(ECHO, bytes((seq,))))
 
 
 ENDPOINTS = (
@@ -67,7 +72,7 @@ class SerialBridgeTest(unittest.TestCase):
     def setUp(self):
         self._folder = tempfile.TemporaryDirectory()
         self.port = pathlib.Path(self._folder.name) / "board"
-        self.board = DeviceOnPty(FakeDevice(ENDPOINTS), self.port)
+        self.board = DeviceOnPty(FakeDevice(ENDPOINTS), self.port, echo(0))
         self.board.device.answers[CALL] = (ANSWER, lambda request: (0).to_bytes(4, "little"))
         self.diagnostics = Heard("/diagnostics", DiagnosticArray)
         self.echoes = Heard("/device/echo", FirmwareEcho)
@@ -77,19 +82,16 @@ class SerialBridgeTest(unittest.TestCase):
     def tearDown(self):
         self.bridge.send_signal(signal.SIGINT)
         self.assertEqual(self.bridge.wait(LIMIT_S), 0)
+        self.board.unplug()
         self._folder.cleanup()
 
     def says(self, part):
         return self.diagnostics.wait_for(lambda message: part in message.status[0].message)
 
-    def hears_device(self, seq):
-        """The device says it again and again, as firmware does: its first word may come before ROS has connected."""
-        self.echoes.clear()
-        for _ in range(round(LIMIT_S / SAY_EVERY_S)):
-            self.board.say(self.board.device.say(ECHO, bytes((seq,))))
-            if self.echoes.wait_for(lambda message: message.seq == seq, SAY_EVERY_S):
-                return True
-        return False
+    def receives(self, seq):
+        """The device reports this number from now on; True when it arrives in ROS."""
+        self.board.report = echo(seq)
+        return self.echoes.wait_for(lambda message: message.seq == seq)
 
     def call(self):
         rospy.wait_for_service("/device/loggers", LIMIT_S)
@@ -97,10 +99,10 @@ class SerialBridgeTest(unittest.TestCase):
 
     def test_topics_and_service_pass_and_are_back_after_a_replug(self):
         self.assertTrue(self.says("is missing"))
-        for _ in range(2):
+        for seq in (7, 8):
             self.board.plug()
             self.assertEqual(self.call().loggers, [])
-            self.assertTrue(self.hears_device(7))
+            self.assertTrue(self.receives(seq))
             self.diagnostics.clear()
             self.board.unplug()
             self.assertTrue(self.says("is missing"))
@@ -111,12 +113,8 @@ class SerialBridgeTest(unittest.TestCase):
         publisher.publish(FirmwareHealth(resets=513))
         self.call()
         self.assertTrue(self.says("linked"))
-        self.assertTrue(self.hears_device(9))
-        wanted = _bytes_of(FirmwareHealth(resets=513))
-        deadline = rospy.Time.now() + rospy.Duration(LIMIT_S)
-        while not self.board.device.received and rospy.Time.now() < deadline:
-            rospy.sleep(0.02)
-        self.assertEqual([frame.payload for frame in self.board.device.received], [wanted])
+        self.assertTrue(self.receives(9))
+        self.assertEqual(self.board.received(LIMIT_S), [_bytes_of(FirmwareHealth(resets=513))])
 
     def test_call_to_a_frozen_device_fails_in_time_and_works_again_later(self):
         self.board.plug()
