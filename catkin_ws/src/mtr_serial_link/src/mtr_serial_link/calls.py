@@ -7,8 +7,8 @@ made until the late answer has come or can come no more; else it would be taken 
 import enum
 from typing import Optional
 
-# An answer that has not come within so many time-outs will not come.
-OWED_TIMEOUTS = 2.0
+# An answer that has not come within so many time-outs will not come any more.
+OVERDUE_TIMEOUTS = 2.0
 
 
 class CallState(enum.Enum):
@@ -17,7 +17,7 @@ class CallState(enum.Enum):
     IDLE = 0
     WAITING = 1
     ANSWERED = 2
-    OWED = 3
+    OVERDUE = 3
 
 
 class Calls:
@@ -36,32 +36,32 @@ class Calls:
         self.late = 0
 
     def begin(self, now_s: float) -> str:
-        """Start a call; a sentence when that is not possible now, else empty."""
+        """Start a call; returns why that is not possible now, or nothing."""
         state = self.state(now_s)
         if state is CallState.WAITING:
             return "another call is under way"
-        if state is CallState.OWED:
+        if state is CallState.OVERDUE:
             return "the call before has not been answered; try again in some seconds"
         self._state, self._until_s, self.answer = CallState.WAITING, now_s + self._timeout_s, None
         return ""
 
     def take(self, answer: bytes, now_s: float) -> None:
-        """An answer has come."""
+        """Take an answer of the device."""
         if self.state(now_s) is CallState.WAITING:
             self._state, self.answer = CallState.ANSWERED, answer
         else:
             self.late += 1
-            if self._state is CallState.OWED:
+            if self._state is CallState.OVERDUE:
                 self._state = CallState.IDLE
 
-    def cut(self) -> None:
-        """The link is gone, and with it the answer."""
+    def abort(self) -> None:
+        """The link is gone, and the answer with it."""
         self._state = CallState.IDLE
 
     def state(self, now_s: float) -> CallState:
         """How the newest call stands."""
         if self._state is CallState.WAITING and now_s >= self._until_s:
-            self._state, self._until_s = CallState.OWED, self._until_s + OWED_TIMEOUTS * self._timeout_s
-        if self._state is CallState.OWED and now_s >= self._until_s:
+            self._state, self._until_s = CallState.OVERDUE, self._until_s + OVERDUE_TIMEOUTS * self._timeout_s
+        if self._state is CallState.OVERDUE and now_s >= self._until_s:
             self._state = CallState.IDLE
         return self._state

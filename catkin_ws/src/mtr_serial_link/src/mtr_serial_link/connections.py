@@ -11,18 +11,19 @@ import rospy
 
 from .calls import Calls, CallState
 from .endpoints import Endpoint
-from .frames import Frame
-from .wire import Special
+from .frames import SerialFrame
+from .wire import ReservedId
 
-HALVES = {"Request": "_request_class", "Response": "_response_class"}
-CALL_POLL_S = 0.05
+SERVICE_PARTS = {"Request": "_request_class", "Response": "_response_class"}
+# The condition is checked once more when a call's time is over.
+CALL_MARGIN_S = 0.05
 
 
 def class_of(type_name: str) -> Optional[Any]:
-    """Message class, or half of a service for a name that ends in Request or Response; None when it is unknown."""
-    for half, attribute in HALVES.items():
-        if type_name.endswith(half):
-            service = _service_of(type_name[:-len(half)])
+    """Class of a message; of a part of a service for a name that ends in Request or Response; None if there is none."""
+    for part, attribute in SERVICE_PARTS.items():
+        if type_name.endswith(part):
+            service = _service_of(type_name[:-len(part)])
             if service:
                 return getattr(service, attribute)
     try:
@@ -37,8 +38,15 @@ def md5_of(type_name: str) -> Optional[str]:
     return found._md5sum if found else None
 
 
+def bytes_of(message: Any) -> bytes:
+    """A message in ROS's serial form, which is rosserial's payload."""
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()
+
+
 class Connections:
-    """Publishers, subscribers and services; opened as the device tells of them, closed when its port goes."""
+    """Publishers, subscribers and services: opened as the device describes them, closed when its port is gone."""
 
     def __init__(self, send: Callable[[str, bytes], None], service_timeout_s: float):
         self._send = send
@@ -51,23 +59,23 @@ class Connections:
     def open(self, endpoint: Endpoint) -> None:
         """Serve an endpoint."""
         kind, info = endpoint
-        if kind is Special.PUBLISHER:
+        if kind is ReservedId.PUBLISHER:
             self._publishers[info.topic_id] = rospy.Publisher(info.name, class_of(info.type_name), queue_size=50,
                                                               tcp_nodelay=True)
-        elif kind is Special.SUBSCRIBER:
+        elif kind is ReservedId.SUBSCRIBER:
             self._close_subscriber(info.name)
             self._subscribers[info.name] = rospy.Subscriber(
-                info.name, class_of(info.type_name), lambda message: self._send(info.name, _bytes_of(message)),
+                info.name, class_of(info.type_name), lambda message: self._send(info.name, bytes_of(message)),
                 queue_size=4, tcp_nodelay=True)
         else:
             if info.name not in self._services:
-                self._services[info.name] = ServiceBridge(info.name, info.type_name, self._send,
+                self._services[info.name] = ServiceBridge(info.name, _service_of(info.type_name), self._send,
                                                           self._service_timeout_s)
-            if kind is Special.SERVICE_RESPONSE:
+            if kind is ReservedId.SERVICE_RESPONSE:
                 self._responses[info.topic_id] = self._services[info.name]
 
-    def take(self, frame: Frame) -> str:
-        """A message of the device; a sentence when its bytes are no such message."""
+    def take(self, frame: SerialFrame) -> str:
+        """Pass a message of the device on; returns a sentence when its bytes are no such message, else nothing."""
         if frame.topic_id in self._responses:
             self._responses[frame.topic_id].take(frame.payload)
             return ""
@@ -103,26 +111,25 @@ class Connections:
 class ServiceBridge:
     """A service of the device as a ROS service; a call that the device does not answer fails in time."""
 
-    def __init__(self, name: str, type_name: str, send: Callable[[str, bytes], None], timeout_s: float):
+    def __init__(self, name: str, service: Any, send: Callable[[str, bytes], None], timeout_s: float):
         self._name, self._send, self._timeout_s = name, send, timeout_s
         self._calls = Calls(timeout_s)
         self._changed = threading.Condition()
         self._closed = False
-        service = _service_of(type_name)
         self._response_class = service._response_class
         self._service = rospy.Service(name, service, self._call)
 
     def take(self, payload: bytes) -> None:
-        """An answer of the device."""
+        """Take an answer of the device."""
         with self._changed:
             self._calls.take(payload, time.monotonic())
             self._changed.notify_all()
 
     def close(self) -> None:
-        """Callers that wait are told."""
+        """Let the calls that wait fail, and take the service down."""
         with self._changed:
             self._closed = True
-            self._calls.cut()
+            self._calls.abort()
             self._changed.notify_all()
         self._service.shutdown("the firmware's port is gone")
 
@@ -131,9 +138,9 @@ class ServiceBridge:
             refusal = self._calls.begin(time.monotonic())
             if refusal:
                 raise rospy.ServiceException(f"{self._name} of the firmware cannot be called: {refusal}.")
-            self._send(self._name, _bytes_of(request))
+            self._send(self._name, bytes_of(request))
             self._changed.wait_for(lambda: self._closed or self._calls.state(time.monotonic()) is not CallState.WAITING,
-                                   self._timeout_s + CALL_POLL_S)
+                                   self._timeout_s + CALL_MARGIN_S)
             if self._closed or self._calls.state(time.monotonic()) is not CallState.ANSWERED:
                 raise rospy.ServiceException(f"{self._name} of the firmware did not answer within "
                                              f"{self._timeout_s:g} s.")
@@ -145,9 +152,3 @@ def _service_of(type_name: str) -> Optional[Any]:
         return roslib.message.get_service_class(type_name)
     except (ImportError, ValueError, AttributeError):
         return None
-
-
-def _bytes_of(message: Any) -> bytes:
-    buffer = io.BytesIO()
-    message.serialize(buffer)
-    return buffer.getvalue()

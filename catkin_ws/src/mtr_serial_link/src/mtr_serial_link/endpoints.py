@@ -1,19 +1,19 @@
-"""Topics and services that a device offers, checked against the messages that the host has."""
+"""Topics and services that a device offers, checked against the message definitions of the host."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Callable, Dict, NamedTuple, Optional, Tuple
 
-from .wire import Special, TopicInfo
+from .wire import ReservedId, TopicInfo
 
 
 class Endpoint(NamedTuple):
     """One direction of a topic or service; kind says which."""
 
-    kind: Special
+    kind: ReservedId
     info: TopicInfo
 
 
 class Endpoints:
-    """What the device has told so far.
+    """What the device has described so far.
 
     Attributes:
         by_id: endpoints by their topic id.
@@ -25,8 +25,12 @@ class Endpoints:
         self.by_id: Dict[int, Endpoint] = {}
         self.to_device: Dict[str, Endpoint] = {}
 
-    def add(self, kind: Special, info: TopicInfo) -> Tuple[Optional[Endpoint], str]:
-        """The endpoint when it is new or has changed, and the sentence that says why it cannot be served."""
+    def add(self, kind: ReservedId, info: TopicInfo) -> Tuple[Optional[Endpoint], str]:
+        """Take a description.
+
+        Returns:
+            The endpoint if it is new or has changed, and a sentence if it cannot be served.
+        """
         refusal = self._refusal(kind, info)
         if refusal:
             return None, refusal
@@ -34,17 +38,17 @@ class Endpoints:
         if self.by_id.get(info.topic_id) == endpoint:
             return None, ""
         self.by_id[info.topic_id] = endpoint
-        if kind in (Special.SUBSCRIBER, Special.SERVICE_REQUEST):
+        if kind in (ReservedId.SUBSCRIBER, ReservedId.SERVICE_REQUEST):
             self.to_device[info.name] = endpoint
         return endpoint, ""
 
     def clear(self) -> None:
-        """Another device, or the same after a replug."""
+        """Forget everything: another device may be plugged in."""
         self.by_id.clear()
         self.to_device.clear()
 
-    def _refusal(self, kind: Special, info: TopicInfo) -> str:
-        part = {Special.SERVICE_REQUEST: "Request", Special.SERVICE_RESPONSE: "Response"}.get(kind, "")
+    def _refusal(self, kind: ReservedId, info: TopicInfo) -> str:
+        part = {ReservedId.SERVICE_REQUEST: "Request", ReservedId.SERVICE_RESPONSE: "Response"}.get(kind, "")
         ours = self._md5_of(info.type_name + part)
         if ours is None:
             return (f"The firmware's {info.name} is a {info.type_name}, which this machine does not know; "

@@ -17,7 +17,7 @@ OVERHEAD_BYTES = HEADER_BYTES + 1
 MAX_PAYLOAD_BYTES = 4096
 
 
-class Frame(NamedTuple):
+class SerialFrame(NamedTuple):
     """One message on the line."""
 
     topic_id: int
@@ -25,7 +25,7 @@ class Frame(NamedTuple):
 
 
 class FrameCounts(NamedTuple):
-    """What the parser has met since its start; skipped_bytes lie outside of good frames."""
+    """Counters of a parser since its start; skipped_bytes lie outside of good frames."""
 
     frames: int = 0
     skipped_bytes: int = 0
@@ -33,7 +33,7 @@ class FrameCounts(NamedTuple):
     revision_1_syncs: int = 0
 
 
-def encode(frame: Frame) -> bytes:
+def encode(frame: SerialFrame) -> bytes:
     """Bytes of a frame; ValueError when its payload is too long."""
     if len(frame.payload) > MAX_PAYLOAD_BYTES:
         raise ValueError(f"A payload of {len(frame.payload)} bytes does not fit; allowed are {MAX_PAYLOAD_BYTES}.")
@@ -66,18 +66,18 @@ class FrameParser:
 
     @property
     def counts(self) -> FrameCounts:
-        """What was met so far."""
+        """Counters so far."""
         return FrameCounts(self._frames, self._skipped, self._checksum_errors, self._revision_1)
 
     @property
-    def is_midway(self) -> bool:
+    def has_partial_frame(self) -> bool:
         """True while part of a frame is waiting for its rest."""
         return bool(self._buffer)
 
-    def feed(self, data: bytes) -> List[Frame]:
+    def feed(self, data: bytes) -> List[SerialFrame]:
         """Frames that are complete now."""
         self._buffer += data
-        found: List[Frame] = []
+        found: List[SerialFrame] = []
         while self._seek():
             length, check, topic_id = HEADER.unpack_from(self._buffer, len(SYNC))
             if check != length_check(length) or length > self._max_payload_bytes:
@@ -89,7 +89,7 @@ class FrameParser:
                 break
             payload = bytes(self._buffer[HEADER_BYTES:end])
             if self._buffer[end] == payload_check(topic_id, payload):
-                found.append(Frame(topic_id, payload))
+                found.append(SerialFrame(topic_id, payload))
                 self._frames += 1
                 del self._buffer[:end + 1]
             else:
@@ -97,7 +97,7 @@ class FrameParser:
                 self._skip(1)
         return found
 
-    def forget(self) -> List[Frame]:
+    def forget(self) -> List[SerialFrame]:
         """The rest of a frame under way will not come: look for frames inside what was taken for its payload."""
         if not self._buffer:
             return []

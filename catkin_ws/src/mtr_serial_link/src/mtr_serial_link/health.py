@@ -1,15 +1,15 @@
-"""Judges the serial line: what it counts, and which one thing is wrong with it."""
+"""Counters of the serial line, and which one thing is wrong with it."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 import math
 from typing import Dict, Optional
 
 from .frames import FrameCounts
-from .parameters import LinkParameters
+from .parameters import SerialParameters
 
-# So many bytes without a frame are no accident: the longest frame of a device that speaks our protocol is shorter.
-BYTES_WITHOUT_FRAME = 200
-REVISION_1_SYNCS = 3
+# The longest frame of a device that speaks this protocol is shorter: so many bytes without a frame are no accident.
+MIN_BYTES_WITHOUT_FRAME = 200
+MIN_REVISION_1_SYNCS = 3
 
 
 class LineProblem(enum.Enum):
@@ -23,7 +23,7 @@ class LineProblem(enum.Enum):
     LOST = "has fallen silent; check the board's power and the cable"
 
 
-class Health:
+class LineHealth:
     """Counters since the start of the program, and the state of the line since the port was opened.
 
     Attributes:
@@ -34,7 +34,7 @@ class Health:
         counts: of the parser.
     """
 
-    def __init__(self, parameters: LinkParameters):
+    def __init__(self, parameters: SerialParameters):
         self._parameters = parameters
         self._started_s = -math.inf
         self._frame_s: Optional[float] = None
@@ -45,43 +45,43 @@ class Health:
         self._revision_1_at_start = 0
 
     def start(self, now_s: float) -> None:
-        """The port was opened."""
+        """The port has just been opened."""
         self._started_s, self._frame_s = now_s, None
         self._bytes_at_frame = self.bytes_in
         self._revision_1_at_start = self.counts.revision_1_syncs
 
-    def heard(self, size: int, counts: FrameCounts, now_s: float) -> None:
-        """Bytes have come."""
+    def add_bytes(self, size: int, counts: FrameCounts, now_s: float) -> None:
+        """Count bytes that were received."""
         self.bytes_in += size
         self.counts = counts
         if self._frame_s == now_s:
             self._bytes_at_frame = self.bytes_in
 
-    def frame(self, now_s: float) -> None:
-        """A good frame has come."""
+    def add_frame(self, now_s: float) -> None:
+        """Count a good frame."""
         self.frames += 1
         self._frame_s = now_s
 
-    def drop(self, name: str, size: int, limit: Optional[int]) -> None:
-        """A message for the device was not sent."""
+    def add_dropped(self, name: str, size: int, limit: Optional[int]) -> None:
+        """Count a message for the device that was not sent."""
         if limit is None:
             self.unroutable += 1
             return
         self.oversized += 1
-        self.refuse(f"A message of {size} bytes for {name} was not sent: the firmware takes at most {limit}.")
+        self.add_refusal(f"A message of {size} bytes for {name} was not sent: the firmware takes at most {limit}.")
 
-    def refuse(self, sentence: str) -> None:
-        """Something could not be served."""
+    def add_refusal(self, sentence: str) -> None:
+        """Count a sentence about what could not be served."""
         self.refusals[sentence] = self.refusals.get(sentence, 0) + 1
 
     def problem(self, now_s: float) -> LineProblem:
         """What is wrong now."""
         if self._frame_s is not None and now_s - self._frame_s <= self._parameters.lost_after_s:
             return LineProblem.NONE
-        strange = self.bytes_in - self._bytes_at_frame
-        if self.counts.revision_1_syncs - self._revision_1_at_start >= REVISION_1_SYNCS and self._frame_s is None:
+        bytes_since_frame = self.bytes_in - self._bytes_at_frame
+        if self.counts.revision_1_syncs - self._revision_1_at_start >= MIN_REVISION_1_SYNCS and self._frame_s is None:
             return LineProblem.REVISION
-        if strange >= BYTES_WITHOUT_FRAME:
+        if bytes_since_frame >= MIN_BYTES_WITHOUT_FRAME:
             return LineProblem.WRONG_BAUD
         if self._frame_s is not None:
             return LineProblem.LOST

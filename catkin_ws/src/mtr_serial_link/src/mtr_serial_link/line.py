@@ -6,35 +6,35 @@ import os
 import select
 import threading
 import time
-from typing import Any, Callable, Deque, Dict
+from typing import Callable, Deque, Dict, Iterable
 
 from .port import PortError, SerialPort
-from .session import Event, Session
+from .session import SerialSession, SessionEvent
 
 TICK_S = 0.1
-FIRST_BACKOFF_S = 0.2
-LAST_BACKOFF_S = 2.0
+MIN_BACKOFF_S = 0.2
+MAX_BACKOFF_S = 2.0
 # A topic that is faster than the line loses its oldest messages.
-QUEUED_PER_TOPIC = 4
+MAX_QUEUED_PER_TOPIC = 4
 
 
-class LineHandler:
-    """Who is told, in the line's thread, what happens; this one does not care."""
+class LineObserver:
+    """Is called in the line's thread when something happens; this one ignores it."""
 
-    def event(self, event: Event) -> None:
-        """Something of the session."""
+    def event(self, event: SessionEvent) -> None:
+        """The session has something to act on."""
 
     def closed(self, reason: str) -> None:
         """The port is gone; nothing of the device is known any more."""
 
     def tick(self, now_s: float) -> None:
-        """Ten times a second at least."""
+        """Called in each turn, at least once in TICK_S."""
 
     def ended(self) -> None:
         """The thread ends."""
 
 
-class Line:
+class SerialLine:
     """The port's thread.
 
     Attributes:
@@ -43,9 +43,9 @@ class Line:
         dropped: messages that were older than the line could carry.
     """
 
-    def __init__(self, open_port: Callable[[], SerialPort], session: Session, handler: LineHandler):
+    def __init__(self, open_port: Callable[[], SerialPort], session: SerialSession, observer: LineObserver):
         self._open_port = open_port
-        self._handler = handler
+        self._observer = observer
         self._queues: Dict[str, Deque[bytes]] = {}
         self._lock = threading.Lock()
         self._wake_read, self._wake_write = os.pipe()
@@ -57,7 +57,7 @@ class Line:
         self.dropped = 0
 
     def start(self) -> None:
-        """Begin."""
+        """Start the thread."""
         os.set_blocking(self._wake_write, False)
         self._thread.start()
 
@@ -68,10 +68,10 @@ class Line:
         self._thread.join()
 
     def send(self, name: str, payload: bytes) -> None:
-        """Give a message to the line, from any thread."""
+        """Queue a message for the device; may be called from any thread."""
         with self._lock:
-            queue = self._queues.setdefault(name, collections.deque(maxlen=QUEUED_PER_TOPIC))
-            self.dropped += len(queue) == QUEUED_PER_TOPIC
+            queue = self._queues.setdefault(name, collections.deque(maxlen=MAX_QUEUED_PER_TOPIC))
+            self.dropped += len(queue) == MAX_QUEUED_PER_TOPIC
             queue.append(payload)
         self._wake()
 
@@ -84,20 +84,20 @@ class Line:
         try:
             self._run()
         finally:
-            self._handler.ended()
+            self._observer.ended()
 
     def _run(self) -> None:
-        backoff_s = FIRST_BACKOFF_S
+        backoff_s = MIN_BACKOFF_S
         while not self._stopping.is_set():
             try:
                 port = self._open_port()
             except PortError as error:
                 self.trouble = str(error)
-                self._handler.tick(time.monotonic())
+                self._observer.tick(time.monotonic())
                 self._stopping.wait(backoff_s)
-                backoff_s = min(2.0 * backoff_s, LAST_BACKOFF_S)
+                backoff_s = min(2.0 * backoff_s, MAX_BACKOFF_S)
                 continue
-            backoff_s = FIRST_BACKOFF_S
+            backoff_s = MIN_BACKOFF_S
             try:
                 self._serve(port)
                 reason = ""
@@ -106,7 +106,7 @@ class Line:
             port.close()
             self.trouble = reason
             self.session.endpoints.clear()
-            self._handler.closed(reason)
+            self._observer.closed(reason)
 
     def _serve(self, port: SerialPort) -> None:
         """Until stopped; PortError when the port is gone."""
@@ -121,18 +121,18 @@ class Line:
             woken = dict(ready.poll(1000.0 * TICK_S))
             now_s = time.monotonic()
             if port.fd in woken and woken[port.fd] & ~select.POLLOUT:
-                self._hand_on(self.session.receive(port.read(), now_s))
+                self._pass_on(self.session.receive(port.read(), now_s))
             if self._wake_read in woken:
                 os.read(self._wake_read, 4096)
             self._take_queued()
-            self._hand_on(self.session.tick(now_s))
-            self._handler.tick(now_s)
+            self._pass_on(self.session.tick(now_s))
+            self._observer.tick(now_s)
         self.session.stop()
         self._write(port)
 
-    def _hand_on(self, events: Any) -> None:
+    def _pass_on(self, events: Iterable[SessionEvent]) -> None:
         for event in events:
-            self._handler.event(event)
+            self._observer.event(event)
 
     def _take_queued(self) -> None:
         with self._lock:

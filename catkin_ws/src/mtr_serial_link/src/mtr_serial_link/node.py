@@ -10,20 +10,20 @@ from mtr_core.errors import check_range
 from mtr_core.lockstep import run_node
 
 from .connections import Connections, md5_of
-from .line import Line, LineHandler
-from .parameters import LinkParameters
+from .line import LineObserver, SerialLine
+from .parameters import SerialParameters
 from .port import SerialPort
-from .session import Event, Session
+from .session import SerialSession, SessionEvent
 from .status import LINKED, LineStatus, Severity, StatusReports, line_status
 
 LOG = (rospy.logdebug, rospy.loginfo, rospy.logwarn, rospy.logerr, rospy.logfatal)
-LEVELS = {Severity.OK: DiagnosticStatus.OK, Severity.WARN: DiagnosticStatus.WARN, Severity.ERROR: DiagnosticStatus.ERROR}
+LEVELS = (DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR)
 # Changes in quick succession all leave.
 DIAGNOSTICS_QUEUED = 10
 
 
 @dataclass(frozen=True)
-class BridgeParameters(LinkParameters):
+class BridgeParameters(SerialParameters):
     """Attributes:
         port: path of the board, best the one in /dev/serial/by-id, which stays with the board.
     """
@@ -35,13 +35,13 @@ class BridgeParameters(LinkParameters):
         check_range("length of port", len(self.port), 1, 4096)
 
 
-class SerialBridgeNode(LineHandler):
+class SerialBridgeNode(LineObserver):
     """Owns the line, and serves in ROS what the device offers."""
 
     def __init__(self, parameters: BridgeParameters):
         self._parameters = parameters
-        session = Session(parameters, md5_of, lambda: rospy.Time.now().to_nsec())
-        self._line = Line(lambda: SerialPort(parameters.port, parameters.baud), session, self)
+        session = SerialSession(parameters, md5_of, lambda: rospy.Time.now().to_nsec())
+        self._line = SerialLine(lambda: SerialPort(parameters.port, parameters.baud), session, self)
         self._connections = Connections(self._line.send, parameters.service_timeout_s)
         self._diagnostics = rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=DIAGNOSTICS_QUEUED)
         self._reports = StatusReports()
@@ -57,8 +57,8 @@ class SerialBridgeNode(LineHandler):
         if not rospy.is_shutdown():
             raise RuntimeError("The thread of the serial line has ended.")
 
-    def event(self, event: Event) -> None:
-        """Something of the session; called in the line's thread."""
+    def event(self, event: SessionEvent) -> None:
+        """The session has something to act on; called in the line's thread."""
         if event.message:
             problem = self._connections.take(event.message)
             if problem:

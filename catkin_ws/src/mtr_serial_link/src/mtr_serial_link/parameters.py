@@ -6,7 +6,7 @@ from mtr_core.parameters import ParameterSet, number
 
 
 @dataclass(frozen=True)
-class LinkParameters(ParameterSet):
+class SerialParameters(ParameterSet):
     """How the line is used and judged.
 
     Attributes:

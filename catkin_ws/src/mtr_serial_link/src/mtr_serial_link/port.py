@@ -30,12 +30,12 @@ class SerialPort:
         except (serial.SerialException, OSError, ValueError) as error:
             raise PortError(reason_of(path, error)) from error
         self.fd = self._serial.fileno()
-        # The lock above keeps out programs that ask for it, this one the others.
+        # The lock above keeps out programs that ask for it; TIOCEXCL keeps out the others.
         with contextlib.suppress(OSError):
             fcntl.ioctl(self.fd, termios.TIOCEXCL)
 
     def read(self) -> bytes:
-        """What has come; PortError when the device is gone."""
+        """Bytes received so far; PortError when the device is gone."""
         try:
             data = os.read(self.fd, 4096)
         except BlockingIOError:
@@ -56,7 +56,7 @@ class SerialPort:
             raise PortError(f"The port {self._path} is gone: {error.strerror}; is the cable plugged in?") from error
 
     def close(self) -> None:
-        """Give it back."""
+        """Close the port."""
         with contextlib.suppress(OSError):
             self._serial.close()
 

@@ -6,10 +6,10 @@ from typing import NamedTuple, Tuple
 
 MD5_LENGTH = 32
 # Endpoints of the device's own choosing have ids from here on.
-FIRST_ENDPOINT_ID = 100
+MIN_ENDPOINT_ID = 100
 
 
-class Special(enum.IntEnum):
+class ReservedId(enum.IntEnum):
     """Topic ids with a meaning of their own; a service has one id for each direction."""
 
     PUBLISHER = 0
@@ -27,7 +27,7 @@ class WireError(ValueError):
 
 
 class TopicInfo(NamedTuple):
-    """What the device says of one of its endpoints; buffer_bytes bounds what it can take."""
+    """The device's description of one of its endpoints; buffer_bytes bounds what it can take."""
 
     topic_id: int
     name: str
@@ -44,7 +44,11 @@ class LogLine(NamedTuple):
 
 
 def decode_topic_info(payload: bytes) -> TopicInfo:
-    """What a negotiation frame says; WireError."""
+    """Description in a negotiation frame.
+
+    Raises:
+        WireError: it makes no sense.
+    """
     try:
         (topic_id,) = struct.unpack_from("<H", payload)
         name, offset = _text(payload, 2)
@@ -53,7 +57,7 @@ def decode_topic_info(payload: bytes) -> TopicInfo:
         (buffer_bytes,) = struct.unpack_from("<i", payload, offset)
     except (struct.error, UnicodeDecodeError) as error:
         raise WireError(f"A description of a topic could not be read: {error}.") from error
-    if topic_id < FIRST_ENDPOINT_ID or not name or "/" not in type_name or len(md5) != MD5_LENGTH:
+    if topic_id < MIN_ENDPOINT_ID or not name or "/" not in type_name or len(md5) != MD5_LENGTH:
         raise WireError(f"The description of topic {topic_id} ('{name}', '{type_name}') makes no sense.")
     return TopicInfo(topic_id, name, type_name, md5, buffer_bytes)
 

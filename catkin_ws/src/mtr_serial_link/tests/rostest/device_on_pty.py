@@ -7,7 +7,7 @@ import threading
 import time
 import tty
 
-from mtr_serial_link.fake_device import FakeDevice
+from mtr_serial_link.fake_device import FakeSerialDevice
 
 # Real firmware reports 25 times a second once it has been asked for its topics.
 REPORT_PERIOD_S = 0.04
@@ -23,7 +23,7 @@ class DeviceOnPty:
         frozen: it takes what comes and says nothing.
     """
 
-    def __init__(self, device: FakeDevice, path: pathlib.Path, report: bytes):
+    def __init__(self, device: FakeSerialDevice, path: pathlib.Path, report: bytes):
         self.device, self.path, self.report = device, path, report
         self.frozen = False
         self._changed = threading.Condition()

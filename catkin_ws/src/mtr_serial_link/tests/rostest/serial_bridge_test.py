@@ -17,10 +17,10 @@ from diagnostic_msgs.msg import DiagnosticArray
 from roscpp.srv import GetLoggers
 
 from mtr_msgs.msg import FirmwareEcho, FirmwareHealth
-from mtr_serial_link.connections import _bytes_of, md5_of
-from mtr_serial_link.fake_device import FakeDevice
-from mtr_serial_link.frames import Frame, encode
-from mtr_serial_link.wire import Special, TopicInfo
+from mtr_serial_link.connections import bytes_of, md5_of
+from mtr_serial_link.fake_device import FakeSerialDevice
+from mtr_serial_link.frames import SerialFrame, encode
+from mtr_serial_link.wire import ReservedId, TopicInfo
 
 LIMIT_S = 10.0
 ECHO, HEALTH, CALL, ANSWER = 125, 126, 101, 127
@@ -33,18 +33,18 @@ def info(topic_id, name, type_name, part=""):
 
 def echo(seq):
     """A report of the device on its topic /device/echo."""
-    return encode(Frame(ECHO, bytes((seq,))))
+    return encode(SerialFrame(ECHO, bytes((seq,))))
 
 
 ENDPOINTS = (
-    (Special.PUBLISHER, info(ECHO, "/device/echo", "mtr_msgs/FirmwareEcho")),
-    (Special.SUBSCRIBER, info(102, "/device/health", "mtr_msgs/FirmwareHealth")),
-    (Special.SERVICE_REQUEST, info(CALL, "/device/loggers", "roscpp/GetLoggers", "Request")),
-    (Special.SERVICE_RESPONSE, info(ANSWER, "/device/loggers", "roscpp/GetLoggers", "Response")),
+    (ReservedId.PUBLISHER, info(ECHO, "/device/echo", "mtr_msgs/FirmwareEcho")),
+    (ReservedId.SUBSCRIBER, info(102, "/device/health", "mtr_msgs/FirmwareHealth")),
+    (ReservedId.SERVICE_REQUEST, info(CALL, "/device/loggers", "roscpp/GetLoggers", "Request")),
+    (ReservedId.SERVICE_RESPONSE, info(ANSWER, "/device/loggers", "roscpp/GetLoggers", "Response")),
 )
 
 
-class Heard:
+class MessageRecorder:
     """Waits for a message that fits."""
 
     def __init__(self, topic, message_class):
@@ -72,10 +72,10 @@ class SerialBridgeTest(unittest.TestCase):
     def setUp(self):
         self._folder = tempfile.TemporaryDirectory()
         self.port = pathlib.Path(self._folder.name) / "board"
-        self.board = DeviceOnPty(FakeDevice(ENDPOINTS), self.port, echo(0))
+        self.board = DeviceOnPty(FakeSerialDevice(ENDPOINTS), self.port, echo(0))
         self.board.device.answers[CALL] = (ANSWER, lambda request: (0).to_bytes(4, "little"))
-        self.diagnostics = Heard("/diagnostics", DiagnosticArray)
-        self.echoes = Heard("/device/echo", FirmwareEcho)
+        self.diagnostics = MessageRecorder("/diagnostics", DiagnosticArray)
+        self.echoes = MessageRecorder("/device/echo", FirmwareEcho)
         self.bridge = subprocess.Popen([roslib.packages.find_node("mtr_serial_link", "serial_bridge_node")[0],
                                         f"_port:={self.port}", "_service_timeout_s:=0.5"])
 
@@ -114,7 +114,7 @@ class SerialBridgeTest(unittest.TestCase):
         self.call()
         self.assertTrue(self.says("linked"))
         self.assertTrue(self.receives(9))
-        self.assertEqual(self.board.received(LIMIT_S), [_bytes_of(FirmwareHealth(resets=513))])
+        self.assertEqual(self.board.received(LIMIT_S), [bytes_of(FirmwareHealth(resets=513))])
 
     def test_call_to_a_frozen_device_fails_in_time_and_works_again_later(self):
         self.board.plug()

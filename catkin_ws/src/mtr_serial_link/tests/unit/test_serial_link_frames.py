@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as some
 
-from mtr_serial_link.frames import MAX_PAYLOAD_BYTES, Frame, FrameParser, encode, length_check
+from mtr_serial_link.frames import MAX_PAYLOAD_BYTES, FrameParser, SerialFrame, encode, length_check
 from mtr_serial_link.wire import (
     LogLine,
     TopicInfo,
@@ -19,18 +19,18 @@ from mtr_serial_link.wire import (
     encode_topic_info,
 )
 
-GOOD = [Frame(125, b"one"), Frame(126, b"\xff\xfe\xff\xfe"), Frame(101, b"")]
+GOOD = [SerialFrame(125, b"one"), SerialFrame(126, b"\xff\xfe\xff\xfe"), SerialFrame(101, b"")]
 STREAM = b"".join(map(encode, GOOD))
 FUZZED_FRAMES = 1_000_000
 BLOCK_FRAMES = 2000
 
 
 def test_request_for_topics_is_the_protocols_own_example():
-    assert encode(Frame(0, b"")) == bytes.fromhex("ff fe 00 00 ff 00 00 ff")
-    assert encode(Frame(11, b"")) == bytes.fromhex("ff fe 00 00 ff 0b 00 f4")
+    assert encode(SerialFrame(0, b"")) == bytes.fromhex("ff fe 00 00 ff 00 00 ff")
+    assert encode(SerialFrame(11, b"")) == bytes.fromhex("ff fe 00 00 ff 0b 00 f4")
 
 
-@given(some.lists(some.builds(Frame, some.integers(0, 65535), some.binary(max_size=300)), max_size=5),
+@given(some.lists(some.builds(SerialFrame, some.integers(0, 65535), some.binary(max_size=300)), max_size=5),
        some.integers(1, 50))
 def test_frames_survive_the_way_in_pieces_of_any_size(frames, size):
     parser, stream = FrameParser(), b"".join(map(encode, frames))
@@ -38,9 +38,9 @@ def test_frames_survive_the_way_in_pieces_of_any_size(frames, size):
     assert found == frames and parser.counts.skipped_bytes == 0
 
 
-@pytest.mark.parametrize("damaged", range(len(encode(Frame(125, b"payload")))))
+@pytest.mark.parametrize("damaged", range(len(encode(SerialFrame(125, b"payload")))))
 def test_one_damaged_byte_costs_one_frame_and_no_more(damaged):
-    bad = bytearray(encode(Frame(125, b"payload")))
+    bad = bytearray(encode(SerialFrame(125, b"payload")))
     bad[damaged] ^= 0x20
     parser = FrameParser()
     found = parser.feed(bytes(bad) + STREAM)
@@ -50,7 +50,7 @@ def test_one_damaged_byte_costs_one_frame_and_no_more(damaged):
 
 def test_frame_that_was_cut_off_gives_way_to_what_follows_a_pause():
     parser = FrameParser()
-    assert parser.feed(encode(Frame(125, bytes(200)))[:50] + STREAM) == []
+    assert parser.feed(encode(SerialFrame(125, bytes(200)))[:50] + STREAM) == []
     assert parser.forget() == GOOD
 
 
@@ -70,12 +70,12 @@ def test_length_beyond_the_limit_is_damage_though_its_check_is_right():
 
 def test_payload_that_is_too_long_is_refused():
     with pytest.raises(ValueError, match="does not fit"):
-        encode(Frame(100, bytes(MAX_PAYLOAD_BYTES + 1)))
+        encode(SerialFrame(100, bytes(MAX_PAYLOAD_BYTES + 1)))
 
 
 def test_million_mutated_frames_never_stop_the_parser_and_it_is_back_within_two_good_ones():
     random_bytes, parser = random.Random(7), FrameParser(512)
-    block = [encode(Frame(random_bytes.randrange(65536), random_bytes.randbytes(random_bytes.randrange(24))))
+    block = [encode(SerialFrame(random_bytes.randrange(65536), random_bytes.randbytes(random_bytes.randrange(24))))
              for _ in range(BLOCK_FRAMES)]
     for _ in range(FUZZED_FRAMES // BLOCK_FRAMES):
         stream = bytearray(b"".join(block))
@@ -83,7 +83,7 @@ def test_million_mutated_frames_never_stop_the_parser_and_it_is_back_within_two_
             stream[random_bytes.randrange(len(stream))] = random_bytes.randrange(256)
         parser.feed(bytes(stream))
         # A pause, and then the line is good again.
-        while parser.is_midway:
+        while parser.has_partial_frame:
             parser.forget()
         assert parser.feed(STREAM) == GOOD
 

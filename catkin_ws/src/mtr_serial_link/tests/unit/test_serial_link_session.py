@@ -1,24 +1,24 @@
 """The serial session: negotiation, faults of the line, and everything that stops rosserial's own host."""
 # SPDX-License-Identifier: Apache-2.0
-from mtr_serial_link.fake_device import FakeDevice
-from mtr_serial_link.frames import Frame, encode
+from mtr_serial_link.fake_device import FakeSerialDevice
+from mtr_serial_link.frames import SerialFrame, encode
 from mtr_serial_link.health import LineProblem
-from mtr_serial_link.parameters import LinkParameters
-from mtr_serial_link.session import Session
-from mtr_serial_link.wire import LogLine, Special, TopicInfo, encode_log
+from mtr_serial_link.parameters import SerialParameters
+from mtr_serial_link.session import SerialSession
+from mtr_serial_link.wire import LogLine, ReservedId, TopicInfo, encode_log
 
 MD5 = {"mtr_msgs/State": "a" * 32, "mtr_msgs/Command": "b" * 32, "srv/CallRequest": "c" * 32}
-STATE = (Special.PUBLISHER, TopicInfo(125, "/state", "mtr_msgs/State", "a" * 32, 280))
-COMMAND = (Special.SUBSCRIBER, TopicInfo(101, "/command", "mtr_msgs/Command", "b" * 32, 20))
+STATE = (ReservedId.PUBLISHER, TopicInfo(125, "/state", "mtr_msgs/State", "a" * 32, 280))
+COMMAND = (ReservedId.SUBSCRIBER, TopicInfo(101, "/command", "mtr_msgs/Command", "b" * 32, 20))
 ROBOT_NS = 5_000_000_007
 
 
-class Line:
+class Cable:
     """A session and a device with a cable between them."""
 
     def __init__(self, *endpoints):
-        self.device = FakeDevice(endpoints or (STATE, COMMAND))
-        self.session = Session(LinkParameters(), MD5.get, lambda: ROBOT_NS)
+        self.device = FakeSerialDevice(endpoints or (STATE, COMMAND))
+        self.session = SerialSession(SerialParameters(), MD5.get, lambda: ROBOT_NS)
         self.now_s = 100.0
         self.events = []
 
@@ -46,24 +46,24 @@ class Line:
 
 
 def line_message():
-    return encode(Frame(125, b"123"))
+    return encode(SerialFrame(125, b"123"))
 
 
 def test_device_is_asked_once_and_its_topics_are_opened():
-    line = Line().plug().run(1.0, line_message())
+    line = Cable().plug().run(1.0, line_message())
     assert line.opened() == ["/state", "/command"] and line.device.asked == 1 and line.problem is LineProblem.NONE
 
 
 def test_messages_pass_both_ways_and_the_device_gets_the_robots_time():
-    line = Line().plug()
+    line = Cable().plug()
     assert line.session.send("/command", b"up")
     line.run(0.1, line_message())
-    assert line.device.received == [Frame(101, b"up")] and line.device.times[0] == ROBOT_NS
-    assert [event.message for event in line.events if event.message] == [Frame(125, b"123")]
+    assert line.device.received == [SerialFrame(101, b"up")] and line.device.times[0] == ROBOT_NS
+    assert [event.message for event in line.events if event.message] == [SerialFrame(125, b"123")]
 
 
 def test_dead_device_is_noticed_within_a_second_and_asked_again():
-    line = Line().plug().run(2.0, line_message())
+    line = Cable().plug().run(2.0, line_message())
     line.run(1.1, connected=False)
     assert line.problem is LineProblem.LOST
     line.run(0.6)
@@ -71,67 +71,67 @@ def test_dead_device_is_noticed_within_a_second_and_asked_again():
 
 
 def test_device_that_started_again_and_forgot_the_host_is_back_at_the_next_question():
-    line = Line().plug().run(1.0, line_message())
-    line.device = FakeDevice((STATE, COMMAND))
+    line = Cable().plug().run(1.0, line_message())
+    line.device = FakeSerialDevice((STATE, COMMAND))
     line.run(2.0)
     assert line.device.asked >= 1 and line.session.send("/command", b"up")
     assert line.opened() == ["/state", "/command"], "endpoints that did not change are not opened twice"
 
 
 def test_silent_port_wrong_baud_and_old_protocol_are_told_apart():
-    silent = Line()
+    silent = Cable()
     silent.session.start(silent.now_s)
     silent.run(1.5, connected=False)
     assert silent.problem is LineProblem.SILENT
     for said, problem in ((bytes(range(1, 250)), LineProblem.WRONG_BAUD),
                           (b"\xff\xff\x00\x00\x00\x00\xff" * 40, LineProblem.REVISION)):
-        line = Line()
+        line = Cable()
         line.device.receive = lambda data, said=said: said
         line.plug().run(1.5)
         assert line.problem is problem
 
 
 def test_other_definition_of_a_message_is_refused_with_both_checksums_and_the_rest_works():
-    other = (Special.PUBLISHER, STATE[1]._replace(md5="f" * 32))
-    line = Line(other, COMMAND).plug()
+    other = (ReservedId.PUBLISHER, STATE[1]._replace(md5="f" * 32))
+    line = Cable(other, COMMAND).plug()
     refusals = [event.refused for event in line.events if event.refused]
     assert len(refusals) == 1 and "f" * 32 in refusals[0] and "a" * 32 in refusals[0]
     assert line.opened() == ["/command"]
 
 
 def test_unknown_message_type_is_refused_by_name():
-    line = Line((Special.PUBLISHER, STATE[1]._replace(type_name="other_msgs/Thing"))).plug()
+    line = Cable((ReservedId.PUBLISHER, STATE[1]._replace(type_name="other_msgs/Thing"))).plug()
     assert "other_msgs/Thing" in next(event.refused for event in line.events if event.refused)
 
 
 def test_message_longer_than_the_devices_buffer_is_counted_and_the_line_goes_on():
-    line = Line().plug()
+    line = Cable().plug()
     assert not line.session.send("/command", bytes(21)) and line.session.health.oversized == 1
     assert "21 bytes for /command" in next(iter(line.session.health.refusals))
     assert line.session.send("/command", bytes(20))
     line.run(0.1, line_message())
-    assert line.device.received == [Frame(101, bytes(20))] and line.problem is LineProblem.NONE
+    assert line.device.received == [SerialFrame(101, bytes(20))] and line.problem is LineProblem.NONE
 
 
 def test_message_on_an_unknown_topic_makes_the_host_ask_but_not_with_each_message():
-    line = Line().plug().run(1.0, line_message())
-    line.run(1.0, 20 * encode(Frame(140, b"?")))
+    line = Cable().plug().run(1.0, line_message())
+    line.run(1.0, 20 * encode(SerialFrame(140, b"?")))
     assert 2 <= line.device.asked <= 4 and line.session.health.unknown_topics == 200
 
 
 def test_sentences_of_the_device_are_passed_on():
-    line = Line().plug().run(0.1, encode(Frame(Special.LOG, encode_log(LogLine(3, "The lift is jammed.")))))
+    line = Cable().plug().run(0.1, encode(SerialFrame(ReservedId.LOG, encode_log(LogLine(3, "The lift is jammed.")))))
     assert LogLine(3, "The lift is jammed.") in [event.log for event in line.events]
 
 
 def test_description_that_makes_no_sense_is_counted_and_survived():
-    line = Line().plug().run(0.2, encode(Frame(Special.PUBLISHER, b"\x7d\x00\xff\xff\xff\xff")))
+    line = Cable().plug().run(0.2, encode(SerialFrame(ReservedId.PUBLISHER, b"\x7d\x00\xff\xff\xff\xff")))
     assert any("could not be read" in sentence for sentence in line.session.health.refusals)
     assert line.problem is LineProblem.NONE
 
 
 def test_host_says_goodbye():
-    line = Line().plug()
+    line = Cable().plug()
     line.session.stop()
     line.run(0.1)
     assert line.device.stopped

@@ -2,16 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
-from mtr_serial_link.fake_device import FakeDevice
+from mtr_serial_link.fake_device import FakeSerialDevice
 from mtr_serial_link.health import LineProblem
 from mtr_serial_link.line import TICK_S
-from mtr_serial_link.parameters import LinkParameters
-from mtr_serial_link.session import Session
+from mtr_serial_link.parameters import SerialParameters
+from mtr_serial_link.session import SerialSession
 from mtr_serial_link.status import LINKED, LineStatus, Severity, StatusReports, line_status
-from mtr_serial_link.wire import Special, TopicInfo
+from mtr_serial_link.wire import ReservedId, TopicInfo
 
 PORT = "/dev/board"
-STATE = (Special.PUBLISHER, TopicInfo(125, "/state", "mtr_msgs/State", "a" * 32, 280))
+STATE = (ReservedId.PUBLISHER, TopicInfo(125, "/state", "mtr_msgs/State", "a" * 32, 280))
 MD5 = {"mtr_msgs/State": "a" * 32}
 # From a request to its answer.
 ANSWER_S = 0.002
@@ -27,8 +27,8 @@ class Course:
     """
 
     def __init__(self):
-        self.device = FakeDevice([STATE])
-        self.session = Session(LinkParameters(), MD5.get, lambda: 0)
+        self.device = FakeSerialDevice([STATE])
+        self.session = SerialSession(SerialParameters(), MD5.get, lambda: 0)
         self.reported = []
         self._reports = StatusReports()
         self._now_s = 0.0
@@ -60,7 +60,8 @@ def test_device_that_thaws_at_any_instant_is_called_linked(thaw_s):
 
 
 def test_each_change_is_reported_in_its_turn_and_nothing_twice_within_a_period():
-    reports, linked, lost = StatusReports(1.0), LineStatus(Severity.OK, LINKED), LineStatus(Severity.ERROR, "It is lost.")
+    reports = StatusReports(1.0)
+    linked, lost = LineStatus(Severity.OK, LINKED), LineStatus(Severity.ERROR, "It is lost.")
     course = [(0.0, linked), (0.1, linked), (0.9, lost), (0.902, linked), (1.8, linked), (1.903, linked)]
     assert [reports.is_due(status, now_s) for now_s, status in course] == [True, False, True, True, False, True]
 

@@ -11,10 +11,10 @@ from mtr_core.crc import seal
 from mtr_emulator import Emulator
 from mtr_msgs.msg import FirmwareCommand
 from mtr_serial_link.connections import md5_of
-from mtr_serial_link.line import Line, LineHandler
-from mtr_serial_link.parameters import LinkParameters
+from mtr_serial_link.line import LineObserver, SerialLine
+from mtr_serial_link.parameters import SerialParameters
 from mtr_serial_link.port import SerialPort
-from mtr_serial_link.session import Event, Session
+from mtr_serial_link.session import SerialSession, SessionEvent
 
 COMMANDS = 400
 PERIOD_S = 0.05
@@ -24,19 +24,19 @@ LIMIT_S = 5.0
 HELD_HEIGHT_M = float("nan")
 
 
-class EchoTimer(LineHandler):
+class EchoTimer(LineObserver):
     """Notes when the echo of each command comes."""
 
     def __init__(self) -> None:
         self.arrivals: Dict[int, float] = {}
         self.linked = threading.Event()
-        self._session: Optional[Session] = None
+        self._session: Optional[SerialSession] = None
 
-    def attach(self, session: Session) -> None:
+    def attach(self, session: SerialSession) -> None:
         """The session whose events these are."""
         self._session = session
 
-    def event(self, event: Event) -> None:
+    def event(self, event: SessionEvent) -> None:
         """Something of the session."""
         if event.opened and names.FIRMWARE_COMMAND in self._session.endpoints.to_device:
             self.linked.set()
@@ -52,11 +52,11 @@ def sentence(figures: Dict[str, Any]) -> str:
 
 def figures() -> Dict[str, Any]:
     """Round trips of commands to the emulated board."""
-    timer, parameters = EchoTimer(), LinkParameters()
-    session = Session(parameters, md5_of, time.time_ns)
+    timer, parameters = EchoTimer(), SerialParameters()
+    session = SerialSession(parameters, md5_of, time.time_ns)
     timer.attach(session)
     with Emulator("atmega2560") as board:
-        line = Line(lambda: SerialPort(str(board.pty), parameters.baud), session, timer)
+        line = SerialLine(lambda: SerialPort(str(board.pty), parameters.baud), session, timer)
         line.start()
         try:
             if not timer.linked.wait(LIMIT_S):
@@ -69,7 +69,7 @@ def figures() -> Dict[str, Any]:
             "echo_max_ms": max(trips)}
 
 
-def round_trip(line: Line, timer: EchoTimer, number: int) -> List[float]:
+def round_trip(line: SerialLine, timer: EchoTimer, number: int) -> List[float]:
     """Time in ms from giving a command to the line to hearing its echo; nothing when it was lost."""
     buffer = io.BytesIO()
     seal(FirmwareCommand(seq=number, lift_height_m=HELD_HEIGHT_M, led_pattern=2)).serialize(buffer)

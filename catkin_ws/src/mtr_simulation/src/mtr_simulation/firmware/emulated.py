@@ -8,9 +8,9 @@ import select
 from typing import Any, Callable, List, Optional, Tuple
 
 from mtr_core.errors import RobotError
-from mtr_serial_link.parameters import LinkParameters
+from mtr_serial_link.parameters import SerialParameters
 from mtr_serial_link.port import SerialPort
-from mtr_serial_link.session import Session
+from mtr_serial_link.session import SerialSession
 
 NS_PER_US = 1000
 NS = 1e-9
@@ -38,14 +38,14 @@ class EmulatedFirmware:
         self._sent = self._received = 0
         self._port: Optional[SerialPort] = None
         self._messages: List[Tuple[str, bytes]] = []
-        self.session = Session(LinkParameters(), md5_of, lambda: self._now_ns)
+        self.session = SerialSession(SerialParameters(), md5_of, lambda: self._now_ns)
         self.lift_height_m = 0.0
         self.servo_us: Tuple[float, float] = (0.0, 0.0)
 
     def start(self, time_ns: int) -> None:
         """Power on at time 0, so that its clock is the simulated one, and run to the given time."""
         self._board.start()
-        self._port = SerialPort(str(self._board.pty), LinkParameters().baud)
+        self._port = SerialPort(str(self._board.pty), SerialParameters().baud)
         self.session.start(0.0)
         while self._now_ns < time_ns:
             self.step(min(time_ns, self._now_ns + TICK_NS))
