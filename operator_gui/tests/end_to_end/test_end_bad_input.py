@@ -18,9 +18,9 @@ def refused(laptop, capsys):
     def run(*extra, **changes):
         before = sorted(laptop.folder.rglob("*"))
         assert laptop.run(*extra, **changes) == 2
-        *told, sentence = capsys.readouterr().err.splitlines()
+        *notice, sentence = capsys.readouterr().err.splitlines()
         assert sentence.endswith(".")
-        assert not any(line.startswith("Traceback") for line in told)
+        assert not any(line.startswith("Traceback") for line in notice)
         assert sorted(laptop.folder.rglob("*")) == before
         assert laptop.look().waypoint_id == 0
         return sentence

@@ -169,15 +169,15 @@ class Operator:
         return self.application.window
 
     @property
-    def desk(self):
-        return self.application.flow.desk
+    def model(self):
+        return self.application.flow.model
 
     def connect(self):
         """Connect with the simulated Car, and wait for the main window."""
         window = self.window
         window.can.interface.setCurrentIndex(window.can.interface.findData(SIMULATED))
         self.click(window.button)
-        self.wait(lambda: self.window is not window and self.desk.robot is not None)
+        self.wait(lambda: self.window is not window and self.model.robot is not None)
         return self
 
     def click(self, button):

@@ -7,24 +7,24 @@ from mtr_operator.gui.bridge import FRAME_MS, Bridge
 from mtr_operator.gui.pictures.layers.layer import Layer
 from mtr_operator.gui.pictures.picture_view import PictureView
 from mtr_operator.gui.theme.appearance import Appearance
-from mtr_operator.station.events import Acting, RobotNews
-from mtr_operator.station.view_model import Desk
+from mtr_operator.station.events import ActionBegun, RobotSnapshot
+from mtr_operator.station.view_model import ViewModel
 
 STATUSES = 5000
 
 
-def news(number):
-    return RobotNews(RobotStatus(id=number, robot_session_id=1, stamp_s=number / 10.0, x=1.0, y=2.0, heading=0.0,
+def snapshot(number):
+    return RobotSnapshot(RobotStatus(id=number, robot_session_id=1, stamp_s=number / 10.0, x=1.0, y=2.0, heading=0.0,
                                  pose_valid=True), LockState.LOCKED, "")
 
 
 def test_flood_of_statuses_is_one_batch_per_frame_and_the_newest_wins(qtbot):
-    bridge, frames, threads = Bridge(Desk()), [], set()
-    bridge.changed.connect(lambda: (frames.append(bridge.desk.robot.status.id), threads.add(threading.get_ident())))
+    bridge, frames, threads = Bridge(ViewModel()), [], set()
+    bridge.changed.connect(lambda: (frames.append(bridge.model.robot.status.id), threads.add(threading.get_ident())))
 
     def flood():
         for number in range(1, STATUSES + 1):
-            bridge.mailbox.put_robot(news(number))
+            bridge.mailbox.put_robot(snapshot(number))
     thread = threading.Thread(target=flood)
     thread.start()
     thread.join()
@@ -34,18 +34,18 @@ def test_flood_of_statuses_is_one_batch_per_frame_and_the_newest_wins(qtbot):
 
 
 def test_events_keep_their_order_and_none_is_lost(qtbot):
-    bridge, told = Bridge(Desk()), []
-    bridge.happened.connect(lambda event: told.append(event.text))
+    bridge, notice = Bridge(ViewModel()), []
+    bridge.happened.connect(lambda event: notice.append(event.text))
 
     def talk():
         for number in range(200):
-            bridge.mailbox.put(Acting(str(number)))
-            bridge.mailbox.put_robot(news(number))
+            bridge.mailbox.put(ActionBegun(str(number)))
+            bridge.mailbox.put_robot(snapshot(number))
     thread = threading.Thread(target=talk)
     thread.start()
-    qtbot.waitUntil(lambda: len(told) == 200)
+    qtbot.waitUntil(lambda: len(notice) == 200)
     thread.join()
-    assert told == [str(number) for number in range(200)]
+    assert notice == [str(number) for number in range(200)]
     assert bridge.frames <= 200
 
 
@@ -96,4 +96,4 @@ def test_measurement_repaints_the_still_part_only_for_results(operator):
     screen = operator.begin()
     operator.finish()
     # Once when shown, once for the mapped Car and the plan, once per line, and for layout changes of the legend.
-    assert screen.panel.view.still_paints <= 4 + 3 * len(operator.desk.results)
+    assert screen.panel.view.still_paints <= 4 + 3 * len(operator.model.results)

@@ -26,7 +26,7 @@ def test_buttons_are_pressed_once_with_the_strength(window, operator, opener):
     window.press_s.edit.setText("1")
     window.buttons[2].setChecked(True)
     operator.click(window.send)
-    operator.wait(lambda: "Pressed for 1.00 s" in window.told.text())
+    operator.wait(lambda: "Pressed for 1.00 s" in window.notice.text())
     operator.wait(lambda: opener.sent[-1].press is None)
     presses = {desired.press for desired in opener.sent if desired.press is not None}
     assert [(press.buttons, press.strength) for press in presses] == [((2,), 0.6)]
@@ -43,7 +43,7 @@ def test_failed_press_is_told(window, operator, opener):
     opener.spoil_with(presses=(PressConfirmation(1, 1.0, 1.0, "The servo does not answer."),))
     window.buttons[1].setChecked(True)
     operator.click(window.send)
-    operator.wait(lambda: window.told.text() == "The servo does not answer.")
+    operator.wait(lambda: window.notice.text() == "The servo does not answer.")
 
 
 @pytest.mark.parametrize(("field", "text"), [("key_height", "20"), ("key_height", "x"), ("strength", "2"),
@@ -66,7 +66,7 @@ def test_car_is_mapped_again_on_request_and_stopped(window, operator, opener):
     assert not opener.sent[-1].stop
     opener.spoil_with(mode=Mode.MAPPING_CAR)
     operator.wait(window.car.stop.isEnabled)
-    assert window.car.told.text() == "The robot maps the Car."
+    assert window.car.notice.text() == "The robot maps the Car."
     assert not window.car.map.isEnabled()
     operator.click(window.car.stop)
     operator.wait(lambda: opener.sent[-1].stop)
@@ -76,8 +76,8 @@ def test_car_is_mapped_again_on_request_and_stopped(window, operator, opener):
 def test_position_of_the_car_is_checked_and_the_answer_told(window, operator, opener):
     opener.spoil_with(mode=Mode.FOLLOWING_WAYPOINT, car=CarDimensions(4.5, 1.8, 0.01, 0.01), car_check=CarCheck())
     operator.wait(window.car.check.isEnabled)
-    assert "4.50 m by 1.80 m" in window.car.told.text()
+    assert "4.50 m by 1.80 m" in window.car.notice.text()
     operator.click(window.car.check)
     operator.wait(lambda: opener.sent[-1].check_car_id == 1)
     opener.spoil_with(car_check=CarCheck(1, CheckState.FAILED, message="The Car stands elsewhere."))
-    operator.wait(lambda: window.car.told.text() == "The Car stands elsewhere.")
+    operator.wait(lambda: window.car.notice.text() == "The Car stands elsewhere.")

@@ -97,7 +97,7 @@ def test_without_can_adapter_everything_but_a_test_works(newcomer):
     window = newcomer.window
     window.can.interface.setCurrentIndex(0)
     newcomer.click(window.button)
-    newcomer.wait(lambda: newcomer.desk.robot is not None)
+    newcomer.wait(lambda: newcomer.model.robot is not None)
     screen = newcomer.choose("autolock")
     newcomer.wait(lambda: "Not ready" in newcomer.window.header.status.text())
     assert not screen.start.isEnabled()

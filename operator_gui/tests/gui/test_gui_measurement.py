@@ -12,10 +12,11 @@ LINES = 4
 
 
 @pytest.fixture
-def told(monkeypatch):
+def notice(monkeypatch):
     """Sentences of message boxes."""
     sentences = []
-    monkeypatch.setattr("mtr_operator.gui.windows.main_window.tell", lambda parent, title, text: sentences.append(text))
+    monkeypatch.setattr("mtr_operator.gui.windows.main_window.show_message",
+                        lambda parent, title, text: sentences.append(text))
     return sentences
 
 
@@ -35,14 +36,14 @@ def test_whole_test_ends_with_the_protocol(operator, opener, scenario, lines):
     protocol = operator.finish()
     assert operator.window.header.steps.selected == 3
     assert protocol.table.model().rowCount() == lines
-    assert len(stored(operator.desk.test.path)) == lines
-    assert screen.facts.percent.text() == "100 %" or operator.desk.percent == 100
+    assert len(stored(operator.model.test.path)) == lines
+    assert screen.facts.percent.text() == "100 %" or operator.model.percent == 100
     assert operator.application.flow.store.settings.unfinished is None
 
 
 def test_screen_tells_progress_robot_and_car(operator):
     screen = operator.begin()
-    operator.wait(lambda: operator.desk.done >= 1 and screen.facts.percent.text() == "25 %")
+    operator.wait(lambda: operator.model.done >= 1 and screen.facts.percent.text() == "25 %")
     assert screen.facts.count.text() == "1 of 4 lines measured"
     assert screen.facts.bar.value() == 25
     assert "left" in screen.facts.left.text()
@@ -54,26 +55,26 @@ def test_screen_tells_progress_robot_and_car(operator):
 
 def test_stop_stands_the_robot_still_and_resume_measures_the_rest(operator, opener):
     screen = operator.begin()
-    operator.wait(lambda: operator.desk.done >= 1)
+    operator.wait(lambda: operator.model.done >= 1)
     operator.click(screen.stop)
-    operator.wait(lambda: operator.desk.phase is Phase.PAUSED)
+    operator.wait(lambda: operator.model.phase is Phase.PAUSED)
     assert any(desired.stop for desired in opener.sent)
     assert "Paused" in operator.window.header.status.text()
-    measured = stored(operator.desk.test.path)
+    measured = stored(operator.model.test.path)
     assert 1 <= len(measured) < LINES
     operator.wait(screen.resume.isEnabled)
     operator.click(screen.resume)
     operator.finish()
-    results = stored(operator.desk.test.path)
+    results = stored(operator.model.test.path)
     assert results[:len(measured)] == measured
     assert len(results) == LINES
 
 
 def test_stopped_robot_gets_no_order_to_move(operator, opener):
     screen = operator.begin()
-    operator.wait(lambda: operator.desk.done >= 1)
+    operator.wait(lambda: operator.model.done >= 1)
     operator.click(screen.stop)
-    operator.wait(lambda: operator.desk.phase is Phase.PAUSED)
+    operator.wait(lambda: operator.model.phase is Phase.PAUSED)
     del opener.sent[:]
     operator.wait(lambda: len(opener.sent) > 20)
     assert all(desired.waypoint is None for desired in opener.sent[2:])
@@ -81,72 +82,72 @@ def test_stopped_robot_gets_no_order_to_move(operator, opener):
 
 def test_save_progress_says_where(operator):
     screen = operator.begin()
-    operator.wait(lambda: operator.desk.done >= 1)
+    operator.wait(lambda: operator.model.done >= 1)
     operator.click(screen.save)
     operator.wait(lambda: "Saved to" in screen.note.text())
     assert str(operator.folder / "progress") in screen.note.text()
-    assert stored(operator.desk.test.path)
+    assert stored(operator.model.test.path)
 
 
-def test_vanished_progress_folder_is_asked_for_again_and_nothing_is_lost(operator, monkeypatch, told):
+def test_vanished_progress_folder_is_asked_for_again_and_nothing_is_lost(operator, monkeypatch, notice):
     other = operator.folder / "other"
     answer_folder(monkeypatch, "windows.main_window", other)
     screen = operator.begin()
-    operator.wait(lambda: operator.desk.done >= 1)
+    operator.wait(lambda: operator.model.done >= 1)
     folder = operator.folder / "progress"
     shutil.rmtree(folder)
     folder.write_text("a file where the folder was", encoding="utf-8")
-    operator.wait(lambda: other.exists() and list(other.glob("*.json")) and operator.desk.phase is Phase.PAUSED)
-    assert "cannot be written" in told[0]
+    operator.wait(lambda: other.exists() and list(other.glob("*.json")) and operator.model.phase is Phase.PAUSED)
+    assert "cannot be written" in notice[0]
     operator.wait(screen.resume.isEnabled)
     operator.click(screen.resume)
     operator.finish()
-    assert len(stored(operator.desk.test.path)) == LINES
-    assert operator.desk.test.path.parent == other
+    assert len(stored(operator.model.test.path)) == LINES
+    assert operator.model.test.path.parent == other
 
 
 def test_silent_robot_pauses_the_test_and_resume_goes_on(operator, opener):
     screen = operator.begin()
-    operator.wait(lambda: operator.desk.done >= 1)
+    operator.wait(lambda: operator.model.done >= 1)
     opener.is_silent = True
     operator.wait(lambda: "Communication lost" in operator.window.header.status.text())
-    operator.wait(lambda: operator.desk.phase is Phase.PAUSED)
+    operator.wait(lambda: operator.model.phase is Phase.PAUSED)
     assert "silent" in screen.trouble.text()
     assert not screen.resume.isEnabled()
-    measured = stored(operator.desk.test.path)
+    measured = stored(operator.model.test.path)
     assert measured
     opener.is_silent = False
     operator.wait(screen.resume.isEnabled)
     operator.click(screen.resume)
     operator.finish()
-    assert stored(operator.desk.test.path)[:len(measured)] == measured
+    assert stored(operator.model.test.path)[:len(measured)] == measured
 
 
 def test_lost_can_bus_pauses_the_test_and_resume_goes_on(operator, opener):
     screen = operator.begin()
-    operator.wait(lambda: operator.desk.done >= 1)
+    operator.wait(lambda: operator.model.done >= 1)
     opener.car_problem = "No CAN frame for 0.6 s; check the plug, the bit rate and that the Car is awake."
-    operator.wait(lambda: operator.desk.phase is Phase.PAUSED)
+    operator.wait(lambda: operator.model.phase is Phase.PAUSED)
     assert "The Car fell silent" in screen.trouble.text()
     assert not screen.resume.isEnabled()
-    measured = len(stored(operator.desk.test.path))
+    measured = len(stored(operator.model.test.path))
     opener.car_problem = ""
     operator.wait(screen.resume.isEnabled)
     operator.click(screen.resume)
     operator.finish()
     assert measured >= 1
-    assert len(stored(operator.desk.test.path)) == LINES
+    assert len(stored(operator.model.test.path)) == LINES
 
 
 def test_closing_asks_first_and_the_next_start_offers_to_go_on(operator, start, monkeypatch, qtbot):
     operator.begin()
-    operator.wait(lambda: operator.desk.done >= 1)
+    operator.wait(lambda: operator.model.done >= 1)
     monkeypatch.setattr("mtr_operator.gui.windows.main_window.confirm", lambda *_: False)
     assert not operator.window.close()
     monkeypatch.setattr("mtr_operator.gui.windows.main_window.confirm", lambda *_: True)
     assert operator.window.close()
     operator.application.close()
-    measured = len(stored(operator.desk.test.path))
+    measured = len(stored(operator.model.test.path))
     assert measured >= 1
 
     later = type(operator)(start(), qtbot, operator.folder).connect()
@@ -158,16 +159,16 @@ def test_closing_asks_first_and_the_next_start_offers_to_go_on(operator, start, 
     later.wait(screen.resume.isEnabled)
     later.click(screen.resume)
     later.finish()
-    assert len(stored(later.desk.test.path)) == LINES
+    assert len(stored(later.model.test.path)) == LINES
     later.click(later.window.protocol.done)
     assert not later.window.welcome.offer.isVisible()
 
 
 def test_offer_can_be_dismissed_and_the_file_stays(operator, start, qtbot):
     screen = operator.begin()
-    operator.wait(lambda: operator.desk.done >= 1)
+    operator.wait(lambda: operator.model.done >= 1)
     operator.click(screen.stop)
-    operator.wait(lambda: operator.desk.phase is Phase.PAUSED)
+    operator.wait(lambda: operator.model.phase is Phase.PAUSED)
     operator.click(screen.leave)
     assert operator.window.welcome.offer.isVisible()
     path = operator.application.flow.store.settings.unfinished
@@ -179,7 +180,7 @@ def test_offer_can_be_dismissed_and_the_file_stays(operator, start, qtbot):
 def test_finished_test_from_a_file_shows_its_protocol(operator, monkeypatch):
     operator.begin()
     operator.finish()
-    path = operator.desk.test.path
+    path = operator.model.test.path
     operator.click(operator.window.protocol.done)
     monkeypatch.setattr("mtr_operator.gui.windows.main_window.ask_progress_file", lambda *_: path)
     operator.click(operator.window.welcome.open)
@@ -194,19 +195,19 @@ def test_finished_test_from_a_file_shows_its_protocol(operator, monkeypatch):
     (lambda text: text.replace('"maximum_distance_m": 6.5', '"maximum_distance_m": 650.0'), "allowed is 0.1 to 50 m"),
     (lambda text: text.replace('"status": "ok"', '"status": "good"'), "damaged"),
 ])
-def test_bad_progress_file_is_one_sentence_and_changes_nothing(operator, monkeypatch, told, spoil, part):
+def test_bad_progress_file_is_one_sentence_and_changes_nothing(operator, monkeypatch, notice, spoil, part):
     operator.begin()
     operator.finish()
-    path: pathlib.Path = operator.desk.test.path
+    path: pathlib.Path = operator.model.test.path
     operator.click(operator.window.protocol.done)
     spoilt = spoil(path.read_text(encoding="utf-8"))
     path.write_text(spoilt, encoding="utf-8")
     monkeypatch.setattr("mtr_operator.gui.windows.main_window.ask_progress_file", lambda *_: path)
     operator.click(operator.window.welcome.open)
-    operator.wait(lambda: told)
-    assert part in told[0]
+    operator.wait(lambda: notice)
+    assert part in notice[0]
     assert operator.window.screen is operator.window.welcome
-    assert operator.desk.test is None
+    assert operator.model.test is None
     assert path.read_text(encoding="utf-8") == spoilt
 
 
@@ -214,8 +215,8 @@ def test_test_that_measured_nothing_leaves_no_file(operator, opener):
     opener.car_problem = ""
     screen = operator.begin()
     operator.click(screen.stop)
-    operator.wait(lambda: operator.desk.phase is Phase.PAUSED)
-    assert not operator.desk.results
+    operator.wait(lambda: operator.model.phase is Phase.PAUSED)
+    assert not operator.model.results
     assert not list((operator.folder / "progress").glob("*.json"))
     assert operator.application.flow.store.settings.unfinished is None
 
@@ -223,13 +224,13 @@ def test_test_that_measured_nothing_leaves_no_file(operator, opener):
 @pytest.mark.parametrize(("scenario", "are_shown"), [("key_press", True), ("autolock", False)])
 def test_lines_are_shown_for_key_press_only(operator, scenario, are_shown):
     screen = operator.begin(scenario)
-    operator.wait(lambda: operator.desk.total > 0 and screen.picture.lines.stretches)
+    operator.wait(lambda: operator.model.total > 0 and screen.picture.lines.stretches)
     assert screen.picture.lines.is_visible is are_shown
 
 
 def test_waypoint_trail_and_robot_are_in_the_picture(operator):
     screen = operator.begin()
-    operator.wait(lambda: operator.desk.done >= 1)
+    operator.wait(lambda: operator.model.done >= 1)
     operator.wait(lambda: screen.picture.robot.waypoint is not None and screen.picture.robot.pose is not None)
     assert len(screen.picture.trail.places) > 10
     assert screen.picture.robot.key == (0.25, 0.0)

@@ -95,13 +95,13 @@ def test_usual_values_come_back(form_of, qtbot):
 
 def test_preview_shows_lines_duration_and_battery(operator, opener):
     screen = operator.choose("autolock")
-    assert screen.told.text().startswith("28 lines (axis), about 8 min.")
-    assert "its size is a guess" in screen.told.text()
-    assert "at 80 %, suffices" in screen.told.text()
+    assert screen.notice.text().startswith("28 lines (axis), about 8 min.")
+    assert "its size is a guess" in screen.notice.text()
+    assert "at 80 %, suffices" in screen.notice.text()
     screen.form.fields["measurements_distance_m"].edit.setText("1")
-    assert screen.told.text().startswith("16 lines")
+    assert screen.notice.text().startswith("16 lines")
     opener.spoil_with(battery_percent=16)
-    operator.wait(lambda: "may not suffice" in screen.told.text())
+    operator.wait(lambda: "may not suffice" in screen.notice.text())
 
 
 def test_parameters_that_do_not_suit_the_car_are_told_before_the_start(operator):
@@ -109,7 +109,7 @@ def test_parameters_that_do_not_suit_the_car_are_told_before_the_start(operator)
     screen.form.fields["minimum_distance_m"].edit.setText("2")
     assert "Remote key and Car" in screen.form.fault.text()
     assert not screen.start.isEnabled()
-    assert screen.told.text() == ""
+    assert screen.notice.text() == ""
 
 
 def test_used_parameters_are_remembered(operator, start):

@@ -54,20 +54,20 @@ def test_areas_are_closed_outlines(protocol):
 
 def test_save_writes_csv_and_png(protocol, operator):
     operator.click(protocol.save)
-    operator.wait(lambda: "Saved" in protocol.told.text())
-    folder = operator.folder / "results" / operator.desk.test.name
+    operator.wait(lambda: "Saved" in protocol.notice.text())
+    folder = operator.folder / "results" / operator.model.test.name
     rows = list(csv.DictReader(line for line in (folder / "results.csv").read_text(encoding="utf-8").splitlines()
                                if not line.startswith("#")))
     assert len(rows) == 8
     assert QImage(str(folder / "protocol.png")).width() == 2376
-    assert "results.csv" in protocol.told.text()
+    assert "results.csv" in protocol.notice.text()
 
 
 def test_save_pdf_and_svg(protocol, operator):
     for button, name in ((protocol.save_pdf, "protocol.pdf"), (protocol.save_svg, "protocol.svg")):
         operator.click(button)
-        operator.wait(lambda name=name: name in protocol.told.text() and protocol.save.isEnabled())
-    folder = operator.folder / "results" / operator.desk.test.name
+        operator.wait(lambda name=name: name in protocol.notice.text() and protocol.save.isEnabled())
+    folder = operator.folder / "results" / operator.model.test.name
     assert (folder / "protocol.pdf").read_bytes().startswith(b"%PDF-")
     assert QSvgRenderer(QByteArray((folder / "protocol.svg").read_bytes())).isValid()
 
@@ -77,8 +77,8 @@ def test_vanished_result_folder_is_asked_for_again(protocol, operator, monkeypat
     monkeypatch.setattr("mtr_operator.gui.screens.protocol.ask_folder", lambda *_: other)
     (operator.folder / "results").write_text("a file where the folder was", encoding="utf-8")
     operator.click(protocol.save)
-    operator.wait(lambda: "Saved" in protocol.told.text())
-    assert (other / operator.desk.test.name / "results.csv").exists()
+    operator.wait(lambda: "Saved" in protocol.notice.text())
+    assert (other / operator.model.test.name / "results.csv").exists()
     assert operator.application.flow.store.settings.result_folder == other
 
 
@@ -93,7 +93,7 @@ def test_reliable_range_of_each_angle_is_written_in_the_picture(operator):
 def test_new_test_leads_to_the_beginning(protocol, operator):
     operator.click(protocol.done)
     assert operator.window.screen is operator.window.welcome
-    assert operator.desk.test is None
+    assert operator.model.test is None
 
 
 def test_sheet_is_painted_by_the_layers_of_the_screen(protocol):

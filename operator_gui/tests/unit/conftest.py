@@ -205,14 +205,14 @@ def spoil(world):
 @pytest.fixture
 def run_scenario(robot_link, car_link):
     """run_scenario(scenario, parameters, ...) runs a whole test; the saved copies of its results are in `saved`."""
-    from mtr_operator.domain.actions.control_loop import Session
+    from mtr_operator.domain.actions.control_loop import ControlLoop
     from mtr_operator.domain.results.progress import Progress
     from mtr_operator.domain.runner import Runner
 
     def run(scenario, parameters, progress=None, is_cancelled=lambda: False, observer=None):
         run.progress = progress or Progress(scenario.name, parameters.to_mapping())
         run.saved = []
-        session = Session(robot_link, car_link, observer, is_cancelled)
+        session = ControlLoop(robot_link, car_link, observer, is_cancelled)
         Runner(scenario, parameters, session, run.progress,
                lambda state: run.saved.append([dict(result) for result in state.results])).run()
         return run.progress.results

@@ -57,9 +57,9 @@ def test_same_seed_gives_the_same_results(tmp_path):
 
 def test_lines_are_told_once_each_without_a_terminal(parameters, tmp_path, capsys):
     assert run("autolock", parameters, tmp_path / "out") == 0
-    told = capsys.readouterr().err
-    assert told.count("[8/8] axis 8 (front left): unlock 1") == 1
-    assert "8 of 8 lines to measure" in told
+    notice = capsys.readouterr().err
+    assert notice.count("[8/8] axis 8 (front left): unlock 1") == 1
+    assert "8 of 8 lines to measure" in notice
 
 
 def test_table_of_all_lines_ends_a_test(parameters, tmp_path, capsys):
@@ -97,10 +97,10 @@ def test_ctrl_c_stops_the_robot_saves_and_can_be_continued(parameters, tmp_path,
 def test_lost_link_keeps_the_lines_and_says_how_to_go_on(parameters, tmp_path, world, capsys):
     world.spoil = lambda status: status if status.id < 200 else None
     assert run("autolock", parameters, tmp_path / "out") == 2
-    told = capsys.readouterr().err
-    assert "The robot has been silent for 30 s" in told
-    assert "no answer from the robot for 1 s" in told
-    assert "--continue" in told
+    notice = capsys.readouterr().err
+    assert "The robot has been silent for 30 s" in notice
+    assert "no answer from the robot for 1 s" in notice
+    assert "--continue" in notice
     assert json.loads((tmp_path / "out" / "progress.json").read_text(encoding="utf-8"))["results"]
 
 
@@ -135,9 +135,9 @@ def test_bad_parameter_is_one_sentence_and_leaves_nothing(tmp_path, capsys, text
     path = tmp_path / "parameters.yaml"
     path.write_text(text, encoding="utf-8")
     assert run("autolock", path, tmp_path / "out") == 2
-    told = capsys.readouterr().err
-    assert part in told
-    assert told.count("\n") == 1
+    notice = capsys.readouterr().err
+    assert part in notice
+    assert notice.count("\n") == 1
     assert not (tmp_path / "out").exists()
 
 
@@ -157,9 +157,9 @@ def test_unknown_scenario_is_refused(tmp_path, capsys):
 @pytest.mark.parametrize("scenario", list(SCENARIOS))
 def test_parameters_are_listed_with_unit_range_and_default(scenario, capsys):
     assert main(["params", scenario]) == 0
-    told = capsys.readouterr().out
+    notice = capsys.readouterr().out
     for declared in SCENARIOS[scenario].parameters_type.declarations().values():
-        assert any(line.startswith(declared.file_key) and declared.allowed in line for line in told.splitlines())
+        assert any(line.startswith(declared.file_key) and declared.allowed in line for line in notice.splitlines())
 
 
 def test_sentences_of_the_robot_are_told_once():
@@ -186,8 +186,8 @@ def test_what_a_starting_robot_still_lacks_is_not_told():
 def test_sentence_that_returns_is_told_again():
     stream = io.StringIO()
     display = Display(SCENARIOS["autolock"], stream)
-    told = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, notifications=(Notification("blocked", 2, "A box."),))
-    for status in (told, RobotStatus(id=2, robot_session_id=1, stamp_s=1.1), told):
+    notice = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, notifications=(Notification("blocked", 2, "A box."),))
+    for status in (notice, RobotStatus(id=2, robot_session_id=1, stamp_s=1.1), notice):
         display.on_status(status)
     assert stream.getvalue().count("A box.") == 2
 
@@ -244,9 +244,9 @@ def test_ctrl_c_before_anything_has_begun_is_no_traceback(monkeypatch, capsys):
 def test_wrong_usage_is_one_line(capsys, arguments, part):
     with pytest.raises(SystemExit) as caught:
         main(arguments)
-    told = capsys.readouterr().err
+    notice = capsys.readouterr().err
     assert caught.value.code == 2
-    assert part in told and told.count("\n") == 1
+    assert part in notice and notice.count("\n") == 1
 
 
 def test_no_command_opens_the_window(monkeypatch):

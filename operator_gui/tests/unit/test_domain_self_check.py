@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.cli import main
-from mtr_operator.domain.actions.control_loop import Session
+from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.actions.robot import CHECK_LIMIT_S, Robot
 from mtr_operator.domain.errors import ProgressFileError, RobotFailed
@@ -68,14 +68,14 @@ def test_robot_that_knows_no_check_measures_after_a_warning(world, run_scenario)
 
 def test_check_that_never_ends_is_an_error_with_what_the_robot_says(world, robot_link, car_link):
     world.check = replace(PASSED, state=CheckState.RUNNING)
-    robot = Robot(Session(robot_link, car_link))
+    robot = Robot(ControlLoop(robot_link, car_link))
     with pytest.raises(RobotFailed, match=f"within {CHECK_LIMIT_S:g} s"):
         robot.check_car()
 
 
 def test_each_check_is_a_new_order(world, robot_link, car_link):
     world.check = PASSED
-    robot = Robot(Session(robot_link, car_link))
+    robot = Robot(ControlLoop(robot_link, car_link))
     assert [robot.check_car().id for _ in range(2)] == [1, 2]
 
 
@@ -93,9 +93,9 @@ def test_lines_stay_in_the_frame_in_which_they_were_measured(world, run_scenario
     assert record.frames[1]["correction_x_m"] == 0.031
     assert set(record.lines.values()) == {0, 1} and len(record.lines) == 8
     assert all(result["unlock_status"] == "ok" for result in results)
-    told = results_csv(SCENARIO, replace_session(run_scenario.progress))
-    assert "# Car frame 2: revision 2 since" in told
-    assert "corrected by 3.1 cm ahead, -0.4 cm to the left, 0.10 deg; measured in it: " in told
+    notice = results_csv(SCENARIO, replace_session(run_scenario.progress))
+    assert "# Car frame 2: revision 2 since" in notice
+    assert "corrected by 3.1 cm ahead, -0.4 cm to the left, 0.10 deg; measured in it: " in notice
 
 
 def replace_session(progress):
@@ -123,7 +123,7 @@ def test_line_during_which_the_frame_changed_is_measured_again(world, run_scenar
 
 
 def test_poses_of_two_frames_are_not_mixed(world, robot_link, car_link):
-    session = Session(robot_link, car_link)
+    session = ControlLoop(robot_link, car_link)
     world.frame = CarFrame(1)
     for _ in range(5):
         session.step()
@@ -169,9 +169,9 @@ def test_damaged_record_is_a_sentence(progress, damage):
 
 
 def test_checks_are_told_in_the_results(progress):
-    told = results_csv(SCENARIO, replace_session(progress))
-    assert "difference 0.3 cm, 0.06 deg (limits 2.0 cm, 0.50 deg)" in told
-    assert "# parameter self_check: true" in told
+    notice = results_csv(SCENARIO, replace_session(progress))
+    assert "difference 0.3 cm, 0.06 deg (limits 2.0 cm, 0.50 deg)" in notice
+    assert "# parameter self_check: true" in notice
 
 
 @pytest.fixture

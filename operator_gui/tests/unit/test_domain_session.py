@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.actions.car import Car
-from mtr_operator.domain.actions.control_loop import Session
+from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.preparation import prepare
 from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.actions.trouble import Cancelled, LineInvalid
@@ -18,7 +18,7 @@ AHEAD = Ray(0.0, 0.0, 1.0, 0.0)
 
 @pytest.fixture
 def session(robot_link, car_link):
-    return Session(robot_link, car_link)
+    return ControlLoop(robot_link, car_link)
 
 
 def test_every_status_gets_exactly_one_answer_in_order(session, robot_link):
@@ -61,13 +61,13 @@ def test_robot_that_never_speaks_is_a_lost_link_and_says_what_came_instead(sessi
 
 def test_wish_to_end_is_heard_after_the_next_status(robot_link, car_link):
     with pytest.raises(Cancelled):
-        Session(robot_link, car_link, is_cancelled=lambda: True).step()
+        ControlLoop(robot_link, car_link, is_cancelled=lambda: True).step()
 
 
 def test_wish_to_end_is_heard_while_the_robot_is_silent(robot_link, car_link, world):
     world.spoil = lambda status: None
     with pytest.raises(Cancelled):
-        Session(robot_link, car_link, is_cancelled=lambda: True).step()
+        ControlLoop(robot_link, car_link, is_cancelled=lambda: True).step()
 
 
 def test_halt_stops_a_moving_robot_and_answers_its_last_status(session, robot_link, world):
@@ -188,4 +188,4 @@ def test_silent_bus_at_the_start_is_an_error(session, world):
     with pytest.raises(ConnectionFailed, match="No frame for 2 s"):
         Car(session).prepare()
     with pytest.raises(LinkLost, match="No frame for 2 s"):
-        Car(session).wait_until_heard()
+        Car(session).wait_for_bus()

@@ -8,7 +8,7 @@ import pytest
 from mtr_operator.domain.ports import DesiredState, PressConfirmation, RobotStatus, Waypoint, WaypointResult
 from mtr_operator.robot_link.client import ZmqRobotLink
 from mtr_operator.robot_link.conversions import decode_command, status_message_from
-from mtr_operator.robot_link.inbox import MAXIMUM_BACKLOG
+from mtr_operator.robot_link.inbox import MAX_BACKLOG
 from mtr_operator.robot_link.server import ConnectionServer
 
 WAIT_S = 5.0
@@ -148,7 +148,7 @@ def test_restarted_robot_is_noticed_and_gets_the_order_again(robot):
 
 
 def test_old_backlog_is_skipped_to_the_newest(robot):
-    newest = MAXIMUM_BACKLOG + 2
+    newest = MAX_BACKLOG + 2
     for status_id in range(2, newest + 1):
         robot.send(status_id)
     # The last one arrives after all others: same connection.
@@ -157,7 +157,7 @@ def test_old_backlog_is_skipped_to_the_newest(robot):
         robot.link._receive_waiting()
         assert time.monotonic() < deadline
     assert robot.take().id == newest
-    assert robot.link.statistics.lost == MAXIMUM_BACKLOG
+    assert robot.link.statistics.lost == MAX_BACKLOG
 
 
 def test_goodbye_gets_out_when_closing(robot):

@@ -18,7 +18,7 @@ DESIRED = [
     ports.DesiredState(check_car_id=4),
     ports.DesiredState(max_speed_mps=0.5, key_height_m=1.25,
                        waypoint=ports.Waypoint(4, 1.5, -2.25, math.pi, ports.Direction.BACKWARD)),
-    ports.DesiredState(press=ports.ButtonPress(9, (1, 2), 0.75, 0.5)),
+    ports.DesiredState(press=ports.Press(9, (1, 2), 0.75, 0.5)),
 ]
 
 STATUS = ports.RobotStatus(

@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import ButtonPress, DesiredState, Mode, Waypoint, WaypointResult
+from mtr_operator.domain.ports import DesiredState, Mode, Press, Waypoint, WaypointResult
 from mtr_operator.robot_link import substitute
 from mtr_operator.robot_link.checks import HeightCheck, reach_and_hold_height
 from mtr_operator.robot_link.client import ZmqRobotLink
@@ -73,7 +73,7 @@ def test_waypoint_over_the_wire_is_mapped_for_and_reached(link):
 
 
 def test_press_over_the_wire_happens_once_and_is_confirmed(link):
-    desired = DesiredState(press=ButtonPress(1, (2,), 0.8, 0.5))
+    desired = DesiredState(press=Press(1, (2,), 0.8, 0.5))
     status = run_until(link, desired, lambda s: s.presses)
     run_until(link, desired, lambda s: s.stamp_s > status.stamp_s + 2.0)
     confirmation, = run_until(link, DesiredState(), lambda s: True).presses

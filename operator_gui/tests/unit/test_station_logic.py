@@ -12,10 +12,10 @@ from mtr_operator.domain.ports import LockState, Mode, Notification, RobotStatus
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.connection import CanChoice, Connection, RobotChoice
 from mtr_operator.station.estimate import USUAL_CAR, TimeLeft, plan_of
-from mtr_operator.station.events import Acting, RobotNews
-from mtr_operator.station.mailbox import MAXIMUM_TRAIL, Mailbox
+from mtr_operator.station.events import ActionBegun, RobotSnapshot
+from mtr_operator.station.mailbox import MAX_TRAIL, Mailbox
 from mtr_operator.station.number_text import Fault, parse_number, read, shown_number, written
-from mtr_operator.station.readiness import Cause, Phase, Word, can_resume, judge
+from mtr_operator.station.readiness import Cause, Phase, ReadinessWord, can_resume, readiness_of
 from mtr_operator.station.settings import Settings
 from mtr_operator.station.settings_file import SettingsStore
 
@@ -98,48 +98,48 @@ STATUS = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, pose_valid=True, mod
                      battery_percent=80)
 
 
-def news(lock=LockState.LOCKED, problem="", **changes):
-    return RobotNews(dataclasses.replace(STATUS, **changes), lock, problem)
+def snapshot(lock=LockState.LOCKED, problem="", **changes):
+    return RobotSnapshot(dataclasses.replace(STATUS, **changes), lock, problem)
 
 
 def test_nothing_heard_is_communication_lost():
-    assert judge(None, 0.0, Phase.IDLE).word is Word.LOST
-    assert judge(news(), 1.6, Phase.MEASURING).word is Word.LOST
+    assert readiness_of(None, 0.0, Phase.IDLE).word is ReadinessWord.LOST
+    assert readiness_of(snapshot(), 1.6, Phase.MEASURING).word is ReadinessWord.LOST
 
 
 @pytest.mark.parametrize(("robot", "word", "cause"), [
-    (news(), Word.READY, None),
-    (news(mode=Mode.READY_TO_MAP_CAR, pose_valid=False), Word.READY, None),
-    (news(battery_percent=20), Word.WARNINGS, Cause.BATTERY_LOW),
-    (news(battery_percent=9), Word.NOT_READY, Cause.BATTERY_EMPTY),
-    (news(battery_percent=None), Word.READY, None),
-    (news(mode=Mode.STARTING), Word.NOT_READY, Cause.ROBOT_STARTING),
-    (news(mode=Mode.FAULT), Word.NOT_READY, Cause.ROBOT_FAULT),
-    (news(controlled_by_other=True), Word.NOT_READY, Cause.OTHER_OPERATOR),
-    (news(pose_valid=False), Word.NOT_READY, Cause.POSITION_LOST),
-    (news(notifications=(Notification("x", 2, "Slow."),)), Word.WARNINGS, Cause.NOTIFICATION),
-    (news(notifications=(Notification("x", 3, "Broken."),)), Word.NOT_READY, Cause.NOTIFICATION),
-    (news(notifications=(Notification("mode", 1, "Waits."),)), Word.READY, None),
-    (news(LockState.UNKNOWN, NO_ADAPTER), Word.NOT_READY, Cause.NO_CAN),
-    (news(LockState.UNKNOWN, "No CAN frame."), Word.NOT_READY, Cause.CAN_PROBLEM),
-    (news(LockState.UNKNOWN), Word.NOT_READY, Cause.LOCKS_UNKNOWN),
+    (snapshot(), ReadinessWord.READY, None),
+    (snapshot(mode=Mode.READY_TO_MAP_CAR, pose_valid=False), ReadinessWord.READY, None),
+    (snapshot(battery_percent=20), ReadinessWord.WARNINGS, Cause.BATTERY_LOW),
+    (snapshot(battery_percent=9), ReadinessWord.NOT_READY, Cause.BATTERY_EMPTY),
+    (snapshot(battery_percent=None), ReadinessWord.READY, None),
+    (snapshot(mode=Mode.STARTING), ReadinessWord.NOT_READY, Cause.ROBOT_STARTING),
+    (snapshot(mode=Mode.FAULT), ReadinessWord.NOT_READY, Cause.ROBOT_FAULT),
+    (snapshot(controlled_by_other=True), ReadinessWord.NOT_READY, Cause.OTHER_OPERATOR),
+    (snapshot(pose_valid=False), ReadinessWord.NOT_READY, Cause.POSITION_LOST),
+    (snapshot(notifications=(Notification("x", 2, "Slow."),)), ReadinessWord.WARNINGS, Cause.NOTIFICATION),
+    (snapshot(notifications=(Notification("x", 3, "Broken."),)), ReadinessWord.NOT_READY, Cause.NOTIFICATION),
+    (snapshot(notifications=(Notification("mode", 1, "Waits."),)), ReadinessWord.READY, None),
+    (snapshot(LockState.UNKNOWN, NO_ADAPTER), ReadinessWord.NOT_READY, Cause.NO_CAN),
+    (snapshot(LockState.UNKNOWN, "No CAN frame."), ReadinessWord.NOT_READY, Cause.CAN_PROBLEM),
+    (snapshot(LockState.UNKNOWN), ReadinessWord.NOT_READY, Cause.LOCKS_UNKNOWN),
 ])
 def test_each_cause_has_its_word(robot, word, cause):
-    verdict = judge(robot, 0.0, Phase.IDLE)
-    assert verdict.word is word
-    assert [reason.cause for reason in verdict.reasons] == ([] if cause is None else [cause])
-    assert verdict.can_start is (word in (Word.READY, Word.WARNINGS))
+    readiness = readiness_of(robot, 0.0, Phase.IDLE)
+    assert readiness.word is word
+    assert [reason.cause for reason in readiness.reasons] == ([] if cause is None else [cause])
+    assert readiness.can_start is (word in (ReadinessWord.READY, ReadinessWord.WARNINGS))
 
 
 def test_blocking_reasons_come_first():
-    reasons = judge(news(LockState.UNKNOWN, battery_percent=20), 0.0, Phase.IDLE).reasons
+    reasons = readiness_of(snapshot(LockState.UNKNOWN, battery_percent=20), 0.0, Phase.IDLE).reasons
     assert [reason.is_blocking for reason in reasons] == [True, False]
 
 
 def test_paused_test_goes_on_only_when_nothing_stands_against_it():
-    assert can_resume(judge(news(), 0.0, Phase.PAUSED))
-    assert not can_resume(judge(news(problem="No CAN frame."), 0.0, Phase.PAUSED))
-    assert not can_resume(judge(news(), 5.0, Phase.PAUSED))
+    assert can_resume(readiness_of(snapshot(), 0.0, Phase.PAUSED))
+    assert not can_resume(readiness_of(snapshot(problem="No CAN frame."), 0.0, Phase.PAUSED))
+    assert not can_resume(readiness_of(snapshot(), 5.0, Phase.PAUSED))
 
 
 @pytest.mark.parametrize("name", list(SCENARIOS))
@@ -191,16 +191,16 @@ def test_time_of_a_pause_does_not_count():
 def test_mailbox_wakes_once_and_thins_out_the_trail():
     woken = []
     mailbox = Mailbox(lambda: woken.append(1))
-    for number in range(3 * MAXIMUM_TRAIL):
-        mailbox.put_robot(news(x=float(number), y=0.0))
-    mailbox.put(Acting("a"))
+    for number in range(3 * MAX_TRAIL):
+        mailbox.put_robot(snapshot(x=float(number), y=0.0))
+    mailbox.put(ActionBegun("a"))
     batch = mailbox.take()
     assert len(woken) == 1
-    assert len(batch.trail) <= MAXIMUM_TRAIL
-    assert (batch.trail[0], batch.trail[-1]) == ((0.0, 0.0), (3.0 * MAXIMUM_TRAIL - 1, 0.0))
-    assert batch.events == (Acting("a"),)
+    assert len(batch.trail) <= MAX_TRAIL
+    assert (batch.trail[0], batch.trail[-1]) == ((0.0, 0.0), (3.0 * MAX_TRAIL - 1, 0.0))
+    assert batch.events == (ActionBegun("a"),)
     assert mailbox.take().robot is None
-    mailbox.put(Acting("b"))
+    mailbox.put(ActionBegun("b"))
     assert len(woken) == 2
 
 

@@ -9,8 +9,16 @@ from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.connection import SIMULATED, CanChoice, Connection, LinkOpener, robot_choice
-from mtr_operator.station.events import CarLinkOpened, Connected, Ended, Measured, Outcome, Refused, Saved
-from mtr_operator.station.links.idle_loop import CalibrationOrder
+from mtr_operator.station.events import (
+    CarLinkOpened,
+    LineMeasured,
+    LinkRefused,
+    LinksOpened,
+    Outcome,
+    ProgressSaved,
+    RunEnded,
+)
+from mtr_operator.station.links.idle_loop import CalibrationRequest
 from mtr_operator.station.links.worker import Worker
 from mtr_operator.station.mailbox import Mailbox
 from mtr_operator.station.test import new_test, open_test
@@ -39,19 +47,19 @@ class Post:
     """Mailbox whose events can be waited for."""
 
     def __init__(self):
-        self.news, self._arrived = [], threading.Event()
+        self.events, self._arrived = [], threading.Event()
         self.box = Mailbox(self._arrived.set)
 
     def wait_for(self, kind):
         """The first event of a kind that was not taken yet."""
         while True:
-            for event in self.news:
+            for event in self.events:
                 if isinstance(event, kind):
-                    self.news.remove(event)
+                    self.events.remove(event)
                     return event
-            assert self._arrived.wait(LIMIT_S), f"no {kind.__name__}; there were {self.news}"
+            assert self._arrived.wait(LIMIT_S), f"no {kind.__name__}; there were {self.events}"
             self._arrived.clear()
-            self.news += self.box.take().events
+            self.events += self.box.take().events
 
 
 @pytest.fixture
@@ -84,10 +92,10 @@ def stored(test):
 
 def test_whole_test_is_told_line_by_line_and_is_on_disk(worker, post, four_lines):
     worker.start()
-    post.wait_for(Connected)
+    post.wait_for(LinksOpened)
     worker.run_test(four_lines)
-    counts = [post.wait_for(Measured).done for _ in range(4)]
-    ended = post.wait_for(Ended)
+    counts = [post.wait_for(LineMeasured).done for _ in range(4)]
+    ended = post.wait_for(RunEnded)
     assert counts == [1, 2, 3, 4]
     assert (ended.outcome, ended.text, len(ended.results)) == (Outcome.COMPLETE, "", 4)
     assert len(stored(four_lines)) == 4
@@ -99,21 +107,21 @@ def test_whole_test_is_told_line_by_line_and_is_on_disk(worker, post, four_lines
 def test_refusal_names_the_part_and_ends_the_thread(worker, post, opener, refusal, part):
     opener.refusal = refusal
     worker.start()
-    refused = post.wait_for(Refused)
+    refused = post.wait_for(LinkRefused)
     assert (refused.part, refused.text) == (part, str(refusal))
 
 
 def test_stop_ends_the_test_and_the_rest_is_measured_later(worker, post, four_lines, robot_link):
     worker.start()
     worker.run_test(four_lines)
-    post.wait_for(Measured)
+    post.wait_for(LineMeasured)
     worker.stop_test()
-    assert post.wait_for(Ended).outcome is Outcome.STOPPED
+    assert post.wait_for(RunEnded).outcome is Outcome.STOPPED
     before = stored(four_lines)
     assert any(desired.stop for _, desired in robot_link.answers)
     later = open_test(four_lines.path)
     worker.run_test(later)
-    assert post.wait_for(Ended).outcome is Outcome.COMPLETE
+    assert post.wait_for(RunEnded).outcome is Outcome.COMPLETE
     assert stored(later)[:len(before)] == before
 
 
@@ -121,7 +129,7 @@ def test_defect_of_a_scenario_is_a_sentence_and_the_thread_goes_on(worker, post,
     worker.start()
     monkeypatch.setattr(type(four_lines.scenario), "lines", lambda *_: 1 / 0)
     worker.run_test(four_lines)
-    ended = post.wait_for(Ended)
+    ended = post.wait_for(RunEnded)
     assert ended.outcome is Outcome.FAILED
     assert "ZeroDivisionError" in ended.text
     worker.use_can(None)
@@ -131,13 +139,13 @@ def test_defect_of_a_scenario_is_a_sentence_and_the_thread_goes_on(worker, post,
 def test_robot_that_cannot_be_reached_ends_the_test_and_loses_nothing(worker, post, four_lines, opener):
     worker.start()
     worker.run_test(four_lines)
-    post.wait_for(Measured)
+    post.wait_for(LineMeasured)
     worker.stop_test()
-    post.wait_for(Ended)
+    post.wait_for(RunEnded)
     before = stored(four_lines)
     opener.refusal = ConnectionFailed("No answer from the subscriber port.")
     worker.run_test(four_lines)
-    ended = post.wait_for(Ended)
+    ended = post.wait_for(RunEnded)
     assert (ended.outcome, ended.text) == (Outcome.FAILED, "No answer from the subscriber port.")
     assert stored(four_lines) == before
 
@@ -145,17 +153,17 @@ def test_robot_that_cannot_be_reached_ends_the_test_and_loses_nothing(worker, po
 def test_progress_is_saved_on_request_while_measuring(worker, post, four_lines):
     worker.start()
     worker.run_test(four_lines)
-    post.wait_for(Measured)
+    post.wait_for(LineMeasured)
     worker.save(four_lines)
-    assert post.wait_for(Saved).text == ""
-    assert post.wait_for(Ended).outcome is Outcome.COMPLETE
+    assert post.wait_for(ProgressSaved).text == ""
+    assert post.wait_for(RunEnded).outcome is Outcome.COMPLETE
 
 
 def test_unwritable_folder_is_told_before_the_robot_moves(worker, post, four_lines, robot_link, tmp_path):
     (tmp_path / "progress").write_text("a file", encoding="utf-8")
     worker.start()
     worker.run_test(four_lines)
-    ended = post.wait_for(Ended)
+    ended = post.wait_for(RunEnded)
     assert ended.outcome is Outcome.NOT_SAVED
     assert "cannot be written" in ended.text
     assert all(desired.waypoint is None for _, desired in robot_link.answers)
@@ -163,9 +171,9 @@ def test_unwritable_folder_is_told_before_the_robot_moves(worker, post, four_lin
 
 def test_calibration_presses_once_and_keeps_the_height(worker, post, robot_link, world):
     worker.start()
-    post.wait_for(Connected)
-    worker.calibrate(CalibrationOrder(0.8, (1,), 0.5, 0.2))
-    worker.calibrate(CalibrationOrder(None, (), 1.0, 0.3))
+    post.wait_for(LinksOpened)
+    worker.calibrate(CalibrationRequest(0.8, (1,), 0.5, 0.2))
+    worker.calibrate(CalibrationRequest(None, (), 1.0, 0.3))
     worker.use_can(None)
     post.wait_for(CarLinkOpened)
     while not world.presses or world.presses[0].end_s > world.time_s - 1.0:
@@ -178,9 +186,9 @@ def test_calibration_presses_once_and_keeps_the_height(worker, post, robot_link,
 def test_closing_ends_a_running_test_and_keeps_its_lines(worker, post, four_lines):
     worker.start()
     worker.run_test(four_lines)
-    post.wait_for(Measured)
+    post.wait_for(LineMeasured)
     assert worker.close(LIMIT_S)
-    assert post.wait_for(Ended).results
+    assert post.wait_for(RunEnded).results
     assert stored(four_lines)
 
 

@@ -16,8 +16,8 @@ from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter
 from .slcan import StampedSlcanBus
 
 SLCAN = "slcan"
-_LOWEST_BITRATE = 10_000
-_HIGHEST_BITRATE = 1_000_000
+_MIN_BITRATE = 10_000
+_MAX_BITRATE = 1_000_000
 # Time in which an slcan adapter answers the commands that open it.
 _ANSWER_LIMIT_S = 1.0
 _POLL_S = 0.05
@@ -43,9 +43,9 @@ class AdapterSettings:
             raise InvalidParameter("CAN channel is empty; give the adapter's port, e.g. /dev/ttyACM0, can0 or "
                                    "PCAN_USBBUS1.")
         if isinstance(self.bitrate_bps, bool) or not isinstance(self.bitrate_bps, int) \
-                or not _LOWEST_BITRATE <= self.bitrate_bps <= _HIGHEST_BITRATE:
-            raise InvalidParameter(f"CAN bit rate is {self.bitrate_bps}; allowed is {_LOWEST_BITRATE} to "
-                                   f"{_HIGHEST_BITRATE} bit/s.")
+                or not _MIN_BITRATE <= self.bitrate_bps <= _MAX_BITRATE:
+            raise InvalidParameter(f"CAN bit rate is {self.bitrate_bps}; allowed is {_MIN_BITRATE} to "
+                                   f"{_MAX_BITRATE} bit/s.")
 
     def __str__(self) -> str:
         return f"CAN adapter {self.channel} ({self.interface})"

@@ -13,13 +13,13 @@ import math
 import statistics
 from typing import NamedTuple
 
-from .clock_map import LEAST_PAIRS, LEAST_SPAN_S, ClockMap
+from .clock_map import MIN_PAIRS, MIN_SPAN_S, ClockMap
 
 # 30 s of Status: quartz clocks that differ by 200 ppm drift 6 ms in it, and the median lags half of that.
 _WINDOW = 300
 _RATE_TOLERANCE = 200e-6
 # A longer gap between two frames says nothing of a Status between them.
-_LONGEST_GAP_S = 0.25
+_MAX_GAP_S = 0.25
 # One of the clocks was set anew when this many pairs in a row are so far off.
 _JUMP_S = 1.0
 _JUMP_PAIRS = 10
@@ -72,7 +72,7 @@ class AdapterClockMap(ClockMap):
             if local_s == before_s:
                 return
             self._pending = None
-            if 0.0 < local_s - before_s <= _LONGEST_GAP_S:
+            if 0.0 < local_s - before_s <= _MAX_GAP_S:
                 self._add(_Pair(stamp_s, stamp_s - (before_s + local_s) / 2, local_s - before_s))
         self._newest_s = local_s
 
@@ -84,8 +84,8 @@ class AdapterClockMap(ClockMap):
     @property
     def is_ready(self) -> bool:
         """See ClockMap."""
-        return (len(self._pairs) >= LEAST_PAIRS
-                and self._pairs[-1].stamp_s - self._pairs[0].stamp_s >= LEAST_SPAN_S - 1e-6)
+        return (len(self._pairs) >= MIN_PAIRS
+                and self._pairs[-1].stamp_s - self._pairs[0].stamp_s >= MIN_SPAN_S - 1e-6)
 
     def to_robot(self, local_s: float) -> float:
         """See ClockMap."""
@@ -99,7 +99,7 @@ class AdapterClockMap(ClockMap):
             self._pairs.clear()
             self._pairs.extend(newest)
             self._strays, self._offset_s = 0, math.nan
-        if len(self._pairs) >= LEAST_PAIRS:
+        if len(self._pairs) >= MIN_PAIRS:
             self._estimate()
 
     def _estimate(self) -> None:

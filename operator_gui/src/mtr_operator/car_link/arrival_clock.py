@@ -12,7 +12,7 @@ import math
 import statistics
 from typing import NamedTuple
 
-from .clock_map import LEAST_PAIRS, LEAST_SPAN_S, ClockMap
+from .clock_map import MIN_PAIRS, MIN_SPAN_S, ClockMap
 
 # 10 s of Status.
 _WINDOW = 100
@@ -51,8 +51,8 @@ class ArrivalClockMap(ClockMap):
     @property
     def is_ready(self) -> bool:
         """See ClockMap."""
-        return (len(self._pairs) >= LEAST_PAIRS
-                and self._pairs[-1].stamp_s - self._pairs[0].stamp_s >= LEAST_SPAN_S - 1e-6)
+        return (len(self._pairs) >= MIN_PAIRS
+                and self._pairs[-1].stamp_s - self._pairs[0].stamp_s >= MIN_SPAN_S - 1e-6)
 
     def to_robot(self, local_s: float) -> float:
         """See ClockMap."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 
 # A map is used once it rests on this many Statuses over this time of the robot's clock.
-LEAST_PAIRS = 20
-LEAST_SPAN_S = 2.0
+MIN_PAIRS = 20
+MIN_SPAN_S = 2.0
 
 
 class ClockMap(ABC):

@@ -19,7 +19,7 @@ _CATCH_UP_MARGIN_S = 0.003
 # More missing cycles than this between two frames: frames were lost, and a change may be as old as the gap.
 _LOST_CYCLES = 2.5
 # Stamps that start again each minute cannot be followed over a longer silence.
-_LONGEST_FOLLOWED_SILENCE_S = 50.0
+_MAX_FOLLOWED_SILENCE_S = 50.0
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ class LockWatch:
     def release(self, now_s: float) -> list[CarEvent]:
         """Events not later than the stamp of the Status that were not released before; now_s: laptop's clock."""
         self._liveness.observe(self._stamp_s, now_s)
-        if self._liveness.silence_s > _LONGEST_FOLLOWED_SILENCE_S:
+        if self._liveness.silence_s > _MAX_FOLLOWED_SILENCE_S:
             self._restart()
         events = []
         while self._changes and self._map.is_ready \

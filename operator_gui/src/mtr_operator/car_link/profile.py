@@ -15,7 +15,7 @@ from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, LockState
 
 PROFILE_FOLDER = pathlib.Path(__file__).parent / "profiles"
 _SHORTEST_CYCLE_S = 0.001
-_LONGEST_CYCLE_S = 10.0
+_MAX_CYCLE_S = 10.0
 _REQUIRED = ("database", "message", "signal", "states", "cycle_time_s")
 _OPTIONAL = ("description", "sent_on_change", "source_signal", "sources")
 _STATES = {state.value: state for state in LockState}
@@ -145,9 +145,9 @@ def _either(words: Mapping[str, Any]) -> str:
 def _cycle_time(path: pathlib.Path, content: dict[str, Any]) -> float:
     cycle_s = content["cycle_time_s"]
     if isinstance(cycle_s, bool) or not isinstance(cycle_s, (int, float)) \
-            or not _SHORTEST_CYCLE_S <= cycle_s <= _LONGEST_CYCLE_S:
+            or not _SHORTEST_CYCLE_S <= cycle_s <= _MAX_CYCLE_S:
         raise ConnectionFailed(f"Car profile {path}: cycle_time_s is {cycle_s}; allowed is {_SHORTEST_CYCLE_S:g} to "
-                               f"{_LONGEST_CYCLE_S:g} s.")
+                               f"{_MAX_CYCLE_S:g} s.")
     return float(cycle_s)
 
 

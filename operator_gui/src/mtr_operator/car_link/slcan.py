@@ -17,9 +17,9 @@ from can.exceptions import error_check
 from can.interfaces.slcan import slcanBus
 
 _LINE_END = re.compile(rb"[\r\a]")
-_LONGEST_LINE = 512
+_MAX_LINE = 512
 _SERIAL_TIMEOUT_S = 0.05
-_LONGEST_CLASSIC_DATA = 8
+_MAX_CLASSIC_DATA = 8
 _STAMP_DIGITS = 4
 _STAMP_LIMIT_MS = 60_000
 # Characters before the data of each kind of frame line.
@@ -72,7 +72,7 @@ class StampedSlcanBus(slcanBus):
                 line = bytes(self._buffer[:end.end()])
                 del self._buffer[:end.end()]
                 return line.decode("ascii", errors="replace")
-            if len(self._buffer) > _LONGEST_LINE:
+            if len(self._buffer) > _MAX_LINE:
                 self._buffer.clear()
                 self.malformed += 1
             if deadline is not None and time.monotonic() > deadline:
@@ -112,7 +112,7 @@ def _stamp_of(line: str) -> int | None:
     length = int(line[head - 1])
     end = head + (2 * length if line[0] in "tT" else 0)
     stamp = line[end:-1]
-    if length > _LONGEST_CLASSIC_DATA or len(line) - 1 not in (end, end + _STAMP_DIGITS):
+    if length > _MAX_CLASSIC_DATA or len(line) - 1 not in (end, end + _STAMP_DIGITS):
         raise ValueError(line)
     stamp_ms = int(stamp, 16) if stamp else None
     if stamp_ms is not None and stamp_ms >= _STAMP_LIMIT_MS:

@@ -6,7 +6,7 @@ import argparse
 import contextlib
 
 from mtr_operator.domain.absent_car import AbsentCarLink
-from mtr_operator.domain.actions.control_loop import Session
+from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.preparation import check_car, prepare_to_check
 from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.errors import RobotFailed
@@ -24,14 +24,14 @@ def check(options: argparse.Namespace) -> None:
     with contextlib.closing(Display(None)) as display, contextlib.closing(robot_link(options)) as link, \
             Interrupt() as interrupt:
         link.connect()
-        session = Session(link, AbsentCarLink("The Car's bus is not connected."), display, interrupt.is_requested)
-        robot = Robot(session)
+        loop = ControlLoop(link, AbsentCarLink("The Car's bus is not connected."), display, interrupt.is_requested)
+        robot = Robot(loop)
         try:
-            prepare_to_check(session, robot)
+            prepare_to_check(loop, robot)
             robot.set_maximum_speed(_SPEED_MPS)
             found = check_car(robot)
         finally:
-            session.halt()
+            loop.halt()
     if found.state is CheckState.FAILED:
         raise RobotFailed(found.message)
     print(found.message)

@@ -13,7 +13,7 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from .arguments import argument_parser
 from .checking import check
 from .entry import EXIT_INTERRUPTED
-from .run import Measuring
+from .run import CommandLineRun
 from .window import open_window
 
 EXIT_ERROR = 2
@@ -29,7 +29,7 @@ def run_command(arguments: list[str] | None = None) -> int:
         elif options.command == "check":
             check(options)
         elif options.command == "run":
-            Measuring(options).run()
+            CommandLineRun(options).run()
         else:
             return open_window(options)
     except OperatorError as error:

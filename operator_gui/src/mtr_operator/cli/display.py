@@ -64,8 +64,8 @@ class Display(RunObserver):
         for message in status.log:
             if message.id not in self._logged:
                 self._logged.add(message.id)
-                self._tell(message.severity, message.text)
-        # Until it has started it lacks this and that; what stays is told then, or in the error that ends the test.
+                self._print_notice(message.severity, message.text)
+        # Until it has started it lacks this and that; what remains is shown then, or is in the last error.
         if status.mode is not Mode.STARTING:
             self._notify(status)
 
@@ -86,8 +86,8 @@ class Display(RunObserver):
         current = {notification.code: notification for notification in status.notifications}
         for code, notification in current.items():
             if self._notified.get(code) != notification.text:
-                self._tell(notification.severity, notification.text)
+                self._print_notice(notification.severity, notification.text)
         self._notified = {code: notification.text for code, notification in current.items()}
 
-    def _tell(self, severity: int, text: str) -> None:
+    def _print_notice(self, severity: int, text: str) -> None:
         self.say(f"robot{_SEVERITY.get(severity, '')}: {' '.join(text.split())}")

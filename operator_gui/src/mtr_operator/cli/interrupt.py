@@ -1,4 +1,4 @@
-"""Ctrl-C as a wish that the runner asks for between two Status messages, so that the robot is stopped in order."""
+"""Ctrl-C as a request that the runner looks for between two Status messages, so that the robot is stopped in order."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ import datetime
 from typing import Any
 
 from mtr_operator import __version__
-from mtr_operator.domain.actions.control_loop import Session
+from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.ports import RobotLink
 from mtr_operator.domain.results.progress import Progress
@@ -25,8 +25,8 @@ from .interrupt import Interrupt
 from .links import car_link, robot_link
 
 
-class Measuring:
-    """A test that the command line asks for. Making it checks options and files, and changes nothing."""
+class CommandLineRun:
+    """A test that the command line asks for. Its constructor checks options and files, and changes nothing."""
 
     def __init__(self, options: argparse.Namespace):
         self._options = options
@@ -71,13 +71,13 @@ class Measuring:
                 link.connect()
                 if interrupt.requested:
                     raise Cancelled("Interrupted; the robot was not moved.")
-            session = Session(robot, car, display, interrupt.is_requested)
-            rejected_before = session.status.rejected_messages
-            self._progress.session["robot software"] = session.status.software_version
+            loop = ControlLoop(robot, car, display, interrupt.is_requested)
+            rejected_before = loop.status.rejected_messages
+            self._progress.session["robot software"] = loop.status.software_version
             try:
-                Runner(self._scenario, self._parameters, session, self._progress, self._save).run()
+                Runner(self._scenario, self._parameters, loop, self._progress, self._save).run()
             finally:
-                _say_statistics(display, robot, session.status.rejected_messages - rejected_before)
+                _say_statistics(display, robot, loop.status.rejected_messages - rejected_before)
 
     def _save(self, progress: Progress) -> None:
         progress_file.save_progress(self._progress_path, progress)

@@ -8,7 +8,7 @@ NO_ADAPTER = "No CAN adapter is chosen."
 
 
 class AbsentCarLink(CarLink):
-    """For orders that need the robot alone, and before an adapter is chosen; problem says why nothing is known."""
+    """For requests that need the robot alone, and before an adapter is chosen; problem says why nothing is known."""
 
     def __init__(self, problem: str = NO_ADAPTER):
         self._problem = problem

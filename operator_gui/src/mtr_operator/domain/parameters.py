@@ -24,7 +24,7 @@ from .errors import InvalidParameter
 Set = TypeVar("Set", bound="ParameterSet")
 # Rounding of a conversion such as 360 degrees to radians and back.
 _ROUNDING_DIGITS = 9
-_LONGEST_SHOWN = 60
+_MAX_SHOWN = 60
 # Units in which the Operator reads what files hold in m and m/s.
 CENTIMETRES = ("cm", 100.0)
 KILOMETRES_PER_HOUR = ("km/h", 3.6)
@@ -117,7 +117,7 @@ def with_unit(value: float, unit: str) -> str:
 
 def _short(value: Any) -> str:
     text = repr(value)
-    return text if len(text) <= _LONGEST_SHOWN else text[:_LONGEST_SHOWN] + "..."
+    return text if len(text) <= _MAX_SHOWN else text[:_MAX_SHOWN] + "..."
 
 
 def parameter(default: Any, low: float, high: float, unit: str, doc: str, *, file_key: str = "",

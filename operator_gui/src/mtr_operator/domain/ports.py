@@ -79,7 +79,7 @@ class Waypoint:
 
 
 @dataclass(frozen=True)
-class ButtonPress:
+class Press:
     """A press of one or more key buttons (1 lock, 2 unlock); strength 0 to 1, duration in s."""
 
     id: int
@@ -96,7 +96,7 @@ class DesiredState:
     waypoint: Waypoint | None = None
     max_speed_mps: float | None = None
     key_height_m: float | None = None
-    press: ButtonPress | None = None
+    press: Press | None = None
     map_car_id: int = 0
     check_car_id: int = 0
 
@@ -141,7 +141,7 @@ class CarFrame:
 
 @dataclass(frozen=True)
 class CarCheck:
-    """The Car seen anew, compared with where it was; NaN while unknown. id: the order that it answers, 0 for none."""
+    """The Car seen anew, compared with where it was; NaN while unknown. id: the request that it answers, 0 for none."""
 
     id: int = 0
     state: CheckState = CheckState.NONE

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Callable
 
 from .actions.car import Car
-from .actions.control_loop import Session
+from .actions.control_loop import ControlLoop
 from .actions.preparation import check_car, prepare
 from .actions.robot import Robot
 from .errors import ProgressFileError, RobotFailed
@@ -21,22 +21,22 @@ class Runner:
     save is called with the progress after each line and has to return only when it is safe.
     """
 
-    def __init__(self, scenario: Scenario, parameters: ParameterSet, session: Session, progress: Progress,
+    def __init__(self, scenario: Scenario, parameters: ParameterSet, loop: ControlLoop, progress: Progress,
                  save: Callable[[Progress], None]):
         self._scenario = scenario
         self._parameters = parameters
-        self._session = session
+        self._loop = loop
         self._progress = progress
         self._save = save
-        self._robot = Robot(session)
-        self._car = Car(session)
+        self._robot = Robot(loop)
+        self._car = Car(loop)
         self._total = 0
 
     def run(self) -> None:
         """Measure all lines, the invalid ones once more at the end; the robot stands still afterwards in any case."""
         parameters = self._parameters
         try:
-            prepare(self._session, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
+            prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
             lines = self._lines()
             if parameters.self_check:
                 self._check_car()
@@ -45,7 +45,7 @@ class Runner:
             self._halt()
 
     def _halt(self) -> None:
-        stands = self._session.halt()
+        stands = self._loop.halt()
         if stands is not None:
             self._robot.say("the robot stands still" if stands else "the robot does not confirm that it stands still; "
                             "without an application it stops by itself")
@@ -54,7 +54,7 @@ class Runner:
         check = check_car(self._robot)
         if check is None:
             return
-        self._progress.record_check(check, self._session.frames.newest, self._robot.now_s)
+        self._progress.record_check(check, self._loop.frames.newest, self._robot.now_s)
         if check.state is CheckState.FAILED:
             raise RobotFailed(f"The test does not begin. {check.message}".rstrip())
 
@@ -71,7 +71,7 @@ class Runner:
         if not set(done) <= set(by_number):
             raise ProgressFileError(f"The progress file holds {self._scenario.line_word} {max(done)}; this test has "
                                     f"{self._total}.")
-        self._session.observer.on_plan(len(done), self._total)
+        self._loop.observer.on_plan(len(done), self._total)
         for number, line in by_number.items():
             if number not in done:
                 self._measure_line(line)
@@ -79,9 +79,9 @@ class Runner:
             self._measure_line(by_number[number])
 
     def _measure_line(self, line: Any) -> None:
-        self._car.wait_until_heard()
+        self._car.wait_for_bus()
         result = self._scenario.measure(line, self._parameters, self._robot, self._car)
-        self._progress.record(self._scenario, result, self._session.frames.newest)
+        self._progress.record(self._scenario, result, self._loop.frames.newest)
         # Shown first, so that it is not lost for the Operator when it cannot be saved.
-        self._session.observer.on_result(result, len(self._progress.results), self._total)
+        self._loop.observer.on_result(result, len(self._progress.results), self._total)
         self._save(self._progress)

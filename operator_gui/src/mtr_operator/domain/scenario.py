@@ -90,13 +90,13 @@ class Scenario(ABC, Generic[Parameters, Line]):
     def place_of(self, result: Result) -> str:
         """Where the line of a result lies, for a person: "front right", "45°"."""
 
-    def reach(self, parameters: Parameters) -> tuple[float, float]:
+    def distance_range(self, parameters: Parameters) -> tuple[float, float]:
         """Nearest and farthest distance of the Remote key on each line, in m, for a preview before the test."""
         return parameters.minimum_distance_m, parameters.maximum_distance_m
 
     def expected_line_s(self, parameters: Parameters) -> float:
         """How long measuring one line is likely to take, in s of robot time, without the way to its start."""
-        near_m, far_m = self.reach(parameters)
+        near_m, far_m = self.distance_range(parameters)
         return (far_m - near_m) / parameters.maximum_speed_mps
 
     @property

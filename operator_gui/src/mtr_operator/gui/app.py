@@ -13,7 +13,7 @@ from PyQt5.QtWidgets import QApplication, QWidget
 
 from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
 from mtr_operator.station.settings_file import SettingsStore, default_path
-from mtr_operator.station.view_model import Desk
+from mtr_operator.station.view_model import ViewModel
 
 from .bridge import Bridge
 from .flow import Flow
@@ -30,7 +30,7 @@ class Application:
 
     def __init__(self, settings_path: pathlib.Path | None = None, opener: LinkOpener | None = None):
         self._store = SettingsStore(settings_path or default_path())
-        self.bridge = Bridge(Desk())
+        self.bridge = Bridge(ViewModel())
         self.flow = Flow(self.bridge, self._store, opener or LinkOpener())
         self.appearance = Appearance()
         self.language = Language()

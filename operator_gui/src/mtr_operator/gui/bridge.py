@@ -5,34 +5,34 @@ from __future__ import annotations
 from PyQt5.QtCore import QObject, QTimer, pyqtSignal
 
 from mtr_operator.station.mailbox import Mailbox
-from mtr_operator.station.view_model import Desk
+from mtr_operator.station.view_model import ViewModel
 
 FRAME_MS = 33
-# Without any news the view still learns that the robot is silent, and time goes on.
+# Without any event the view still learns that the robot is silent, and time goes on.
 HEARTBEAT_MS = 500
 
 
 class Bridge(QObject):
-    """Empties the mailbox into the desk.
+    """Empties the mailbox into the view model.
 
     However often the mailbox wakes it, a frame passes between two batches; so the view's work does not grow with the
     number of messages.
 
     Attributes:
-        mailbox: to be filled by any thread. desk: to be read in the GUI thread.
-        frames: how often the view was told to look.
+        mailbox: to be filled by any thread. model: to be read in the GUI thread.
+        frames: how often the view was asked to show the model.
     Signals:
-        happened: each event, in order, after the desk has learnt it.
-        changed: the desk is another one than before.
+        happened: each event, in order, after the model has learnt it.
+        changed: the model is another one than before.
     """
 
     happened = pyqtSignal(object)
     changed = pyqtSignal()
     _woken = pyqtSignal()
 
-    def __init__(self, desk: Desk, parent: QObject | None = None):
+    def __init__(self, model: ViewModel, parent: QObject | None = None):
         super().__init__(parent)
-        self.desk = desk
+        self.model = model
         self.mailbox = Mailbox(self._woken.emit)
         self.frames = 0
         self._frame = QTimer(self, interval=FRAME_MS, singleShot=True)
@@ -49,7 +49,7 @@ class Bridge(QObject):
     def deliver(self) -> None:
         """Hand over what has come since."""
         batch = self.mailbox.take()
-        self.desk.apply(batch)
+        self.model.apply(batch)
         self.frames += 1
         for event in batch.events:
             self.happened.emit(event)

@@ -19,7 +19,7 @@ def ask_progress_file(parent: QWidget, title: str, start: pathlib.Path) -> pathl
     return pathlib.Path(chosen) if chosen else None
 
 
-def tell(parent: QWidget, title: str, sentence: str) -> None:
+def show_message(parent: QWidget, title: str, sentence: str) -> None:
     """Show a sentence until the Operator has read it."""
     QMessageBox(QMessageBox.Warning, title, sentence, QMessageBox.Ok, parent).exec_()
 

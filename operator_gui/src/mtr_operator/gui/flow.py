@@ -12,8 +12,17 @@ from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.parameters import ParameterSet
 from mtr_operator.domain.scenario import Scenario
 from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
-from mtr_operator.station.events import CarLinkOpened, Connected, Ended, Measured, News, Outcome, Refused, Saved
-from mtr_operator.station.links.idle_loop import CalibrationOrder, CarLook
+from mtr_operator.station.events import (
+    CarLinkOpened,
+    LineMeasured,
+    LinkRefused,
+    LinksOpened,
+    Outcome,
+    ProgressSaved,
+    RunEnded,
+    StationEvent,
+)
+from mtr_operator.station.links.idle_loop import CalibrationRequest, CarRequest
 from mtr_operator.station.links.worker import Worker
 from mtr_operator.station.readiness import Phase
 from mtr_operator.station.settings_file import SettingsStore
@@ -37,7 +46,7 @@ class Flow(QObject):
     """Knows no widget.
 
     Attributes:
-        desk: what is known of robot, Car and test. store: settings. connection: in use.
+        model: what is known of robot, Car and test. store: settings. connection: in use.
     Signals:
         connected, refused(part, text): how an attempt to connect ended.
         can_opened, can_refused(text): how a change of the CAN adapter ended.
@@ -59,7 +68,7 @@ class Flow(QObject):
     def __init__(self, bridge: Bridge, store: SettingsStore, opener: LinkOpener):
         super().__init__()
         self.bridge = bridge
-        self.desk = bridge.desk
+        self.model = bridge.model
         self.store = store
         self.connection = Connection()
         self.step = Step.WELCOME
@@ -95,7 +104,7 @@ class Flow(QObject):
 
     def to_welcome(self) -> None:
         """Back to the beginning; an unfinished test stays on disk."""
-        self.desk.lay_aside()
+        self.model.lay_aside()
         self.show(Step.WELCOME)
 
     # Test
@@ -104,31 +113,31 @@ class Flow(QObject):
         """Begin a test."""
         settings = self.store.settings.with_parameters(scenario.name, parameters.to_mapping())
         self.store.change(settings)
-        self.desk.take_up(new_test(scenario, parameters, settings.progress_folder, self.connection))
+        self.model.take_up(new_test(scenario, parameters, settings.progress_folder, self.connection))
         self.resume()
         self.show(Step.MEASUREMENT)
 
     def resume(self) -> None:
-        """Measure what is left of the test on the desk."""
-        test = self.desk.test
-        if self.desk.results:
+        """Measure what is left of the test at hand."""
+        test = self.model.test
+        if self.model.results:
             note_continued(test)
-        self.desk.begin()
+        self.model.begin()
         self._worker.run_test(test)
 
     def stop(self) -> None:
         """Stop the robot; the line that is being measured is measured anew later."""
-        self.desk.phase = Phase.STOPPING
+        self.model.phase = Phase.STOPPING
         self._worker.stop_test()
 
     def save_progress(self) -> None:
         """Write the progress now; saved or folder_wanted follows."""
-        self._worker.save(self.desk.test)
+        self._worker.save(self.model.test)
 
     def use_progress_folder(self, folder: pathlib.Path) -> None:
         """Write the progress of this and later tests there."""
         self.store.change(dataclasses.replace(self.store.settings, progress_folder=folder))
-        test = self.desk.test
+        test = self.model.test
         test.path = folder / test.path.name
         self.save_progress()
 
@@ -139,9 +148,9 @@ class Flow(QObject):
         except OperatorError as error:
             self.failed.emit(str(error))
             return
-        self.desk.take_up(test)
+        self.model.take_up(test)
         if test.is_complete:
-            self.desk.phase = Phase.FINISHED
+            self.model.phase = Phase.FINISHED
             self._forget_unfinished()
             self.show(Step.PROTOCOL)
         else:
@@ -159,48 +168,48 @@ class Flow(QObject):
         """Offer it no more; its file stays."""
         self._forget_unfinished()
 
-    def calibrate(self, order: CalibrationOrder) -> None:
+    def calibrate(self, request: CalibrationRequest) -> None:
         """Have the robot try something."""
-        self._worker.calibrate(order)
+        self._worker.calibrate(request)
 
-    def look_at_car(self, again: CarLook) -> None:
+    def request_car(self, request: CarRequest) -> None:
         """Have the robot check or map the Car, or stop doing so."""
-        self._worker.look_at_car(again)
+        self._worker.request_car(request)
 
     # Events
 
-    def _learn(self, event: News) -> None:
-        if isinstance(event, Connected):
+    def _learn(self, event: StationEvent) -> None:
+        if isinstance(event, LinksOpened):
             self._is_connected = True
             self.store.change(self.store.settings.with_connection(self.connection))
             self.connected.emit()
-        elif isinstance(event, Refused):
+        elif isinstance(event, LinkRefused):
             self._learn_refusal(event)
         elif isinstance(event, CarLinkOpened):
             self._use_connection(dataclasses.replace(self.connection, can=self._wanted_can))
             self.can_opened.emit()
-        elif isinstance(event, Measured) and self.store.settings.unfinished != self.desk.test.path:
-            self.store.change(dataclasses.replace(self.store.settings, unfinished=self.desk.test.path))
-        elif isinstance(event, Ended):
+        elif isinstance(event, LineMeasured) and self.store.settings.unfinished != self.model.test.path:
+            self.store.change(dataclasses.replace(self.store.settings, unfinished=self.model.test.path))
+        elif isinstance(event, RunEnded):
             self._learn_end(event)
-        elif isinstance(event, Saved):
+        elif isinstance(event, ProgressSaved):
             self._learn_saved(event)
 
-    def _learn_refusal(self, event: Refused) -> None:
+    def _learn_refusal(self, event: LinkRefused) -> None:
         if not self._is_connected:
             self.refused.emit(event.part, event.text)
         else:
             self.can_refused.emit(event.text)
 
-    def _learn_end(self, event: Ended) -> None:
+    def _learn_end(self, event: RunEnded) -> None:
         if event.outcome is Outcome.COMPLETE:
             self._forget_unfinished()
             self.show(Step.PROTOCOL)
         elif event.outcome is Outcome.NOT_SAVED:
             self.folder_wanted.emit(event.text)
 
-    def _learn_saved(self, event: Saved) -> None:
-        test = self.desk.test
+    def _learn_saved(self, event: ProgressSaved) -> None:
+        test = self.model.test
         if event.text:
             self.folder_wanted.emit(event.text)
         elif test is not None:

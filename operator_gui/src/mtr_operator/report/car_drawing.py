@@ -26,7 +26,7 @@ _GLASS = {"facecolor": "#8fa3b8", "edgecolor": "#39424e", "linewidth": 0.7}
 _LAMP = {"facecolor": "#f7e7a1", "edgecolor": "#39424e", "linewidth": 0.6}
 _TAIL_LAMP = {"facecolor": "#c0392b", "edgecolor": "#39424e", "linewidth": 0.6}
 # Five bold letters are about 3.9 times as wide as their size.
-_LARGEST_FONT, _FONT_PART = 7.0, 0.2
+_MAX_FONT, _FONT_PART = 7.0, 0.2
 
 
 def draw_car(axes: Axes, car: CarDimensions, points_per_m: float) -> None:
@@ -38,10 +38,10 @@ def draw_car(axes: Axes, car: CarDimensions, points_per_m: float) -> None:
         boxstyle=f"round,pad={rounding},rounding_size={rounding}", zorder=3, **_BODY))
     for part in (WINDSCREEN, REAR_WINDOW, SIDE_WINDOW, mirrored(SIDE_WINDOW)):
         axes.add_patch(Polygon(_across_ahead(part, half_length, half_width), closed=True, zorder=4, **_GLASS))
-    for part, look in ((HEADLAMP, _LAMP), (TAIL, _TAIL_LAMP)):
+    for part, style in ((HEADLAMP, _LAMP), (TAIL, _TAIL_LAMP)):
         for side in (part, mirrored(part)):
-            axes.add_patch(Polygon(_across_ahead(side, half_length, half_width), closed=True, zorder=4, **look))
-    font_size = min(_LARGEST_FONT, _FONT_PART * car.width * points_per_m)
+            axes.add_patch(Polygon(_across_ahead(side, half_length, half_width), closed=True, zorder=4, **style))
+    font_size = min(_MAX_FONT, _FONT_PART * car.width * points_per_m)
     axes.text(0.0, 0.66 * half_length, "FRONT", ha="center", va="center", fontsize=font_size, color="#39424e", zorder=5,
               fontweight="bold")
 

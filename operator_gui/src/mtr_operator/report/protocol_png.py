@@ -13,7 +13,7 @@ from matplotlib.ticker import MultipleLocator
 
 from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.parameters import ParameterSet
-from mtr_operator.domain.results.picture import Look, Picture, PointSet
+from mtr_operator.domain.results.picture import Picture, PointRole, PointSet
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import Scenario
 
@@ -29,13 +29,13 @@ _LABEL_GAP_INCH, _LABEL_WIDTH_INCH, _LABEL_HEIGHT_INCH = 0.18, 0.28, 0.13
 _MARGIN_PART = 0.14
 _PALE = "#90a4ae"
 # Colours that colour-blind readers tell apart (Okabe and Ito), and a marker each.
-_LOOKS = {
-    Look.FIRST: {"color": "#0072b2", "marker": "o"},
-    Look.SECOND: {"color": "#d55e00", "marker": "s"},
-    Look.FIRST_FAILED: {"color": "#0072b2", "marker": "x"},
-    Look.SECOND_FAILED: {"color": "#d55e00", "marker": "x"},
-    Look.FAILED: {"color": "#a61c3c", "marker": "x"},
-    Look.INVALID: {"color": "#6a3d9a", "marker": "D"},
+_STYLES = {
+    PointRole.FIRST: {"color": "#0072b2", "marker": "o"},
+    PointRole.SECOND: {"color": "#d55e00", "marker": "s"},
+    PointRole.FIRST_FAILED: {"color": "#0072b2", "marker": "x"},
+    PointRole.SECOND_FAILED: {"color": "#d55e00", "marker": "x"},
+    PointRole.FAILED: {"color": "#a61c3c", "marker": "x"},
+    PointRole.INVALID: {"color": "#6a3d9a", "marker": "D"},
 }
 
 
@@ -85,14 +85,14 @@ def _metres_per_inch(axes: Axes) -> float:
 def _draw_points(axes: Axes, points: PointSet) -> None:
     if not points.known:
         return
-    look = _LOOKS[points.look]
+    style = _STYLES[points.role]
     across, ahead = [y for _, y in points.known], [x for x, _ in points.known]
     if points.is_outline and len(points.known) > 2:
-        _draw_outline(axes, points, look["color"])
+        _draw_outline(axes, points, style["color"])
     for (x0, y0), (x1, y1) in points.bars:
-        axes.plot((y0, y1), (x0, x1), color=look["color"], zorder=5, **BAR)
-    axes.plot(across, ahead, linestyle="none", markersize=6, markeredgewidth=1.6, color=look["color"],
-              marker=look["marker"], label=f"{points.label} ({len(points.known)})", zorder=6)
+        axes.plot((y0, y1), (x0, x1), color=style["color"], zorder=5, **BAR)
+    axes.plot(across, ahead, linestyle="none", markersize=6, markeredgewidth=1.6, color=style["color"],
+              marker=style["marker"], label=f"{points.label} ({len(points.known)})", zorder=6)
 
 
 def _draw_outline(axes: Axes, points: PointSet, color: str) -> None:
@@ -108,10 +108,10 @@ def _draw_outline(axes: Axes, points: PointSet, color: str) -> None:
 def _frame(axes: Axes, picture: Picture, progress: Progress) -> None:
     ends = [stretch.end for stretch in picture.stretches] + [point for s in picture.point_sets for point in s.known]
     ends += [end for points in picture.point_sets for bar in points.bars for end in bar]
-    reach_x = max([abs(x) for x, _ in ends] + [progress.car.length])
-    reach_y = max([abs(y) for _, y in ends] + [progress.car.width])
-    margin = _MARGIN_PART * max(reach_x, reach_y)
-    half_height, half_width = reach_x + margin, reach_y + margin
+    extent_x = max([abs(x) for x, _ in ends] + [progress.car.length])
+    extent_y = max([abs(y) for _, y in ends] + [progress.car.width])
+    margin = _MARGIN_PART * max(extent_x, extent_y)
+    half_height, half_width = extent_x + margin, extent_y + margin
     axes.set_aspect("equal")
     axes.set_xlim(half_width, -half_width)  # y grows to the left
     axes.set_ylim(-half_height, half_height)

@@ -27,8 +27,8 @@ def summary_rows(scenario: Scenario, progress: Progress) -> list[Row]:
     for measurement in scenario.measurements:
         states = [result[measurement.status] for result in progress.results]
         counts = [(status, states.count(status.value)) for status in LineStatus]
-        told = ", ".join(f"{count} {status.value.replace('_', ' ')}" for status, count in counts if count)
-        rows.append((measurement.word, told or "nothing measured"))
+        text = ", ".join(f"{count} {status.value.replace('_', ' ')}" for status, count in counts if count)
+        rows.append((measurement.word, text or "nothing measured"))
     return rows
 
 

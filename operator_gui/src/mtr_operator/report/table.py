@@ -18,9 +18,9 @@ def line_name(scenario: Scenario, result: Result) -> str:
 
 def line_text(scenario: Scenario, result: Result) -> str:
     """Such as "axis 3 (right): unlock 88.7 ± 6.8 cm, lock not reached"."""
-    told = [f"{measurement.word} {_distance(result, measurement)}" for measurement in scenario.measurements]
+    distances = [f"{measurement.word} {_distance(result, measurement)}" for measurement in scenario.measurements]
     reason = f": {result[REASON]}" if result[REASON] else ""
-    return f"{line_name(scenario, result)}: {', '.join(told)}{reason}"
+    return f"{line_name(scenario, result)}: {', '.join(distances)}{reason}"
 
 
 def results_table(scenario: Scenario, results: Sequence[Result]) -> Iterator[str]:

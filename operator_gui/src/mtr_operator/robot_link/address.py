@@ -10,8 +10,8 @@ from mtr_operator.domain.errors import InvalidParameter
 
 SUBSCRIBER_PORT = 3334
 PUBLISHER_PORT = 3333
-LOWEST_PORT = 1
-HIGHEST_PORT = 65535
+MIN_PORT = 1
+MAX_PORT = 65535
 
 # RFC 1123: labels of letters, digits and inner hyphens.
 _HOST_NAME = re.compile(r"(?=.{1,253}$)[A-Za-z0-9]([A-Za-z0-9-]{0,61}[A-Za-z0-9])?"
@@ -51,5 +51,5 @@ def _check_host(host: str) -> None:
 
 def _check_port(name: str, port: int) -> None:
     whole = isinstance(port, int) and not isinstance(port, bool)
-    if not whole or not LOWEST_PORT <= port <= HIGHEST_PORT:
-        raise InvalidParameter(f"The {name} is {port}; allowed is a whole number from {LOWEST_PORT} to {HIGHEST_PORT}.")
+    if not whole or not MIN_PORT <= port <= MAX_PORT:
+        raise InvalidParameter(f"The {name} is {port}; allowed is a whole number from {MIN_PORT} to {MAX_PORT}.")

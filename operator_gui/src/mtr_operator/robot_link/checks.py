@@ -28,7 +28,7 @@ class HeightCheck:
 
 
 def reach_and_hold_height(link: RobotLink, check: HeightCheck) -> str:
-    """Move the Remote key to a height and watch it there; empty when it is reached and held, else what went wrong."""
+    """Move the Remote key to a height and watch it there; empty when it gets there and stays, else what went wrong."""
     desired = DesiredState(key_height_m=check.height_m)
     first_s = reached_s = math.nan
     for status in _answered(link, desired, check.wall_limit_s):

@@ -11,7 +11,7 @@ from google.protobuf.message import DecodeError
 from mtr_operator.domain import ports
 from mtr_proto import robot_link_pb2 as pb
 
-MAXIMUM_MESSAGE_BYTES = 64 * 1024
+MAX_MESSAGE_BYTES = 64 * 1024
 _CHECK_FIGURES = ("difference_m", "difference_rad", "limit_m", "limit_rad")
 
 
@@ -42,9 +42,9 @@ def command_from_desired(desired: ports.DesiredState, header: CommandHeader) -> 
     if header.end_session:
         command.end_session = True
     if desired.waypoint is not None:
-        goal = desired.waypoint
-        command.waypoint.CopyFrom(pb.Waypoint(id=goal.id, x=goal.x, y=goal.y, heading=goal.heading,
-                                              direction=goal.direction.value))
+        waypoint = desired.waypoint
+        command.waypoint.CopyFrom(pb.Waypoint(id=waypoint.id, x=waypoint.x, y=waypoint.y, heading=waypoint.heading,
+                                              direction=waypoint.direction.value))
     if desired.press is not None:
         press = desired.press
         command.press.CopyFrom(pb.ButtonPress(id=press.id, buttons=press.buttons, strength=press.strength,
@@ -56,11 +56,11 @@ def desired_from_command(command: pb.Command) -> ports.DesiredState:
     """Content of a Command; absent fields are None."""
     waypoint = press = None
     if command.HasField("waypoint"):
-        goal = command.waypoint
-        waypoint = ports.Waypoint(goal.id, goal.x, goal.y, goal.heading, ports.Direction(goal.direction))
+        sent = command.waypoint
+        waypoint = ports.Waypoint(sent.id, sent.x, sent.y, sent.heading, ports.Direction(sent.direction))
     if command.HasField("press"):
-        order = command.press
-        press = ports.ButtonPress(order.id, tuple(order.buttons), order.strength, order.duration_s)
+        pressed = command.press
+        press = ports.Press(pressed.id, tuple(pressed.buttons), pressed.strength, pressed.duration_s)
     return ports.DesiredState(stop=command.stop, waypoint=waypoint, press=press, map_car_id=command.map_car_id,
                               check_car_id=command.check_car_id,
                               max_speed_mps=_value(command, "max_speed_mps", None),

@@ -7,10 +7,10 @@ import dataclasses
 
 from mtr_operator.domain.ports import LinkStatistics, Notification, RobotStatus
 
-from .conversions import MAXIMUM_MESSAGE_BYTES, UndecodableMessage, decode_status
+from .conversions import MAX_MESSAGE_BYTES, UndecodableMessage, decode_status
 
 # Five seconds of Status: whoever is further behind wants the present, not the past.
-MAXIMUM_BACKLOG = 50
+MAX_BACKLOG = 50
 
 RESTARTED = Notification("robot_restarted", 2, "The robot has restarted; the present order was sent to it again.")
 
@@ -38,7 +38,7 @@ class Inbox:
         self._newest_id = status.id
         self._statistics.received += 1
         self._queue.append(status)
-        if len(self._queue) > MAXIMUM_BACKLOG:
+        if len(self._queue) > MAX_BACKLOG:
             self._skip_to_newest()
         return False
 
@@ -64,10 +64,10 @@ class Inbox:
         self._queue.append(newest)
 
     def _decoded(self, parts: list[bytes]) -> RobotStatus | None:
-        if sum(map(len, parts)) > MAXIMUM_MESSAGE_BYTES:
+        if sum(map(len, parts)) > MAX_MESSAGE_BYTES:
             self._statistics.oversized += 1
             self._statistics.last_error = (f"A message of {sum(map(len, parts))} bytes was ignored; allowed is at most "
-                                           f"{MAXIMUM_MESSAGE_BYTES} bytes.")
+                                           f"{MAX_MESSAGE_BYTES} bytes.")
             return None
         try:
             if len(parts) != 1:

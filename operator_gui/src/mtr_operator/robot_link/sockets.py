@@ -12,7 +12,7 @@ from mtr_operator.domain.errors import ConnectionFailed
 
 # A message between the link's own limit (64 KiB) and this one is received, counted and ignored; beyond it ZeroMQ drops
 # the connection, so that nobody can fill the memory.
-_MAXIMUM_BYTES = 1024 * 1024
+_MAX_BYTES = 1024 * 1024
 _HEARTBEAT_MS = 1000
 _HEARTBEAT_TIMEOUT_MS = 3000
 _RECONNECT_MS = 100
@@ -41,7 +41,7 @@ def publish(context: zmq.Context, ip: str, port: int, timeout_s: float) -> zmq.S
 
 def _socket(context: zmq.Context, kind: int) -> zmq.Socket:
     socket = context.socket(kind)
-    for option, value in ((zmq.LINGER, 0), (zmq.MAXMSGSIZE, _MAXIMUM_BYTES), (zmq.HEARTBEAT_IVL, _HEARTBEAT_MS),
+    for option, value in ((zmq.LINGER, 0), (zmq.MAXMSGSIZE, _MAX_BYTES), (zmq.HEARTBEAT_IVL, _HEARTBEAT_MS),
                           (zmq.HEARTBEAT_TIMEOUT, _HEARTBEAT_TIMEOUT_MS), (zmq.RECONNECT_IVL, _RECONNECT_MS),
                           (zmq.RECONNECT_IVL_MAX, _RECONNECT_MAXIMUM_MS)):
         socket.setsockopt(option, value)

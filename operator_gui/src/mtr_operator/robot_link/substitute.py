@@ -17,7 +17,7 @@ from mtr_operator.domain.errors import OperatorError
 
 from .address import PUBLISHER_PORT, SUBSCRIBER_PORT
 from .conversions import (
-    MAXIMUM_MESSAGE_BYTES,
+    MAX_MESSAGE_BYTES,
     UndecodableMessage,
     decode_command,
     desired_from_command,
@@ -29,7 +29,7 @@ from .virtual.robot import DEFAULT_WORLD, STATUS_PERIOD_S, VirtualRobot, Virtual
 # Virtual time without a Command after which the robot stops and another session may take over, and the wall time that
 # it is at least: a busy laptop answers late, however fast virtual time runs.
 _SILENCE_LIMIT_S = 1.0
-_LEAST_SILENCE_WALL_S = 0.3
+_MIN_SILENCE_WALL_S = 0.3
 
 
 class RobotSubstitute:
@@ -44,7 +44,7 @@ class RobotSubstitute:
         self.rejected = 0
         self._robot = VirtualRobot(seed, world)
         self._period_s = STATUS_PERIOD_S / time_factor
-        self._silence_limit_wall_s = max(_SILENCE_LIMIT_S / time_factor, _LEAST_SILENCE_WALL_S)
+        self._silence_limit_wall_s = max(_SILENCE_LIMIT_S / time_factor, _MIN_SILENCE_WALL_S)
         self._stopping = threading.Event()
         self._thread: threading.Thread | None = None
         self._session_id = 0
@@ -84,7 +84,7 @@ class RobotSubstitute:
     def _take(self, parts: list[bytes]) -> None:
         now = time.monotonic()
         try:
-            if len(parts) != 1 or len(parts[0]) > MAXIMUM_MESSAGE_BYTES:
+            if len(parts) != 1 or len(parts[0]) > MAX_MESSAGE_BYTES:
                 raise UndecodableMessage("not one frame of at most 64 KiB")
             command = decode_command(parts[0])
         except UndecodableMessage:

@@ -17,7 +17,7 @@ from mtr_operator.domain.scenario import Scenario
 USUAL_CAR = CarDimensions(4.5, 1.8, math.nan, math.nan)
 # Measured in the simulation's demo: the way round the Car, the self-check, and what stops, turns on the spot and gentle
 # accelerations add to each line. With these its Autolock is expected to take 384 s and takes 370 s, its Key press on a
-# mapped Car 188 s and 220 s, for the Car obeys nearer than in the middle.
+# mapped Car 188 s and 220 s, for the Car reacts nearer than in the middle.
 MAPPING_S = 45.0
 SELF_CHECK_S = 17.0
 MANOEUVRES_S = 9.0
@@ -57,7 +57,7 @@ class Plan:
 def plan_of(scenario: Scenario, parameters: ParameterSet, car: CarDimensions, is_mapped: bool) -> Plan:
     """Plan of a test; InvalidParameter when the parameters do not suit a Car of this size."""
     lines = scenario.lines(parameters, car)
-    near_m, far_m = scenario.reach(parameters)
+    near_m, far_m = scenario.distance_range(parameters)
     rays = [line.ray for line in lines]
     own_s = scenario.expected_line_s(parameters)
     ways = _ways(rays, near_m, far_m)

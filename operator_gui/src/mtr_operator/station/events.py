@@ -1,4 +1,4 @@
-"""What the thread of the links tells the view."""
+"""What the thread of the links reports to the view."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from mtr_operator.domain.ports import CarDimensions, LockState, RobotStatus, Way
 
 
 @dataclass(frozen=True)
-class RobotNews:
+class RobotSnapshot:
     """The newest Status with the Car's locks at its time; only the newest one counts.
 
     waypoint: where the robot was sent last, None when nowhere. is_secret: the link is encrypted.
@@ -24,12 +24,12 @@ class RobotNews:
 
 
 @dataclass(frozen=True)
-class Connected:
+class LinksOpened:
     """Both links are open."""
 
 
 @dataclass(frozen=True)
-class Refused:
+class LinkRefused:
     """A link could not be opened. part: "address", "robot" or "car"."""
 
     part: str
@@ -42,14 +42,14 @@ class CarLinkOpened:
 
 
 @dataclass(frozen=True)
-class Silence:
+class RobotSilent:
     """Nothing has come from the robot for so long in wall time."""
 
     silent_s: float
 
 
 @dataclass(frozen=True)
-class Planned:
+class LinesPlanned:
     """The lines are known: so many of them are measured already."""
 
     done: int
@@ -58,14 +58,14 @@ class Planned:
 
 
 @dataclass(frozen=True)
-class Acting:
+class ActionBegun:
     """The robot begins to do this."""
 
     text: str
 
 
 @dataclass(frozen=True)
-class Measured:
+class LineMeasured:
     """A line was measured: all results so far, and the newest one."""
 
     results: tuple[Mapping[str, Any], ...]
@@ -84,7 +84,7 @@ class Outcome(enum.Enum):
 
 
 @dataclass(frozen=True)
-class Ended:
+class RunEnded:
     """Measuring has ended. text: why, for a person; empty when it is complete."""
 
     outcome: Outcome
@@ -93,10 +93,11 @@ class Ended:
 
 
 @dataclass(frozen=True)
-class Saved:
+class ProgressSaved:
     """The progress was written on request. text: why not; empty when it was."""
 
     text: str
 
 
-News = Union[Connected, Refused, CarLinkOpened, Silence, Planned, Acting, Measured, Ended, Saved]
+StationEvent = Union[LinksOpened, LinkRefused, CarLinkOpened, RobotSilent, LinesPlanned, ActionBegun, LineMeasured,
+                     RunEnded, ProgressSaved]

@@ -11,18 +11,18 @@ from typing import Callable
 
 from mtr_operator.domain.geometry.pose import Point
 
-from .events import News, RobotNews
+from .events import RobotSnapshot, StationEvent
 
 # Points of the way between two batches; more than that is thinned out.
-MAXIMUM_TRAIL = 512
+MAX_TRAIL = 512
 
 
 @dataclass(frozen=True)
 class Batch:
     """Everything since the batch before. robot: newest, None when no Status came. trail: places passed."""
 
-    events: tuple[News, ...]
-    robot: RobotNews | None
+    events: tuple[StationEvent, ...]
+    robot: RobotSnapshot | None
     trail: tuple[Point, ...]
 
 
@@ -32,11 +32,11 @@ class Mailbox:
     def __init__(self, wake: Callable[[], None] = lambda: None):
         self._wake = wake
         self._lock = threading.Lock()
-        self._events: list[News] = []
-        self._robot: RobotNews | None = None
+        self._events: list[StationEvent] = []
+        self._robot: RobotSnapshot | None = None
         self._trail: list[Point] = []
 
-    def put(self, event: News) -> None:
+    def put(self, event: StationEvent) -> None:
         """An event; none is lost."""
         with self._lock:
             first = self._is_empty()
@@ -44,15 +44,15 @@ class Mailbox:
         if first:
             self._wake()
 
-    def put_robot(self, news: RobotNews) -> None:
+    def put_robot(self, snapshot: RobotSnapshot) -> None:
         """A Status; it takes the place of the one before."""
-        status = news.status
+        status = snapshot.status
         with self._lock:
             first = self._is_empty()
-            self._robot = news
+            self._robot = snapshot
             if status.pose_valid:
                 self._trail.append((status.x, status.y))
-                if len(self._trail) > MAXIMUM_TRAIL:
+                if len(self._trail) > MAX_TRAIL:
                     self._trail = self._trail[::2]
         if first:
             self._wake()

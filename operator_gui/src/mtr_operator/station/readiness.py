@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.ports import LockState, Mode, RobotStatus
 
-from .events import RobotNews
+from .events import RobotSnapshot
 
 # Wall time without a Status after which the link counts as lost.
 SILENCE_LIMIT_S = 1.5
@@ -18,8 +18,8 @@ LOW_BATTERY_PERCENT = 25
 WARNING, ERROR = 2, 3
 
 
-class Word(enum.Enum):
-    """The verdict."""
+class ReadinessWord(enum.Enum):
+    """Readiness in one word."""
 
     READY = "ready"
     WARNINGS = "ready with warnings"
@@ -69,35 +69,35 @@ class Reason:
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Readiness:
     """The word and its reasons, blocking ones first."""
 
-    word: Word
+    word: ReadinessWord
     reasons: tuple[Reason, ...] = ()
 
     @property
     def can_start(self) -> bool:
         """True when a test may be started."""
-        return self.word in (Word.READY, Word.WARNINGS)
+        return self.word in (ReadinessWord.READY, ReadinessWord.WARNINGS)
 
 
-def judge(robot: RobotNews | None, silent_s: float, phase: Phase) -> Verdict:
-    """Verdict on what came from the robot last, silent_s of wall time ago."""
+def readiness_of(robot: RobotSnapshot | None, silent_s: float, phase: Phase) -> Readiness:
+    """Readiness by what came from the robot last, silent_s of wall time ago."""
     if robot is None or silent_s >= SILENCE_LIMIT_S:
-        return Verdict(Word.LOST, (Reason(Cause.ROBOT_SILENT, True, f"{silent_s:.0f}"),))
+        return Readiness(ReadinessWord.LOST, (Reason(Cause.ROBOT_SILENT, True, f"{silent_s:.0f}"),))
     reasons = sorted([*_robot_reasons(robot.status), *_car_reasons(robot)], key=lambda reason: not reason.is_blocking)
     if phase in (Phase.MEASURING, Phase.STOPPING):
-        return Verdict(Word.MEASURING, tuple(reasons))
+        return Readiness(ReadinessWord.MEASURING, tuple(reasons))
     if phase is Phase.PAUSED:
-        return Verdict(Word.PAUSED, tuple(reasons))
+        return Readiness(ReadinessWord.PAUSED, tuple(reasons))
     if any(reason.is_blocking for reason in reasons):
-        return Verdict(Word.NOT_READY, tuple(reasons))
-    return Verdict(Word.WARNINGS if reasons else Word.READY, tuple(reasons))
+        return Readiness(ReadinessWord.NOT_READY, tuple(reasons))
+    return Readiness(ReadinessWord.WARNINGS if reasons else ReadinessWord.READY, tuple(reasons))
 
 
-def can_resume(verdict: Verdict) -> bool:
+def can_resume(readiness: Readiness) -> bool:
     """True when nothing stands against going on with a paused test."""
-    return verdict.word is Word.PAUSED and not any(reason.is_blocking for reason in verdict.reasons)
+    return readiness.word is ReadinessWord.PAUSED and not any(reason.is_blocking for reason in readiness.reasons)
 
 
 def _robot_reasons(status: RobotStatus) -> list[Reason]:
@@ -123,7 +123,7 @@ def _robot_reasons(status: RobotStatus) -> list[Reason]:
     return reasons
 
 
-def _car_reasons(robot: RobotNews) -> list[Reason]:
+def _car_reasons(robot: RobotSnapshot) -> list[Reason]:
     if robot.car_problem == NO_ADAPTER:
         return [Reason(Cause.NO_CAN, True)]
     if robot.car_problem:

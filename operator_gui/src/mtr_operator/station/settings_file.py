@@ -50,7 +50,7 @@ class SettingsStore:
             self.problem = f"The settings in {self._path} were not used. {reason}"
 
     def change(self, settings: Settings) -> None:
-        """Use these from now on, and write them; a failure is told in `problem` and stops nobody."""
+        """Use these from now on, and write them; a failure stands in `problem` and stops nobody."""
         self.settings = settings
         self.problem = ""
         try:

@@ -11,9 +11,9 @@ from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.ports import CarDimensions, Notification
 
 from .estimate import USUAL_CAR, TimeLeft, plan_of
-from .events import Acting, Ended, Measured, News, Outcome, Planned, RobotNews, Silence
+from .events import ActionBegun, LineMeasured, LinesPlanned, Outcome, RobotSilent, RobotSnapshot, RunEnded, StationEvent
 from .mailbox import Batch
-from .readiness import Phase, Verdict, judge
+from .readiness import Phase, Readiness, readiness_of
 from .test import Test
 
 # The trail is kept at this spacing; one that gets too long loses every other place.
@@ -21,11 +21,11 @@ TRAIL_SPACING_M = 0.1
 TRAIL_LENGTH = 4000
 
 
-class Desk:
+class ViewModel:
     """Belongs to the view's thread.
 
     Attributes:
-        robot: newest news of robot and Car, None before.
+        robot: newest Status of the robot with the Car's locks, None before.
         trail: places that the robot has passed during the test.
         test: the test at hand, None before one is started or opened.
         phase: what is done with it.
@@ -37,10 +37,10 @@ class Desk:
 
     def __init__(self, clock: Callable[[], float] = time.monotonic):
         self._clock = clock
-        self._heard_s = clock()
+        self._received_s = clock()
         self._time_left = TimeLeft(())
         self._car: CarDimensions | None = None
-        self.robot: RobotNews | None = None
+        self.robot: RobotSnapshot | None = None
         self.trail: list[Point] = []
         self.test: Test | None = None
         self.phase = Phase.IDLE
@@ -53,12 +53,12 @@ class Desk:
     @property
     def silent_s(self) -> float:
         """Wall time since the last Status."""
-        return self._clock() - self._heard_s
+        return self._clock() - self._received_s
 
     @property
-    def verdict(self) -> Verdict:
+    def readiness(self) -> Readiness:
         """Whether a test can be started now."""
-        return judge(self.robot, self.silent_s, self.phase)
+        return readiness_of(self.robot, self.silent_s, self.phase)
 
     @property
     def notifications(self) -> tuple[Notification, ...]:
@@ -83,7 +83,7 @@ class Desk:
         return 100 * self.done // self.total if self.total else 0
 
     def take_up(self, test: Test) -> None:
-        """Lay a test on the desk, before it is started or continued."""
+        """Take up a test, before it is started or continued."""
         self.test, self.phase, self._car = test, Phase.PAUSED, test.progress.car
         self.results = tuple(dict(result) for result in test.progress.results)
         self.done, self.total = len(self.results), test.line_count
@@ -92,7 +92,7 @@ class Desk:
         self.trail = []
 
     def begin(self) -> None:
-        """The test on the desk is started or continued now."""
+        """The test at hand is started or continued now."""
         self.phase, self.trouble, self.outcome = Phase.MEASURING, "", None
         self._expect()
 
@@ -104,7 +104,7 @@ class Desk:
     def apply(self, batch: Batch) -> None:
         """Learn what has happened."""
         if batch.robot is not None:
-            self.robot, self._heard_s = batch.robot, self._clock()
+            self.robot, self._received_s = batch.robot, self._clock()
         for place in batch.trail if self.test is not None else ():
             self._pass(place)
         for event in batch.events:
@@ -116,21 +116,21 @@ class Desk:
         if len(self.trail) > TRAIL_LENGTH:
             self.trail = self.trail[::2]
 
-    def _learn(self, event: News) -> None:
-        if isinstance(event, Planned):
+    def _learn(self, event: StationEvent) -> None:
+        if isinstance(event, LinesPlanned):
             self.done, self.total, self._car = event.done, event.total, event.car
             self._expect()
-        elif isinstance(event, Acting):
+        elif isinstance(event, ActionBegun):
             self.action = event.text
-        elif isinstance(event, Measured):
+        elif isinstance(event, LineMeasured):
             self.results, self.newest = event.results, event.newest
             self.done, self.total = event.done, event.total
             self._time_left.advance(event.done, self._clock())
-        elif isinstance(event, Ended):
+        elif isinstance(event, RunEnded):
             self.results, self.outcome, self.trouble = event.results, event.outcome, event.text
             self.phase = Phase.FINISHED if event.outcome is Outcome.COMPLETE else Phase.PAUSED
-        elif isinstance(event, Silence):
-            self._heard_s = min(self._heard_s, self._clock() - event.silent_s)
+        elif isinstance(event, RobotSilent):
+            self._received_s = min(self._received_s, self._clock() - event.silent_s)
 
     def _expect(self) -> None:
         test = self.test

@@ -16,7 +16,7 @@ from .atomic import write_bytes
 
 FILE_NAME = "progress.json"
 # A test of some hundred lines takes 100 kB; a larger file is something else.
-MAXIMUM_BYTES = 16 * 1024 * 1024
+MAX_BYTES = 16 * 1024 * 1024
 
 
 def save_progress(path: pathlib.Path, progress: Progress) -> None:
@@ -69,8 +69,8 @@ def _is_empty(path: pathlib.Path) -> bool:
 
 def _document(path: pathlib.Path) -> Any:
     try:
-        if path.stat().st_size > MAXIMUM_BYTES:
-            raise ProgressFileError(f"It is larger than {MAXIMUM_BYTES // 1024 ** 2} MiB.")
+        if path.stat().st_size > MAX_BYTES:
+            raise ProgressFileError(f"It is larger than {MAX_BYTES // 1024 ** 2} MiB.")
         return json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse_constant)
     except OSError as error:
         raise ProgressFileError(f"It cannot be read: {error.strerror or error}.") from None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..errors import ConnectionFailed, LinkLost
 from ..ports import CarDimensions, CarEvent, LockState
-from .control_loop import Session
+from .control_loop import ControlLoop
 
 # Robot time that the bus may take to be understood before the robot moves, and to recover during a test.
 _START_LIMIT_S = 10.0
@@ -14,13 +14,13 @@ _RECOVERY_LIMIT_S = 30.0
 class Car:
     """Locks and dimensions of the Car."""
 
-    def __init__(self, session: Session):
-        self._session = session
+    def __init__(self, loop: ControlLoop):
+        self._loop = loop
 
     @property
     def lock_state(self) -> LockState:
         """State of the locks now."""
-        return self._session.car_link.lock_state
+        return self._loop.car_link.lock_state
 
     def is_locked(self) -> bool:
         """True when the Car is locked now."""
@@ -28,34 +28,34 @@ class Car:
 
     def change_to(self, state: LockState, since_s: float) -> CarEvent | None:
         """First change of the locks to this state after an instant of robot time, None when there was none."""
-        for event in self._session.events:
+        for event in self._loop.events:
             if event.lock_state is state and event.time_s > since_s:
                 return event
         return None
 
     def dimensions(self) -> CarDimensions:
         """Length and width as the robot measured them; Robot.prepare has waited for them."""
-        return self._session.car_dimensions
+        return self._loop.car_dimensions
 
     def prepare(self) -> None:
         """Wait until the bus says whether the Car is locked; ConnectionFailed when it does not."""
-        if not self._hears_locks(_START_LIMIT_S):
+        if not self._receives_locks(_START_LIMIT_S):
             raise ConnectionFailed(f"The Car's lock state is unknown: {self._reason()}")
 
-    def wait_until_heard(self) -> None:
+    def wait_for_bus(self) -> None:
         """Wait until a trouble on the bus is over; LinkLost when it lasts."""
-        if not self._hears_locks(_RECOVERY_LIMIT_S):
+        if not self._receives_locks(_RECOVERY_LIMIT_S):
             raise LinkLost(f"The Car fell silent: {self._reason()}")
 
-    def _hears_locks(self, limit_s: float) -> bool:
-        until_s = self._session.now_s + limit_s
+    def _receives_locks(self, limit_s: float) -> bool:
+        until_s = self._loop.now_s + limit_s
         while self._reason():
-            if self._session.now_s >= until_s:
+            if self._loop.now_s >= until_s:
                 return False
-            self._session.step()
+            self._loop.step()
         return True
 
     def _reason(self) -> str:
-        if self._session.car_link.problem:
-            return self._session.car_link.problem
+        if self._loop.car_link.problem:
+            return self._loop.car_link.problem
         return "The bus does not carry it." if self.lock_state is LockState.UNKNOWN else ""

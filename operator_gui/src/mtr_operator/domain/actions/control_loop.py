@@ -1,4 +1,4 @@
-"""The pump between the links and a scenario: one Status, one decision, one answer.
+"""The loop between the links and a scenario: one Status, one decision, one answer.
 
 step() answers the Status taken before with the desired state as it is now, and takes the next one. So whatever a
 scenario decides after a step is the answer to that very Status, and each Status gets exactly one.
@@ -23,7 +23,7 @@ RESEND_PERIOD_S = 0.2
 SILENCE_LIMIT_S = 30.0
 # Wall time within which the first Status has to come.
 FIRST_STATUS_LIMIT_S = 10.0
-# Silence that a view is told of.
+# Silence that is reported to a view.
 _SILENCE_SHOWN_S = 1.0
 # Robot time that stopping may take, and the speed at which the robot stands.
 _STOP_LIMIT_S = 3.0
@@ -31,7 +31,7 @@ _STANDING_MPS = 0.02
 _KEPT_EVENTS = 1000
 
 
-class Session:
+class ControlLoop:
     """State of one run.
 
     Attributes:

@@ -1,4 +1,4 @@
-"""What a view is told while a test runs."""
+"""What a view learns while a test runs."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ..ports import RobotStatus
 
 
 class RunObserver:
-    """Told everything in the runner's thread, shows nothing; a view overrides what it shows."""
+    """Receives everything in the runner's thread, shows nothing; a view overrides what it shows."""
 
     def on_status(self, status: RobotStatus) -> None:
         """A Status arrived."""

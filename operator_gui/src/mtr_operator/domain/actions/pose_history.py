@@ -12,7 +12,7 @@ from ..ports import RobotStatus
 
 # Between two Status messages at 10 Hz a straight line is exact to 1 mm at the robot's acceleration of 0.5 m/s2. Over a
 # longer gap it would be a guess.
-LARGEST_GAP_S = 0.5
+MAX_GAP_S = 0.5
 KEPT_S = 60.0
 
 
@@ -68,7 +68,7 @@ class PoseHistory:
             raise PoseUnknown(f"No poses of the robot enclose the instant {time_s:.3f} s.")
         before, after = samples[index - 1], samples[index]
         gap_s = after.stamp_s - before.stamp_s
-        if gap_s > LARGEST_GAP_S:
+        if gap_s > MAX_GAP_S:
             raise PoseUnknown(f"The robot's pose is unknown for {gap_s:.1f} s around the instant {time_s:.3f} s.")
         return _between(before, after, (time_s - before.stamp_s) / gap_s, time_s)
 

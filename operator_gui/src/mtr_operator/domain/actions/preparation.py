@@ -8,7 +8,7 @@ from ..errors import RobotFailed
 from ..geometry.ray import Ray
 from ..ports import CarCheck, Mode, RobotStatus
 from .car import Car
-from .control_loop import Session
+from .control_loop import ControlLoop
 from .robot import Robot
 
 # Robot times after which waiting is in vain.
@@ -21,19 +21,19 @@ _AHEAD_OF_CAR = Ray(0.0, 0.0, 1.0, 0.0)
 _AHEAD_M = 5.0
 
 
-def prepare(session: Session, robot: Robot, car: Car, key_height_m: float, maximum_speed_mps: float) -> None:
+def prepare(loop: ControlLoop, robot: Robot, car: Car, key_height_m: float, maximum_speed_mps: float) -> None:
     """Wait until robot and Car are ready; an OperatorError says what is missing."""
     robot.say("wait for robot and Car")
-    _wait_until(session, START_LIMIT_S, "did not start", _has_started)
+    _wait_until(loop, START_LIMIT_S, "did not start", _has_started)
     car.prepare()
-    _wait_for_control(session)
+    _wait_for_control(loop)
     robot.say(f"move the key to {100.0 * key_height_m:g} cm")
     robot.set_maximum_speed(maximum_speed_mps)
     robot.move_key_to(key_height_m)
-    if not _is_ready(session.status):
+    if not _is_ready(loop.status):
         robot.say("map the Car")
         robot.go_to(_AHEAD_OF_CAR, _AHEAD_M)
-        _wait_until(session, MAPPING_LIMIT_S, "did not find the Car", _is_ready)
+        _wait_until(loop, MAPPING_LIMIT_S, "did not find the Car", _is_ready)
 
 
 def check_car(robot: Robot) -> CarCheck | None:
@@ -45,12 +45,12 @@ def check_car(robot: Robot) -> CarCheck | None:
     return robot.check_car()
 
 
-def prepare_to_check(session: Session, robot: Robot) -> None:
+def prepare_to_check(loop: ControlLoop, robot: Robot) -> None:
     """Wait until the robot can look at the Car; RobotFailed when it has not found it or cannot check."""
     robot.say("wait for the robot")
-    _wait_until(session, START_LIMIT_S, "did not start", _has_started)
-    _wait_for_control(session)
-    if session.status.car is None:
+    _wait_until(loop, START_LIMIT_S, "did not start", _has_started)
+    _wait_for_control(loop)
+    if loop.status.car is None:
         raise RobotFailed("The robot has not found the Car yet, so there is nothing to check; a test begins with it.")
     if not robot.can_check_car:
         raise RobotFailed("The robot's software is too old to check where the Car stands.")
@@ -64,18 +64,18 @@ def _is_ready(status: RobotStatus) -> bool:
     return status.mode is Mode.FOLLOWING_WAYPOINT and status.car is not None and status.pose_valid
 
 
-def _wait_for_control(session: Session) -> None:
-    until_s = session.now_s + CONTROL_LIMIT_S
-    while session.status.controlled_by_other:
-        if session.now_s >= until_s:
+def _wait_for_control(loop: ControlLoop) -> None:
+    until_s = loop.now_s + CONTROL_LIMIT_S
+    while loop.status.controlled_by_other:
+        if loop.now_s >= until_s:
             raise RobotFailed("The robot is controlled by another application; end that one, then start again.")
-        session.step()
+        loop.step()
 
 
-def _wait_until(session: Session, limit_s: float, failure: str, condition: Callable[[RobotStatus], bool]) -> None:
-    until_s = session.now_s + limit_s
-    while not condition(session.status):
-        if session.now_s >= until_s:
-            texts = [notification.text for notification in session.status.notifications]
+def _wait_until(loop: ControlLoop, limit_s: float, failure: str, condition: Callable[[RobotStatus], bool]) -> None:
+    until_s = loop.now_s + limit_s
+    while not condition(loop.status):
+        if loop.now_s >= until_s:
+            texts = [notification.text for notification in loop.status.notifications]
             raise RobotFailed(" ".join([f"The robot {failure} within {limit_s:g} s.", *texts]))
-        session.step()
+        loop.step()

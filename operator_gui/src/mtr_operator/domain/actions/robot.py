@@ -9,16 +9,16 @@ from ..errors import RobotFailed
 from ..geometry.pose import Pose
 from ..geometry.ray import Ray
 from ..ports import (
-    ButtonPress,
     CarCheck,
     CheckState,
     Direction,
+    Press,
     PressConfirmation,
     RobotStatus,
     Waypoint,
     WaypointResult,
 )
-from .control_loop import Session
+from .control_loop import ControlLoop
 from .distance import Distance, measure
 from .pose_history import PoseUnknown
 from .trouble import LineInvalid
@@ -38,8 +38,8 @@ _HEIGHT_M = 0.02
 class Robot:
     """Waypoints, presses and checks count from 1 in a session."""
 
-    def __init__(self, session: Session):
-        self._session = session
+    def __init__(self, loop: ControlLoop):
+        self._loop = loop
         self._waypoint_id = 0
         self._press_id = 0
         self._check_id = 0
@@ -47,29 +47,29 @@ class Robot:
     @property
     def now_s(self) -> float:
         """Robot time."""
-        return self._session.now_s
+        return self._loop.now_s
 
     def set_maximum_speed(self, speed_mps: float) -> None:
         """Limit the speed from now on."""
-        self._session.change(max_speed_mps=speed_mps)
+        self._loop.change(max_speed_mps=speed_mps)
 
     def go_to(self, ray: Ray, distance_m: float, direction: Direction = Direction.ANY) -> None:
-        """Order the robot to bring the Remote key to a distance on a ray, facing the Car. Does not wait."""
-        status = self._session.status
-        self.order(ray.base_pose(distance_m, (status.key_x, status.key_y)), direction)
+        """Have the robot bring the Remote key to a distance on a ray, facing the Car. Does not wait."""
+        status = self._loop.status
+        self.drive_to(ray.base_pose(distance_m, (status.key_x, status.key_y)), direction)
 
-    def order(self, pose: Pose, direction: Direction = Direction.ANY) -> None:
-        """Order base_link to a pose. Does not wait."""
+    def drive_to(self, pose: Pose, direction: Direction = Direction.ANY) -> None:
+        """Send base_link to a pose. Does not wait."""
         self._waypoint_id += 1
-        self._session.change(stop=False, waypoint=Waypoint(self._waypoint_id, pose.x, pose.y, pose.heading, direction))
+        self._loop.change(stop=False, waypoint=Waypoint(self._waypoint_id, pose.x, pose.y, pose.heading, direction))
 
     def stop(self) -> None:
-        """Order the robot to stand still. Does not wait."""
-        self._session.change(stop=True)
+        """Have the robot stand still. Does not wait."""
+        self._loop.change(stop=True)
 
     def is_at_waypoint(self) -> bool:
         """True when the robot has reached the newest waypoint; LineInvalid when it refuses to go there."""
-        status = self._session.status
+        status = self._loop.status
         if status.waypoint_id != self._waypoint_id:
             return False
         if status.waypoint_result is WaypointResult.REFUSED:
@@ -80,11 +80,11 @@ class Robot:
         """Wait for the newest waypoint, or until or_when answers; its answer, None when the waypoint was first."""
         until_s = self.now_s + REACH_LIMIT_S
         while self.now_s < until_s:
-            self._session.step()
+            self._loop.step()
             answer = or_when()
             if answer or self.is_at_waypoint():
                 return answer
-        reason = self._session.status.waypoint_message
+        reason = self._loop.status.waypoint_message
         raise LineInvalid(f"The robot did not reach the waypoint within {REACH_LIMIT_S:g} s. {reason}".rstrip())
 
     def wait(self, duration_s: float, or_when: Callable[[], Answer | None] = lambda: None) -> Answer | None:
@@ -92,37 +92,37 @@ class Robot:
         until_s = self.now_s + duration_s
         answer = or_when()
         while not answer and self.now_s < until_s:
-            self._session.step()
+            self._loop.step()
             answer = or_when()
         return answer
 
     def move_key_to(self, height_m: float) -> None:
         """Move the Remote key to a height and wait until it is there; RobotFailed when it does not get there."""
         tolerance_m = max(_HEIGHT_M, _HEIGHT_PART * height_m)
-        self._session.change(key_height_m=height_m)
+        self._loop.change(key_height_m=height_m)
         until_s = self.now_s + HEIGHT_LIMIT_S
-        while not abs(self._session.step().key_height_m - height_m) <= tolerance_m:
+        while not abs(self._loop.step().key_height_m - height_m) <= tolerance_m:
             if self.now_s >= until_s:
                 raise RobotFailed(f"The Remote key did not reach the height of {100.0 * height_m:g} cm within "
-                                  f"{HEIGHT_LIMIT_S:g} s; it is at {100.0 * self._session.status.key_height_m:.0f} cm.")
+                                  f"{HEIGHT_LIMIT_S:g} s; it is at {100.0 * self._loop.status.key_height_m:.0f} cm.")
 
     def press(self, button: int, strength: float, duration_s: float) -> PressConfirmation:
         """Press a button once; returns when the press is over, LineInvalid when it could not be pressed."""
         self._press_id += 1
-        order = ButtonPress(self._press_id, (button,), strength, duration_s)
-        self._session.change(press=order)
+        order = Press(self._press_id, (button,), strength, duration_s)
+        self._loop.change(press=order)
         try:
             confirmation = self._confirmation_of(order)
         finally:
-            self._session.change(press=None)
+            self._loop.change(press=None)
         if confirmation.error:
             raise LineInvalid(f"The button could not be pressed: {confirmation.error}")
         return confirmation
 
-    def _confirmation_of(self, order: ButtonPress) -> PressConfirmation:
+    def _confirmation_of(self, order: Press) -> PressConfirmation:
         until_s = self.now_s + order.duration_s + PRESS_LIMIT_S
         while self.now_s < until_s:
-            for confirmation in self._session.step().presses:
+            for confirmation in self._loop.step().presses:
                 if confirmation.id == order.id:
                     return confirmation
         raise LineInvalid(f"The robot did not confirm a button press within {PRESS_LIMIT_S:g} s.")
@@ -130,40 +130,40 @@ class Robot:
     @property
     def can_check_car(self) -> bool:
         """False for a robot whose software is too old."""
-        return self._session.status.car_check is not None
+        return self._loop.status.car_check is not None
 
     def check_car(self) -> CarCheck:
         """Look at the Car again from two places; the robot's answer, RobotFailed when none comes."""
         self._check_id += 1
-        self._session.change(stop=False, check_car_id=self._check_id)
+        self._loop.change(stop=False, check_car_id=self._check_id)
         until_s = self.now_s + CHECK_LIMIT_S
         while self.now_s < until_s:
-            check = self._session.step().car_check
+            check = self._loop.step().car_check
             if check and check.id == self._check_id and check.state in (CheckState.PASSED, CheckState.FAILED):
                 return check
-        texts = [notification.text for notification in self._session.status.notifications]
+        texts = [notification.text for notification in self._loop.status.notifications]
         raise RobotFailed(" ".join([f"The robot did not check the Car within {CHECK_LIMIT_S:g} s.", *texts]))
 
     def key_distance(self, ray: Ray, time_s: float, time_sigma_s: float, origin_sigma_m: float = 0.0) -> Distance:
         """Distance of the Remote key on the ray at an instant; LineInvalid when the pose then is unknown."""
         try:
-            return measure(ray, self._session.poses.at(time_s), time_sigma_s, origin_sigma_m)
+            return measure(ray, self._loop.poses.at(time_s), time_sigma_s, origin_sigma_m)
         except PoseUnknown as error:
             raise LineInvalid(str(error)) from None
 
     def watched(self) -> AbstractContextManager:
         """Within the context anything that makes a measurement doubtful raises LineInvalid."""
-        return self._session.watched()
+        return self._loop.watched()
 
     def trouble(self) -> str:
         """Why nothing can be measured now; empty when it can."""
-        return self._session.trouble()
+        return self._loop.trouble()
 
     def say(self, action: str) -> None:
         """Tell the Operator what the robot does now."""
-        self._session.observer.on_action(action)
+        self._loop.observer.on_action(action)
 
     @property
     def status(self) -> RobotStatus:
         """The newest Status."""
-        return self._session.status
+        return self._loop.status

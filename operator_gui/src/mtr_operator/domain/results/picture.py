@@ -10,7 +10,7 @@ from ..geometry.pose import Point
 from ..geometry.ray import Ray
 
 
-class Look(enum.Enum):
+class PointRole(enum.Enum):
     """Role of a set of points; a view gives each role its colour and marker."""
 
     FIRST = "first"                    # the nearer area: unlocked, pressed with success
@@ -39,7 +39,7 @@ class PointSet:
     """
 
     label: str
-    look: Look
+    role: PointRole
     points: tuple[Point | None, ...]
     is_outline: bool = False
     bars: tuple[tuple[Point, Point], ...] = ()

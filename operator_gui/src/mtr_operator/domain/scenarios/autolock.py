@@ -13,7 +13,7 @@ from ..geometry.axes import Axis, axes_around
 from ..geometry.pose import Point
 from ..geometry.ray import Ray
 from ..ports import KEY_BUTTON, CarDimensions, CarEvent, Direction, LockState
-from ..results.picture import Look, Picture, PointSet, Stretch, bars_along
+from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along
 from ..scenario import REASON, Column, LineStatus, Measurement, Result, Scenario, distance_values
 from .autolock_parameters import AutolockParameters
 
@@ -76,18 +76,18 @@ class Autolock(Scenario[AutolockParameters, Axis]):
                 for result in results]
         stretches = [Stretch(ray.point(parameters.minimum_distance_m), ray.point(parameters.maximum_distance_m),
                              str(result["axis"])) for result, ray in rays]
-        ends = (("unlock", Look.FIRST, Look.FIRST_FAILED, parameters.minimum_distance_m),
-                ("lock", Look.SECOND, Look.SECOND_FAILED, parameters.straightened_distance_m))
-        sets = [PointSet(f"{name.capitalize()}ed", look, _outline(rays, name), is_outline=True,
+        ends = (("unlock", PointRole.FIRST, PointRole.FIRST_FAILED, parameters.minimum_distance_m),
+                ("lock", PointRole.SECOND, PointRole.SECOND_FAILED, parameters.straightened_distance_m))
+        sets = [PointSet(f"{name.capitalize()}ed", role, _outline(rays, name), is_outline=True,
                          bars=bars_along(rays, f"{name}_distance_m", f"{name}_uncertainty_m"))
-                for name, look, _, _ in ends]
-        for name, _, look, distance_m in ends:
+                for name, role, _, _ in ends]
+        for name, _, role, distance_m in ends:
             points = tuple(ray.point(distance_m) for result, ray in rays
                            if result[f"{name}_status"] == LineStatus.NOT_REACHED.value)
-            sets.append(PointSet(f"{name.capitalize()} not reached", look, points))
+            sets.append(PointSet(f"{name.capitalize()} not reached", role, points))
         invalid = tuple(ray.point(parameters.straightened_distance_m) for result, ray in rays
                         if self.invalid_count(result))
-        sets.append(PointSet("Invalid", Look.INVALID, invalid))
+        sets.append(PointSet("Invalid", PointRole.INVALID, invalid))
         return Picture(tuple(stretches), tuple(sets))
 
     def expected_line_s(self, parameters: AutolockParameters) -> float:

@@ -14,7 +14,7 @@ from ..geometry.pose import Point
 from ..geometry.radials import Radial, radials_around
 from ..geometry.ray import Ray
 from ..ports import PASSIVE_ENTRY, CarDimensions, CarEvent, Direction, LockState
-from ..results.picture import Look, Picture, PointSet, Stretch, bars_along
+from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along
 from ..scenario import REASON, Column, LineStatus, Measurement, Result, Scenario, distance_values
 from .key_press_parameters import KeyPressParameters
 
@@ -96,13 +96,13 @@ class KeyPress(Scenario[KeyPressParameters, Radial]):
         invalid = tuple(ray.point(parameters.press_distances_m[0]) for result, ray in measured
                         if result["status"] == LineStatus.INVALID.value)
         return Picture(stretches, (
-            PointSet("Press worked", Look.FIRST, _places(measured, "distance_m"), is_outline=True,
+            PointSet("Press worked", PointRole.FIRST, _places(measured, "distance_m"), is_outline=True,
                      bars=bars_along(measured, "distance_m", "uncertainty_m")),
-            PointSet("Press failed", Look.FAILED, _places(measured, "failed_distance_m")),
-            PointSet("Invalid", Look.INVALID, invalid)))
+            PointSet("Press failed", PointRole.FAILED, _places(measured, "failed_distance_m")),
+            PointSet("Invalid", PointRole.INVALID, invalid)))
 
     def expected_line_s(self, parameters: KeyPressParameters) -> float:
-        """See Scenario: the Car is taken to obey at the middle one of the places."""
+        """See Scenario: the Car is taken to react at the middle one of the places."""
         places = parameters.press_distances_m
         failed = len(places) // 2
         way_m = parameters.maximum_distance_m - places[failed]
@@ -121,15 +121,15 @@ def _press_here(radial: Ray, measured: _Measured, parameters: KeyPressParameters
         button, expected = _CHANGING_PRESS[car.lock_state]
         measured.attempts += 1
         # Not since the press began: its clock and that of the bus agree to some milliseconds only.
-        ordered_s = robot.now_s
+        requested_s = robot.now_s
         press = robot.press(button, parameters.press_strength, parameters.press_duration_s)
 
-        def obeyed(state: LockState = expected, since_s: float = ordered_s) -> CarEvent | None:
+        def reacted(state: LockState = expected, since_s: float = requested_s) -> CarEvent | None:
             return car.change_to(state, since_s)
 
-        robot.wait(press.start_s + parameters.response_timeout_s - robot.now_s, or_when=obeyed)
+        robot.wait(press.start_s + parameters.response_timeout_s - robot.now_s, or_when=reacted)
         place = robot.key_distance(radial, press.start_s, 0.0)
-        event = obeyed()
+        event = reacted()
         if event is not None and event.source == PASSIVE_ENTRY:
             raise LineInvalid(f"The Car was {event.lock_state.value} by the vicinity of a key, not by the press at "
                               f"{place.distance_m:.2f} m; switch passive entry off, or increase minimum_distance_m.")

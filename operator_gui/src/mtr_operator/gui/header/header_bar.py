@@ -5,7 +5,7 @@ from __future__ import annotations
 from PyQt5.QtCore import Qt, pyqtSignal
 from PyQt5.QtWidgets import QHBoxLayout, QWidget
 
-from mtr_operator.station.view_model import Desk
+from mtr_operator.station.view_model import ViewModel
 
 from ..theme.appearance import Appearance
 from ..theme.scale import M, S
@@ -39,10 +39,10 @@ class HeaderBar(QWidget):
         for widget in (self.warning, self.status, self.lock, self.battery, self.settings):
             layout.addWidget(widget)
 
-    def show_desk(self, desk: Desk) -> None:
+    def show_model(self, model: ViewModel) -> None:
         """Show the newest of robot and Car."""
-        self.status.show_verdict(desk.verdict)
-        self.warning.show_notifications(desk.notifications)
-        if desk.robot is not None:
-            self.battery.show_percent(desk.robot.status.battery_percent)
-            self.lock.show_closed(desk.robot.is_secret)
+        self.status.show_readiness(model.readiness)
+        self.warning.show_notifications(model.notifications)
+        if model.robot is not None:
+            self.battery.show_percent(model.robot.status.battery_percent)
+            self.lock.show_closed(model.robot.is_secret)

@@ -1,22 +1,22 @@
-"""Verdict and reasons in words: what is the matter, and what to do about it."""
+"""Readiness and its reasons in words: what is the matter, and what to do about it."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from mtr_operator.station.readiness import Cause, Reason, Word
+from mtr_operator.station.readiness import Cause, ReadinessWord, Reason
 
 from ..i18n import translate
 from ..sentences import translated
 
 
-def word_text(word: Word) -> str:
+def word_text(word: ReadinessWord) -> str:
     """The status word."""
     return {
-        Word.READY: translate("Status", "Ready"),
-        Word.WARNINGS: translate("Status", "Ready with warnings"),
-        Word.NOT_READY: translate("Status", "Not ready"),
-        Word.MEASURING: translate("Status", "Measuring"),
-        Word.PAUSED: translate("Status", "Paused"),
-        Word.LOST: translate("Status", "Communication lost"),
+        ReadinessWord.READY: translate("Status", "Ready"),
+        ReadinessWord.WARNINGS: translate("Status", "Ready with warnings"),
+        ReadinessWord.NOT_READY: translate("Status", "Not ready"),
+        ReadinessWord.MEASURING: translate("Status", "Measuring"),
+        ReadinessWord.PAUSED: translate("Status", "Paused"),
+        ReadinessWord.LOST: translate("Status", "Communication lost"),
     }[word]
 
 

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from PyQt5.QtWidgets import QPushButton, QWidget
 
-from mtr_operator.station.readiness import Verdict, Word
+from mtr_operator.station.readiness import Readiness, ReadinessWord
 
 from .popup import Popup
 from .reasons import advice_text, reason_text, word_text
 
 # Told apart without colours too.
-_SIGNS = {Word.READY: "\N{CHECK MARK}", Word.WARNINGS: "!", Word.NOT_READY: "\N{MULTIPLICATION X}",
-          Word.MEASURING: "\N{BLACK RIGHT-POINTING TRIANGLE}", Word.PAUSED: "\N{DOUBLE VERTICAL LINE}",
-          Word.LOST: "\N{MULTIPLICATION X}"}
+_SIGNS = {
+    ReadinessWord.READY: "\N{CHECK MARK}",
+    ReadinessWord.WARNINGS: "!",
+    ReadinessWord.NOT_READY: "\N{MULTIPLICATION X}",
+    ReadinessWord.MEASURING: "\N{BLACK RIGHT-POINTING TRIANGLE}",
+    ReadinessWord.PAUSED: "\N{DOUBLE VERTICAL LINE}",
+    ReadinessWord.LOST: "\N{MULTIPLICATION X}",
+}
 
 
 class StatusWord(QPushButton):
@@ -21,22 +26,22 @@ class StatusWord(QPushButton):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.popup = Popup(self)
-        self._verdict: Verdict | None = None
+        self._readiness: Readiness | None = None
         self.clicked.connect(self._open)
 
-    def show_verdict(self, verdict: Verdict) -> None:
-        """Show another verdict."""
-        if verdict == self._verdict:
+    def show_readiness(self, readiness: Readiness) -> None:
+        """Show another readiness."""
+        if readiness == self._readiness:
             return
-        word_changed = self._verdict is None or verdict.word is not self._verdict.word
-        self._verdict = verdict
-        word = word_text(verdict.word)
+        word_changed = self._readiness is None or readiness.word is not self._readiness.word
+        self._readiness = readiness
+        word = word_text(readiness.word)
         if word_changed:
-            self.setText(f"{_SIGNS[verdict.word]}  {word}")
-            self.setProperty("word", verdict.word.value)
+            self.setText(f"{_SIGNS[readiness.word]}  {word}")
+            self.setProperty("word", readiness.word.value)
             self.style().unpolish(self)
             self.style().polish(self)
-        sentences = [reason_text(reason) for reason in verdict.reasons]
+        sentences = [reason_text(reason) for reason in readiness.reasons]
         self.setAccessibleName(self.tr("Status: {word}").format(word=word))
         self.setAccessibleDescription(" ".join(sentences))
         self.setToolTip("\n".join(sentences) or self.tr("Everything is ready for a test."))
@@ -48,6 +53,6 @@ class StatusWord(QPushButton):
         self.popup.open_below(self)
 
     def _fill(self) -> None:
-        verdict = self._verdict
-        entries = [(reason_text(reason), advice_text(reason)) for reason in verdict.reasons]
-        self.popup.fill(word_text(verdict.word), entries or [(self.tr("Nothing stands against it."), "")])
+        readiness = self._readiness
+        entries = [(reason_text(reason), advice_text(reason)) for reason in readiness.reasons]
+        self.popup.fill(word_text(readiness.word), entries or [(self.tr("Nothing stands against it."), "")])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from mtr_operator.domain.geometry.pose import Pose, wrap_angle
 
 # Status comes ten times a second; after a longer gap the robot is where the last one says.
-LONGEST_GAP_S = 0.3
+MAX_GAP_S = 0.3
 LONGEST_STEP_M = 1.0
 
 
@@ -22,7 +22,7 @@ class Glide:
         if pose == self._to:
             return
         gap_s = now_s - self._to_s
-        jumps = pose is None or self._to is None or gap_s > LONGEST_GAP_S \
+        jumps = pose is None or self._to is None or gap_s > MAX_GAP_S \
             or abs(pose.x - self._to.x) + abs(pose.y - self._to.y) > LONGEST_STEP_M
         self._from = pose if jumps else self.at(now_s)
         self._to, self._to_s, self._gap_s = pose, now_s, gap_s

@@ -37,10 +37,10 @@ def paint_entry(canvas: Canvas, sets: Sequence[PointSet], index: int, corner: QP
     unit, painter = canvas.unit, canvas.painter
     middle = corner + QPointF(10.0, ROW_PX / 2.0) * unit
     if index < len(shown):
-        colour = colour_of(shown[index].look, canvas.palette)
+        colour = colour_of(shown[index].role, canvas.palette)
         painter.setPen(canvas.pen(colour, 2.2))
         painter.setBrush(QColor(colour))
-        draw_marker(painter, shown[index].look, middle, 5.5 * unit)
+        draw_marker(painter, shown[index].role, middle, 5.5 * unit)
     else:
         bar = canvas.pen(canvas.palette.ink_soft, 7.0, alpha=0.5)
         bar.setCapStyle(Qt.FlatCap)

@@ -1,4 +1,4 @@
-"""The picture of the measurement screen, from what is on the desk."""
+"""The picture of the measurement screen, from the view model."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.station.estimate import USUAL_CAR, plan_of
-from mtr_operator.station.view_model import Desk
+from mtr_operator.station.view_model import ViewModel
 
 from .glide import Glide
 from .layers.car_layer import CarLayer
@@ -21,8 +21,8 @@ from .picture_panel import PicturePanel
 class MeasurementPicture:
     """Paints what stands still only when it has changed, and the robot thirty times a second."""
 
-    def __init__(self, desk: Desk, panel: PicturePanel):
-        self._desk = desk
+    def __init__(self, model: ViewModel, panel: PicturePanel):
+        self._model = model
         self._panel = panel
         self._glide = Glide()
         self._shown: tuple[Any, ...] = ()
@@ -32,10 +32,10 @@ class MeasurementPicture:
         self.points = PointsLayer()
         self.lines = LinesLayer()
 
-    def show_desk(self, now_s: float) -> None:
+    def show_model(self, now_s: float) -> None:
         """Something is another one."""
-        desk = self._desk
-        shown = (id(desk.test), desk.mapped_car, len(desk.results), id(desk.results))
+        model = self._model
+        shown = (id(model.test), model.mapped_car, len(model.results), id(model.results))
         if shown != self._shown:
             self._shown = shown
             self._arrange()
@@ -49,28 +49,28 @@ class MeasurementPicture:
             self._panel.view.update()
 
     def _show_robot(self, now_s: float) -> None:
-        news = self._desk.robot
-        if news is None:
+        snapshot = self._model.robot
+        if snapshot is None:
             return
-        status = news.status
+        status = snapshot.status
         self._glide.put(Pose(status.x, status.y, status.heading) if status.pose_valid else None, now_s)
         robot = self.robot
         robot.pose, robot.key, robot.sigma_m = self._glide.at(now_s), (status.key_x, status.key_y), \
             status.position_sigma_m
-        goal = news.waypoint
-        robot.waypoint = None if goal is None else Pose(goal.x, goal.y, goal.heading)
-        if self._desk.trail is not self.trail.places:
-            self.trail.places = self._desk.trail
+        waypoint = snapshot.waypoint
+        robot.waypoint = None if waypoint is None else Pose(waypoint.x, waypoint.y, waypoint.heading)
+        if self._model.trail is not self.trail.places:
+            self.trail.places = self._model.trail
             self._panel.view.refresh()
         self._panel.view.add_news(self.trail)
 
     def _arrange(self) -> None:
-        desk, test = self._desk, self._desk.test
-        mapped = desk.mapped_car
+        model, test = self._model, self._model.test
+        mapped = model.mapped_car
         car = mapped or USUAL_CAR
-        picture = test.scenario.picture(test.parameters, car, desk.results)
+        picture = test.scenario.picture(test.parameters, car, model.results)
         self.points.sets = self.areas.sets = picture.point_sets
-        self.areas.is_complete = desk.done == desk.total
+        self.areas.is_complete = model.done == model.total
         self.lines.is_visible = test.scenario.lines_stay
         self.lines.stretches = self._stretches(car)
         self._panel.legend.show_sets(picture.point_sets)
@@ -78,7 +78,7 @@ class MeasurementPicture:
                                       self.points, self.trail, self.robot, ScaleLayer()])
 
     def _stretches(self, car: Any) -> tuple:
-        test = self._desk.test
+        test = self._model.test
         try:
             return plan_of(test.scenario, test.parameters, car, True).stretches
         except InvalidParameter:  # the runner says it

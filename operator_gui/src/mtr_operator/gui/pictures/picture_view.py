@@ -77,7 +77,7 @@ class PictureView(QWidget):
         if self._still is not None:
             painter = QPainter(self._still)
             painter.setRenderHint(QPainter.Antialiasing)
-            layer.paint_news(Canvas(painter, self.viewport, self._appearance.palette))
+            layer.paint_added(Canvas(painter, self.viewport, self._appearance.palette))
             painter.end()
 
     def fit(self) -> None:

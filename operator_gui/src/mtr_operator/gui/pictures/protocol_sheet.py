@@ -23,7 +23,7 @@ _MARGIN = 36.0
 _PANEL = 380.0
 _ROW = 18.0
 _TEXT_PX = 12.5
-_LONGEST_REASON = 90
+_MAX_REASON = 90
 
 
 class ProtocolSheet:
@@ -102,8 +102,8 @@ class ProtocolSheet:
         for result in self._protocol.progress.results:
             if result[REASON] and top + 2 * _ROW < HEIGHT - _MARGIN:
                 text = f"{scenario.number_of(result)}: {translated(result[REASON])}"
-                if len(text) > _LONGEST_REASON:
-                    text = text[:_LONGEST_REASON - 1] + "\N{HORIZONTAL ELLIPSIS}"
+                if len(text) > _MAX_REASON:
+                    text = text[:_MAX_REASON - 1] + "\N{HORIZONTAL ELLIPSIS}"
                 canvas.painter.drawText(QRectF(left, top, _PANEL, 2 * _ROW), Qt.TextWordWrap | Qt.AlignLeft, text)
                 top += 2 * _ROW
 

@@ -7,8 +7,8 @@ from typing import Iterable
 
 from mtr_operator.domain.geometry.pose import Point
 
-SMALLEST_PX_PER_M = 4.0
-LARGEST_PX_PER_M = 800.0
+MIN_PX_PER_M = 4.0
+MAX_PX_PER_M = 800.0
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Viewport:
     def zoomed(self, factor: float, pixel: Point) -> Viewport:
         """Larger by the factor, with the place under the pixel where it was."""
         place = self.to_car(pixel)
-        scale = min(max(self.px_per_m * factor, SMALLEST_PX_PER_M), LARGEST_PX_PER_M)
+        scale = min(max(self.px_per_m * factor, MIN_PX_PER_M), MAX_PX_PER_M)
         return replace(self, px_per_m=scale)._with_place_at(place, pixel)
 
     def panned(self, right_px: float, down_px: float) -> Viewport:
@@ -52,7 +52,7 @@ class Viewport:
         for x, y in points:
             reach_x, reach_y = max(reach_x, abs(x)), max(reach_y, abs(y))
         scale = min((self.width - 2.0 * margin_px) / (2.0 * reach_y), (self.height - 2.0 * margin_px) / (2.0 * reach_x))
-        return replace(self, px_per_m=min(max(scale, SMALLEST_PX_PER_M), LARGEST_PX_PER_M), middle_x=0.0, middle_y=0.0)
+        return replace(self, px_per_m=min(max(scale, MIN_PX_PER_M), MAX_PX_PER_M), middle_x=0.0, middle_y=0.0)
 
     def _with_place_at(self, place: Point, pixel: Point) -> Viewport:
         return replace(self, middle_x=place[0] + (pixel[1] - self.height / 2.0) / self.px_per_m,

@@ -9,7 +9,7 @@ from PyQt5.QtGui import QHideEvent, QShowEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.station.readiness import Phase, can_resume
-from mtr_operator.station.view_model import Desk
+from mtr_operator.station.view_model import ViewModel
 
 from ..bridge import FRAME_MS
 from ..pictures.measurement_picture import MeasurementPicture
@@ -33,12 +33,12 @@ class MeasurementScreen(QWidget):
     save_wanted = pyqtSignal()
     leave_wanted = pyqtSignal()
 
-    def __init__(self, desk: Desk, appearance: Appearance, parent: QWidget | None = None):
+    def __init__(self, model: ViewModel, appearance: Appearance, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("page")
-        self._desk = desk
+        self._model = model
         self.panel = PicturePanel(appearance)
-        self.picture = MeasurementPicture(desk, self.panel)
+        self.picture = MeasurementPicture(model, self.panel)
         self.facts = MeasurementFacts()
         self.trouble = QLabel()
         self.trouble.setWordWrap(True)
@@ -79,20 +79,20 @@ class MeasurementScreen(QWidget):
         layout.addWidget(self.panel, 1)
         layout.addWidget(holder)
 
-    def show_desk(self) -> None:
+    def show_model(self) -> None:
         """Something of robot, Car or test is another one."""
-        desk = self._desk
-        if desk.test is None:
+        model = self._model
+        if model.test is None:
             return
-        self.picture.show_desk(time.monotonic())
-        self.facts.show_desk(desk)
-        self.trouble.setVisible(bool(desk.trouble) and desk.phase is Phase.PAUSED)
-        self.trouble.setText(translated(desk.trouble))
-        self.stop.setVisible(desk.phase in (Phase.MEASURING, Phase.STOPPING))
-        self.stop.setEnabled(desk.phase is Phase.MEASURING)
-        self.resume.setVisible(desk.phase is Phase.PAUSED)
-        self.resume.setEnabled(can_resume(desk.verdict))
-        self.leave.setVisible(desk.phase is Phase.PAUSED)
+        self.picture.show_model(time.monotonic())
+        self.facts.show_model(model)
+        self.trouble.setVisible(bool(model.trouble) and model.phase is Phase.PAUSED)
+        self.trouble.setText(translated(model.trouble))
+        self.stop.setVisible(model.phase in (Phase.MEASURING, Phase.STOPPING))
+        self.stop.setEnabled(model.phase is Phase.MEASURING)
+        self.resume.setVisible(model.phase is Phase.PAUSED)
+        self.resume.setEnabled(can_resume(model.readiness))
+        self.leave.setVisible(model.phase is Phase.PAUSED)
 
     def say(self, sentence: str) -> None:
         """Show a sentence above the buttons."""

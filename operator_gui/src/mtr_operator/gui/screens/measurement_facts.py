@@ -7,9 +7,9 @@ import math
 from PyQt5.QtWidgets import QFormLayout, QFrame, QLabel, QProgressBar, QVBoxLayout, QWidget
 
 from mtr_operator.domain.ports import LockState
-from mtr_operator.station.events import RobotNews
+from mtr_operator.station.events import RobotSnapshot
 from mtr_operator.station.readiness import Phase
-from mtr_operator.station.view_model import Desk
+from mtr_operator.station.view_model import ViewModel
 
 from ..i18n import duration, number
 from ..names import domain_word, scenario_title
@@ -54,24 +54,24 @@ class MeasurementFacts(QFrame):
         layout.addLayout(rows)
         layout.addStretch(1)
 
-    def show_desk(self, desk: Desk) -> None:
+    def show_model(self, model: ViewModel) -> None:
         """Show the newest."""
-        scenario = desk.test.scenario
+        scenario = model.test.scenario
         self.title.setText(scenario_title(scenario))
-        self.percent.setText(f"{desk.percent} %")
-        self.bar.setValue(desk.percent)
-        self.count.setText(self.tr("{done} of {total} lines measured").format(done=desk.done, total=desk.total))
-        self.left.setText(self._left_text(desk))
+        self.percent.setText(f"{model.percent} %")
+        self.bar.setValue(model.percent)
+        self.count.setText(self.tr("{done} of {total} lines measured").format(done=model.done, total=model.total))
+        self.left.setText(self._left_text(model))
         self.left.setVisible(bool(self.left.text()))
-        self.action.setText(self._action_text(desk))
-        self.values["newest"].setText(newest_text(desk))
-        car = desk.mapped_car
+        self.action.setText(self._action_text(model))
+        self.values["newest"].setText(newest_text(model))
+        car = model.mapped_car
         self.values["car"].setText(_UNKNOWN if car is None else
                                    f"{number(car.length, 2)} m \N{MULTIPLICATION SIGN} {number(car.width, 2)} m")
-        if desk.robot is not None:
-            self._show_robot(desk.robot)
+        if model.robot is not None:
+            self._show_robot(model.robot)
 
-    def _show_robot(self, robot: RobotNews) -> None:
+    def _show_robot(self, robot: RobotSnapshot) -> None:
         status = robot.status
         locks = {LockState.LOCKED: self.tr("locked"), LockState.UNLOCKED: self.tr("unlocked"),
                  LockState.UNKNOWN: self.tr("unknown")}
@@ -82,29 +82,29 @@ class MeasurementFacts(QFrame):
             f"\N{PLUS-MINUS SIGN}{_measure(status.position_sigma_m, _CM_PER_M, 0, 'cm')}" if status.pose_valid
             else self.tr("not known"))
 
-    def _left_text(self, desk: Desk) -> str:
-        left_s = desk.left_s
+    def _left_text(self, model: ViewModel) -> str:
+        left_s = model.left_s
         return "" if left_s is None else self.tr("about {time} left").format(time=duration(left_s))
 
-    def _action_text(self, desk: Desk) -> str:
-        if desk.phase is Phase.STOPPING:
+    def _action_text(self, model: ViewModel) -> str:
+        if model.phase is Phase.STOPPING:
             return self.tr("The robot is being stopped.")
-        if desk.phase is Phase.PAUSED:
+        if model.phase is Phase.PAUSED:
             return self.tr("Paused. The line at hand is measured anew after Resume.")
-        return translated(desk.action)
+        return translated(model.action)
 
 
-def newest_text(desk: Desk) -> str:
+def newest_text(model: ViewModel) -> str:
     """The newest result: place and distances."""
-    if not desk.results or desk.newest is None:
+    if not model.results or model.newest is None:
         return _UNKNOWN
-    scenario, result = desk.test.scenario, desk.newest
-    told = []
+    scenario, result = model.test.scenario, model.newest
+    notice = []
     for measurement in scenario.measurements:
         distance, status = result[measurement.distance], result[measurement.status]
         value = f"{number(distance * _CM_PER_M, 0)} cm" if status == "ok" else domain_word(status.replace("_", " "))
-        told.append(f"{domain_word(measurement.word)} {value}")
-    return f"{scenario.number_of(result)} ({domain_word(scenario.place_of(result))}): {', '.join(told)}"
+        notice.append(f"{domain_word(measurement.word)} {value}")
+    return f"{scenario.number_of(result)} ({domain_word(scenario.place_of(result))}): {', '.join(notice)}"
 
 
 def _measure(value: float, per_si: float, digits: int, unit: str) -> str:

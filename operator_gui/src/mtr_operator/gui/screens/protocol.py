@@ -30,7 +30,7 @@ _CLICK_PX = 18.0
 
 
 class ProtocolScreen(QWidget):
-    """Attributes: protocol: what is shown. panel: the picture. table: the results. told: what was saved.
+    """Attributes: protocol: what is shown. panel: the picture. table: the results. notice: what was saved.
 
     save, save_pdf, save_svg, show_folder, done: buttons.
 
@@ -50,10 +50,10 @@ class ProtocolScreen(QWidget):
         self._folder: pathlib.Path | None = None
         self.panel = PicturePanel(appearance)
         self.panel.view.clicked.connect(self._choose_point)
-        self.title, self.date, self.told = QLabel(), QLabel(), QLabel()
+        self.title, self.date, self.notice = QLabel(), QLabel(), QLabel()
         self.title.setProperty("role", "heading")
         self.date.setProperty("role", "soft")
-        self.told.setWordWrap(True)
+        self.notice.setWordWrap(True)
         self.table = self._make_table()
         self.save = self._button(self.tr("Save"), "primary", lambda: self._write((CSV, PNG)))
         self.save.setToolTip(self.tr("Save as CSV and PNG"))
@@ -95,7 +95,7 @@ class ProtocolScreen(QWidget):
         side.addWidget(self.title)
         side.addWidget(self.date)
         side.addWidget(self.table, 1)
-        side.addWidget(self.told)
+        side.addWidget(self.notice)
         side.addLayout(first)
         side.addLayout(second)
         holder = QWidget()
@@ -108,10 +108,10 @@ class ProtocolScreen(QWidget):
         layout.addWidget(holder)
 
     def show_test(self) -> None:
-        """Show the test on the desk."""
-        desk = self._flow.desk
-        test = desk.test
-        progress: Progress = dataclasses.replace(test.progress, results=[dict(result) for result in desk.results])
+        """Show the test at hand."""
+        model = self._flow.model
+        test = model.test
+        progress: Progress = dataclasses.replace(test.progress, results=[dict(result) for result in model.results])
         self.protocol = Protocol(test.scenario, test.parameters, progress)
         self._picture = ProtocolPicture(self.protocol)
         self._saved.clear()
@@ -123,7 +123,7 @@ class ProtocolScreen(QWidget):
         self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
         self.panel.legend.show_sets(self.protocol.picture.point_sets)
         self.panel.view.show_layers(self._picture.layers)
-        self._tell(self._summary())
+        self._show_notice(self._summary())
         self.show_folder.setEnabled(False)
         self.save.setFocus()
 
@@ -142,37 +142,37 @@ class ProtocolScreen(QWidget):
 
     def _choose_point(self, x: float, y: float) -> None:
         """Select the row of the point that was clicked."""
-        reach_m = _CLICK_PX / self.panel.view.viewport.px_per_m
+        limit_m = _CLICK_PX / self.panel.view.viewport.px_per_m
         distances = [(min((math.dist((x, y), point) for each in self.protocol.picture_of(row).point_sets
                            for point in each.known), default=math.inf), row)
                      for row in range(len(self.protocol.progress.results))]
         nearest_m, row = min(distances, default=(math.inf, -1))
-        if nearest_m <= reach_m:
+        if nearest_m <= limit_m:
             self.table.selectRow(row)
 
     def _write(self, kinds: tuple[str, ...]) -> None:
-        folder = self._flow.store.settings.result_folder / self._flow.desk.test.name
+        folder = self._flow.store.settings.result_folder / self._flow.model.test.name
         self._folder = folder
         self._set_saving(True)
         self._writer = ReportWriter(self.protocol, folder, kinds, self)
-        self._writer.written.connect(self._tell_written)
-        self._writer.refused.connect(lambda text: self._tell_refused(text, kinds))
+        self._writer.written.connect(self._show_written)
+        self._writer.refused.connect(lambda text: self._show_refused(text, kinds))
         self._writer.start()
 
     def _set_saving(self, is_saving: bool) -> None:
         for button in (self.save, self.save_pdf, self.save_svg):
             button.setEnabled(not is_saving)
 
-    def _tell_written(self, paths: list) -> None:
+    def _show_written(self, paths: list) -> None:
         self._set_saving(False)
         self._saved |= {path.name for path in paths}
         files = ", ".join(sorted(self._saved))
-        self._tell(self.tr("Saved {files} to {folder}").format(files=files, folder=self._folder))
+        self._show_notice(self.tr("Saved {files} to {folder}").format(files=files, folder=self._folder))
         self.show_folder.setEnabled(True)
 
-    def _tell_refused(self, text: str, kinds: tuple[str, ...]) -> None:
+    def _show_refused(self, text: str, kinds: tuple[str, ...]) -> None:
         self._set_saving(False)
-        self._tell(translated(text) + " " + self.tr("Choose another folder; nothing is lost."))
+        self._show_notice(translated(text) + " " + self.tr("Choose another folder; nothing is lost."))
         QTimer.singleShot(0, lambda: self._ask_folder(kinds))
 
     def _ask_folder(self, kinds: tuple[str, ...]) -> None:
@@ -185,6 +185,6 @@ class ProtocolScreen(QWidget):
     def _open_folder(self) -> None:
         QDesktopServices.openUrl(QUrl.fromLocalFile(str(self._folder)))
 
-    def _tell(self, sentence: str) -> None:
-        self.told.setText(sentence)
-        self.told.setTextInteractionFlags(Qt.TextSelectableByMouse)
+    def _show_notice(self, sentence: str) -> None:
+        self.notice.setText(sentence)
+        self.notice.setTextInteractionFlags(Qt.TextSelectableByMouse)

@@ -8,7 +8,7 @@ from PyQt5.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollAre
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.scenario import Scenario
 from mtr_operator.station.estimate import USUAL_CAR, Plan, plan_of
-from mtr_operator.station.view_model import Desk
+from mtr_operator.station.view_model import ViewModel
 
 from ..forms.parameter_form import ParameterForm
 from ..header.reasons import reason_text
@@ -24,7 +24,7 @@ from ..theme.scale import L, M, S
 
 
 class SettingsScreen(QWidget):
-    """Attributes: form: the parameters. picture: preview. start: the button. told: sentence on duration and battery.
+    """Attributes: form: the parameters. picture: preview. start: the button. notice: sentence on duration and battery.
 
     Signals: started(parameters), back.
     """
@@ -32,19 +32,19 @@ class SettingsScreen(QWidget):
     started = pyqtSignal(object)
     back = pyqtSignal()
 
-    def __init__(self, scenario: Scenario, desk: Desk, appearance: Appearance, parent: QWidget | None = None):
+    def __init__(self, scenario: Scenario, model: ViewModel, appearance: Appearance, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("page")
         self._scenario = scenario
-        self._desk = desk
+        self._model = model
         self._plan: Plan | None = None
         self._shown: tuple = ()
         # Without a valid plan the view stays as it was.
         self._lines = LinesLayer()
         self.form = ParameterForm(scenario.parameters_type)
         self.picture = PicturePanel(appearance)
-        self.told = QLabel()
-        self.told.setWordWrap(True)
+        self.notice = QLabel()
+        self.notice.setWordWrap(True)
         self.start = QPushButton(self.tr("Start"))
         self.start.setProperty("role", "primary")
         self.start.clicked.connect(self._start)
@@ -78,23 +78,23 @@ class SettingsScreen(QWidget):
         right = QVBoxLayout()
         right.setSpacing(S)
         right.addWidget(self.picture, 1)
-        right.addWidget(self.told)
+        right.addWidget(self.notice)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(L)
         layout.addLayout(left, 11)
         layout.addLayout(right, 10)
 
-    def show_desk(self) -> None:
+    def show_model(self) -> None:
         """Something of robot or Car is another one."""
-        status = self._desk.robot.status if self._desk.robot else None
-        shown = (self._desk.mapped_car, self._desk.verdict, status and status.battery_percent)
+        status = self._model.robot.status if self._model.robot else None
+        shown = (self._model.mapped_car, self._model.readiness, status and status.battery_percent)
         if shown != self._shown:
             self._shown = shown
             self._preview()
 
     def _preview(self) -> None:
-        parameters, mapped = self.form.parameters, self._desk.mapped_car
+        parameters, mapped = self.form.parameters, self._model.mapped_car
         car = mapped or USUAL_CAR
         self._plan = None
         self._lines.is_visible = False
@@ -106,7 +106,7 @@ class SettingsScreen(QWidget):
             except InvalidParameter as error:
                 self.form.show_fault(parameter_sentence(error, self._scenario.parameters_type))
         self.picture.view.show_layers([GridLayer(), self._lines, CarLayer(car, mapped is not None), ScaleLayer()])
-        self.told.setText(self._forecast(mapped is not None))
+        self.notice.setText(self._forecast(mapped is not None))
         self._judge()
 
     def _forecast(self, is_mapped: bool) -> str:
@@ -117,7 +117,7 @@ class SettingsScreen(QWidget):
             count=len(plan.stretches), word=domain_word(self._scenario.line_word), time=duration(plan.duration_s))
         if not is_mapped:
             lines += " " + self.tr("The Car is not measured yet; its size is a guess.")
-        battery = self._desk.robot.status.battery_percent if self._desk.robot else None
+        battery = self._model.robot.status.battery_percent if self._model.robot else None
         if battery is None:
             return lines
         if plan.suffices(battery):
@@ -126,11 +126,11 @@ class SettingsScreen(QWidget):
         return lines + " " + warning.format(percent=battery, need=round(plan.battery_percent))
 
     def _judge(self) -> None:
-        verdict = self._desk.verdict
-        hindrance = "" if verdict.can_start else " ".join(reason_text(reason) for reason in verdict.reasons
+        readiness = self._model.readiness
+        hindrance = "" if readiness.can_start else " ".join(reason_text(reason) for reason in readiness.reasons
                                                            if reason.is_blocking)
         self._hindrance.setText(hindrance)
-        self.start.setEnabled(self._plan is not None and verdict.can_start)
+        self.start.setEnabled(self._plan is not None and readiness.can_start)
 
     def _start(self) -> None:
         self.started.emit(self.form.parameters)

@@ -10,8 +10,8 @@ from PyQt5.QtWidgets import QCheckBox, QDialog, QHBoxLayout, QLabel, QPushButton
 from mtr_operator.domain.parameters import Declaration
 from mtr_operator.domain.ports import PressConfirmation
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
-from mtr_operator.station.links.idle_loop import CalibrationOrder
-from mtr_operator.station.readiness import Word
+from mtr_operator.station.links.idle_loop import CalibrationRequest
+from mtr_operator.station.readiness import ReadinessWord
 
 from ..flow import Flow
 from ..forms.parameter_field import ParameterField
@@ -28,14 +28,14 @@ _UNKNOWN = "\N{EN DASH}"
 class CalibrationWindow(QDialog):
     """Attributes: key_height, strength, press_s: fields. buttons: check boxes by number. send: button.
 
-    reported: labels by name of what they tell. told: what became of the order. car: check and mapping of the Car.
+    reported: labels by name of what they show. notice: what became of the request. car: check and mapping of the Car.
     """
 
     def __init__(self, flow: Flow, parent: QWidget | None = None):
         super().__init__(parent)
         self.setWindowTitle(self.tr("Calibration"))
         self._flow = flow
-        self._sent: CalibrationOrder | None = None
+        self._sent: CalibrationRequest | None = None
         declared = KeyPressParameters.declarations()
         self.key_height = self._field("key_height_m", declared)
         self.strength = self._field("press_strength", declared)
@@ -43,17 +43,17 @@ class CalibrationWindow(QDialog):
         self.buttons = {1: QCheckBox(self.tr("Lock")), 2: QCheckBox(self.tr("Unlock"))}
         self.reported = {name: QLabel(_UNKNOWN) for name in ("height", "buttons", "strength")}
         self.car = CarCard(flow)
-        self.told = QLabel()
-        self.told.setWordWrap(True)
-        self.told.setProperty("role", "soft")
+        self.notice = QLabel()
+        self.notice.setWordWrap(True)
+        self.notice.setProperty("role", "soft")
         self.send = QPushButton(self.tr("Send"))
         self.send.setProperty("role", "primary")
         self.send.clicked.connect(self._send)
         self._lay_out()
         for field in (self.key_height, self.strength, self.press_s):
             field.changed.connect(self._check)
-        flow.bridge.changed.connect(self.show_desk)
-        self.show_desk()
+        flow.bridge.changed.connect(self.show_model)
+        self.show_model()
         self.setMinimumWidth(820)
 
     @staticmethod
@@ -110,13 +110,13 @@ class CalibrationWindow(QDialog):
             group.addWidget(heading)
             group.addWidget(label)
             card.column.addLayout(group)
-        card.column.addWidget(self.told)
+        card.column.addWidget(self.notice)
         card.column.addStretch(1)
         return card
 
-    def show_desk(self) -> None:
+    def show_model(self) -> None:
         """Show what the robot says now."""
-        robot = self._flow.desk.robot
+        robot = self._flow.model.robot
         if robot is None:
             return
         status = robot.status
@@ -126,7 +126,7 @@ class CalibrationWindow(QDialog):
                  for button in status.pressed_buttons]
         self.reported["buttons"].setText(", ".join(names) or self.tr("none"))
         self._tell_press(status.presses)
-        self.car.show_status(status, self._flow.desk.verdict.word is not Word.LOST)
+        self.car.show_status(status, self._flow.model.readiness.word is not ReadinessWord.LOST)
         self._check()
 
     def _tell_press(self, presses: Sequence[PressConfirmation]) -> None:
@@ -134,18 +134,18 @@ class CalibrationWindow(QDialog):
         if order is None or not order.buttons or not presses:
             return
         newest = presses[-1]
-        self.told.setText(translated(newest.error) if newest.error else
+        self.notice.setText(translated(newest.error) if newest.error else
                           self.tr("Pressed for {duration} s.").format(
                               duration=number(newest.end_s - newest.start_s, 2)))
 
     def _check(self) -> None:
         is_valid = all([field.check() for field in (self.key_height, self.strength, self.press_s)])
-        self.send.setEnabled(is_valid and self._flow.desk.verdict.word is not Word.LOST)
+        self.send.setEnabled(is_valid and self._flow.model.readiness.word is not ReadinessWord.LOST)
 
     def _send(self) -> None:
         buttons = tuple(number for number, box in self.buttons.items() if box.isChecked())
-        self._sent = CalibrationOrder(self.key_height.reading.value, buttons, self.strength.reading.value,
+        self._sent = CalibrationRequest(self.key_height.reading.value, buttons, self.strength.reading.value,
                                       self.press_s.reading.value)
         self._flow.calibrate(self._sent)
         self.reported["strength"].setText(f"{number(100.0 * self._sent.strength, 0)} %" if buttons else _UNKNOWN)
-        self.told.setText(self.tr("Sent."))
+        self.notice.setText(self.tr("Sent."))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
 
 from mtr_operator.domain.ports import CheckState, Mode, RobotStatus
-from mtr_operator.station.links.idle_loop import CarLook
+from mtr_operator.station.links.idle_loop import CarRequest
 
 from ..flow import Flow
 from ..i18n import number
@@ -17,17 +17,17 @@ _MOVING = (Mode.MAPPING_CAR, Mode.CHECKING_CAR)
 
 
 class CarCard(Card):
-    """Attributes: check, map, stop: buttons. told: what the robot says of the Car."""
+    """Attributes: check, map, stop: buttons. notice: what the robot says of the Car."""
 
     def __init__(self, flow: Flow, parent: QWidget | None = None):
         super().__init__(parent=parent)
         self.add_heading(self.tr("Car"))
         self._flow = flow
-        self.told = QLabel()
-        self.told.setWordWrap(True)
-        self.check = self._button(self.tr("Check its position"), CarLook.CHECK)
-        self.map = self._button(self.tr("Map it again"), CarLook.MAP)
-        self.stop = self._button(self.tr("Stop"), CarLook.STOP)
+        self.notice = QLabel()
+        self.notice.setWordWrap(True)
+        self.check = self._button(self.tr("Check its position"), CarRequest.CHECK)
+        self.map = self._button(self.tr("Map it again"), CarRequest.MAP)
+        self.stop = self._button(self.tr("Stop"), CarRequest.STOP)
         self.stop.setProperty("role", "danger")
         hint = QLabel(self.tr("The robot drives around the Car for both."))
         hint.setProperty("role", "hint")
@@ -36,13 +36,13 @@ class CarCard(Card):
         for button in (self.check, self.map, self.stop):
             row.addWidget(button)
         row.addStretch(1)
-        self.column.addWidget(self.told)
+        self.column.addWidget(self.notice)
         self.column.addLayout(row)
         self.column.addWidget(hint)
 
-    def _button(self, text: str, look: CarLook) -> QPushButton:
+    def _button(self, text: str, request: CarRequest) -> QPushButton:
         button = QPushButton(text)
-        button.clicked.connect(lambda _checked: self._flow.look_at_car(look))
+        button.clicked.connect(lambda _checked: self._flow.request_car(request))
         return button
 
     def show_status(self, status: RobotStatus, can_order: bool) -> None:
@@ -51,7 +51,7 @@ class CarCard(Card):
         self.check.setEnabled(can_order and status.car is not None and status.car_check is not None and not is_moving)
         self.map.setEnabled(can_order and not is_moving)
         self.stop.setEnabled(can_order and is_moving)
-        self.told.setText(self._text(status))
+        self.notice.setText(self._text(status))
 
     def _text(self, status: RobotStatus) -> str:
         if status.mode is Mode.MAPPING_CAR:

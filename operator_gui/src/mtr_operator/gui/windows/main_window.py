@@ -11,7 +11,7 @@ from PyQt5.QtWidgets import QMainWindow, QStackedWidget, QVBoxLayout, QWidget
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.readiness import Phase
 
-from ..dialogs import ask_folder, ask_progress_file, confirm, tell
+from ..dialogs import ask_folder, ask_progress_file, confirm, show_message
 from ..flow import Flow, Step
 from ..header.header_bar import HeaderBar
 from ..screens.measurement import MeasurementScreen
@@ -25,7 +25,7 @@ from .calibration_window import CalibrationWindow
 from .settings_window import SettingsWindow
 
 _SIZE = QSize(1360, 860)
-_LEAST_SIZE = QSize(1080, 680)
+_MIN_SIZE = QSize(1080, 680)
 
 
 class MainWindow(QMainWindow):
@@ -39,8 +39,8 @@ class MainWindow(QMainWindow):
         self.header = HeaderBar(appearance)
         self.welcome = WelcomeScreen()
         self.types = MeasurementTypeScreen(SCENARIOS)
-        self.settings = {name: SettingsScreen(scenario, flow.desk, appearance) for name, scenario in SCENARIOS.items()}
-        self.measurement = MeasurementScreen(flow.desk, appearance)
+        self.settings = {name: SettingsScreen(scenario, flow.model, appearance) for name, scenario in SCENARIOS.items()}
+        self.measurement = MeasurementScreen(flow.model, appearance)
         self.protocol = ProtocolScreen(flow, appearance)
         self._screens = QStackedWidget()
         for screen in (self.welcome, self.types, *self.settings.values(), self.measurement, self.protocol):
@@ -53,7 +53,7 @@ class MainWindow(QMainWindow):
         layout.addWidget(self.header)
         layout.addWidget(self._screens, 1)
         self.setCentralWidget(page)
-        self.setMinimumSize(_LEAST_SIZE)
+        self.setMinimumSize(_MIN_SIZE)
         self.resize(_SIZE)
         self._connect()
         self._show_step(Step.WELCOME)
@@ -68,7 +68,7 @@ class MainWindow(QMainWindow):
         flow.bridge.changed.connect(self._show_desk)
         flow.step_changed.connect(self._show_step)
         # Later: a dialog within the delivery of events would let the later ones pass the earlier ones.
-        flow.failed.connect(lambda text: QTimer.singleShot(0, lambda: self._tell(text)))
+        flow.failed.connect(lambda text: QTimer.singleShot(0, lambda: self._show_notice(text)))
         flow.saved.connect(lambda path: self.measurement.say(self.tr("Saved to {path}").format(path=path)))
         flow.folder_wanted.connect(lambda text: QTimer.singleShot(0, lambda: self._ask_progress_folder(text)))
         self.header.settings_wanted.connect(lambda: SettingsWindow(flow, self._appearance, self).exec_())
@@ -89,9 +89,9 @@ class MainWindow(QMainWindow):
         self.protocol.closed.connect(flow.to_welcome)
 
     def _show_desk(self) -> None:
-        self.header.show_desk(self._flow.desk)
+        self.header.show_model(self._flow.model)
         if isinstance(self.screen, (MeasurementScreen, SettingsScreen)):
-            self.screen.show_desk()
+            self.screen.show_model()
 
     def _show_step(self, step: Step) -> None:
         self.header.steps.select(step.value)
@@ -108,7 +108,7 @@ class MainWindow(QMainWindow):
         screen = self.settings[name]
         screen.form.show_mapping(self._flow.store.settings.parameters.get(name, {}))
         self._screens.setCurrentWidget(screen)
-        screen.show_desk()
+        screen.show_model()
 
     def _open(self) -> None:
         path = ask_progress_file(self, self.tr("Continue test"), self._flow.store.settings.progress_folder)
@@ -120,17 +120,18 @@ class MainWindow(QMainWindow):
         self.welcome.offer_unfinished(None)
 
     def _ask_progress_folder(self, text: str) -> None:
-        tell(self, self.windowTitle(), translated(text) + " " + self.tr("Choose another folder; nothing is lost."))
+        show_message(self, self.windowTitle(),
+                     translated(text) + " " + self.tr("Choose another folder; nothing is lost."))
         folder = ask_folder(self, self.tr("Folder for the progress of tests"), pathlib.Path.home())
         if folder is not None:
             self._flow.use_progress_folder(folder)
 
-    def _tell(self, text: str) -> None:
-        tell(self, self.windowTitle(), translated(text))
+    def _show_notice(self, text: str) -> None:
+        show_message(self, self.windowTitle(), translated(text))
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Ask before a running test is ended."""
-        if self._flow.desk.phase is Phase.MEASURING and not self._is_to_be_ended():
+        if self._flow.model.phase is Phase.MEASURING and not self._is_to_be_ended():
             event.ignore()
             return
         event.accept()

@@ -58,7 +58,7 @@ class SettingsWindow(QDialog):
         self.use_can.clicked.connect(self._change_can)
         flow.can_opened.connect(lambda: self._tell_can(self.tr("The CAN adapter is in use.")))
         flow.can_refused.connect(lambda text: self._tell_can(translated(text)))
-        self.use_can.setEnabled(flow.desk.phase not in (Phase.MEASURING, Phase.STOPPING))
+        self.use_can.setEnabled(flow.model.phase not in (Phase.MEASURING, Phase.STOPPING))
         self.setMinimumWidth(900)
 
     @staticmethod

@@ -10,7 +10,7 @@ _IDLE = CarCheck(limit_m=LIMIT_M, limit_rad=LIMIT_RAD)
 
 
 class VirtualCheck:
-    """Answers each order once.
+    """Answers each request once.
 
     Attributes:
         report: as in Status.
@@ -23,15 +23,15 @@ class VirtualCheck:
 
     @property
     def is_running(self) -> bool:
-        """True while it looks."""
+        """True while it checks."""
         return self.report.state is CheckState.RUNNING
 
     def begin_session(self) -> None:
-        """Forget the order of the former session."""
+        """Forget the request of the former session."""
         self.report = _IDLE
 
-    def order(self, check_id: int) -> None:
-        """Take the id of the desired state; 0 is no order."""
+    def request(self, check_id: int) -> None:
+        """Take the id of the desired state; 0 is no request."""
         if check_id and check_id != self.report.id:
             self._left_s = DURATION_S
             self.report = CarCheck(check_id, CheckState.RUNNING, limit_m=LIMIT_M, limit_rad=LIMIT_RAD)

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from mtr_operator.domain.ports import ButtonPress, PressConfirmation
+from mtr_operator.domain.ports import Press, PressConfirmation
 
-LOWEST_KEY_M = 0.35
-HIGHEST_KEY_M = 1.55
+MIN_KEY_M = 0.35
+MAX_KEY_M = 1.55
 LIFT_SPEED_MPS = 0.15
 # Time a servo needs to reach the button.
 SERVO_TRAVEL_S = 0.1
@@ -18,11 +18,11 @@ class VirtualKeyholder:
     """Moves the key to a height and presses its buttons, each press once by id."""
 
     def __init__(self) -> None:
-        self.height_m = LOWEST_KEY_M
+        self.height_m = MIN_KEY_M
         self.confirmations: tuple[PressConfirmation, ...] = ()
-        self._wanted_m = LOWEST_KEY_M
+        self._wanted_m = MIN_KEY_M
         self._newest_press_id = 0
-        self._press: ButtonPress | None = None
+        self._press: Press | None = None
         self._start_s = 0.0
 
     def begin_session(self) -> None:
@@ -30,10 +30,10 @@ class VirtualKeyholder:
         self.confirmations = ()
         self._newest_press_id = 0
 
-    def order(self, height_m: float | None, press: ButtonPress | None, time_s: float) -> None:
+    def request(self, height_m: float | None, press: Press | None, time_s: float) -> None:
         """Take the desired height and press; None changes nothing."""
-        if height_m is not None and LOWEST_KEY_M - _HEIGHT_ROUNDING_M <= height_m <= HIGHEST_KEY_M + _HEIGHT_ROUNDING_M:
-            self._wanted_m = min(max(height_m, LOWEST_KEY_M), HIGHEST_KEY_M)
+        if height_m is not None and MIN_KEY_M - _HEIGHT_ROUNDING_M <= height_m <= MAX_KEY_M + _HEIGHT_ROUNDING_M:
+            self._wanted_m = min(max(height_m, MIN_KEY_M), MAX_KEY_M)
         if press is not None and press.id > self._newest_press_id and self._press is None:
             self._newest_press_id = press.id
             self._press = press
@@ -41,8 +41,8 @@ class VirtualKeyholder:
 
     def step(self, time_s: float, dt_s: float) -> None:
         """Go on to time_s, which is dt_s later."""
-        reach_m = LIFT_SPEED_MPS * dt_s
-        self.height_m += min(max(self._wanted_m - self.height_m, -reach_m), reach_m)
+        step_m = LIFT_SPEED_MPS * dt_s
+        self.height_m += min(max(self._wanted_m - self.height_m, -step_m), step_m)
         press = self._press
         if press is not None and time_s >= self._start_s + press.duration_s:
             done = PressConfirmation(press.id, self._start_s, self._start_s + press.duration_s)

@@ -1,4 +1,4 @@
-"""A robot that exists only as numbers: it obeys Commands as the real one does, on a virtual clock."""
+"""A robot that exists only as numbers: it follows Commands as the real one does, on a virtual clock."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _START_TIME_S = 1.0
 _START_DISTANCE_M = 4.0
 _TURN_RATE_RADPS = 1.0
 _DEFAULT_SPEED_MPS = 0.5
-_MAXIMUM_SPEED_MPS = 2.0
+_MAX_SPEED_MPS = 2.0
 _POSITION_SIGMA_M = 0.02
 _HEADING_SIGMA_RAD = 0.005
 # Half diagonal of the robot's footprint (0.51 m x 0.43 m).
@@ -66,7 +66,7 @@ class VirtualRobot:
         self._key = VirtualKeyholder()
         self._check = VirtualCheck(world.check_difference_m)
         self._desired = DesiredState(stop=True)
-        self._goal: Waypoint | None = None
+        self._waypoint: Waypoint | None = None
         self._way: list[Point] = []
         self._result, self._result_text = WaypointResult.NONE, ""
         self._map_car_id = 0
@@ -79,22 +79,22 @@ class VirtualRobot:
         return self._time_s
 
     def take(self, session_id: int, command_id: int, desired: DesiredState) -> None:
-        """Obey this desired state from now on. A new session forgets the ids of the old one."""
+        """Follow this desired state from now on. A new session forgets the ids of the old one."""
         if session_id != self._session_id:
-            self._session_id, self._map_car_id, self._goal = session_id, 0, None
+            self._session_id, self._map_car_id, self._waypoint = session_id, 0, None
             self._result, self._result_text = WaypointResult.NONE, ""
             self._key.begin_session()
             self._check.begin_session()
         self._command_id, self._desired = command_id, desired
         if self._mode() in (Mode.FOLLOWING_WAYPOINT, Mode.CHECKING_CAR):
-            self._check.order(desired.check_car_id)
-        self._key.order(desired.key_height_m, desired.press, self._time_s)
+            self._check.request(desired.check_car_id)
+        self._key.request(desired.key_height_m, desired.press, self._time_s)
         if desired.map_car_id != self._map_car_id:
             self._map_car_id = desired.map_car_id
             self._mapping_left_s = self._world.mapping_s
-        goal = desired.waypoint
-        if goal is not None and (self._goal is None or goal.id != self._goal.id):
-            self._set_goal(goal)
+        waypoint = desired.waypoint
+        if waypoint is not None and (self._waypoint is None or waypoint.id != self._waypoint.id):
+            self._set_waypoint(waypoint)
 
     def halt(self) -> None:
         """Stand still until the next desired state: the Operator has gone or is silent."""
@@ -107,8 +107,8 @@ class VirtualRobot:
         before, heading = self._here, self._heading
         if not self._desired.stop:
             self._check.step(dt_s)
-        ordered = self._goal is not None and not self._desired.stop and self._desired.waypoint is not None
-        if ordered and self._time_s >= _START_TIME_S + self._world.starting_s:
+        is_wanted = self._waypoint is not None and not self._desired.stop and self._desired.waypoint is not None
+        if is_wanted and self._time_s >= _START_TIME_S + self._world.starting_s:
             if self._mapping_left_s > 0:
                 self._mapping_left_s -= dt_s
             elif self._result == WaypointResult.PENDING and not self._check.is_running:
@@ -134,7 +134,7 @@ class VirtualRobot:
             car=CarDimensions(world.car_length_m, world.car_width_m, 0.01, 0.01) if mapped else None,
             car_frame=CarFrame(revision=1) if mapped else CarFrame(), car_check=self._check.report,
             session_id=self._session_id, command_id=self._command_id,
-            waypoint_id=self._goal.id if self._goal else 0, waypoint_result=self._result,
+            waypoint_id=self._waypoint.id if self._waypoint else 0, waypoint_result=self._result,
             waypoint_message=self._result_text, presses=self._key.confirmations, map_car_id=self._map_car_id,
             software_version=f"{__version__} (substitute)")
 
@@ -143,26 +143,26 @@ class VirtualRobot:
             return Mode.STARTING
         if self._mapping_left_s <= 0:
             return Mode.CHECKING_CAR if self._check.is_running else Mode.FOLLOWING_WAYPOINT
-        begun = self._goal is not None or self._mapping_left_s < self._world.mapping_s
+        begun = self._waypoint is not None or self._mapping_left_s < self._world.mapping_s
         return Mode.MAPPING_CAR if begun else Mode.READY_TO_MAP_CAR
 
-    def _set_goal(self, goal: Waypoint) -> None:
-        self._goal = goal
-        point = (goal.x, goal.y)
+    def _set_waypoint(self, waypoint: Waypoint) -> None:
+        self._waypoint = waypoint
+        point = (waypoint.x, waypoint.y)
         self._result, self._result_text = WaypointResult.PENDING, ""
-        if not all(map(math.isfinite, (goal.x, goal.y, goal.heading))):
+        if not all(map(math.isfinite, (waypoint.x, waypoint.y, waypoint.heading))):
             self._result, self._result_text = WaypointResult.REFUSED, "The waypoint is not a number."
         elif self._box.contains(point):
             self._result = WaypointResult.REFUSED
-            self._result_text = f"The waypoint ({goal.x:.2f} m, {goal.y:.2f} m) is too close to the Car."
+            self._result_text = f"The waypoint ({waypoint.x:.2f} m, {waypoint.y:.2f} m) is too close to the Car."
         else:
             self._way = route(self._here, point, self._box)
 
     def _drive(self, dt_s: float) -> None:
         limit_mps = self._desired.max_speed_mps or _DEFAULT_SPEED_MPS
-        self._here, self._way = advance(self._here, self._way, min(limit_mps, _MAXIMUM_SPEED_MPS) * dt_s)
-        turn = math.remainder(self._goal.heading - self._heading, 2 * math.pi)
-        reach = _TURN_RATE_RADPS * dt_s
-        self._heading = math.remainder(self._heading + min(max(turn, -reach), reach), 2 * math.pi)
-        if not self._way and abs(turn) <= reach:
+        self._here, self._way = advance(self._here, self._way, min(limit_mps, _MAX_SPEED_MPS) * dt_s)
+        turn = math.remainder(self._waypoint.heading - self._heading, 2 * math.pi)
+        turn_step = _TURN_RATE_RADPS * dt_s
+        self._heading = math.remainder(self._heading + min(max(turn, -turn_step), turn_step), 2 * math.pi)
+        if not self._way and abs(turn) <= turn_step:
             self._result = WaypointResult.REACHED

@@ -1,4 +1,4 @@
-"""One run of a test, in a session of its own, and how it ended."""
+"""One run of a test, in a session of its own on the link, and how it ended."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -6,20 +6,20 @@ import contextlib
 import logging
 from typing import Callable
 
-from mtr_operator.domain.actions.control_loop import Session
+from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OperatorError, OutputError
 from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.runner import Runner
 
-from ..events import Ended, Outcome
+from ..events import Outcome, RunEnded
 from ..mailbox import Mailbox
 from ..test import Test
 from .reporter import Reporter, copied
 from .watched_link import WatchedRobotLink
 
 
-class Measuring:
+class MeasurementRun:
     """Measures what is left of a test with the runner of the command line."""
 
     def __init__(self, test: Test, new_robot: Callable[[], WatchedRobotLink], car: CarLink, mailbox: Mailbox):
@@ -28,12 +28,12 @@ class Measuring:
         self._car = car
         self._mailbox = mailbox
 
-    def run(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> Ended:
-        """Measure; never raises, for what is measured has to be told in any case."""
+    def run(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> RunEnded:
+        """Measure; never raises, for what is measured has to be reported in any case."""
         test = self._test
         outcome, text = self._outcome(is_cancelled, after_status)
         test.discard_if_empty()
-        return Ended(outcome, text, copied(test.progress.results))
+        return RunEnded(outcome, text, copied(test.progress.results))
 
     def _outcome(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> tuple[Outcome, str]:
         try:
@@ -57,7 +57,7 @@ class Measuring:
         with contextlib.closing(self._new_robot()) as robot:
             robot.connect()
             reporter = Reporter(self._mailbox, robot, self._car, test.progress, after_status)
-            session = Session(robot, self._car, reporter, is_cancelled)
-            test.progress.session["robot software"] = session.status.software_version
-            Runner(test.scenario, test.parameters, session, test.progress, lambda progress: test.save()).run()
+            loop = ControlLoop(robot, self._car, reporter, is_cancelled)
+            test.progress.session["robot software"] = loop.status.software_version
+            Runner(test.scenario, test.parameters, loop, test.progress, lambda progress: test.save()).run()
             test.save()

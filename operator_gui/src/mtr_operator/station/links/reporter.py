@@ -1,4 +1,4 @@
-"""What a running test tells the view, put into the mailbox."""
+"""What a running test reports to the view, put into the mailbox."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.ports import CarLink, RobotStatus
 from mtr_operator.domain.results.progress import Progress
 
-from ..events import Acting, Measured, Planned, RobotNews, Silence
+from ..events import ActionBegun, LineMeasured, LinesPlanned, RobotSilent, RobotSnapshot
 from ..mailbox import Mailbox
 from .watched_link import WatchedRobotLink
 
 
 class Reporter(RunObserver):
-    """Observer of one test; calls after_status when a Status has been told."""
+    """Observer of one test; calls after_status when a Status has been reported."""
 
     def __init__(self, mailbox: Mailbox, robot: WatchedRobotLink, car: CarLink, progress: Progress,
                  after_status: Callable[[], None]):
@@ -26,25 +26,25 @@ class Reporter(RunObserver):
 
     def on_status(self, status: RobotStatus) -> None:
         """See RunObserver."""
-        self._mailbox.put_robot(RobotNews(status, self._car.lock_state, self._car.problem, self._robot.waypoint,
+        self._mailbox.put_robot(RobotSnapshot(status, self._car.lock_state, self._car.problem, self._robot.waypoint,
                                           self._robot.is_secret))
         self._after_status()
 
     def on_plan(self, done: int, total: int) -> None:
         """See RunObserver."""
-        self._mailbox.put(Planned(done, total, self._progress.car))
+        self._mailbox.put(LinesPlanned(done, total, self._progress.car))
 
     def on_action(self, text: str) -> None:
         """See RunObserver."""
-        self._mailbox.put(Acting(text))
+        self._mailbox.put(ActionBegun(text))
 
     def on_result(self, result: Mapping[str, Any], done: int, total: int) -> None:
         """See RunObserver."""
-        self._mailbox.put(Measured(copied(self._progress.results), dict(result), done, total))
+        self._mailbox.put(LineMeasured(copied(self._progress.results), dict(result), done, total))
 
     def on_link_silent(self, silent_s: float) -> None:
         """See RunObserver."""
-        self._mailbox.put(Silence(silent_s))
+        self._mailbox.put(RobotSilent(silent_s))
 
 
 def copied(results: Iterable[Mapping[str, Any]]) -> tuple[Mapping[str, Any], ...]:

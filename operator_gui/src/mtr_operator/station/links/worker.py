@@ -12,17 +12,17 @@ from mtr_operator.domain.errors import InvalidParameter, OperatorError, OutputEr
 from mtr_operator.domain.ports import CarLink
 
 from ..connection import CanChoice, Connection, LinkOpener
-from ..events import CarLinkOpened, Connected, Refused, Saved, Silence
+from ..events import CarLinkOpened, LinkRefused, LinksOpened, ProgressSaved, RobotSilent
 from ..mailbox import Mailbox
 from ..test import Test
-from .idle_loop import CalibrationOrder, CarLook, IdleSession
-from .measurement_run import Measuring
+from .idle_loop import CalibrationRequest, CarRequest, IdleLoop
+from .measurement_run import MeasurementRun
 from .watched_link import WatchedRobotLink
 
 # Wall time between two attempts to open the robot's link again.
 RETRY_S = 1.0
-# Silence of the robot that is told.
-SILENCE_TOLD_S = 1.0
+# Silence of the robot that the view is to show.
+SILENCE_SHOWN_S = 1.0
 
 
 class Worker:
@@ -34,13 +34,13 @@ class Worker:
         self._mailbox = mailbox
         self._requests: queue.Queue[Callable[[], None]] = queue.Queue()
         # Short ones, which a running test does not put off.
-        self._errands: queue.Queue[Callable[[], None]] = queue.Queue()
+        self._short_requests: queue.Queue[Callable[[], None]] = queue.Queue()
         self._closing = threading.Event()
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._run, name="links", daemon=True)
         self._robot: WatchedRobotLink | None = None
         self._car: CarLink | None = None
-        self._idle: IdleSession | None = None
+        self._idle: IdleLoop | None = None
 
     def start(self) -> None:
         """Open the links and go on until close(); Connected or Refused comes into the mailbox."""
@@ -65,15 +65,15 @@ class Worker:
 
     def save(self, test: Test) -> None:
         """Write a test's progress; Saved comes into the mailbox."""
-        self._errands.put(lambda: self._save(test))
+        self._short_requests.put(lambda: self._save(test))
 
-    def calibrate(self, order: CalibrationOrder) -> None:
+    def calibrate(self, request: CalibrationRequest) -> None:
         """Have the robot try something."""
-        self._requests.put(lambda: self._idle.order(order) if self._idle else None)
+        self._requests.put(lambda: self._idle.calibrate(request) if self._idle else None)
 
-    def look_at_car(self, again: CarLook) -> None:
+    def request_car(self, request: CarRequest) -> None:
         """Have the robot check or map the Car, or stop doing so."""
-        self._requests.put(lambda: self._idle.look_at_car(again) if self._idle else None)
+        self._requests.put(lambda: self._idle.request_car(request) if self._idle else None)
 
     def use_can(self, choice: CanChoice | None) -> None:
         """Change the CAN adapter; CarLinkOpened or Refused comes into the mailbox."""
@@ -81,7 +81,7 @@ class Worker:
 
     def _run(self) -> None:
         if self._open():
-            self._mailbox.put(Connected())
+            self._mailbox.put(LinksOpened())
             while not self._closing.is_set():
                 self._try_turn()
         self._close_links()
@@ -95,24 +95,24 @@ class Worker:
             self._close_robot()
             self._closing.wait(RETRY_S)
 
-    def _run_errands(self) -> None:
+    def _run_short_requests(self) -> None:
         with contextlib.suppress(queue.Empty):
             while True:
-                self._errands.get_nowait()()
+                self._short_requests.get_nowait()()
 
     def _turn(self) -> None:
-        self._run_errands()
+        self._run_short_requests()
         with contextlib.suppress(queue.Empty):
             self._requests.get_nowait()()
             return
         if self._robot is None and not self._open_robot():
             self._closing.wait(RETRY_S)
             return
-        news = self._idle.step()
-        if news is not None:
-            self._mailbox.put_robot(news)
-        elif self._idle.silent_s >= SILENCE_TOLD_S:
-            self._mailbox.put(Silence(self._idle.silent_s))
+        snapshot = self._idle.step()
+        if snapshot is not None:
+            self._mailbox.put_robot(snapshot)
+        elif self._idle.silent_s >= SILENCE_SHOWN_S:
+            self._mailbox.put(RobotSilent(self._idle.silent_s))
 
     def _open(self) -> bool:
         part = "car"
@@ -124,26 +124,26 @@ class Worker:
             part = "car"
             self._car.connect()
         except InvalidParameter as error:
-            self._mailbox.put(Refused("address" if part == "robot" else part, str(error)))
+            self._mailbox.put(LinkRefused("address" if part == "robot" else part, str(error)))
             return False
         except OperatorError as error:
-            self._mailbox.put(Refused(part, str(error)))
+            self._mailbox.put(LinkRefused(part, str(error)))
             return False
-        self._idle = IdleSession(self._robot, self._car)
+        self._idle = IdleLoop(self._robot, self._car)
         return True
 
     def _new_robot(self) -> WatchedRobotLink:
         return WatchedRobotLink(self._opener.robot(self._connection.robot))
 
     def _open_robot(self) -> bool:
-        """A session of its own for each purpose: ids of orders begin anew."""
+        """A session of its own for each purpose: ids of requests begin anew."""
         robot = self._new_robot()
         try:
             robot.connect()
         except OperatorError:
-            self._mailbox.put(Silence(SILENCE_TOLD_S))
+            self._mailbox.put(RobotSilent(SILENCE_SHOWN_S))
             return False
-        self._robot, self._idle = robot, IdleSession(robot, self._car)
+        self._robot, self._idle = robot, IdleLoop(robot, self._car)
         return True
 
     def _change_car(self, choice: CanChoice | None) -> None:
@@ -154,7 +154,7 @@ class Worker:
             car = self._opener.car(choice)
             car.connect()
         except OperatorError as error:
-            self._mailbox.put(Refused("car", str(error)))
+            self._mailbox.put(LinkRefused("car", str(error)))
         else:
             self._car = car
             self._mailbox.put(CarLinkOpened())
@@ -165,14 +165,14 @@ class Worker:
         try:
             test.save()
         except OutputError as error:
-            self._mailbox.put(Saved(str(error)))
+            self._mailbox.put(ProgressSaved(str(error)))
         else:
-            self._mailbox.put(Saved(""))
+            self._mailbox.put(ProgressSaved(""))
 
     def _measure(self, test: Test) -> None:
         self._close_robot()
-        measuring = Measuring(test, self._new_robot, self._car, self._mailbox)
-        self._mailbox.put(measuring.run(self._stopping.is_set, self._run_errands))
+        run = MeasurementRun(test, self._new_robot, self._car, self._mailbox)
+        self._mailbox.put(run.run(self._stopping.is_set, self._run_short_requests))
 
     def _close_robot(self) -> None:
         robot, self._robot, self._idle = self._robot, None, None

@@ -24,7 +24,7 @@ from ...i18n import translate
 from .layer import Canvas, Layer
 
 _LAMP, _TAIL_LAMP = "#f7e7a1", "#c0392b"
-_LEAST_TEXT_PX = 9.0
+_MIN_TEXT_PX = 9.0
 
 
 class CarLayer(Layer):
@@ -63,7 +63,7 @@ class CarLayer(Layer):
 
     def _write_front(self, canvas: Canvas, half_length: float) -> None:
         size = min(15.0, 0.13 * self.car.width * canvas.viewport.px_per_m / canvas.unit)
-        if size < _LEAST_TEXT_PX:
+        if size < _MIN_TEXT_PX:
             return
         canvas.painter.setPen(QColor(canvas.palette.ink))
         canvas.painter.setFont(canvas.font(size, True))

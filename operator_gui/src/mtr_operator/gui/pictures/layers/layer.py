@@ -74,7 +74,7 @@ class Layer(ABC):
     def paint(self, canvas: Canvas) -> None:
         """Paint it; the painter's state need not be restored."""
 
-    def paint_news(self, canvas: Canvas) -> None:
+    def paint_added(self, canvas: Canvas) -> None:
         """Paint what has been added since, over what is there already; a layer that cannot tell paints everything."""
         self.paint(canvas)
 

@@ -9,7 +9,7 @@ from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QPainter
 
 from mtr_operator.domain.geometry.pose import Point
-from mtr_operator.domain.results.picture import Look, PointSet
+from mtr_operator.domain.results.picture import PointRole, PointSet
 
 from ...i18n import number
 from ...theme.palette import Palette
@@ -21,19 +21,20 @@ _AREA_ALPHA = 0.12
 _BAR_ALPHA = 0.35
 
 
-def colour_of(look: Look, palette: Palette) -> str:
+def colour_of(role: PointRole, palette: Palette) -> str:
     """Colour of a role."""
-    return {Look.FIRST: palette.first, Look.FIRST_FAILED: palette.first, Look.SECOND: palette.second,
-            Look.SECOND_FAILED: palette.second, Look.FAILED: palette.failed, Look.INVALID: palette.invalid}[look]
+    return {PointRole.FIRST: palette.first, PointRole.FIRST_FAILED: palette.first,
+            PointRole.SECOND: palette.second, PointRole.SECOND_FAILED: palette.second,
+            PointRole.FAILED: palette.failed, PointRole.INVALID: palette.invalid}[role]
 
 
-def draw_marker(painter: QPainter, look: Look, place: QPointF, radius: float) -> None:
+def draw_marker(painter: QPainter, role: PointRole, place: QPointF, radius: float) -> None:
     """Marker of a role: told apart by shape too. Pen and brush are the painter's."""
-    if look is Look.FIRST:
+    if role is PointRole.FIRST:
         painter.drawEllipse(place, radius, radius)
-    elif look is Look.SECOND:
+    elif role is PointRole.SECOND:
         painter.drawRect(QRectF(place.x() - 0.9 * radius, place.y() - 0.9 * radius, 1.8 * radius, 1.8 * radius))
-    elif look is Look.INVALID:
+    elif role is PointRole.INVALID:
         painter.drawPolygon(place + QPointF(0, -1.2 * radius), place + QPointF(1.2 * radius, 0),
                             place + QPointF(0, 1.2 * radius), place + QPointF(-1.2 * radius, 0))
     else:
@@ -84,10 +85,10 @@ class PointsLayer(Layer):
     def _write_distances(self, canvas: Canvas) -> None:
         canvas.painter.setFont(canvas.font(14.0, True))
         for points in self.sets:
-            if points.look is Look.FIRST:
+            if points.role is PointRole.FIRST:
                 for point in points.known:
                     text = f"{number(math.hypot(*point), 2)} m"
-                    canvas.label(_inward(canvas, point, text), text, colour_of(points.look, canvas.palette))
+                    canvas.label(_inward(canvas, point, text), text, colour_of(points.role, canvas.palette))
 
 
 def _inward(canvas: Canvas, point: Point, text: str) -> QPointF:
@@ -101,7 +102,7 @@ def _inward(canvas: Canvas, point: Point, text: str) -> QPointF:
 
 
 def _paint_outline(canvas: Canvas, points: PointSet, is_complete: bool) -> None:
-    colour = colour_of(points.look, canvas.palette)
+    colour = colour_of(points.role, canvas.palette)
     pieces = list(points.pieces()) if is_complete else list(points.pieces())[:-1]
     for start, end, is_known in pieces:
         # A piece that bridges a line without a point is a guess.
@@ -116,15 +117,15 @@ def _paint_outline(canvas: Canvas, points: PointSet, is_complete: bool) -> None:
 
 
 def _paint_points(canvas: Canvas, points: PointSet) -> None:
-    colour = colour_of(points.look, canvas.palette)
+    colour = colour_of(points.role, canvas.palette)
     painter = canvas.painter
     bar = canvas.pen(colour, 6.0, alpha=_BAR_ALPHA)
     bar.setCapStyle(Qt.FlatCap)
     painter.setPen(bar)
     for start, end in points.bars:
         painter.drawLine(canvas.at(start), canvas.at(end))
-    painter.setPen(canvas.pen(colour if points.look.value.endswith("failed") else canvas.palette.surface,
-                              2.2 if points.look.value.endswith("failed") else 1.0))
+    painter.setPen(canvas.pen(colour if points.role.value.endswith("failed") else canvas.palette.surface,
+                              2.2 if points.role.value.endswith("failed") else 1.0))
     painter.setBrush(QColor(colour))
     for point in points.known:
-        draw_marker(painter, points.look, canvas.at(point), _RADIUS_PX * canvas.unit)
+        draw_marker(painter, points.role, canvas.at(point), _RADIUS_PX * canvas.unit)

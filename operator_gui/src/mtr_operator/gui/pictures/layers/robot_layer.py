@@ -40,15 +40,15 @@ class RobotLayer(Layer):
         if self.pose is not None:
             self._paint_robot(canvas, self.pose)
 
-    def _paint_waypoint(self, canvas: Canvas, goal: Pose) -> None:
+    def _paint_waypoint(self, canvas: Canvas, waypoint: Pose) -> None:
         painter = canvas.painter
         painter.setBrush(Qt.NoBrush)
         painter.setPen(canvas.pen(canvas.palette.waypoint, 2.0, Qt.DashLine))
-        painter.drawPolygon(canvas.polygon(_outline(goal)))
-        place = canvas.at((goal.x, goal.y))
+        painter.drawPolygon(canvas.polygon(_outline(waypoint)))
+        place = canvas.at((waypoint.x, waypoint.y))
         painter.setPen(canvas.pen(canvas.palette.waypoint, 2.0))
         painter.drawEllipse(place, 5.0 * canvas.unit, 5.0 * canvas.unit)
-        painter.drawLine(place, canvas.at(goal.apply((_LENGTH_M / 2.0, 0.0))))
+        painter.drawLine(place, canvas.at(waypoint.apply((_LENGTH_M / 2.0, 0.0))))
 
     def _paint_robot(self, canvas: Canvas, pose: Pose) -> None:
         painter, palette = canvas.painter, canvas.palette
@@ -84,18 +84,18 @@ class TrailLayer(Layer):
     def paint(self, canvas: Canvas) -> None:
         """See Layer."""
         self._painted = 0
-        self.paint_news(canvas)
+        self.paint_added(canvas)
 
-    def paint_news(self, canvas: Canvas) -> None:
+    def paint_added(self, canvas: Canvas) -> None:
         """See Layer."""
-        news = self.places[max(self._painted - 1, 0):]
+        added = self.places[max(self._painted - 1, 0):]
         self._painted = len(self.places)
         pen = canvas.pen(canvas.palette.trail, 1.5)
         # Round joins of thousands of pieces take a whole frame.
         pen.setJoinStyle(Qt.BevelJoin)
         pen.setCapStyle(Qt.FlatCap)
         canvas.painter.setPen(pen)
-        canvas.painter.drawPolyline(canvas.polygon(news))
+        canvas.painter.drawPolyline(canvas.polygon(added))
 
 
 def _outline(pose: Pose) -> list[Point]:
