@@ -21,7 +21,7 @@ STAMPS := .setup
 FIRMWARE_ELF := $(CURDIR)/firmware/build/mtr_firmware_atmega2560.elf
 EMULATED := $(filter emulated,$(PERIPHERALS))
 RUN := source setup/env.bash &&
-BUILD_INPUTS := $(shell find -L catkin_ws/src proto launch tests -not -path '*/.*' \( -name CMakeLists.txt -o -name package.xml \
+BUILD_INPUTS := $(shell find catkin_ws/src proto launch tests -not -path '*/.*' \( -name CMakeLists.txt -o -name package.xml \
 	-o -name setup.py -o -name '*.msg' -o -name '*.proto' -o -name '*.cpp' -o -name '*.hpp' -o -path '*/scripts/*' \) \
 	-type f 2>/dev/null)
 

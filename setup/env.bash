@@ -12,7 +12,7 @@ set +eu
 [[ $_options != *u* ]] || set -u
 # The firmware's emulator is no catkin package.
 export PYTHONPATH="$_top/firmware/emulator/python${PYTHONPATH:+:$PYTHONPATH}"
-export ROS_PACKAGE_PATH="$_top/catkin_ws/src:/usr/share"
+export ROS_PACKAGE_PATH="$_top/catkin_ws/src:$_top/launch:$_top/proto:$_top/tests:/usr/share"
 export ROS_MASTER_URI="${ROS_MASTER_URI:-http://127.0.0.1:11311}"
 export ROS_IP=127.0.0.1
 export ROS_HOME="$_top/out/ros"

@@ -15,7 +15,8 @@ from xml.etree import ElementTree
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = TOP / "out" / "test"
-PACKAGES = TOP / "catkin_ws" / "src"
+# Folders of the catkin packages; those that a person looks for at the top lie there.
+PACKAGES = sorted(path.parent for where in ("*", "catkin_ws/src/*") for path in TOP.glob(f"{where}/package.xml"))
 Counts = Tuple[int, int]
 
 
@@ -45,13 +46,12 @@ def lint() -> Counts:
     python = [str(path) for path in tracked("*.py") + node_scripts()]
     robot = [path for path in python if "/operator_gui/" not in path and "/setup/" not in path]
     cpp = [str(path) for path in tracked("*.cpp") + tracked("*.hpp")]
-    packages = sorted(str(path.parent) for path in PACKAGES.glob("*/package.xml"))
     checks = {
         "ruff": ["ruff", "check", "--quiet", *python],
         "python-3.8": ["vermin", "--quiet", "-t=3.8-", "--no-tips", "--violations", *robot],
         "clang-format": ["clang-format", "--dry-run", "-Werror", *cpp],
         "mypy": [sys.executable, "-m", "mypy"],
-        "catkin-lint": ["/usr/bin/catkin_lint", "--quiet", "-W1", *packages],
+        "catkin-lint": ["/usr/bin/catkin_lint", "--quiet", "-W1", *map(str, PACKAGES)],
     }
     results = [check(name, command) for name, command in checks.items()]
     return results.count(True), results.count(False)
@@ -69,20 +69,25 @@ def check(name: str, command: List[str]) -> bool:
 def tracked(pattern: str) -> List[pathlib.Path]:
     """Files of the project by name pattern, generated ones excluded."""
     roots = ["catkin_ws/src", "proto", "launch", "tests", "operator_gui", "setup", "firmware"]
-    found = {path.resolve() for root in roots for path in (TOP / root).rglob(pattern)}
+    found = {path for root in roots for path in (TOP / root).rglob(pattern)}
     return sorted(path for path in found if not path.name.endswith("_pb2.py") and "/build/" not in str(path))
 
 
 def node_scripts() -> List[pathlib.Path]:
     """Executable Python files without suffix."""
-    return sorted(path.resolve() for path in PACKAGES.glob("*/scripts/*") if path.is_file() and not path.suffix)
+    return [path for path in in_packages("scripts/*") if path.is_file() and not path.suffix]
+
+
+def in_packages(pattern: str) -> List[pathlib.Path]:
+    """Paths that match the pattern in any package's folder."""
+    return sorted(path for package in PACKAGES for path in package.glob(pattern))
 
 
 def unit() -> Counts:
     """Tests without a ROS master."""
-    folders = [*PACKAGES.glob("*/tests/unit"), TOP / "operator_gui" / "tests", TOP / "launch" / "tests" / "unit",
-               TOP / "tests" / "architecture", TOP / "tests" / "contract"]
-    paths = sorted({str(folder.resolve()) for folder in folders if any(folder.rglob("test_*.py"))})
+    folders = [*in_packages("tests/unit"), TOP / "operator_gui" / "tests", TOP / "tests" / "architecture",
+               TOP / "tests" / "contract"]
+    paths = sorted(str(folder) for folder in folders if any(folder.rglob("test_*.py")))
     return pytest("unit", paths, 60)
 
 
@@ -94,8 +99,8 @@ def system() -> Counts:
 def pytest(name: str, paths: List[str], timeout_s: int) -> Counts:
     """Run pytest on the paths; each test may take timeout_s."""
     report = RESULTS / name / "pytest.xml"
-    command = [sys.executable, "-m", "pytest", "-q", "--import-mode=importlib", "-p", "no:cacheprovider",
-               f"--timeout={timeout_s}", f"--junitxml={report}", f"--rootdir={TOP}", *paths]
+    command = [sys.executable, "-m", "pytest", "-q", f"--timeout={timeout_s}", f"--junitxml={report}",
+               f"--rootdir={TOP}", *paths]
     # pytest-qt takes the newest Qt that it finds, the application is for Qt 5.
     environment = dict(os.environ, PYTEST_QT_API="pyqt5", QT_QPA_PLATFORM="offscreen")
     status = subprocess.run(command, cwd=TOP, env=environment, check=False).returncode
@@ -134,10 +139,10 @@ def firmware() -> Counts:
 
 def rostest() -> Counts:
     """Every *.test file, with a master of its own."""
-    found = [*PACKAGES.glob("*/tests/rostest/*.test"), *PACKAGES.glob("mtr_tests/rostest/*.test")]
+    found = [*in_packages("tests/rostest/*.test"), *in_packages("rostest/*.test")]
     environment = dict(os.environ, ROS_TEST_RESULTS_DIR=str(RESULTS / "rostest"))
     status = 0
-    for path in sorted(path.resolve() for path in found):
+    for path in found:
         done = subprocess.run(["rostest", str(path)], env=environment, cwd=TOP, text=True, capture_output=True,
                               check=False)
         if done.returncode:

@@ -1,12 +1,11 @@
 """The direction of dependence: pure code imports only pure code, and no layer reaches over its border."""
 # SPDX-License-Identifier: Apache-2.0
-import ast
 import pathlib
-from typing import Iterator, Set
+from typing import Iterator
 
 import pytest
+from project import TOP, imports, package_folder
 
-TOP = pathlib.Path(__file__).resolve().parents[2]
 PACKAGES = TOP / "catkin_ws" / "src"
 OPERATOR = TOP / "operator_gui" / "src" / "mtr_operator"
 
@@ -24,18 +23,6 @@ LOCKSTEP = "mtr_core.lockstep"
 SHELL = {"node.py", "conversions.py", "connections.py", "sensors.py", "calibrate_lift.py"}
 # Packages whose job is the border itself.
 BORDER_PACKAGES = {"mtr_benchmarks", "mtr_bringup", "mtr_tests"}
-
-
-def imports(path: pathlib.Path) -> Set[str]:
-    """All absolute imports of a file: each dotted name and its top-level name."""
-    found = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
-            found.add(node.module)
-            found |= {f"{node.module}.{alias.name}" for alias in node.names}
-    return found | {name.split(".")[0] for name in found}
 
 
 def robot_files() -> Iterator[pathlib.Path]:
@@ -102,5 +89,5 @@ def test_only_the_car_link_speaks_can(path):
 
 def test_messages_and_proto_depend_on_nothing_local():
     for package in ("mtr_msgs", "mtr_proto"):
-        text = (PACKAGES / package / "package.xml").read_text(encoding="utf-8")
+        text = (package_folder(package) / "package.xml").read_text(encoding="utf-8")
         assert text.count("mtr_") == 1, f"{package} depends on another package of the project"

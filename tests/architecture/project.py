@@ -1,0 +1,50 @@
+"""What the checks of the architecture look at: the checkout's files, its catkin packages, the imports of a file."""
+# SPDX-License-Identifier: Apache-2.0
+import ast
+import pathlib
+import subprocess
+from typing import List, Set
+from xml.etree import ElementTree
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+
+
+def tracked(*patterns: str) -> List[pathlib.Path]:
+    """The checkout's files that match one of git's patterns, all without one.
+
+    New files count as soon as they lie there, unless they are ignored.
+    """
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "--", *patterns]
+    listed = subprocess.run(command, cwd=TOP, check=True, text=True, capture_output=True).stdout
+    return sorted({TOP / name for name in listed.split("\0") if name and (TOP / name).exists()})
+
+
+def package_folders() -> List[pathlib.Path]:
+    """Folders of the catkin packages."""
+    return [path.parent for path in tracked("*/package.xml")]
+
+
+def package_name(folder: pathlib.Path) -> str:
+    """Name of the catkin package in a folder."""
+    return ElementTree.parse(folder / "package.xml").findtext("name") or ""
+
+
+def package_folder(name: str) -> pathlib.Path:
+    """Folder of the catkin package of a name.
+
+    Raises:
+        StopIteration: there is none.
+    """
+    return next(folder for folder in package_folders() if package_name(folder) == name)
+
+
+def imports(path: pathlib.Path) -> Set[str]:
+    """All absolute imports of a Python file: each dotted name and its top-level name."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            found.add(node.module)
+            found |= {f"{node.module}.{alias.name}" for alias in node.names}
+    return found | {name.split(".")[0] for name in found}
