@@ -4,6 +4,7 @@ import dataclasses
 import json
 import math
 import pathlib
+import sys
 
 import pytest
 
@@ -17,7 +18,7 @@ from mtr_operator.station.mailbox import MAX_TRAIL, Mailbox
 from mtr_operator.station.number_text import Fault, parse_number, read, shown_number, written
 from mtr_operator.station.readiness import Cause, Phase, ReadinessWord, can_resume, readiness_of
 from mtr_operator.station.settings import Settings
-from mtr_operator.station.settings_file import SettingsStore
+from mtr_operator.station.settings_file import SettingsStore, default_path, former_path
 
 KEY_PRESS = SCENARIOS["key_press"].parameters_type.declarations()
 
@@ -84,6 +85,38 @@ def test_each_damaged_entry_is_refused(tmp_path):
         store = SettingsStore(path)
         store.load()
         assert store.problem, name
+
+
+def test_settings_of_an_earlier_version_are_moved_to_their_new_place_once(tmp_path):
+    former, path = tmp_path / "old" / "settings.json", tmp_path / "new" / "settings.json"
+    SettingsStore(former).change(Settings(theme="dark"))
+    store = SettingsStore(path, former)
+    store.load()
+    assert (store.settings.theme, store.problem) == ("dark", "")
+    assert path.exists() and not former.exists()
+    SettingsStore(former).change(Settings(theme="light"))
+    later = SettingsStore(path, former)
+    later.load()
+    assert later.settings.theme == "dark"
+
+
+def test_settings_that_cannot_be_moved_are_read_where_they_are(tmp_path):
+    former = tmp_path / "old" / "settings.json"
+    SettingsStore(former).change(Settings(theme="dark"))
+    (tmp_path / "new").write_text("", encoding="utf-8")
+    store = SettingsStore(tmp_path / "new" / "settings.json", former)
+    store.load()
+    assert (store.settings.theme, store.problem) == ("dark", "")
+    assert former.exists()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the folder of the system is another one")
+def test_settings_stand_in_the_folder_of_the_system(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    assert default_path() == former_path() == tmp_path / "mtr-operator" / "settings.json"
+    monkeypatch.delenv("XDG_CONFIG_HOME")
+    monkeypatch.setenv("HOME", str(tmp_path))
+    assert default_path() == former_path() == tmp_path / ".config" / "mtr-operator" / "settings.json"
 
 
 def test_settings_that_cannot_be_written_are_told(tmp_path):

@@ -12,7 +12,7 @@ from PyQt5.QtGui import QGuiApplication
 from PyQt5.QtWidgets import QApplication, QWidget
 
 from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
-from mtr_operator.station.settings_file import SettingsStore, default_path
+from mtr_operator.station.settings_file import SettingsStore, default_path, former_path
 from mtr_operator.station.view_model import ViewModel
 
 from .bridge import Bridge
@@ -29,7 +29,7 @@ class Application:
     """Attributes: flow, appearance, language; window: the one that is shown."""
 
     def __init__(self, settings_path: pathlib.Path | None = None, opener: LinkOpener | None = None):
-        self._store = SettingsStore(settings_path or default_path())
+        self._store = SettingsStore(settings_path) if settings_path else SettingsStore(default_path(), former_path())
         self.bridge = Bridge(ViewModel())
         self.flow = Flow(self.bridge, self._store, opener or LinkOpener())
         self.appearance = Appearance()

@@ -5,8 +5,11 @@ from __future__ import annotations
 import json
 import os
 import pathlib
+import shutil
 import sys
 from typing import Any
+
+import platformdirs
 
 from mtr_operator.domain.errors import OutputError
 from mtr_operator.storage.atomic import write_bytes
@@ -18,7 +21,12 @@ FILE_NAME = "settings.json"
 
 
 def default_path() -> pathlib.Path:
-    """%APPDATA% on Windows, XDG's configuration folder elsewhere."""
+    """Where the system keeps what a person has set; it follows the person to another computer on Windows."""
+    return platformdirs.user_config_path(FOLDER_NAME, appauthor=False, roaming=True) / FILE_NAME
+
+
+def former_path() -> pathlib.Path:
+    """Where version 0.1 kept it: %APPDATA% on Windows, XDG's configuration folder elsewhere."""
     if sys.platform == "win32":
         base = pathlib.Path(os.environ.get("APPDATA") or pathlib.Path.home() / "AppData" / "Roaming")
     else:
@@ -29,25 +37,41 @@ def default_path() -> pathlib.Path:
 class SettingsStore:
     """Settings that are on disk after each change.
 
+    former: where an earlier version kept them; they are moved from there once, when nothing is in the new place.
+
     Attributes:
         settings: the present ones.
         problem: one sentence on a file that could not be read or written; empty when all is well.
     """
 
-    def __init__(self, path: pathlib.Path):
+    def __init__(self, path: pathlib.Path, former: pathlib.Path | None = None):
         self._path = path
+        self._former = former
         self.settings = Settings()
         self.problem = ""
 
     def load(self) -> None:
         """Read the file; without a good one the defaults stay, and a bad one is not overwritten before a change."""
+        path = self._moved_here()
         try:
-            self.settings = settings_from_document(json.loads(self._path.read_text(encoding="utf-8")))
+            self.settings = settings_from_document(json.loads(path.read_text(encoding="utf-8")))
         except FileNotFoundError:
             pass
         except (OSError, ValueError, RecursionError) as error:
             reason = str(error) if isinstance(error, NotSettings) else "They cannot be read."
-            self.problem = f"The settings in {self._path} were not used. {reason}"
+            self.problem = f"The settings in {path} were not used. {reason}"
+
+    def _moved_here(self) -> pathlib.Path:
+        """The file to read: the settings of an earlier version are moved first, or read where they are."""
+        former = self._former
+        if former is None or self._path.exists() or not former.is_file():
+            return self._path
+        try:
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            shutil.move(former, self._path)
+        except OSError:
+            return former
+        return self._path
 
     def change(self, settings: Settings) -> None:
         """Use these from now on, and write them; a failure stands in `problem` and stops nobody."""
