@@ -20,7 +20,7 @@ OWN_ROBOT = {"mtr_core"}
 LOCKSTEP = "mtr_core.lockstep"
 
 # Files of a robot package that may import ROS: the shell around the core.
-SHELL = {"node.py", "conversions.py", "connections.py", "sensors.py", "calibrate_lift.py"}
+SHELL = {"node.py", "conversions.py", "robot_description.py", "connections.py", "sensors.py", "calibrate_lift.py"}
 # Packages whose job is the border itself.
 BORDER_PACKAGES = {"mtr_benchmarks", "mtr_bringup", "mtr_tests"}
 

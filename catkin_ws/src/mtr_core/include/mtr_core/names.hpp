@@ -12,6 +12,10 @@ inline constexpr char kBase[] = "base_link";
 inline constexpr char kCar[] = "car";
 inline constexpr char kFrontLidar[] = "front_lidar";
 inline constexpr char kRearLidar[] = "rear_lidar";
+inline constexpr char kKey[] = "key";
+inline constexpr char kImu[] = "imu";
+
+inline constexpr char kRobotDescription[] = "/robot_description";
 
 inline constexpr char kFrontScan[] = "/front/scan";
 inline constexpr char kRearScan[] = "/rear/scan";

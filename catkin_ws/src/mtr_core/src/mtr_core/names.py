@@ -11,6 +11,9 @@ FRONT_LIDAR = "front_lidar"
 REAR_LIDAR = "rear_lidar"
 IMU = "imu"
 
+# Parameter of the whole robot: its URDF
+ROBOT_DESCRIPTION = "/robot_description"
+
 # Sensors and wheels, as on a Jackal
 FRONT_SCAN = "/front/scan"
 REAR_SCAN = "/rear/scan"

@@ -9,15 +9,15 @@ import pytest
 import yaml
 
 from mtr_core import names
+from mtr_description.shipped import shipped_urdf
 from mtr_simulation import robot
 
 PACKAGE = pathlib.Path(__file__).resolve().parents[2]
-URDF = PACKAGE / "urdf" / "robot.urdf"
 
 
 @pytest.fixture(scope="module")
 def root():
-    return ElementTree.parse(URDF).getroot()
+    return ElementTree.fromstring(shipped_urdf())
 
 
 def numbers(element, attribute, default="0 0 0"):
@@ -59,7 +59,7 @@ def test_frame_of_the_sensor_messages_exists(root, frame):
 
 
 def test_urdf_loads_in_the_physics_engine():
-    model = mujoco.MjModel.from_xml_path(str(URDF))
+    model = mujoco.MjModel.from_xml_string(shipped_urdf())
     assert {model.joint(index).name for index in range(model.njnt)} == {"lift", *(f"{n}_wheel" for n in robot.WHEELS)}
 
 

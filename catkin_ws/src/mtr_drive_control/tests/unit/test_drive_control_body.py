@@ -7,9 +7,11 @@ from xml.etree import ElementTree
 
 import pytest
 
+from mtr_description.shipped import shipped_urdf
+
 PACKAGES = Path(__file__).resolve().parents[3]
 HEADERS = PACKAGES / "mtr_drive_control" / "include" / "mtr_drive_control"
-URDF = ElementTree.parse(PACKAGES / "mtr_description" / "urdf" / "robot.urdf").getroot()
+URDF = ElementTree.fromstring(shipped_urdf())
 LINKS = {link.get("name"): link for link in URDF.findall("link")}
 JOINTS = {joint.find("child").get("link"): joint for joint in URDF.findall("joint")}
 BASE_HEIGHT_M = 0.0635

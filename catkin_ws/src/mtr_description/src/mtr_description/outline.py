@@ -1,0 +1,66 @@
+"""The convex outline, from above, of what collides."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import TYPE_CHECKING, Any, Iterable, List, Sequence, Tuple
+
+import numpy as np
+
+from mtr_core.errors import ConfigurationError
+
+from .urdf_tree import DIGITS, Place
+
+if TYPE_CHECKING:
+    from .urdf_tree import Array
+
+Point = Tuple[float, float]
+# A round shape is taken as the polygon around it with so many corners.
+ROUND_CORNERS = 16
+
+
+def corners_from_above(link: str, place: Place, geometry: Any) -> List[Point]:
+    """Points whose convex hull, from above, is the shape; ConfigurationError for a shape without a size of its own."""
+    kind = type(geometry).__name__
+    if kind == "Box":
+        points = _box(*geometry.size)
+    elif kind == "Cylinder":
+        points = _cylinder(geometry.radius, geometry.length)
+    elif kind == "Sphere":
+        points = _cylinder(geometry.radius, 2.0 * geometry.radius)
+    else:
+        raise ConfigurationError(f"The collision geometry of {link} in robot_description is a {kind.lower()}; allowed "
+                                 "are box, cylinder and sphere.")
+    seen = np.round(points @ place.rotation.T + place.position, DIGITS)[:, :2] + 0.0
+    return [(float(x), float(y)) for x, y in seen]
+
+
+def convex_hull(points: Iterable[Point]) -> Tuple[Point, ...]:
+    """Corners counterclockwise from the rearmost, without those on a side (Andrew's monotone chain)."""
+    ordered = sorted(set(points))
+    lower, upper = _half_hull(ordered), _half_hull(ordered[::-1])
+    return tuple(lower[:-1] + upper[:-1])
+
+
+def _half_hull(points: Sequence[Point]) -> List[Point]:
+    hull: List[Point] = []
+    for point in points:
+        while len(hull) > 1 and _turns_right(hull[-2], hull[-1], point):
+            hull.pop()
+        hull.append(point)
+    return hull
+
+
+def _turns_right(a: Point, b: Point, c: Point) -> bool:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) <= 0.0
+
+
+def _box(length: float, width: float, height: float) -> "Array":
+    halves = (-0.5, 0.5)
+    return np.array([(x * length, y * width, z * height) for x in halves for y in halves for z in halves])
+
+
+def _cylinder(radius: float, length: float) -> "Array":
+    # The polygon's sides touch the circle where it crosses the axes, so that its extent there is the radius.
+    around = radius / math.cos(math.pi / ROUND_CORNERS)
+    angles = 2.0 * math.pi * (np.arange(ROUND_CORNERS) + 0.5) / ROUND_CORNERS
+    ring = np.column_stack((around * np.cos(angles), around * np.sin(angles)))
+    return np.vstack([np.column_stack((ring, np.full(ROUND_CORNERS, z))) for z in (-0.5 * length, 0.5 * length)])
