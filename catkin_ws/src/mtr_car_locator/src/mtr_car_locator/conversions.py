@@ -10,6 +10,7 @@ from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import Marker, MarkerArray
 
 from mtr_core import names
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 from mtr_core.states import Result, State
 from mtr_msgs.msg import CarCheck, CarEstimate, LocalizedPose, MappingOrder, MotionStatus, RobotMode, Waypoint
@@ -104,7 +105,7 @@ def estimate_message(estimate: Estimate, stamp: Any) -> CarEstimate:
     return message
 
 
-def covariance_in_map(estimate: Estimate) -> np.ndarray:
+def covariance_in_map(estimate: Estimate) -> FloatArray:
     """Row-major covariance of x, y, heading in map."""
     heading = estimate.rectangle.pose.heading
     cos, sin = math.cos(heading), math.sin(heading)

@@ -9,6 +9,7 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 
 from .estimate import Estimate
+from .surfels import Surfels
 
 Point = Tuple[float, float]
 Colour = Tuple[float, float, float, float]
@@ -50,7 +51,7 @@ def shapes_of(estimate: Estimate) -> List[Shape]:
     if estimate.places:
         shapes.append(Shape("places", Kind.DOTS, VIOLET, PLACE_M, tuple((at.x, at.y) for at in estimate.places)))
     if estimate.fit:
-        shapes += [*_band(estimate), _surfels(estimate), _ellipse(estimate)]
+        shapes += [*_band(estimate), _surfels(estimate.rectangle.pose, estimate.fit.surfels), _ellipse(estimate)]
     return shapes
 
 
@@ -79,11 +80,11 @@ def _band(estimate: Estimate) -> Iterator[Shape]:
         yield Shape(name, Kind.LOOP, FAINT_GREEN, THIN_M, _in_map(car.pose, points))
 
 
-def _surfels(estimate: Estimate) -> Shape:
-    ends = estimate.fit.surfels.ends()
+def _surfels(car: Pose2, surfels: Surfels) -> Shape:
+    ends = surfels.ends()
     half = len(ends) // 2
     points = [tuple(point) for pair in zip(ends[:half], ends[half:]) for point in pair]
-    return Shape("surfels", Kind.SEGMENTS, CYAN, THIN_M, _in_map(estimate.rectangle.pose, points))
+    return Shape("surfels", Kind.SEGMENTS, CYAN, THIN_M, _in_map(car, points))
 
 
 def _ellipse(estimate: Estimate) -> Shape:

@@ -6,8 +6,8 @@ from typing import Optional, Tuple
 
 from mtr_core.se2 import Pose2
 
-from .estimate import NO_MOTION, Inputs, result_at
-from .find.fit import NotLocated
+from .estimate import NO_MOTION, Inputs, Order, result_at
+from .find.errors import NotLocated
 from .measure.car_fit import CarFit
 from .parameters import RefinementParameters
 from .poses import PoseHistory
@@ -63,18 +63,18 @@ class LocatedCar:
         if poses.newest.map_revision != self._map_revision:
             raise NotLocated("Localization has another map than the one in which the Car was found.")
         if inputs.order is not None and inputs.order.checking:
-            self._run_check(inputs, poses, next_place_id)
+            self._run_check(inputs, inputs.order, poses, next_place_id)
             return
         self._place = None
         change = self._refinement.step(inputs.now_s, inputs.scans, poses)
         if change:
             self._apply(change)
 
-    def _run_check(self, inputs: Inputs, poses: PoseHistory, next_place_id: int) -> None:
-        if self._check is None or self._check.report.check_id != inputs.order.check_car_id:
-            self._check = SelfCheck(inputs.order.check_car_id, poses.newest.pose, self.fit, self._parameters)
+    def _run_check(self, inputs: Inputs, order: Order, poses: PoseHistory, next_place_id: int) -> None:
+        if self._check is None or self._check.report.check_id != order.check_car_id:
+            self._check = SelfCheck(order.check_car_id, inputs.now_s, poses.newest.pose, self.fit, self._parameters)
             self._place = None
-        result = result_at(self._place, inputs.order, inputs.drive)
+        result = result_at(self._place, order, inputs.drive)
         self._check.step(inputs.now_s, result, inputs.scans, poses)
         self._place = self._placed(self._check.place, next_place_id)
 

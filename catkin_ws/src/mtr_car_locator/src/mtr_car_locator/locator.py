@@ -1,19 +1,20 @@
 """The car locator: at each tick from orders, poses, scans and maps to the estimate of the Car."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Optional
+from dataclasses import replace
+from typing import Optional, Tuple
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 
 from .estimate import Estimate, Inputs, Order, result_at
-from .find.fit import NotLocated
+from .find.errors import NotLocated
 from .find.prior import prior_at, prior_from_start
 from .located import LocatedCar
-from .measure.outline import rounded
+from .measure.outline import Point, rounded
 from .parameters import LocatorParameters
 from .poses import PoseHistory, RobotPose
 from .rectangle import Rectangle
-from .survey.survey import MapPhase, Survey
+from .survey.survey import Survey
 
 # Sigma of what the starting place alone tells.
 PRIOR_POSITION_SIGMA_M, PRIOR_HEADING_SIGMA_RAD = 0.5, 0.2
@@ -26,7 +27,7 @@ class CarLocator:
 
     def __init__(self, parameters: LocatorParameters):
         self._parameters = parameters
-        self._poses = PoseHistory()
+        self._poses: Optional[PoseHistory] = None
         self._survey: Optional[Survey] = None
         self._located: Optional[LocatedCar] = None
         self._state = CarState.UNKNOWN
@@ -41,53 +42,58 @@ class CarLocator:
         order = inputs.order
         if order is not None and order.mapping:
             return self._state == CarState.COLLECTING or self._is_new(order)
-        return self._located is not None and self._located.wants_scans(inputs, self._poses)
+        return (self._located is not None and self._poses is not None
+                and self._located.wants_scans(inputs, self._poses))
 
     def add_pose(self, robot: RobotPose) -> None:
         """Take a valid pose of the robot."""
-        if robot.pose.is_finite():
+        if not robot.pose.is_finite():
+            return
+        if self._poses is None:
+            self._poses = PoseHistory(robot)
+        else:
             self._poses.add(robot)
 
     def step(self, inputs: Inputs) -> Estimate:
         """Estimate at a tick."""
-        order = inputs.order
-        mapping = order is not None and order.mapping
-        if self._poses.newest is not None:
+        if self._poses is not None:
             try:
-                self._work(inputs, mapping)
+                self._work(inputs, self._poses)
             except NotLocated as reason:
                 self._fail(str(reason))
-        self._was_mapping = mapping
+        self._was_mapping = inputs.order is not None and inputs.order.mapping
         return self._estimate()
 
-    def _work(self, inputs: Inputs, mapping: bool) -> None:
-        if mapping and self._is_new(inputs.order):
-            self._begin(inputs.now_s, inputs.order.map_car_id)
-        if mapping and self._state == CarState.COLLECTING:
-            self._collect(inputs)
+    def _work(self, inputs: Inputs, poses: PoseHistory) -> None:
+        order = inputs.order
+        survey = self._survey_for(order, inputs.now_s, poses.newest.pose) if order and order.mapping else None
+        if survey:
+            self._collect(survey, inputs, poses)
         elif self._located:
-            self._located.step(inputs, self._poses, self._next_place_id)
+            self._located.step(inputs, poses, self._next_place_id)
             if self._located.place:
                 self._next_place_id = self._located.place.place_id + 1
             self._revision, self._message = self._located.revision, self._located.message
+
+    def _survey_for(self, order: Order, now_s: float, robot: Pose2) -> Optional[Survey]:
+        """The survey that the order is about, a new one if need be; None when it has ended."""
+        if self._is_new(order):
+            prior = (prior_at(self._located.fit.rectangle) if self._located
+                     else prior_from_start(robot, self._parameters))
+            # The time at which it begins is a number that no survey has had, not even before this node was restarted.
+            self._survey = Survey(prior, round(now_s * 1000.0), self._next_place_id, self._parameters)
+            self._located = None
+            self._state, self._map_car_id = CarState.COLLECTING, order.map_car_id
+        return self._survey if self._state == CarState.COLLECTING else None
 
     def _is_new(self, order: Order) -> bool:
         if self._state == CarState.UNKNOWN or order.map_car_id != self._map_car_id:
             return True
         return self._state == CarState.FAILED and not self._was_mapping
 
-    def _begin(self, now_s: float, map_car_id: int) -> None:
-        robot = self._poses.newest.pose
-        prior = (prior_at(self._located.fit.rectangle) if self._located
-                 else prior_from_start(robot, self._parameters))
-        # The time at which it begins is a number that no survey has had, not even before this node was restarted.
-        self._survey = Survey(prior, round(now_s * 1000.0), self._next_place_id, self._parameters)
-        self._located = None
-        self._state, self._map_car_id = CarState.COLLECTING, map_car_id
-
-    def _collect(self, inputs: Inputs) -> None:
-        survey, robot = self._survey, self._poses.newest
-        survey.collect(inputs.scans, self._poses)
+    def _collect(self, survey: Survey, inputs: Inputs, poses: PoseHistory) -> None:
+        robot = poses.newest
+        survey.collect(inputs.scans, poses)
         survey.advance(inputs.now_s, robot, result_at(survey.place, inputs.order, inputs.drive))
         self._next_place_id = survey.next_place_id
         self._message = survey.progress
@@ -106,24 +112,22 @@ class CarLocator:
         if self._located:
             return self._found(self._located)
         if self._survey:
-            car, was_seen = self._survey.car, self._survey.was_seen
-        elif self._poses.newest is None:
+            margin_m = self._parameters.seen_margin_m if self._survey.was_seen else self._parameters.prior_margin_m
+            return self._rough(self._survey.car, rounded(self._survey.car, margin_m), self._message)
+        if self._poses is None:
             return self._rough(NOWHERE, (), "The robot's pose is not known yet.")
-        else:
-            car, was_seen = prior_from_start(self._poses.newest.pose, self._parameters).car, False
-        margin = self._parameters.seen_margin_m if was_seen else self._parameters.prior_margin_m
-        return self._rough(car, rounded(car, margin), self._message)
+        car = prior_from_start(self._poses.newest.pose, self._parameters).car
+        return self._rough(car, rounded(car, self._parameters.prior_margin_m), self._message)
 
-    def _rough(self, car: Rectangle, outline: tuple, message: str) -> Estimate:
-        collecting = self._state == CarState.COLLECTING
-        place = self._survey.place if collecting else None
-        phase = self._survey.phase if collecting else MapPhase.IDLE
-        map_id = self._survey.map_id if collecting else 0
-        ahead = self._survey.places_ahead if collecting else ()
+    def _rough(self, car: Rectangle, outline: Tuple[Point, ...], message: str) -> Estimate:
         sigma, size_sigma = PRIOR_POSITION_SIGMA_M, 0.5 * self._parameters.profile.size_tolerance_m
-        return Estimate(self._state, car, outline, (sigma, sigma, PRIOR_HEADING_SIGMA_RAD), size_sigma, size_sigma,
-                        place, self._map_car_id, message, self._revision, phase=phase, map_id=map_id,
-                        places=ahead)
+        estimate = Estimate(self._state, car, outline, (sigma, sigma, PRIOR_HEADING_SIGMA_RAD), size_sigma, size_sigma,
+                            None, self._map_car_id, message, self._revision)
+        survey = self._survey if self._state == CarState.COLLECTING else None
+        if survey is None:
+            return estimate
+        return replace(estimate, place=survey.place, phase=survey.phase, map_id=survey.map_id,
+                       places=survey.places_ahead)
 
     def _found(self, located: LocatedCar) -> Estimate:
         fit = located.fit

@@ -1,5 +1,7 @@
 """The car locator as a ROS node: poses, scans and maps in; the Car, and orders to localization's mapper, out."""
 # SPDX-License-Identifier: Apache-2.0
+from typing import Optional, Tuple
+
 import rospy
 import tf2_ros
 from visualization_msgs.msg import MarkerArray
@@ -7,6 +9,7 @@ from visualization_msgs.msg import MarkerArray
 from mtr_core import names, schedule
 from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
 from mtr_core.lockstep.clock import stamp_of
+from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 from mtr_msgs.msg import CarCheck, CarEstimate, MappingOrder, MotionStatus, RobotMode
 
@@ -23,6 +26,7 @@ from .drawing import shapes_of
 from .estimate import Estimate, Inputs
 from .locator import CarLocator
 from .parameters import LocatorParameters
+from .rectangle import Rectangle
 from .sensors import MapSource, PoseSource, ScanSource
 
 
@@ -36,7 +40,7 @@ class CarLocatorNode:
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
         self._drive = TickInput(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER)
         self._poses, self._scans, self._maps = PoseSource(self._locator), ScanSource(parameters), MapSource()
-        self._shown = None
+        self._shown: Optional[Tuple[CarState, Rectangle, Tuple[Pose2, ...]]] = None
         self._said = ("", 0)
         self._estimates = publisher(names.CAR_ESTIMATE, CarEstimate)
         self._checks = publisher(names.CAR_CHECK, CarCheck)

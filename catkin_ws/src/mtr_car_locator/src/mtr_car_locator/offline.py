@@ -9,6 +9,7 @@ from typing import Iterable, List, Optional, Sequence
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 
@@ -52,7 +53,8 @@ def close_up_of(folder: pathlib.Path, scans: Iterable[Scan], car: Pose2) -> Opti
     frames = _table(folder / KEY_FRAMES, KEY_FRAME_COLUMNS)
     if len(frames) == 0:
         return None
-    way, history = WayRound(car.x, car.y), PoseHistory()
+    way = WayRound(car.x, car.y)
+    history: Optional[PoseHistory] = None
     rows, row = None, 0
     for scan in scans:
         end_s = scan.start_s + len(scan.ranges_m) * scan.beam_period_s
@@ -61,18 +63,23 @@ def close_up_of(folder: pathlib.Path, scans: Iterable[Scan], car: Pose2) -> Opti
         if rows is None:
             rows = _table(folder / TRAJECTORY, TRAJECTORY_COLUMNS, frames[-1, 0])
         while row < len(rows) and (row == 0 or rows[row - 1, 0] < end_s):
-            _add_pose(history, rows[row])
+            history = _with_pose(history, rows[row])
             row += 1
-        seen = returns_in_map(scan, history)
+        seen = returns_in_map(scan, history) if history else None
         if seen is not None:
             way.add(seen, scan.base_from_lidar)
     return way.close_up(frames, _range_bias_m(folder)) if rows is not None else None
 
 
-def _add_pose(history: PoseHistory, row: np.ndarray) -> None:
+def _with_pose(history: Optional[PoseHistory], row: FloatArray) -> Optional[PoseHistory]:
     time_s, x, y, heading, valid, map_revision = row
-    if valid > 0.5:
-        history.add(RobotPose(time_s, Pose2(x, y, heading), map_revision=int(map_revision)))
+    if valid <= 0.5:
+        return history
+    robot = RobotPose(time_s, Pose2(x, y, heading), map_revision=int(map_revision))
+    if history is None:
+        return PoseHistory(robot)
+    history.add(robot)
+    return history
 
 
 def _range_bias_m(folder: pathlib.Path) -> float:
@@ -108,7 +115,7 @@ def _prior(folder: pathlib.Path, car: Optional[Pose2], parameters: LocatorParame
     return prior_from_start(Pose2(*frames[0, 1:]), parameters)
 
 
-def _table(path: pathlib.Path, columns: Sequence[str], most: float = math.inf) -> np.ndarray:
+def _table(path: pathlib.Path, columns: Sequence[str], most: float = math.inf) -> FloatArray:
     """The wanted columns of a file with a header, up to the row whose first one is above most.
 
     Lines that begin with # are skipped.

@@ -8,6 +8,7 @@ from typing import Deque, Optional, Tuple
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2, wrap_angle
 
 # Localization gives a pose each 20 ms; over a longer gap nothing is interpolated.
@@ -58,14 +59,15 @@ class PoseHistory:
     """Valid poses of base_link in map by time.
 
     Attributes:
-        newest: the last one, None before the first.
+        newest: the last one.
         stands_since_s: time since which the robot stands, None while it moves.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, first: RobotPose):
         self._rows: Deque[Tuple[float, float, float, float]] = deque(maxlen=KEPT)
-        self.newest: Optional[RobotPose] = None
+        self.newest = first
         self.stands_since_s: Optional[float] = None
+        self.add(first)
 
     def add(self, robot: RobotPose) -> None:
         """Take the next pose; another map, or a time that is not later than the last, starts anew."""
@@ -83,7 +85,7 @@ class PoseHistory:
         elif self.stands_since_s is None or robot.time_s < self.stands_since_s:
             self.stands_since_s = robot.time_s
 
-    def at(self, times_s: np.ndarray) -> Optional[Tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    def at(self, times_s: FloatArray) -> Optional[Tuple[FloatArray, FloatArray, FloatArray]]:
         """x, y and heading at the times, None when they are not covered."""
         if len(self._rows) < 2 or len(times_s) == 0:
             return None
@@ -95,7 +97,8 @@ class PoseHistory:
         last = np.searchsorted(known, end, side="left")
         if last > first and np.diff(known[first:last + 1]).max() > LONGEST_GAP_S:
             return None
-        return tuple(np.interp(times_s, known, rows[:, column]) for column in (1, 2, 3))
+        x, y, heading = (np.interp(times_s, known, rows[:, column]) for column in (1, 2, 3))
+        return x, y, heading
 
     def standing_s(self, now_s: float) -> float:
         """How long the robot has been standing, 0 while it moves."""

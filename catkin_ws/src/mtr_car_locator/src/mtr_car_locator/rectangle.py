@@ -6,6 +6,7 @@ from typing import List, Tuple
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
 # Within this distance of its middle line a Car has no outside: directions outwards are counted from there.
@@ -25,12 +26,12 @@ class Rectangle:
         x, y = 0.5 * self.length + margin_m, 0.5 * self.width + margin_m
         return [(x, y), (-x, y), (-x, -y), (x, -y)]
 
-    def outside(self, in_car: np.ndarray) -> np.ndarray:
+    def outside(self, in_car: FloatArray) -> FloatArray:
         """Distance of points in the Car's frame outwards of the nearest side, negative inside."""
         beyond = np.abs(in_car) - (0.5 * self.length, 0.5 * self.width)
         return np.max(beyond, axis=1)
 
-    def outwards(self, in_car: np.ndarray) -> np.ndarray:
+    def outwards(self, in_car: FloatArray) -> FloatArray:
         """Unit vectors (n, 2) away from the Car at points in its frame; round the corners they turn."""
         core = np.maximum(np.array([0.5 * self.length, 0.5 * self.width]) - CORE_M, 0.1)
         away = in_car - np.clip(in_car, -core, core)

@@ -5,6 +5,7 @@ from typing import Optional
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
 from .poses import PoseHistory
@@ -20,7 +21,7 @@ class Scan:
     beam_angle_rad: float
     range_min_m: float
     range_max_m: float
-    ranges_m: np.ndarray
+    ranges_m: FloatArray
     base_from_lidar: Pose2
 
 
@@ -28,8 +29,8 @@ class Scan:
 class Returns:
     """Points (n, 2) in map, and where the LiDAR and the robot were in the middle of the sweep, at time_s."""
 
-    points: np.ndarray
-    viewer: np.ndarray
+    points: FloatArray
+    viewer: FloatArray
     time_s: float
     robot: Pose2
 

@@ -1,10 +1,11 @@
 """Short straight pieces of surface that LiDARs have seen, in one frame."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
-from typing import Tuple
+from typing import Tuple, Union
 
 import numpy as np
 
+from mtr_core.arrays import BoolArray, FloatArray, IntArray
 from mtr_core.se2 import Pose2
 
 # Surface is counted in pieces of this length.
@@ -23,16 +24,16 @@ class Surfels:
         hits: beams that it was made from.
     """
 
-    position: np.ndarray
-    normal: np.ndarray
-    length: np.ndarray
-    sigma: np.ndarray
-    hits: np.ndarray
+    position: FloatArray
+    normal: FloatArray
+    length: FloatArray
+    sigma: FloatArray
+    hits: FloatArray
 
     def __len__(self) -> int:
         return len(self.length)
 
-    def where(self, index: np.ndarray) -> "Surfels":
+    def where(self, index: Union[BoolArray, IntArray]) -> "Surfels":
         """Those that an index array or a mask selects."""
         return Surfels(self.position[index], self.normal[index], self.length[index], self.sigma[index],
                        self.hits[index])
@@ -42,12 +43,12 @@ class Surfels:
         return Surfels(in_frame(self.position, pose), rotated_back(self.normal, pose.heading), self.length, self.sigma,
                        self.hits)
 
-    def ends(self) -> np.ndarray:
+    def ends(self) -> FloatArray:
         """Both ends of each (2n, 2)."""
         half = 0.5 * self.length[:, np.newaxis] * self._tangent()
         return np.vstack((self.position - half, self.position + half))
 
-    def samples(self) -> Tuple[np.ndarray, np.ndarray]:
+    def samples(self) -> Tuple[FloatArray, IntArray]:
         """Points (m, 2) along the surfaces, one per centimetre, and for each the index of its surfel."""
         count = np.maximum(np.rint(self.length / SAMPLE_M).astype(int), 1)
         index = np.repeat(np.arange(len(self)), count)
@@ -55,11 +56,11 @@ class Surfels:
         along = ((number + 0.5) / count[index] - 0.5) * self.length[index]
         return self.position[index] + along[:, np.newaxis] * self._tangent()[index], index
 
-    def _tangent(self) -> np.ndarray:
+    def _tangent(self) -> FloatArray:
         return np.column_stack((-self.normal[:, 1], self.normal[:, 0]))
 
 
-def surfels_from(columns: np.ndarray) -> Surfels:
+def surfels_from(columns: FloatArray) -> Surfels:
     """Surfels from columns x, y, normal (rad), length, sigma, hits; rows that are not finite or have no length go."""
     table = np.asarray(columns, dtype=float).reshape(-1, 6)
     table = table[np.all(np.isfinite(table), axis=1) & (table[:, 3] > 0.0) & (table[:, 4] > 0.0)]
@@ -67,12 +68,12 @@ def surfels_from(columns: np.ndarray) -> Surfels:
     return Surfels(table[:, :2], normal, table[:, 3], table[:, 4], table[:, 5])
 
 
-def in_frame(points: np.ndarray, pose: Pose2) -> np.ndarray:
+def in_frame(points: FloatArray, pose: Pose2) -> FloatArray:
     """Coordinates of points (n, 2) in the frame of the pose."""
     return rotated_back(points - (pose.x, pose.y), pose.heading)
 
 
-def rotated_back(vectors: np.ndarray, heading_rad: float) -> np.ndarray:
+def rotated_back(vectors: FloatArray, heading_rad: float) -> FloatArray:
     """Components of vectors (n, 2) in a frame with that heading."""
     cos, sin = np.cos(heading_rad), np.sin(heading_rad)
     return np.column_stack((cos * vectors[:, 0] + sin * vectors[:, 1], -sin * vectors[:, 0] + cos * vectors[:, 1]))

@@ -83,7 +83,7 @@ class Mapper:
     def __init__(self, scene: Scene, centre: Pose2):
         self._scene, self._centre = scene, centre
         self._grid = SurfelGrid(centre.x, centre.y)
-        self._poses = PoseHistory()
+        self._poses: Optional[PoseHistory] = None
         self._map_id, self._freeze_s = 0, math.inf
         self.revision = 0
         self.mode = PoseMode.DEAD_RECKONING
@@ -92,18 +92,22 @@ class Mapper:
 
     def add_pose(self, now_s: float, pose: Pose2) -> None:
         """True pose; each half second it is a key-frame."""
-        self._poses.add(RobotPose(now_s, pose))
+        robot = RobotPose(now_s, pose)
+        if self._poses is None:
+            self._poses = PoseHistory(robot)
+        else:
+            self._poses.add(robot)
         if not self._frames or now_s - self._frames[-1][0] >= 0.5:
             self._frames.append((now_s, pose.x, pose.y, pose.heading))
 
-    def obey(self, now_s: float, estimate: Estimate, scans: Sequence[Scan]) -> None:
+    def follow(self, now_s: float, estimate: Estimate, scans: Sequence[Scan]) -> None:
         """Take the locator's order."""
         if estimate.phase is MapPhase.COLLECT and estimate.map_id != self._map_id:
             self._map_id, self._freeze_s, self.revision = estimate.map_id, math.inf, 0
             self._grid = SurfelGrid(self._centre.x, self._centre.y)
             self.mode = PoseMode.MAPPING
         for scan in scans:
-            seen = returns_in_map(scan, self._poses)
+            seen = returns_in_map(scan, self._poses) if self._poses else None
             if seen is not None:
                 self._grid.add(seen.points, seen.viewer)
         if estimate.phase is MapPhase.FREEZE and math.isinf(self._freeze_s):
@@ -215,7 +219,7 @@ class World:
         inputs = Inputs(self.now, order, Drive(goal[0], self._result(place)), due, self.mapper.map)
         self.estimates.append(self.locator.step(inputs))
         if self.scene.maps:
-            self.mapper.obey(self.now, self.newest, due)
+            self.mapper.follow(self.now, self.newest, due)
 
     def _result(self, place: Optional[Place]) -> Result:
         if place is None:

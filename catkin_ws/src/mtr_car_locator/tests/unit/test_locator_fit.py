@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from locator_surfels import LENGTH_M, ORIGIN, PARAMETERS, SIGMA_M, STEP_M, WIDTH_M, box, prior, surfels
 
-from mtr_car_locator.find.fit import NotLocated, fit_car
+from mtr_car_locator.find.errors import NotLocated
+from mtr_car_locator.find.fit import fit_car
 from mtr_car_locator.parameters import CarProfile, LocatorParameters
 from mtr_core.se2 import Pose2
 

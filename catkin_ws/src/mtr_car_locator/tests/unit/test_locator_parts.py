@@ -29,9 +29,10 @@ CAR = Rectangle(ORIGIN, 4.5, 1.8)
 
 
 def history(rows):
-    poses = PoseHistory()
-    for time_s, pose in rows:
-        poses.add(RobotPose(time_s, pose))
+    first, *rest = (RobotPose(time_s, pose) for time_s, pose in rows)
+    poses = PoseHistory(first)
+    for robot in rest:
+        poses.add(robot)
     return poses
 
 
@@ -130,8 +131,8 @@ def test_gap_between_poses_and_change_of_map_are_not_bridged():
 
 
 def test_robot_stands_from_its_last_motion_on():
-    poses = PoseHistory()
-    for time_s, speed_mps in ((0.0, 0.0), (0.1, 0.3), (0.2, 0.0), (0.3, 0.005)):
+    poses = PoseHistory(RobotPose(0.0, ORIGIN, 0.0))
+    for time_s, speed_mps in ((0.1, 0.3), (0.2, 0.0), (0.3, 0.005)):
         poses.add(RobotPose(time_s, ORIGIN, speed_mps))
     assert poses.standing_s(1.0) == pytest.approx(0.8)
     poses.add(RobotPose(1.1, ORIGIN, 0.0, 0.1))

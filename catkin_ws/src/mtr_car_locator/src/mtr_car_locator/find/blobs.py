@@ -7,6 +7,7 @@ from typing import Iterator, List, Optional
 import numpy as np
 from scipy.cluster.hierarchy import fcluster, linkage
 
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
 from ..measure.wheels import LONGEST_WHEELBASE_M, SHORTEST_WHEELBASE_M, WHEELBASE_SHARE
@@ -27,15 +28,12 @@ OFF_M = 0.4
 def guess_from_blobs(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> Optional[Rectangle]:
     """The Car whose wheels the blobs may be, the one next to the prior; None when there is none."""
     blobs = in_frame(_blobs(near(surfels, prior, parameters)), prior.car.pose)
-    found = []
-    for at in _cars(blobs, parameters):
-        car = Rectangle(prior.car.pose @ at.pose, at.length, at.width)
-        if is_allowed(car, prior, parameters):
-            found.append(car)
-    return min(found, key=lambda car: prior.error_of(car.pose)[0], default=None)
+    cars = (Rectangle(prior.car.pose @ at.pose, at.length, at.width) for at in _cars(blobs, parameters))
+    found = [car for car in cars if is_allowed(car, prior, parameters)]
+    return min(found, key=lambda car: prior.error_of(car.pose)[0]) if found else None
 
 
-def _blobs(surfels: Surfels) -> np.ndarray:
+def _blobs(surfels: Surfels) -> FloatArray:
     """Middles (n, 2) of things of a wheel's size."""
     if len(surfels) < 2:
         return np.empty((0, 2))
@@ -49,14 +47,14 @@ def _blobs(surfels: Surfels) -> np.ndarray:
     return np.array(middles).reshape(-1, 2)
 
 
-def _cars(blobs: np.ndarray, parameters: LocatorParameters) -> Iterator[Rectangle]:
+def _cars(blobs: FloatArray, parameters: LocatorParameters) -> Iterator[Rectangle]:
     """Rectangles, in the frame of the blobs, with two wheels on one side and a third beside one of them."""
     for rear, front in itertools.permutations(blobs, 2):
         wheelbase, heading = math.hypot(*(front - rear)), math.atan2(*(front - rear)[::-1])
         if (not SHORTEST_WHEELBASE_M <= wheelbase <= LONGEST_WHEELBASE_M
                 or abs(heading) > parameters.heading_tolerance_rad):
             continue
-        frame = Pose2(*rear, heading)
+        frame = Pose2(rear[0], rear[1], heading)
         for track in _tracks(in_frame(blobs, frame).tolist(), wheelbase):
             yield Rectangle(frame @ Pose2(0.5 * wheelbase, 0.5 * track, 0.0), wheelbase / WHEELBASE_SHARE,
                             parameters.profile.width_m)

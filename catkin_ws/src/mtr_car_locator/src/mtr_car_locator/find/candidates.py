@@ -7,6 +7,7 @@ from typing import Iterator, List, Optional, Tuple
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
 from ..measure.side import ENDS, LONG_SIDES, MIDDLE_SHARE, Side, side_of
@@ -87,14 +88,14 @@ def levels(side: Side) -> List[float]:
     return [low + (index + 0.5) * LEVEL_BIN_M for index in peaks(density, height)[:MOST_LEVELS]]
 
 
-def smoothed(values: np.ndarray, sigma_bins: float) -> np.ndarray:
+def smoothed(values: FloatArray, sigma_bins: float) -> FloatArray:
     """Convolution with a Gaussian."""
     reach = np.arange(-math.ceil(3 * sigma_bins), math.ceil(3 * sigma_bins) + 1)
     kernel = np.exp(-0.5 * (reach / sigma_bins) ** 2)
     return np.convolve(values.astype(float), kernel / kernel.sum(), mode="same")
 
 
-def peaks(density: np.ndarray, least: float) -> List[int]:
+def peaks(density: FloatArray, least: float) -> List[int]:
     """Indices of the local maxima above a height, highest first."""
     padded = np.concatenate(([-1.0], density, [-1.0]))
     top = (density > padded[:-2]) & (density >= padded[2:]) & (density > 0.0) & (density >= least)

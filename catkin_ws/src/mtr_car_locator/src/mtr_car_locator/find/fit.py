@@ -6,22 +6,16 @@ from typing import List, Optional
 
 import numpy as np
 
-from mtr_core.errors import RobotError
-from mtr_core.se2 import Pose2
-
-from ..measure.axis import axis_of
-from ..measure.belonging import belongs
 from ..measure.car_fit import CarFit
 from ..measure.close_up import CloseUp
-from ..measure.measurement import BEYOND_M, Found, extents_of, measured, sized
-from ..measure.side import ENDS, LONG_SIDES, sides_of
-from ..measure.tyre_faces import faces_in
-from ..measure.wheels import Wheels, wheel_sides, wheels_between, wheels_from
-from ..parameters import CarProfile, LocatorParameters
+from ..measure.measurement import measured
+from ..parameters import LocatorParameters
 from ..rectangle import Rectangle
 from ..surfels import Surfels
+from .alignment import Alignment
 from .blobs import guess_from_blobs
 from .candidates import Candidate, candidates, is_allowed, near
+from .errors import NotLocated
 from .prior import Prior
 from .scoring import score_of
 
@@ -33,13 +27,6 @@ LEAST_QUALITY_ON_WHEELS = 0.15
 # Two candidates are two things when their centres are so far apart, and alike when their evidence is.
 TWO_THINGS_M, ALIKE = 0.8, 0.5
 LEAST_SURFACE_M = 1.0
-ROUNDS = 4
-# First the rectangle is rough.
-FIRST_BEYOND_M = 0.12
-
-
-class NotLocated(RobotError):
-    """The surfels do not show a Car that can be trusted; the text says what they show."""
 
 
 def fit_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters,
@@ -52,7 +39,7 @@ def fit_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters,
     if seen.length.sum() < LEAST_SURFACE_M:
         raise NotLocated("There is nothing of a Car's size where the Car should stand.")
     best = _chosen(candidates(seen, prior, parameters))
-    found = _refined(seen, best, parameters.profile, close_up)
+    found = Alignment(seen, close_up, parameters.profile, on_wheels=best.wheels is not None).aligned(best.car)
     fit = measured(seen, found, parameters.profile, close_up)
     fit = replace(fit, quality=score_of(seen, found.car, prior, parameters.profile).quality)
     _check(fit, prior, parameters)
@@ -86,43 +73,6 @@ def _chosen(found: List[Candidate]) -> Candidate:
             raise NotLocated(f"Two things of a Car's size stand there, {apart:.1f} m apart, and which of them is the "
                              "Car cannot be told.")
     return best
-
-
-def _refined(seen: Surfels, best: Candidate, profile: CarProfile, close_up: Optional[CloseUp]) -> Found:
-    """The candidate moved to what the surfels on its outline show, and, on wheels, all returns near them."""
-    car, wheels, axis = best.car, best.wheels, None
-    for turn in range(ROUNDS):
-        beyond_m = FIRST_BEYOND_M if turn == 0 else BEYOND_M
-        in_car = seen.in_frame(car.pose)
-        sides = sides_of(in_car.where(belongs(in_car, car, beyond_m)))
-        axis = axis_of(*(sides[name] for name in LONG_SIDES), length=car.length)
-        if axis is None:
-            raise NotLocated("The Car's long sides were seen too little to tell its heading.")
-        car = car.moved_by(Pose2(0.0, axis.offset_m if axis.is_centred else 0.0, math.atan(axis.slope)))
-        in_car = seen.in_frame(car.pose)
-        extents = extents_of(sides_of(in_car.where(belongs(in_car, car, FIRST_BEYOND_M))), car)
-        wheels = None
-        if best.wheels or (profile.front_overhang_m and not all(name in extents for name in ENDS)):
-            wheels = _exact_wheels(car, profile, close_up)
-        if best.wheels and wheels is None:
-            wheels = _rough_wheels(in_car, car, profile)
-        car = sized(car, extents, axis, wheels, profile)
-    return Found(car, axis, wheels)
-
-
-def _exact_wheels(car: Rectangle, profile: CarProfile, close_up: Optional[CloseUp]) -> Optional[Wheels]:
-    """Wheels tell more of the Car than one end does: how far that stands back at the LiDARs' height is not known."""
-    if close_up is None:
-        return None
-    in_car = close_up.in_frame(car.pose)
-    return wheels_from([faces_in(in_car, name, 0.5 * car.width) for name in LONG_SIDES], profile)
-
-
-def _rough_wheels(in_car: Surfels, car: Rectangle, profile: CarProfile) -> Wheels:
-    found = wheels_between(wheel_sides(in_car), 0.0, car.width, profile)
-    if found is None:
-        raise NotLocated("Only wheels of the Car were seen, and they do not stand as a car's do.")
-    return found
 
 
 def _check(fit: CarFit, prior: Prior, parameters: LocatorParameters) -> None:

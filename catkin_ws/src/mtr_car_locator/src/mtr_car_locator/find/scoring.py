@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mtr_core.arrays import BoolArray
+
 from ..measure.belonging import BEYOND_M, LEAST_FACING, belongs, facing
 from ..measure.side import OUTWARDS
 from ..parameters import CarProfile
@@ -69,6 +71,6 @@ def cover_of(explained: Surfels, car: Rectangle) -> float:
     return covered / total
 
 
-def _along(seen: Surfels, car: Rectangle) -> np.ndarray:
+def _along(seen: Surfels, car: Rectangle) -> BoolArray:
     """True beside a side, not beside a corner: there a neighbour may well show a surface that faces the same way."""
     return np.any(np.abs(seen.position) < (0.5 * car.length, 0.5 * car.width), axis=1)

@@ -6,6 +6,8 @@ from typing import Optional, Tuple
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
+
 from .side import BIN_M, MAP_SHARE, Side
 
 # The ends of a side bend towards the bumpers; with one side alone they would turn the axis.
@@ -30,7 +32,7 @@ class Axis:
     is_centred: bool
 
 
-def axis_of(left: Side, right: Side, length: float) -> Optional[Axis]:
+def axis_of(left: Side, right: Side, *, length: float) -> Optional[Axis]:
     """Middle between both sides where both were seen, else parallel to one; None when they tell nothing."""
     lefts, rights = left.bins(), right.bins()
     both = sorted(set(lefts) & set(rights))
@@ -46,7 +48,7 @@ def axis_of(left: Side, right: Side, length: float) -> Optional[Axis]:
     return None
 
 
-def _axis(along: np.ndarray, level: np.ndarray, common_sigma_m: float, is_centred: bool) -> Axis:
+def _axis(along: FloatArray, level: FloatArray, common_sigma_m: float, is_centred: bool) -> Axis:
     slope, offset, slope_sigma, offset_sigma = robust_line(along, level)
     # What the map is wrong by on one side may differ from its one end to the other.
     span = max(float(np.ptp(along)), BIN_M)
@@ -54,7 +56,7 @@ def _axis(along: np.ndarray, level: np.ndarray, common_sigma_m: float, is_centre
                 math.hypot(offset_sigma, common_sigma_m), is_centred)
 
 
-def robust_line(along: np.ndarray, level: np.ndarray) -> Tuple[float, float, float, float]:
+def robust_line(along: FloatArray, level: FloatArray) -> Tuple[float, float, float, float]:
     """Slope and offset at 0 of the line through most points, and their 1 sigma by the scatter."""
     matrix = np.column_stack((along, np.ones_like(along)))
     weights = np.ones(len(level))

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 
+from mtr_core.arrays import BoolArray, FloatArray
+
 from ..rectangle import Rectangle
 from ..surfels import Surfels
 
@@ -10,12 +12,12 @@ BEYOND_M, DEPTH_M = 0.08, 0.40
 LEAST_FACING = 0.3
 
 
-def belongs(in_car: Surfels, car: Rectangle, beyond_m: float = BEYOND_M) -> np.ndarray:
+def belongs(in_car: Surfels, car: Rectangle, beyond_m: float = BEYOND_M) -> BoolArray:
     """Mask of the surfels, in the Car's frame, that its outline explains."""
     outside = car.outside(in_car.position)
     return (outside <= beyond_m) & (outside >= -DEPTH_M) & (facing(in_car, car) > LEAST_FACING)
 
 
-def facing(in_car: Surfels, car: Rectangle) -> np.ndarray:
+def facing(in_car: Surfels, car: Rectangle) -> FloatArray:
     """Cosine between each normal and the direction away from the Car."""
     return np.sum(in_car.normal * car.outwards(in_car.position), axis=1)

@@ -1,10 +1,11 @@
 """All returns of the way round the Car, moved to where localization's adjusted map puts them."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
-from typing import Dict, List, Optional
+from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
 from ..scan import Returns
@@ -20,8 +21,8 @@ LEAST_MOTION_M, LEAST_TURN_RAD, MOST_SWEEPS = 0.005, 0.005, 10_000
 class CloseUp:
     """Points (n, 2) in map and the unit vectors of their beams, away from the LiDAR."""
 
-    points: np.ndarray
-    beams: np.ndarray
+    points: FloatArray
+    beams: FloatArray
 
     def in_frame(self, pose: Pose2) -> "CloseUp":
         """The same as seen from a pose in map."""
@@ -46,7 +47,7 @@ class WayRound:
         near = np.all(np.abs(seen.points - self._centre) < REACH_M, axis=1)
         self._sweeps.append(Returns(seen.points[near].astype(np.float32), seen.viewer, seen.time_s, seen.robot))
 
-    def close_up(self, key_frames: np.ndarray, range_bias_m: float) -> Optional[CloseUp]:
+    def close_up(self, key_frames: FloatArray, range_bias_m: float) -> Optional[CloseUp]:
         """What was collected between the first and the last key-frame; None when that is nothing.
 
         key_frames: rows (time in s, x, y, heading) after adjustment. Each sweep is moved as the key-frames before and
@@ -72,7 +73,7 @@ def _has_moved(last: Pose2, now: Pose2) -> bool:
     return last.distance_to(now) >= LEAST_MOTION_M or turn >= LEAST_TURN_RAD
 
 
-def _changes(frames: np.ndarray, times_s: np.ndarray, raw: np.ndarray) -> np.ndarray:
+def _changes(frames: FloatArray, times_s: FloatArray, raw: FloatArray) -> FloatArray:
     """Transform (x, y, heading) of each key-frame's surroundings from where the robot took itself to be."""
     unwrapped = np.column_stack((raw[:, :2], np.unwrap(raw[:, 2])))
     before = _interpolated(frames[:, 0], times_s, unwrapped)
@@ -81,11 +82,11 @@ def _changes(frames: np.ndarray, times_s: np.ndarray, raw: np.ndarray) -> np.nda
     return np.column_stack((rows[:, :2], np.unwrap(rows[:, 2])))
 
 
-def _interpolated(wanted_s: np.ndarray, known_s: np.ndarray, rows: np.ndarray) -> np.ndarray:
+def _interpolated(wanted_s: FloatArray, known_s: FloatArray, rows: FloatArray) -> FloatArray:
     return np.column_stack([np.interp(wanted_s, known_s, rows[:, column]) for column in range(3)])
 
 
-def _moved(sweep: Returns, change: np.ndarray, range_bias_m: float) -> tuple:
+def _moved(sweep: Returns, change: FloatArray, range_bias_m: float) -> Tuple[FloatArray, FloatArray]:
     away = sweep.points - sweep.viewer
     beams = rotated_back(away / np.maximum(np.linalg.norm(away, axis=1), 1e-6)[:, np.newaxis], -change[2])
     return rotated_back(sweep.points, -change[2]) + change[:2] - range_bias_m * beams, beams

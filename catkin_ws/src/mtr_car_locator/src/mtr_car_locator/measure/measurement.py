@@ -123,12 +123,16 @@ def _span(pair: List[Optional[Extent]], expected_m: float) -> Tuple[float, float
 
 
 def _plane_size(extents: Dict[str, Extent]) -> PlaneSize:
-    sizes: List[Optional[float]] = []
-    for pair in (ENDS, LONG_SIDES):
-        found = [extents[name] for name in pair if name in extents]
-        both = len(found) == 2
-        sizes += [found[0].level + found[1].level, math.hypot(*(each.sigma for each in found))] if both else [None, 0.0]
-    return PlaneSize(*sizes)
+    length, width = (_distance_between([extents[name] for name in pair if name in extents])
+                     for pair in (ENDS, LONG_SIDES))
+    return PlaneSize(*length, *width)
+
+
+def _distance_between(sides: List[Extent]) -> Tuple[Optional[float], float]:
+    """Of two opposite sides, and its 1 sigma; None when fewer were seen."""
+    if len(sides) < 2:
+        return None, 0.0
+    return sides[0].level + sides[1].level, math.hypot(sides[0].sigma, sides[1].sigma)
 
 
 def _with_inset(fit: CarFit, profile: CarProfile) -> CarFit:

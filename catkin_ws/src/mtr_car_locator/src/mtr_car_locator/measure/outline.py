@@ -6,6 +6,8 @@ from typing import Iterable, List, Tuple
 import numpy as np
 from scipy.spatial import ConvexHull
 
+from mtr_core.arrays import FloatArray
+
 from ..rectangle import Rectangle
 from ..surfels import Surfels
 from .side import ENDS, OUTWARDS
@@ -34,16 +36,16 @@ def rounded(car: Rectangle, margin_m: float) -> Tuple[Point, ...]:
     return tuple(car.outline(margin_m))
 
 
-def _edge(name: str, car: Rectangle) -> np.ndarray:
+def _edge(name: str, car: Rectangle) -> FloatArray:
     """A short piece in the middle of a side, so that the outline reaches every measured side."""
     return _piece(name, car, 0.1)
 
 
-def _whole_edge(name: str, car: Rectangle) -> np.ndarray:
+def _whole_edge(name: str, car: Rectangle) -> FloatArray:
     return _piece(name, car, 1.0)
 
 
-def _piece(name: str, car: Rectangle, share: float) -> np.ndarray:
+def _piece(name: str, car: Rectangle, share: float) -> FloatArray:
     x, y = 0.5 * car.length, 0.5 * car.width
     across = (0.0, share * y) if name in ENDS else (share * x, 0.0)
     middle = np.multiply(OUTWARDS[name], (x, y))

@@ -6,6 +6,8 @@ from typing import Iterator, Optional
 
 import numpy as np
 
+from mtr_core.arrays import BoolArray, FloatArray, IntArray
+
 from .side import Extent
 
 BIN_M = 0.02
@@ -30,12 +32,12 @@ TOP_M, SHAPE_SIGMA_M, LEAST_BUMPER_BINS = 0.01, 0.001, 8
 class Profile:
     """Mean distance outwards of each bin along a side, in the order of the bins, with the mean's 1 sigma."""
 
-    number: np.ndarray
-    level: np.ndarray
-    sigma: np.ndarray
+    number: IntArray
+    level: FloatArray
+    sigma: FloatArray
 
     @property
-    def along(self) -> np.ndarray:
+    def along(self) -> FloatArray:
         """Middles of the bins along the side, m."""
         return (self.number + 0.5) * BIN_M
 
@@ -45,7 +47,7 @@ class Profile:
         return Profile(self.number[keep], self.level[keep], self.sigma[keep])
 
 
-def profile_of(along: np.ndarray, outward: np.ndarray) -> Optional[Profile]:
+def profile_of(along: FloatArray, outward: FloatArray) -> Optional[Profile]:
     """Profile of returns; None when there are next to none."""
     if len(along) < LEAST_RETURNS:
         return None
@@ -67,19 +69,19 @@ def profile_of(along: np.ndarray, outward: np.ndarray) -> Optional[Profile]:
 def outermost(side: Profile) -> Optional[Extent]:
     """Where a long side reaches farthest out: at the end of a straight piece, as beside a wheel arch."""
     found = [end for piece in _straight_pieces(side) for end in piece.ends(side)]
-    return max(found, key=lambda each: each.level - each.sigma, default=None)
+    return max(found, key=lambda each: each.level - each.sigma) if found else None
 
 
 def summit(end: Profile) -> Optional[Extent]:
     """How far an end reaches out: the top of the parabola through what is near it."""
     if len(end.number) < LEAST_BUMPER_BINS:
         return None
-    top, near = None, np.ones(len(end.number), dtype=bool)
-    for _ in range(ROUNDS):
+    top = _top_of(end, np.ones(len(end.number), dtype=bool))
+    for _ in range(ROUNDS - 1):
+        near = np.abs(end.level - top.level) < TOP_M
         if np.count_nonzero(near) < LEAST_BUMPER_BINS:
             break
-        top = _top_of_parabola(end.along[near], end.level[near], np.hypot(end.sigma[near], SHAPE_SIGMA_M))
-        near = np.abs(end.level - top.level) < TOP_M
+        top = _top_of(end, near)
     return top
 
 
@@ -135,7 +137,11 @@ def _straight(side: Profile, first: int, last: int) -> Optional[_Piece]:
     return _Piece(first, last, middle, rise, float(sigma.mean()))
 
 
-def _top_of_parabola(along: np.ndarray, level: np.ndarray, sigma: np.ndarray) -> Extent:
+def _top_of(end: Profile, near: BoolArray) -> Extent:
+    return _top_of_parabola(end.along[near], end.level[near], np.hypot(end.sigma[near], SHAPE_SIGMA_M))
+
+
+def _top_of_parabola(along: FloatArray, level: FloatArray, sigma: FloatArray) -> Extent:
     scale = max(float(np.abs(along).max()), BIN_M)
     matrix = np.vander(along / scale, 3)
     shape, weights = np.array([0.0, 0.0, float(np.median(level))]), 1.0 / sigma
@@ -156,7 +162,7 @@ def _falls_away(side: Profile, beside: int, neighbour: int, expected_m: float) -
     return bool(side.level[neighbour] < expected_m - STEP_M - STEP_SIGMAS * side.sigma[neighbour])
 
 
-def _medians(index: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
+def _medians(index: IntArray, values: FloatArray, count: int) -> FloatArray:
     """Median of each group, 0 for an empty one."""
     order = np.lexsort((values, index))
     sizes = np.bincount(index, minlength=count)

@@ -6,6 +6,8 @@ from typing import Dict, Optional, Tuple
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray, IntArray
+
 from ..surfels import SAMPLE_M, Surfels
 
 # Direction outwards in the Car's frame; along a side counts the other coordinate.
@@ -51,10 +53,10 @@ class Side:
     """Surface of one side by samples of 1 cm: position along it, distance outwards, the surfel's sigma and number."""
 
     name: str
-    along: np.ndarray
-    outward: np.ndarray
-    sigma: np.ndarray
-    surfel: np.ndarray
+    along: FloatArray
+    outward: FloatArray
+    sigma: FloatArray
+    surfel: IntArray
 
     @property
     def surface_m(self) -> float:
@@ -93,7 +95,7 @@ class Side:
                 found[int(each)] = float(levels[(levels >= top - LAYER_M / 2.0) & (levels <= top)].mean())
         return found
 
-    def _extent_of(self, index: np.ndarray) -> Extent:
+    def _extent_of(self, index: IntArray) -> Extent:
         levels = self.outward[index]
         surfels = len(np.unique(self.surfel[index]))
         # Neighbouring surfels are wrong together by what the map's sigma says; their own scatter averages out.

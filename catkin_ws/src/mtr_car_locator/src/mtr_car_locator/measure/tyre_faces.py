@@ -4,6 +4,8 @@ from typing import List, Tuple
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray, IntArray
+
 from .close_up import CloseUp
 from .side import OUTWARDS
 from .wheels import LEAST_FACE_M, MOST_FACE_M
@@ -39,18 +41,18 @@ def faces_in(close_up: CloseUp, name: str, level_m: float) -> List[float]:
             if LEAST_FACE_M <= (high - low) * BIN_M <= MOST_FACE_M]
 
 
-def _pieces(bins: np.ndarray) -> List[Tuple[int, int]]:
+def _pieces(bins: IntArray) -> List[Tuple[int, int]]:
     parts = np.split(bins, np.nonzero(np.diff(bins) > GAP_BINS)[0] + 1)
     return [(part[0], part[-1]) for part in parts if (part[-1] - part[0]) * BIN_M >= LEAST_FACE_M]
 
 
-def _ends(density: np.ndarray, low: int, high: int) -> Tuple[float, float]:
+def _ends(density: FloatArray, low: int, high: int) -> Tuple[float, float]:
     """Where the density crosses half of what it is in the midst, in bins."""
     half = 0.5 * float(np.median(density[low + SMEARED_BINS:high + 1 - SMEARED_BINS]))
     full = np.nonzero(density[low:high + 1] >= half)[0] + low
     return _crossing(density, full[0], -1, half), _crossing(density, full[-1], 1, half)
 
 
-def _crossing(density: np.ndarray, last: int, step: int, half: float) -> float:
+def _crossing(density: FloatArray, last: int, step: int, half: float) -> float:
     inside, outside = density[last], density[last + step]
     return last + step * (inside - half) / (inside - outside) if outside < inside else float(last)

@@ -3,6 +3,8 @@
 import numpy as np
 from scipy import ndimage
 
+from mtr_core.arrays import FloatArray
+
 from ..surfels import Surfels
 
 CELL_M = 0.08
@@ -26,7 +28,7 @@ class SurfelGrid:
         # Hits, then sums of x, y, xx, xy, yy and of the unit vector towards the LiDAR.
         self._sums = np.zeros((self._side ** 2, 8))
 
-    def add(self, points: np.ndarray, viewer: np.ndarray) -> None:
+    def add(self, points: FloatArray, viewer: FloatArray) -> None:
         """Take points (n, 2) in map, seen from viewer (2); those outside of the square do not count."""
         shifted = points - self._centre
         cells = np.floor((shifted + HALF_SIDE_M) / CELL_M).astype(int)

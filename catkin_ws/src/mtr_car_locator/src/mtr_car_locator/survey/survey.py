@@ -5,12 +5,12 @@ import enum
 from dataclasses import dataclass
 from typing import Optional, Sequence, Tuple
 
-import numpy as np
-
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 from mtr_core.states import Result
 
-from ..find.fit import NotLocated, fit_car, rough_car
+from ..find.errors import NotLocated
+from ..find.fit import fit_car, rough_car
 from ..find.prior import Prior
 from ..measure.car_fit import CarFit
 from ..measure.close_up import CloseUp, WayRound
@@ -46,7 +46,7 @@ class SurfaceMap:
     revision: int
     valid: bool
     surfels: Surfels
-    key_frames: np.ndarray
+    key_frames: FloatArray
     message: str = ""
     range_bias_m: float = 0.0
 
@@ -137,7 +137,7 @@ class Survey:
         if self._ring is None:
             self._look_first(now_s - self._begun_s, robot)
         elif not self._ring.is_finished:
-            self._go_on(now_s, robot, result)
+            self._go_on(self._ring, now_s, robot, result)
 
     def conclude(self, now_s: float, robot: RobotPose, surfaces: Optional[SurfaceMap]) -> None:
         """After the way round: take the adjusted map once the robot's pose is in it; NotLocated when there is none."""
@@ -156,11 +156,10 @@ class Survey:
         elif now_s - self._frozen_since_s > self._parameters.map_limit_s:
             raise NotLocated(f"Localization has not made its map within {self._parameters.map_limit_s:g} s.")
 
-    def _go_on(self, now_s: float, robot: RobotPose, result: Result) -> None:
-        place = self.place.pose
+    def _go_on(self, ring: Ring, now_s: float, robot: RobotPose, result: Result) -> None:
         is_settled = result in (Result.REACHED, Result.REFUSED)
-        if is_settled or robot.pose.distance_to(place) <= self._parameters.arrival_m:
-            self._ring.pass_place()
+        if is_settled or robot.pose.distance_to(ring.place(self.car)) <= self._parameters.arrival_m:
+            ring.pass_place()
             with contextlib.suppress(NotLocated):
                 self._look(robot)
             self._begin_leg()
@@ -169,7 +168,7 @@ class Survey:
         elif self._blocked_since_s is None:
             self._blocked_since_s = now_s
         elif now_s - self._blocked_since_s >= self._parameters.blocked_limit_s:
-            self._ring.turn_back()
+            ring.turn_back()
             self._begin_leg()
 
     def _begin_leg(self) -> None:

@@ -7,6 +7,7 @@ from typing import Dict, List, Optional, Tuple
 import numpy as np
 from scipy.spatial import cKDTree
 
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
 from ..measure.side import OUTWARDS
@@ -41,11 +42,11 @@ class Evidence:
         common: covariance of what is common to a whole look: the robot's pose.
     """
 
-    information: np.ndarray
-    weighted: np.ndarray
+    information: FloatArray
+    weighted: FloatArray
     sides: Dict[str, float]
     points: int
-    common: np.ndarray
+    common: FloatArray
 
     @property
     def motion(self) -> Pose2:
@@ -54,7 +55,7 @@ class Evidence:
         return Pose2(float(x), float(y), float(heading))
 
     @property
-    def covariance(self) -> np.ndarray:
+    def covariance(self) -> FloatArray:
         """Of the motion."""
         own = np.linalg.inv(self.information + _before())
         return own + self.common
@@ -86,7 +87,7 @@ class Reference:
         self._normals = surfels.normal[index]
         self._tree = cKDTree(self._points)
 
-    def compare(self, looks: List[Returns], car: Pose2, pose_covariance: np.ndarray) -> Optional[Evidence]:
+    def compare(self, looks: List[Returns], car: Pose2, pose_covariance: FloatArray) -> Optional[Evidence]:
         """Motion that fits what was seen from one place, None when too little of the Car was seen.
 
         pose_covariance: of the robot's pose in map.
@@ -100,13 +101,13 @@ class Reference:
             matched = self._match(points, viewer, motion, gate_m)
             if matched is None:
                 return None
-            motion, information, weighted = _solve(*matched, motion)
-        rows, rest, normals = matched
+            rows, rest, normals = matched
+            motion, information, weighted = _solve(rows, rest, motion)
         sides = _side_shifts(rest + rows @ motion, normals)
         return Evidence(information, weighted, sides, len(rest), _common(pose_covariance, car))
 
-    def _match(self, points: np.ndarray, viewer: np.ndarray, motion: np.ndarray,
-               gate_m: float) -> Optional[Tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    def _match(self, points: FloatArray, viewer: FloatArray, motion: FloatArray,
+               gate_m: float) -> Optional[Tuple[FloatArray, FloatArray, FloatArray]]:
         """Jacobian, residual and normal of each point that is near a surface that it can be a point of."""
         pose = Pose2(*motion)
         moved = in_frame(points, pose)
@@ -133,8 +134,7 @@ def joined(first: Evidence, second: Evidence) -> Evidence:
                     first.points + second.points, 0.5 * (first.common + second.common))
 
 
-def _solve(rows: np.ndarray, rest: np.ndarray, normals: np.ndarray,
-           motion: np.ndarray) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _solve(rows: FloatArray, rest: FloatArray, motion: FloatArray) -> Tuple[FloatArray, FloatArray, FloatArray]:
     """Next motion, information and weighted motion, robust against points that are wrong."""
     weights = 1.0 / (1.0 + (rest / POINT_SIGMA_M) ** 2)
     scatter = math.sqrt(float(np.sum(weights * rest ** 2) / np.sum(weights)))
@@ -145,7 +145,7 @@ def _solve(rows: np.ndarray, rest: np.ndarray, normals: np.ndarray,
     return np.linalg.solve(information + _before(), weighted), information, weighted
 
 
-def _side_shifts(shift: np.ndarray, normals: np.ndarray) -> Dict[str, float]:
+def _side_shifts(shift: FloatArray, normals: FloatArray) -> Dict[str, float]:
     found = {}
     for name, outwards in OUTWARDS.items():
         mine = normals @ np.array(outwards) > SIDE_COSINE
@@ -154,12 +154,12 @@ def _side_shifts(shift: np.ndarray, normals: np.ndarray) -> Dict[str, float]:
     return found
 
 
-def _common(pose_covariance: np.ndarray, car: Pose2) -> np.ndarray:
+def _common(pose_covariance: FloatArray, car: Pose2) -> FloatArray:
     """Covariance of the robot's pose, turned into the Car's frame; the Car is near, so the heading's lever is short."""
     cos, sin = math.cos(car.heading), math.sin(car.heading)
     car_from_map = np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
     return car_from_map @ np.asarray(pose_covariance, dtype=float).reshape(3, 3) @ car_from_map.T
 
 
-def _before() -> np.ndarray:
+def _before() -> FloatArray:
     return np.diag(1.0 / np.square(BEFORE_SIGMAS))

@@ -29,7 +29,7 @@ class Look:
 
     def collect(self, now_s: float, scans: Sequence[Scan], poses: PoseHistory) -> None:
         """Take scans of a robot that stands."""
-        if poses.standing_s(now_s) < SETTLING_S:
+        if poses.stands_since_s is None or poses.standing_s(now_s) < SETTLING_S:
             self._returns, self._first_s = [], None
             return
         since_s = poses.stands_since_s + SETTLING_S

@@ -40,14 +40,14 @@ class SelfCheck:
         report: how it stands.
     """
 
-    def __init__(self, check_id: int, robot: Pose2, car: CarFit, parameters: RefinementParameters):
+    def __init__(self, check_id: int, now_s: float, robot: Pose2, car: CarFit, parameters: RefinementParameters):
         self._car, self._parameters = car, parameters
         self._reference = Reference(car.surfels)
         places = corners(car.rectangle, parameters.check_distance_m)
         self._places = _order(places, nearest(places, robot))
         self._found: List[Evidence] = []
         self._look: Optional[Look] = None
-        self._since_s: Optional[float] = None
+        self._since_s = now_s
         self.report = CheckReport(check_id, Check.RUNNING, message="The robot goes to look at the Car again.")
 
     @property
@@ -64,7 +64,7 @@ class SelfCheck:
         """One tick; result: what the motion planner says of the present place."""
         if self.report.state is not Check.RUNNING:
             return
-        if self._since_s is None or result in (Result.PENDING, Result.IDLE):
+        if result in (Result.PENDING, Result.IDLE):
             self._since_s = now_s
         if result is Result.REACHED:
             self._observe(now_s, scans, poses)
