@@ -8,7 +8,7 @@
 
 #include "mtr_core/clock.hpp"
 #include "mtr_core/names.hpp"
-#include "mtr_localization/se2.hpp"
+#include "mtr_localization/map_names.hpp"
 
 namespace mtr_localization {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mtr_localization/se2.hpp"
+#include "mtr_localization/map_names.hpp"
 
 namespace mtr_localization {
 namespace {

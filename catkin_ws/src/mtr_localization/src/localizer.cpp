@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "mtr_localization/interruption.hpp"
-#include "mtr_localization/se2.hpp"
+#include "mtr_localization/map_names.hpp"
 
 namespace mtr_localization {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "mtr_localization/map_adjustment.hpp"
-#include "mtr_localization/se2.hpp"
+#include "mtr_localization/map_names.hpp"
+#include "mtr_surfel_map/adjustment/map_adjustment.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -51,7 +51,7 @@ MapBuilder::Adjust map_maker(const LocalizerParameters& parameters) {
     return unadjusted;
   }
   return [adjustment = parameters.adjustment](const std::vector<KeyFrame>& key_frames) {
-    return adjust(key_frames, adjustment);
+    return mtr_surfel_map::adjust(key_frames, adjustment);
   };
 }
 

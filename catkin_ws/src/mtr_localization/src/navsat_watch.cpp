@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "mtr_localization/se2.hpp"
+#include "mtr_localization/map_names.hpp"
 
 namespace mtr_localization {
 namespace {

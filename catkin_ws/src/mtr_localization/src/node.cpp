@@ -39,7 +39,7 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
   NodeParameters parameters;
   reader.read_numbers(kRows, parameters.localizer.motion);
   reader.read_numbers(kTrackingRows, parameters.localizer.tracking);
-  reader.read_numbers(kAdjustmentRows, parameters.localizer.adjustment);
+  reader.read_numbers(mtr_surfel_map::kAdjustmentRows, parameters.localizer.adjustment);
   reader.read("publish_odom_tf", parameters.publish_odom_tf);
   std::string pose_source = "own";
   reader.read("pose_source", pose_source, {"own", "external"});

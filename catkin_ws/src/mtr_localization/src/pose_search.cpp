@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mtr_localization/se2.hpp"
+#include "mtr_localization/map_names.hpp"
 #include "mtr_localization/view_agreement.hpp"
 
 namespace mtr_localization {

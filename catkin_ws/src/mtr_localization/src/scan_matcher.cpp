@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mtr_localization/se2.hpp"
+#include "mtr_localization/map_names.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -28,7 +28,7 @@ double square(double value) { return value * value; }
 
 /// The beam meets the surfel's line beside the surfel, farther than an error of the pose across the beam explains: the
 /// point lies on something else, as the front of a tyre lies near the line of its side.
-bool passes_beside(const Match& match, const Eigen::Vector2d& point, const Eigen::Vector2d& direction,
+bool passes_beside(const SurfelMatch& match, const Eigen::Vector2d& point, const Eigen::Vector2d& direction,
                    double across_sigma_m) {
   const Surfel& surfel = *match.surfel;
   const Eigen::Vector2d along(-surfel.normal.y(), surfel.normal.x());

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mtr_localization/map_types.hpp"
+#include "mtr_localization/map_names.hpp"
 
 namespace mtr_localization {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "mtr_localization/map_types.hpp"
+#include "mtr_localization/map_names.hpp"
 
 namespace mtr_localization {
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <optional>
 
-#include "mtr_localization/map_types.hpp"
+#include "mtr_localization/map_names.hpp"
 #include "mtr_localization/pose_filter.hpp"
 
 namespace mtr_localization {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "mtr_localization/map_types.hpp"
+#include "mtr_localization/map_names.hpp"
 #include "mtr_localization/parameters.hpp"
 #include "mtr_localization/sweep_mean.hpp"
 

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "mtr_localization/key_frame_selector.hpp"
-#include "mtr_localization/map_types.hpp"
-#include "mtr_localization/occupancy_grid.hpp"
+#include "mtr_localization/map_names.hpp"
 #include "mtr_localization/parameters.hpp"
 
 namespace mtr_localization {

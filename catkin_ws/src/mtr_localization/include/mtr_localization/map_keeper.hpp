@@ -10,7 +10,7 @@
 
 #include "mtr_localization/localizer_parameters.hpp"
 #include "mtr_localization/map_builder.hpp"
-#include "mtr_localization/occupancy_grid.hpp"
+#include "mtr_localization/map_names.hpp"
 #include "mtr_localization/scan_tracker.hpp"
 #include "mtr_localization/sweep_queue.hpp"
 

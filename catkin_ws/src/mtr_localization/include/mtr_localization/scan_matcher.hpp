@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "mtr_localization/error_sources.hpp"
-#include "mtr_localization/map_types.hpp"
+#include "mtr_localization/map_names.hpp"
 #include "mtr_localization/pose_filter.hpp"
-#include "mtr_localization/surfel_map.hpp"
 #include "mtr_localization/tracking_parameters.hpp"
 
 namespace mtr_localization {

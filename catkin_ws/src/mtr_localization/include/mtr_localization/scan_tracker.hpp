@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mtr_localization/filter_history.hpp"
-#include "mtr_localization/growing_map.hpp"
+#include "mtr_localization/map_names.hpp"
 #include "mtr_localization/pose_search.hpp"
 #include "mtr_localization/scan_matcher.hpp"
 #include "mtr_localization/sweep_queue.hpp"

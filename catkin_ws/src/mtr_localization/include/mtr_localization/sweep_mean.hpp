@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "mtr_localization/map_types.hpp"
+#include "mtr_localization/map_names.hpp"
 
 namespace mtr_localization {
 

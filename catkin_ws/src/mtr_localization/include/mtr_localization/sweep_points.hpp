@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "mtr_localization/filter_history.hpp"
-#include "mtr_localization/map_types.hpp"
+#include "mtr_localization/map_names.hpp"
 #include "mtr_localization/sweep.hpp"
 
 namespace mtr_localization {

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-#include "mtr_localization/map_types.hpp"
-#include "mtr_localization/surfel_map.hpp"
+#include "mtr_localization/map_names.hpp"
 #include "mtr_localization/sweep.hpp"
 
 namespace mtr_localization {

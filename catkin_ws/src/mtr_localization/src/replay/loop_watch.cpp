@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "mtr_localization/se2.hpp"
+#include "mtr_localization/map_names.hpp"
 
 namespace mtr_localization::replay {
 namespace {

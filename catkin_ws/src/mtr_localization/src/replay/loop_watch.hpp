@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "mtr_localization/map_types.hpp"
+#include "mtr_localization/map_names.hpp"
 
 namespace mtr_localization::replay {
 

@@ -47,7 +47,7 @@ void set_parameter(Options& options, const std::string& assignment) {
   // Noise of a range is one parameter to a person, whoever uses it.
   bool is_known = set(kRows, localizer.motion, name, value);
   is_known = set(kTrackingRows, localizer.tracking, name, value) || is_known;
-  is_known = set(kAdjustmentRows, localizer.adjustment, name, value) || is_known;
+  is_known = set(mtr_surfel_map::kAdjustmentRows, localizer.adjustment, name, value) || is_known;
   is_known = set(kMountingRows, options.mounting, name, value) || is_known;
   if (!is_known) {
     throw std::runtime_error("Parameter " + name + " is unknown; see the package's README.");

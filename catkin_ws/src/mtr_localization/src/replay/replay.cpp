@@ -8,7 +8,7 @@
 #include <ctime>
 #include <utility>
 
-#include "mtr_localization/map_adjustment.hpp"
+#include "mtr_surfel_map/adjustment/map_adjustment.hpp"
 
 namespace mtr_localization::replay {
 namespace {
@@ -108,7 +108,7 @@ void Replay::finish_map() {
     return;
   }
   // The bag ended before its map was due: what there is shows at least what is missing.
-  result_.map.map = adjust(localizer_.keeper().builder().key_frames(), options_.localizer.adjustment);
+  result_.map.map = mtr_surfel_map::adjust(localizer_.keeper().builder().key_frames(), options_.localizer.adjustment);
   note(result_.map.map.valid ? "The bag ends before the map takes effect." : result_.map.map.message,
        result_.trajectory.empty() ? 0 : result_.trajectory.back().stamp_ns);
 }

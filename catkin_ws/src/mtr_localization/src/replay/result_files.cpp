@@ -11,8 +11,7 @@
 #include <stdexcept>
 
 #include "mtr_localization/conversions.hpp"
-#include "mtr_localization/map_files.hpp"
-#include "mtr_localization/occupancy_grid.hpp"
+#include "mtr_surfel_map/map_files.hpp"
 
 namespace mtr_localization::replay {
 namespace {
@@ -96,9 +95,9 @@ void write_files(const Result& result, const std::string& bag, const std::string
     throw std::runtime_error("Folder " + folder + " cannot be made: " + error.message() + ".");
   }
   write_trajectory(result.trajectory, folder + "/trajectory.csv");
-  write_surfaces(result.map.map, folder + "/surfaces.csv");
-  write_key_frames(result.map.map, folder + "/key_frames.csv");
-  write_grid(occupancy_of(result.map.map), folder);
+  mtr_surfel_map::write_surfaces(result.map.map, folder + "/surfaces.csv");
+  mtr_surfel_map::write_key_frames(result.map.map, folder + "/key_frames.csv");
+  mtr_surfel_map::write_grid(occupancy_of(result.map.map), folder);
   write_summary(result, bag, folder + "/summary.json");
 }
 

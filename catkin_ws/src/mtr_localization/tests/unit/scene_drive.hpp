@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "mtr_localization/localizer.hpp"
-#include "mtr_localization/se2.hpp"
-#include "synthetic_world.hpp"
+#include "mtr_localization/map_names.hpp"
+#include "mtr_surfel_map/testing/synthetic_world.hpp"
 
 namespace mtr_localization {
+
+namespace synthetic = mtr_surfel_map::synthetic;
 
 namespace scenes {
 

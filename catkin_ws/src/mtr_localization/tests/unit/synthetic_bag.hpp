@@ -14,10 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "mtr_localization/se2.hpp"
-#include "synthetic_world.hpp"
+#include "mtr_localization/map_names.hpp"
+#include "mtr_surfel_map/testing/synthetic_world.hpp"
 
-namespace mtr_localization::synthetic {
+namespace mtr_localization {
+
+namespace synthetic = mtr_surfel_map::synthetic;
 
 /// What is written.
 struct BagOptions {
@@ -110,7 +112,7 @@ class BagWriter {
       const PoseVector motion = (steps - std::floor(steps)) * relative(truth[before], truth[before + 1]);
       const PoseVector lidar = compose(compose(truth[before], motion), {0.12, 0.0, 0.0});
       const double angle = lidar[2] + message.angle_min + static_cast<double>(beam) * message.angle_increment;
-      const double range = cast(world_, lidar.head<2>(), rotation(angle) * Eigen::Vector2d::UnitX());
+      const double range = synthetic::cast(world_, lidar.head<2>(), rotation(angle) * Eigen::Vector2d::UnitX());
       message.ranges.push_back(range > 0.0 ? static_cast<float>(range + draw(0.01))
                                            : std::numeric_limits<float>::infinity());
     }
@@ -126,11 +128,11 @@ class BagWriter {
 
   BagOptions options_;
   rosbag::Bag bag_;
-  World world_ = world_of("lot");
+  synthetic::World world_ = synthetic::world_of("lot");
   Eigen::Vector2d wheels_ = Eigen::Vector2d::Zero();
   double turned_ = 0.0;
   std::mt19937 random_{11};
   std::normal_distribution<double> normal_{0.0, 1.0};
 };
 
-}  // namespace mtr_localization::synthetic
+}  // namespace mtr_localization

@@ -13,13 +13,11 @@
 #include "../../src/replay/options.hpp"
 #include "../../src/replay/replay.hpp"
 #include "../../src/replay/result_files.hpp"
-#include "mtr_localization/se2.hpp"
+#include "mtr_localization/map_names.hpp"
 #include "synthetic_bag.hpp"
 
 namespace mtr_localization::replay {
 namespace {
-
-using synthetic::BagOptions;
 
 template <typename Action>
 void expect_sentence(Action action, const std::string& part) {
@@ -34,7 +32,7 @@ void expect_sentence(Action action, const std::string& part) {
 /// A bag in the tests' folder; `truth` gets its true poses.
 std::string bag_of(const std::string& name, const BagOptions& options, std::vector<PoseVector>* truth = nullptr) {
   const std::string path = ::testing::TempDir() + name + ".bag";
-  const std::vector<PoseVector> poses = synthetic::BagWriter(path, options).write();
+  const std::vector<PoseVector> poses = BagWriter(path, options).write();
   if (truth != nullptr) {
     *truth = poses;
   }

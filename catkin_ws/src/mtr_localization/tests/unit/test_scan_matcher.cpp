@@ -6,11 +6,13 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
+#include "mtr_localization/map_names.hpp"
 #include "mtr_localization/scan_matcher.hpp"
-#include "mtr_localization/se2.hpp"
-#include "synthetic_world.hpp"
+#include "mtr_surfel_map/testing/synthetic_world.hpp"
 
 namespace mtr_localization {
+
+namespace synthetic = mtr_surfel_map::synthetic;
 namespace {
 
 const PoseVector kTruth(0.4, -0.3, 0.2);

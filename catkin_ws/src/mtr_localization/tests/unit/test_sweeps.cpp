@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "mtr_localization/se2.hpp"
+#include "mtr_localization/map_names.hpp"
 #include "mtr_localization/sweep_points.hpp"
 #include "mtr_localization/sweep_queue.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "mtr_localization/ground_level.hpp"
-#include "mtr_localization/se2.hpp"
+#include "mtr_localization/map_names.hpp"
 #include "mtr_localization/sweep_points.hpp"
 #include "mtr_localization/tilt_filter.hpp"
 #include "mtr_localization/view_agreement.hpp"

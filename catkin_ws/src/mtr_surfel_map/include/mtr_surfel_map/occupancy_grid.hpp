@@ -1,0 +1,32 @@
+/// @file
+/// The adjusted map as a grid of free and occupied cells.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "mtr_surfel_map/types.hpp"
+
+namespace mtr_surfel_map {
+
+/// Cells as in nav_msgs/OccupancyGrid: row-major from the corner with the least x and y.
+struct OccupancyGrid {
+  static constexpr std::int8_t kUnknown = -1;
+  static constexpr std::int8_t kFree = 0;
+  static constexpr std::int8_t kOccupied = 100;
+
+  double cell_m = 0.05;
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();
+  Eigen::Vector2i size = Eigen::Vector2i::Zero();
+  std::vector<std::int8_t> cells;
+
+  /// Unknown outside the grid.
+  std::int8_t at(const Eigen::Vector2d& point) const;
+};
+
+/// Occupied: most beams that came so far ended there. Free: they passed.
+OccupancyGrid occupancy_of(const AdjustedMap& map);
+
+}  // namespace mtr_surfel_map

@@ -1,0 +1,110 @@
+/// @file
+/// Conditions that a map must meet.
+// SPDX-License-Identifier: Apache-2.0
+#include "adjustment/checks.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+namespace mtr_surfel_map {
+namespace {
+
+// A way round a Car at 1 m gives some 60 key-frames.
+constexpr std::size_t kFewestKeyFrames = 10;
+// The Car alone gives 50 to 150 surfels.
+constexpr std::size_t kFewestSurfels = 20;
+// Of the last key-frame's surfels, those that were seen when the robot was here before: a share, for beside a Car alone
+// a key-frame of a noisy LiDAR sees fewer than ten long ones; and enough to hold a pose.
+constexpr double kSharedShare = 0.4;
+constexpr int kFewestSharedSurfels = 3;
+// A return is a path of this many times the closing distance, so that a robot that stands or shuffles has not closed.
+constexpr double kLeastLoop = 4.0;
+// Sizes of differences in sigmas, and share of outliers, that no scene with right sensors has shown.
+constexpr double kLargestRatio = 3.0;
+constexpr double kLargestMotionRatio = 20.0;
+constexpr double kLargestOutlierShare = 0.3;
+
+template <typename... Numbers>
+std::string text(const char* format, Numbers... numbers) {
+  char buffer[200];
+  std::snprintf(buffer, sizeof(buffer), format, numbers...);
+  return buffer;
+}
+
+bool is_finite(const KeyFrame& frame) {
+  const auto finite = [](const ScanPoint& point) { return point.position.allFinite() && point.direction.allFinite(); };
+  return frame.pose.allFinite() && frame.motion.allFinite() && frame.motion_covariance.allFinite() &&
+         std::all_of(frame.scan.points.begin(), frame.scan.points.end(), finite);
+}
+
+std::set<int> surfels_seen_by(int key_frame, const std::vector<Observation>& observations) {
+  std::set<int> surfels;
+  for (const Observation& seen : observations) {
+    if (seen.key_frame == key_frame) {
+      surfels.insert(seen.surfel);
+    }
+  }
+  return surfels;
+}
+
+int shared(const std::set<int>& a, const std::set<int>& b) {
+  return static_cast<int>(std::count_if(a.begin(), a.end(), [&](int surfel) { return b.count(surfel) > 0; }));
+}
+
+/// The path came back to an earlier place and saw the same from there.
+bool is_closed(const std::vector<KeyFrame>& frames, const std::vector<Observation>& observations,
+               double closing_distance_m) {
+  const int last = static_cast<int>(frames.size()) - 1;
+  const std::set<int> seen_last = surfels_seen_by(last, observations);
+  const double wanted = std::max<double>(kFewestSharedSurfels, kSharedShare * static_cast<double>(seen_last.size()));
+  double path_m = 0.0;
+  for (int i = last - 1; i >= 0; --i) {
+    path_m += (frames[i + 1].pose - frames[i].pose).head<2>().norm();
+    const double distance_m = (frames[last].pose - frames[i].pose).head<2>().norm();
+    if (path_m > kLeastLoop * closing_distance_m && distance_m < closing_distance_m &&
+        shared(seen_last, surfels_seen_by(i, observations)) >= wanted) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string problem_with(const std::vector<KeyFrame>& key_frames) {
+  if (key_frames.size() < kFewestKeyFrames) {
+    return text("Only %zu key-frames were taken, %zu are needed: drive round the Car.", key_frames.size(),
+                kFewestKeyFrames);
+  }
+  if (!std::all_of(key_frames.begin(), key_frames.end(), is_finite)) {
+    return "A key-frame contains values that are no numbers.";
+  }
+  return "";
+}
+
+std::string verdict(const Adjustment& state, const std::vector<Observation>& observations, const Fit& fit,
+                    const AdjustmentParameters& parameters) {
+  if (state.surfels.size() < kFewestSurfels) {
+    return text("The LiDARs saw only %zu pieces of surface, %zu are needed: is the Car in view?", state.surfels.size(),
+                kFewestSurfels);
+  }
+  if (!is_closed(state.key_frames, observations, parameters.closing_distance_m)) {
+    return text("The way round the Car was not closed: it must end within %.1f m of where it passed before.",
+                parameters.closing_distance_m);
+  }
+  if (fit.surface_ratio > kLargestRatio) {
+    return text("What the LiDARs saw from different places disagrees by %.1f times its uncertainty.",
+                fit.surface_ratio);
+  }
+  if (fit.outlier_share > kLargestOutlierShare) {
+    return text("%.0f %% of what the LiDARs saw does not fit the map: did something large move?",
+                100.0 * fit.outlier_share);
+  }
+  if (fit.motion_ratio > kLargestMotionRatio) {
+    return text("Wheels and gyro disagree with the LiDARs by %.1f times their uncertainty.", fit.motion_ratio);
+  }
+  return "";
+}
+
+}  // namespace mtr_surfel_map

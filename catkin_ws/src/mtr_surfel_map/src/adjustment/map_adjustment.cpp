@@ -1,0 +1,158 @@
+/// @file
+/// Rounds of the adjustment from coarse to fine.
+// SPDX-License-Identifier: Apache-2.0
+#include "mtr_surfel_map/adjustment/map_adjustment.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "adjustment/checks.hpp"
+#include "adjustment/problem.hpp"
+#include "extraction/free_space.hpp"
+#include "extraction/surfel_builder.hpp"
+
+namespace mtr_surfel_map {
+namespace {
+
+/// Sizes of one round, in m.
+struct Round {
+  double largest_surfel_m;
+  double smallest_surfel_m;
+  /// Root mean square distance of points from a surface that still counts as one.
+  double thickness_m;
+  /// Distance from a surface up to which a point is taken to lie on it.
+  double gate_m;
+};
+
+// The first bring together what drifted apart by up to 0.6 m, the last resolves bumpers and wheels.
+constexpr std::array<Round, 4> kCoarse{{
+    {1.2, 0.6, 0.25, 0.6},
+    {0.8, 0.4, 0.12, 0.3},
+    {0.6, 0.2, 0.06, 0.15},
+    {0.4, 0.1, 0.04, 0.10},
+}};
+constexpr double kLargestFineSurfelM = 0.4;
+constexpr double kSmallestFineSurfelM = 0.1;
+// In sigmas of a range: surfaces at rest are no thicker, and returns from them lie no farther off.
+constexpr double kFineThickness = 2.0;
+constexpr double kFineGate = 5.0;
+constexpr int kMostFineRounds = 6;
+// Places that move less in a round are where they belong.
+constexpr double kSettledM = 0.0003;
+// Error of the range bias by what looks like one: a tilted plane that meets leaning sides nearer or farther. Measured
+// with 1 degree of tilt and sides that lean by 1 in 5.
+constexpr double kLeastBiasSigmaM = 0.003;
+// Error of a surfel's place by its shape, in errors of one view by it: views from all sides share a part of it.
+constexpr double kShapeShare = 0.5;
+// Parts of the largest square by which the grid is shifted from round to round: a surface that a border cuts in one
+// round is whole in the next.
+constexpr double kShift = 0.38;
+
+Round fine_round(const AdjustmentParameters& parameters) {
+  return {kLargestFineSurfelM, kSmallestFineSurfelM, kFineThickness * parameters.range_noise_m,
+          kFineGate * parameters.range_noise_m};
+}
+
+std::vector<Surfel> surfels_of(const Adjustment& state, const Round& round, int number) {
+  const double shift = std::fmod(kShift * number, 1.0) * round.largest_surfel_m;
+  return build_surfels(points_in_map(state.key_frames, state.range_bias_m),
+                       {round.largest_surfel_m, round.smallest_surfel_m, round.thickness_m, {shift, shift}});
+}
+
+std::vector<Observation> observe(const Adjustment& state, double gate_m, const AdjustmentParameters& parameters) {
+  return observe(state.key_frames, state.range_bias_m, SurfelMap(state.surfels), gate_m, parameters);
+}
+
+/// Returns the largest motion of a place.
+double do_round(Adjustment& state, const Round& round, int number, const AdjustmentParameters& parameters) {
+  state.surfels = surfels_of(state, round, number);
+  const std::vector<Observation> observations = observe(state, round.gate_m, parameters);
+  const double moved_m = solve(state, observations, parameters);
+  // Wheels that slip more than their parameters say must not bend the map.
+  state.motion_factor = std::max(1.0, fit_of(state, observations).motion_ratio);
+  return moved_m;
+}
+
+/// Keeps the surfels that were there all the time; sets the beams and the uncertainty of each.
+std::vector<Observation> finish(Adjustment& state, const AdjustmentParameters& parameters) {
+  state.surfels = without_seen_through(state.surfels, state.key_frames);
+  std::vector<Observation> observations = observe(state, fine_round(parameters).gate_m, parameters);
+  solve(state, observations, parameters);
+  return observations;
+}
+
+/// With the beams of all views, and the heights at which they met the surfels.
+std::vector<Surfel> as_seen(std::vector<Surfel> surfels, const std::vector<Observation>& observations) {
+  for (Surfel& surfel : surfels) {
+    surfel.hits = 0;
+  }
+  for (const Observation& seen : observations) {
+    Surfel& surfel = surfels[static_cast<std::size_t>(seen.surfel)];
+    const bool is_first = surfel.hits == 0;
+    surfel.lowest_rise_m = is_first ? seen.lowest_rise_m : std::min(surfel.lowest_rise_m, seen.lowest_rise_m);
+    surfel.highest_rise_m = is_first ? seen.highest_rise_m : std::max(surfel.highest_rise_m, seen.highest_rise_m);
+    surfel.hits += seen.beams;
+  }
+  return surfels;
+}
+
+AdjustedMap result_of(const Adjustment& state, const std::vector<Observation>& observations,
+                      const AdjustmentParameters& parameters) {
+  const Uncertainty uncertainty = uncertainty_of(state, observations, parameters);
+  const Fit fit = fit_of(state, observations);
+  // Views that differ by more than their sigmas say that the sigmas are too small.
+  const double factor = std::max(1.0, fit.surface_ratio);
+  AdjustedMap map;
+  map.key_frames = state.key_frames;
+  for (const Eigen::Matrix3d& covariance : uncertainty.poses) {
+    map.pose_covariances.emplace_back(factor * factor * covariance);
+  }
+  const std::vector<Surfel> surfels = as_seen(state.surfels, observations);
+  for (std::size_t i = 0; i < surfels.size(); ++i) {
+    if (surfels[i].hits > 0) {
+      map.surfels.push_back(surfels[i]);
+      map.surfels.back().sigma_m =
+          std::hypot(factor * uncertainty.surfels_m[i], kShapeShare * parameters.surface_sigma_m);
+      map.surfels.back().lean_sigma = std::min(kLeanSigma, factor * uncertainty.leans[i]);
+    }
+  }
+  map.range_bias_m = state.range_bias_m;
+  map.range_bias_sigma_m = std::hypot(factor * uncertainty.range_bias_m, kLeastBiasSigmaM);
+  map.message = verdict(state, observations, fit, parameters);
+  map.valid = map.message.empty();
+  return map;
+}
+
+AdjustedMap refused(const std::vector<KeyFrame>& key_frames, const std::string& message) {
+  AdjustedMap map;
+  map.key_frames = key_frames;
+  map.pose_covariances.assign(key_frames.size(), Eigen::Matrix3d::Zero());
+  map.message = message;
+  return map;
+}
+
+}  // namespace
+
+AdjustedMap adjust(const std::vector<KeyFrame>& key_frames, const AdjustmentParameters& parameters) {
+  check(parameters);
+  const std::string problem = problem_with(key_frames);
+  if (!problem.empty()) {
+    return refused(key_frames, problem);
+  }
+  Adjustment state;
+  state.key_frames = key_frames;
+  int number = 0;
+  for (const Round& round : kCoarse) {
+    do_round(state, round, number++, parameters);
+  }
+  for (int fine = 0; fine < kMostFineRounds; ++fine) {
+    if (do_round(state, fine_round(parameters), number++, parameters) < kSettledM) {
+      break;
+    }
+  }
+  const std::vector<Observation> observations = finish(state, parameters);
+  return result_of(state, observations, parameters);
+}
+
+}  // namespace mtr_surfel_map

@@ -1,0 +1,133 @@
+/// @file
+/// Gauss-Newton steps of the adjustment.
+// SPDX-License-Identifier: Apache-2.0
+#include "adjustment/problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mtr_surfel_map/se2.hpp"
+
+namespace mtr_surfel_map {
+namespace {
+
+constexpr int kMostSteps = 4;
+// A step that moves no place by more ends the steps: the next association changes more than another step would.
+constexpr double kSettledM = 0.0001;
+constexpr double kOutlierSigmas = 4.0;
+// Median over sigma of the size of a normal distribution's values.
+constexpr double kMedianOfNormal = 0.6745;
+
+Residual<1, 1> prior(double value, double sigma, Eigen::Index place) {
+  Residual<1, 1> residual;
+  residual.value[0] = value / sigma;
+  residual.jacobian[0] = 1.0 / sigma;
+  residual.places = {place};
+  return residual;
+}
+
+NormalEquations equations_of(const Adjustment& state, const std::vector<Observation>& observations,
+                             const AdjustmentParameters& parameters) {
+  const Layout layout = layout_of(state);
+  NormalEquations equations(layout.size(), static_cast<Eigen::Index>(state.surfels.size()));
+  for (const Observation& seen : observations) {
+    equations.add(surface_residual(state, seen), seen.surfel, Eigen::RowVector2d(-1.0, -seen.rise_m) / seen.sigma_m);
+  }
+  for (std::size_t i = 0; i < state.surfels.size(); ++i) {
+    equations.add_prior(static_cast<Eigen::Index>(i), state.surfels[i].lean, kLeanSigma);
+  }
+  for (std::size_t i = 1; i < state.key_frames.size(); ++i) {
+    equations.add(motion_residual(state, i));
+  }
+  equations.add(prior(state.range_bias_m, parameters.range_bias_sigma_m, layout.range_bias()));
+  equations.add(prior(state.wheel_scale, parameters.wheel_scale_sigma, layout.wheel_scale()));
+  equations.add(prior(state.gyro_scale, parameters.gyro_scale_sigma, layout.gyro_scale()));
+  for (const Eigen::Index place : {0, 1, 2}) {
+    equations.hold(Layout::pose(0) + place);
+  }
+  return equations;
+}
+
+/// Returns the largest motion of a place.
+double take(const Step& step, Adjustment& state) {
+  const Layout layout = layout_of(state);
+  double largest_m = 0.0;
+  for (std::size_t i = 1; i < state.key_frames.size(); ++i) {
+    PoseVector& pose = state.key_frames[i].pose;
+    const Eigen::Vector3d change = step.joint.segment<3>(Layout::pose(static_cast<Eigen::Index>(i)));
+    pose += change;
+    pose[2] = wrapped(pose[2]);
+    largest_m = std::max(largest_m, change.head<2>().norm());
+  }
+  for (std::size_t i = 0; i < state.surfels.size(); ++i) {
+    const Eigen::Vector2d change = step.separate.col(static_cast<Eigen::Index>(i));
+    state.surfels[i].position += change[0] * state.surfels[i].normal;
+    state.surfels[i].lean += change[1];
+  }
+  state.range_bias_m += step.joint[layout.range_bias()];
+  state.wheel_scale += step.joint[layout.wheel_scale()];
+  state.gyro_scale += step.joint[layout.gyro_scale()];
+  return largest_m;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+double solve(Adjustment& state, const std::vector<Observation>& observations, const AdjustmentParameters& parameters) {
+  double largest_m = 0.0;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const double moved_m = take(equations_of(state, observations, parameters).solve(), state);
+    largest_m = std::max(largest_m, moved_m);
+    if (moved_m < kSettledM) {
+      break;
+    }
+  }
+  return largest_m;
+}
+
+Fit fit_of(const Adjustment& state, const std::vector<Observation>& observations) {
+  Fit fit;
+  std::vector<double> sizes;
+  for (const Observation& seen : observations) {
+    sizes.push_back(std::abs(surface_residual(state, seen).value[0]));
+  }
+  if (!sizes.empty()) {
+    const auto outliers = std::count_if(sizes.begin(), sizes.end(), [](double size) { return size > kOutlierSigmas; });
+    fit.outlier_share = static_cast<double>(outliers) / static_cast<double>(sizes.size());
+    fit.surface_ratio = median(sizes) / kMedianOfNormal;
+  }
+  double sum = 0.0;
+  for (std::size_t i = 1; i < state.key_frames.size(); ++i) {
+    sum += motion_residual(state, i).value.squaredNorm() / 3.0;
+  }
+  if (state.key_frames.size() > 1) {
+    fit.motion_ratio = state.motion_factor * std::sqrt(sum / static_cast<double>(state.key_frames.size() - 1));
+  }
+  return fit;
+}
+
+Uncertainty uncertainty_of(const Adjustment& state, const std::vector<Observation>& observations,
+                           const AdjustmentParameters& parameters) {
+  const Layout layout = layout_of(state);
+  const NormalEquations equations = equations_of(state, observations, parameters);
+  const Eigen::MatrixXd joint = equations.joint_covariance();
+  const Eigen::Matrix2Xd surfels = equations.separate_variances(joint).cwiseSqrt();
+  Uncertainty uncertainty;
+  for (std::size_t i = 0; i < state.key_frames.size(); ++i) {
+    const Eigen::Index place = Layout::pose(static_cast<Eigen::Index>(i));
+    uncertainty.poses.emplace_back(joint.block<3, 3>(place, place));
+  }
+  for (Eigen::Index i = 0; i < surfels.cols(); ++i) {
+    uncertainty.surfels_m.push_back(surfels(0, i));
+    uncertainty.leans.push_back(surfels(1, i));
+  }
+  uncertainty.range_bias_m = std::sqrt(joint(layout.range_bias(), layout.range_bias()));
+  return uncertainty;
+}
+
+}  // namespace mtr_surfel_map

@@ -1,0 +1,47 @@
+/// @file
+/// Least squares over poses, surface offsets, range bias and scales of wheels and gyro for a given association.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "adjustment/observations.hpp"
+#include "adjustment/residuals.hpp"
+#include "mtr_surfel_map/adjustment/parameters.hpp"
+
+namespace mtr_surfel_map {
+
+/// How well the measurements agree after the adjustment.
+struct Fit {
+  /// Size of the differences between surfaces and views in their sigmas: 1 when the sigmas are right. From the median,
+  /// which persons and parked cars that left do not touch.
+  double surface_ratio = 0.0;
+  /// Share of the views that lie more than 4 sigma off.
+  double outlier_share = 0.0;
+  /// Root mean square of the differences between wheels and gyro and the poses, in the sigmas that the
+  /// key-frames say.
+  double motion_ratio = 0.0;
+};
+
+/// Uncertainty of the results.
+struct Uncertainty {
+  std::vector<Eigen::Matrix3d> poses;
+  /// 1 sigma along the normal; 0 for a surfel that nobody saw.
+  std::vector<double> surfels_m;
+  /// 1 sigma of the surfels' leans.
+  std::vector<double> leans;
+  double range_bias_m = 0.0;
+};
+
+/// Moves poses and surfels to where all views agree best; the first pose stays. Returns the largest motion of a place.
+double solve(Adjustment& state, const std::vector<Observation>& observations, const AdjustmentParameters& parameters);
+
+/// How well they agree at the solution.
+Fit fit_of(const Adjustment& state, const std::vector<Observation>& observations);
+
+/// Uncertainty at the solution, when the sigmas of the measurements are right.
+Uncertainty uncertainty_of(const Adjustment& state, const std::vector<Observation>& observations,
+                           const AdjustmentParameters& parameters);
+
+}  // namespace mtr_surfel_map

@@ -1,0 +1,17 @@
+/// @file
+/// Makes surface elements of points that were seen from several places.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "extraction/line_fit.hpp"
+#include "extraction/surfel_search.hpp"
+#include "mtr_surfel_map/types.hpp"
+
+namespace mtr_surfel_map {
+
+/// Straight pieces of surface, each seen from at least three key-frames and fitted to all points near it.
+std::vector<Surfel> build_surfels(const SeenPoints& points, const SurfelShape& shape);
+
+}  // namespace mtr_surfel_map

@@ -1,0 +1,88 @@
+/// @file
+/// Key-frames of which no map can be made, or none that can be trusted.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "mtr_surfel_map/adjustment/map_adjustment.hpp"
+#include "synthetic_loop.hpp"
+
+namespace mtr_surfel_map {
+namespace {
+
+using synthetic::drive;
+using synthetic::LoopOptions;
+
+LoopOptions open_field() {
+  LoopOptions options;
+  options.scene = "open";
+  return options;
+}
+
+void expect_refused(const std::vector<KeyFrame>& key_frames, const std::string& part) {
+  const AdjustedMap map = adjust(key_frames, AdjustmentParameters{});
+  EXPECT_FALSE(map.valid);
+  EXPECT_NE(map.message.find(part), std::string::npos) << map.message;
+  EXPECT_EQ(map.pose_covariances.size(), key_frames.size());
+}
+
+TEST(MapVerdict, NoKeyFramesAreNoMap) { expect_refused({}, "Only 0 key-frames"); }
+
+TEST(MapVerdict, HalfAWayRoundIsNoMap) {
+  LoopOptions options = open_field();
+  options.turns = 0.5;
+  expect_refused(drive(options).key_frames, "not closed");
+}
+
+TEST(MapVerdict, ClosedWayOfANoisyLidarRoundTheCarAloneIsAMap) {
+  LoopOptions options = open_field();
+  options.range_noise_m = 0.025;
+  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+    const AdjustedMap map = adjust(drive(options).key_frames, AdjustmentParameters{});
+    EXPECT_TRUE(map.valid) << map.message;
+  }
+}
+
+TEST(MapVerdict, KeyFrameThatIsNoNumberIsNoMap) {
+  std::vector<KeyFrame> frames = drive(open_field()).key_frames;
+  frames[7].scan.points[3].position.x() = std::nan("");
+  expect_refused(frames, "no numbers");
+}
+
+TEST(MapVerdict, NothingInViewIsNoMap) {
+  std::vector<KeyFrame> frames = drive(open_field()).key_frames;
+  for (KeyFrame& frame : frames) {
+    frame.scan.points.clear();
+  }
+  expect_refused(frames, "is the Car in view?");
+}
+
+TEST(MapVerdict, ScansWithoutAnySurfaceAreNoMap) {
+  std::vector<KeyFrame> frames = drive(open_field()).key_frames;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> range(0.5, 20.0);
+  for (KeyFrame& frame : frames) {
+    for (ScanPoint& point : frame.scan.points) {
+      const double change = range(random) - point.range_m;
+      point.position += change * point.direction;
+      point.range_m += change;
+    }
+  }
+  EXPECT_FALSE(adjust(frames, AdjustmentParameters{}).valid);
+}
+
+TEST(MapVerdict, ParameterOutOfItsRangeIsRefusedByName) {
+  AdjustmentParameters parameters;
+  parameters.range_noise_m = 1.0;
+  try {
+    adjust({}, parameters);
+    ADD_FAILURE() << "accepted";
+  } catch (const mtr_core::ConfigurationError& error) {
+    EXPECT_NE(std::string(error.what()).find("range_noise_m"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace mtr_surfel_map
