@@ -13,7 +13,7 @@ from mtr_core.se2 import Pose2
 from mtr_motion_planner.following.ramp import ANGULAR_SHARE, LINEAR_SHARE
 from mtr_motion_planner.geometry.keep_out import KeepOut
 from mtr_motion_planner.parameters import MotionParameters
-from mtr_motion_planner.search.options import Goal
+from mtr_motion_planner.search.options import Target
 from mtr_motion_planner.search.planning import Planning
 from mtr_motion_planner.timing.plan import Moving
 
@@ -42,7 +42,7 @@ def test_turn_on_the_spot_takes_its_bound(angle):
 def test_no_plan_is_quicker_than_the_bound(car, heading, speed):
     start, end = Pose2(4.0, 1.0, heading), Pose2(-4.0, -1.5, 0.3 - heading)
     keep_out = KeepOut(list(car.exterior.coords)[:-1], PARAMETERS.footprint)
-    plan = Planning(keep_out, None, PARAMETERS, speed).plan(Moving(start), Goal(end))
+    plan = Planning(keep_out, None, PARAMETERS, speed).plan(Moving(start), Target(end))
     assert plan.duration_s >= bound(start, end, car, speed) - 0.1
 
 

@@ -14,9 +14,9 @@ from mtr_core.states import Direction
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
 from .inputs import Car, Drive, Goal, Order, RobotState, Zone
+from .outputs import Output
+from .outputs import Path as PlannedPath
 from .picture import Picture
-from .planner import Output
-from .planner import Path as PlannedPath
 
 # Of the markers: lines, their height above ground, and colours by what they show.
 LINE_M, HEIGHT_M, ARROW_M = 0.03, 0.02, 0.5

@@ -3,8 +3,9 @@
 import enum
 import math
 from dataclasses import dataclass
-from typing import Optional, Tuple
+from typing import Optional, Tuple, TypeVar
 
+from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction
 
@@ -96,22 +97,45 @@ class Inputs:
     drive: Optional[Drive] = None
 
 
-def fault_of(inputs: Inputs, age_limit_s: float) -> str:
-    """Sentence that says why the inputs must not move the robot; empty when they may."""
-    return _age_fault(inputs, age_limit_s) or _value_fault(inputs.order, inputs.robot, inputs.car)
+class InputsUnusable(RobotError):
+    """The inputs must not move the robot; the text says why."""
 
 
-def _age_fault(inputs: Inputs, age_limit_s: float) -> str:
-    named = (("order", inputs.order), ("pose", inputs.robot), ("position of the Car", inputs.car))
-    for name, message in named:
-        if message is None:
-            return f"No {name} has arrived yet."
-        age_s = inputs.tick_s - message.stamp_s
-        if not age_s <= age_limit_s:
-            return f"The newest {name} is {age_s:.2f} s old; allowed is {age_limit_s:g} s."
-        if age_s < -age_limit_s:
-            return f"The newest {name} is {-age_s:.2f} s in the future; allowed is {age_limit_s:g} s. Check the clocks."
-    return ""
+@dataclass(frozen=True)
+class Situation:
+    """Inputs that may move the robot: all there, new enough, and numbers."""
+
+    tick_s: float
+    order: Order
+    robot: RobotState
+    car: Car
+    drive: Optional[Drive]
+
+
+Stamped = TypeVar("Stamped", Order, RobotState, Car)
+
+
+def situation_of(inputs: Inputs, age_limit_s: float) -> Situation:
+    """The inputs checked; InputsUnusable when they must not move the robot."""
+    now = Situation(inputs.tick_s, _fresh("order", inputs.order, inputs.tick_s, age_limit_s),
+                    _fresh("pose", inputs.robot, inputs.tick_s, age_limit_s),
+                    _fresh("position of the Car", inputs.car, inputs.tick_s, age_limit_s), inputs.drive)
+    fault = _value_fault(now.order, now.robot, now.car)
+    if fault:
+        raise InputsUnusable(fault)
+    return now
+
+
+def _fresh(name: str, message: Optional[Stamped], tick_s: float, age_limit_s: float) -> Stamped:
+    if message is None:
+        raise InputsUnusable(f"No {name} has arrived yet.")
+    age_s = tick_s - message.stamp_s
+    if not age_s <= age_limit_s:
+        raise InputsUnusable(f"The newest {name} is {age_s:.2f} s old; allowed is {age_limit_s:g} s.")
+    if age_s < -age_limit_s:
+        raise InputsUnusable(f"The newest {name} is {-age_s:.2f} s in the future; allowed is {age_limit_s:g} s. Check "
+                             "the clocks.")
+    return message
 
 
 def _value_fault(order: Order, robot: RobotState, car: Car) -> str:

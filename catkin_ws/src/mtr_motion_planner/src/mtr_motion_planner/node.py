@@ -13,7 +13,6 @@ from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
 from mtr_core.lockstep.clock import is_simulated, stamp_of
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
-from .background_planning import InlineExecutor
 from .conversions import (
     car_from,
     drive_from,
@@ -30,6 +29,7 @@ from .nav_goal import NavGoals
 from .parameters import MotionParameters
 from .picture import picture_of
 from .planner import MotionPlanner
+from .replanning import InlineExecutor
 
 # Of rviz' tool "2D Nav Goal".
 NAV_GOAL = "/move_base_simple/goal"

@@ -8,10 +8,11 @@ from shapely.geometry import Polygon
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
-from mtr_motion_planner.background_planning import InlineExecutor
 from mtr_motion_planner.inputs import Car, Drive, Goal, Inputs, Order, RobotState
+from mtr_motion_planner.outputs import Output
 from mtr_motion_planner.parameters import MotionParameters, Slip
-from mtr_motion_planner.planner import MotionPlanner, Output
+from mtr_motion_planner.planner import MotionPlanner
+from mtr_motion_planner.replanning import InlineExecutor
 
 PARAMETERS = MotionParameters()
 EXPECTED_SLIP = PARAMETERS.footprint.slip

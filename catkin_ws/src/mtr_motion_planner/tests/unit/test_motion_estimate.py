@@ -7,7 +7,7 @@ from mtr_motion_planner.limits import MotionLimits
 from mtr_motion_planner.parameters import Slip
 from mtr_motion_planner.search.estimate import time_of
 from mtr_motion_planner.search.shaping import Driving, Shape, Start, curve_of, route_of
-from mtr_motion_planner.timing.trajectory import Drive
+from mtr_motion_planner.timing.motion import CurveMotion
 
 LIMITS = MotionLimits()
 RADIUS_M = 0.45
@@ -19,5 +19,5 @@ RADIUS_M = 0.45
 def test_estimate_is_the_time_of_the_motion_within_a_tenth(end, turns):
     shape, speed, start = Shape(RADIUS_M * turns[0], RADIUS_M * turns[1]), 0.5, Pose2(0.0, 0.0, 0.0)
     curve = curve_of(shape, Start(start), end, Driving(LIMITS, Slip(0.0, 0.0, 0.0), speed))
-    driven_s = Drive(curve, 1).timed(LIMITS, speed).duration_s
+    driven_s = CurveMotion(curve, 1).timed(LIMITS, speed).duration_s
     assert time_of(route_of(shape, start, end), shape, LIMITS, speed, 0.0) == pytest.approx(driven_s, rel=0.1)

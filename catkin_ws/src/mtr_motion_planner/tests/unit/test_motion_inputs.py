@@ -9,10 +9,10 @@ from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import parameters_from
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
-from mtr_motion_planner.background_planning import InlineExecutor
 from mtr_motion_planner.inputs import Car, Goal, Inputs, Order, RobotState
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.planner import MotionPlanner
+from mtr_motion_planner.replanning import InlineExecutor
 
 NAN = math.nan
 CAR = Car(1.0, True, Pose2(0, 0, 0), ((2.2, .9), (-2.2, .9), (-2.2, -.9), (2.2, -.9)))

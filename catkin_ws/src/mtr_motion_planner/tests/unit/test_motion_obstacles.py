@@ -15,7 +15,7 @@ from mtr_core.states import Direction, Result
 from mtr_motion_planner.geometry.keep_out import KeepOut, OutlineUnusable, centres, plain_of
 from mtr_motion_planner.inputs import Drive, Zone
 from mtr_motion_planner.parameters import Margins, Slip
-from mtr_motion_planner.search.options import Goal
+from mtr_motion_planner.search.options import Target
 from mtr_motion_planner.search.planning import Planning
 from mtr_motion_planner.timing.plan import Moving
 
@@ -65,7 +65,7 @@ def test_plain_zone_does_not_reach_far_beyond_a_blunt_corner():
 def test_way_around_a_car_with_cut_corners_takes_no_longer_than_around_its_box():
     def time_s(outline):
         planning = Planning(KeepOut(outline, PARAMETERS.footprint), None, PARAMETERS, 0.7)
-        return planning.plan(Moving(Pose2(4.0, -2.0, 2.6)), Goal(Pose2(-3.5, 1.0, -1.2), Direction.ANY)).duration_s
+        return planning.plan(Moving(Pose2(4.0, -2.0, 2.6)), Target(Pose2(-3.5, 1.0, -1.2), Direction.ANY)).duration_s
     assert time_s(OUTLINE) < time_s(box(-2.25, -0.9, 2.25, 0.9).exterior.coords[:-1]) + 0.1
 
 

@@ -10,8 +10,8 @@ from mtr_motion_planner.geometry.circles import Circle, circle_through, tangent
 from mtr_motion_planner.limits import MotionLimits
 from mtr_motion_planner.parameters import Slip
 from mtr_motion_planner.search.shaping import Driving, Shape, Start, curve_of
+from mtr_motion_planner.timing.motion import CurveMotion, Pivot
 from mtr_motion_planner.timing.speeds import SAMPLE_S
-from mtr_motion_planner.timing.trajectory import Drive, Pivot
 
 LIMITS = MotionLimits()
 NO_SLIP = Slip(0.0, 0.0, 0.0)
@@ -51,7 +51,7 @@ def test_curve_ends_at_its_end_whether_the_base_slides_or_not(end, slip):
 @pytest.mark.parametrize("speed", [0.3, 0.7, 1.2])
 @pytest.mark.parametrize("end", ENDS)
 def test_trajectory_keeps_all_limits_and_ends_at_rest(end, speed):
-    trajectory = Drive(curve_to(end, speed=speed), 1).timed(LIMITS, speed)
+    trajectory = CurveMotion(curve_to(end, speed=speed), 1).timed(LIMITS, speed)
     ways = trajectory.ways
     speeds = np.diff(ways) / SAMPLE_S
     rates = trajectory.angular
@@ -68,23 +68,23 @@ def test_trajectory_keeps_all_limits_and_ends_at_rest(end, speed):
 
 def test_motion_goes_on_from_its_speed_and_curvature():
     curve = curve_to(Pose2(3.0, 1.5, 0.0), Start(Pose2(0.0, 0.0, 0.0), 0.5, 0.4), radius=1.2)
-    first = Drive(curve, 1).timed(LIMITS, 0.5, 0.5).at(0.0)
+    first = CurveMotion(curve, 1).timed(LIMITS, 0.5, 0.5).at(0.0)
     assert first.linear_mps == pytest.approx(0.5, abs=0.01)
     assert first.angular_radps == pytest.approx(0.2, abs=0.02)
 
 
 def test_curve_too_short_to_stop_on_has_no_timing():
-    assert Drive(curve_to(Pose2(0.5, 0.0, 0.0)), 1).timed(LIMITS, 1.2, 1.2) is None
+    assert CurveMotion(curve_to(Pose2(0.5, 0.0, 0.0)), 1).timed(LIMITS, 1.2, 1.2) is None
 
 
 def test_straight_way_takes_the_time_of_the_formula():
-    trajectory = Drive(curve_to(Pose2(3.0, 0.0, 0.0)), 1).timed(LIMITS, 0.5)
+    trajectory = CurveMotion(curve_to(Pose2(3.0, 0.0, 0.0)), 1).timed(LIMITS, 0.5)
     assert trajectory.duration_s == pytest.approx(3.0 / 0.5 + 0.5 / 0.8 + 0.2, abs=0.06)
 
 
 @pytest.mark.parametrize("angle", [0.05, -1.5, 3.0])
 def test_turn_on_the_spot_ends_at_its_angle_in_the_time_of_the_formula(angle):
-    trajectory = Pivot(Pose2(1.0, 2.0, 0.3), angle).timed(LIMITS)
+    trajectory = Pivot(Pose2(1.0, 2.0, 0.3), angle).timed(LIMITS, 0.0)
     end = trajectory.at(math.inf).pose
     assert (end.x, end.y) == (1.0, 2.0)
     assert wrap_angle(end.heading - 0.3 - angle) == pytest.approx(0.0, abs=1e-6)
@@ -93,7 +93,7 @@ def test_turn_on_the_spot_ends_at_its_angle_in_the_time_of_the_formula(angle):
 
 @pytest.mark.parametrize("way", [0.5, 1.5])
 def test_rest_of_a_motion_ends_where_the_whole_does(way):
-    whole = Drive(curve_to(Pose2(3.0, 0.5, 0.0)), -1)
+    whole = CurveMotion(curve_to(Pose2(3.0, 0.5, 0.0)), -1)
     rest = whole.from_way(way)
     assert rest.length_m == pytest.approx(whole.length_m - way, abs=1e-6)
     assert rest.timed(LIMITS, 0.5).at(math.inf).pose.distance_to(whole.timed(LIMITS, 0.5).at(math.inf).pose) < 1e-6

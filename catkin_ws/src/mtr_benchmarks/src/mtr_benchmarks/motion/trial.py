@@ -6,10 +6,10 @@ from typing import Tuple
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
-from mtr_motion_planner.background_planning import InlineExecutor
 from mtr_motion_planner.inputs import Car, Goal, Inputs, Order, RobotState
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.planner import MotionPlanner
+from mtr_motion_planner.replanning import InlineExecutor
 from mtr_simulation.scenario import CarShape, Scenario
 from mtr_simulation.sim import Sim
 

@@ -10,7 +10,7 @@ from ..inputs import RobotState
 from ..limits import MotionLimits
 from ..parameters import MotionParameters
 from ..timing.plan import Moving, Part, Plan
-from ..timing.trajectory import Pivot, Reference
+from ..timing.trajectory import Reference
 from .tolerance import miss_of
 from .tracking import DELAY_S, Velocity, deviation, tracked
 
@@ -28,7 +28,7 @@ LEAST_REMAINING_M = 0.001
 
 
 @dataclass(frozen=True)
-class Wanted:
+class FollowerOutput:
     """Velocity now, what is left of the way (0: the reference has arrived), and what became of the plan."""
 
     velocity: Velocity
@@ -95,49 +95,47 @@ class Follower:
         if self._index + 1 < len(self.plan.parts):
             return False
         now = self.reference()
-        return self._retime(now.way, abs(now.linear_mps if self._part.trajectory.length_m else now.angular_radps))
+        present = now.angular_radps if self._part.is_on_the_spot else now.linear_mps
+        return self._retime(self._part, now.way, abs(present))
 
-    def step(self, pose: Pose2, robot: RobotState, passed_s: float) -> Wanted:
-        """Velocity wanted now, passed_s after the last step."""
+    def step(self, pose: Pose2, robot: RobotState, passed_s: float) -> FollowerOutput:
+        """Velocity now, passed_s after the last step."""
         if not self.is_near(pose):
-            return Wanted(Velocity(), self._remaining(), lost=True)
+            return FollowerOutput(Velocity(), self._remaining(), lost=True)
         if self._part is not None:
-            self._advance(pose, robot, passed_s)
+            self._advance(self._part, pose, robot, passed_s)
         if self._cannot_go_on:
-            return Wanted(Velocity(), self._remaining(), lost=True)
+            return FollowerOutput(Velocity(), self._remaining(), lost=True)
         now = self.reference()
         if self._is_over() and self._has_settled(pose, robot):
-            return Wanted(Velocity(), 0.0, finished=True)
-        return Wanted(tracked(now, self.reference(DELAY_S), pose), self._remaining())
+            return FollowerOutput(Velocity(), 0.0, finished=True)
+        return FollowerOutput(tracked(now, self.reference(DELAY_S), pose), self._remaining())
 
-    def _advance(self, pose: Pose2, robot: RobotState, passed_s: float) -> None:
+    def _advance(self, part: Part, pose: Pose2, robot: RobotState, passed_s: float) -> None:
         now = self.reference()
-        lag = self._lag(now, pose)
-        limit = LAG_M if self._part.trajectory.length_m else LAG_RAD
+        lag = part.motion.lag(deviation(now, pose))
+        limit = LAG_RAD if part.is_on_the_spot else LAG_M
         self._waited_s = self._waited_s + passed_s if lag > limit else 0.0
         if self._waited_s > RETIME_AFTER_S:
             self._waited_s = 0.0
-            on_the_spot = self._part.trajectory.length_m == 0.0
-            speed = min(abs(robot.yaw_rate_radps if on_the_spot else robot.speed_mps),
-                        abs(now.angular_radps if on_the_spot else now.linear_mps))
-            self._cannot_go_on = not self._retime(now.way - lag, speed)
+            measured, planned = ((robot.yaw_rate_radps, now.angular_radps) if part.is_on_the_spot
+                                 else (robot.speed_mps, now.linear_mps))
+            self._cannot_go_on = not self._retime(part, now.way - lag, min(abs(measured), abs(planned)))
         elif lag <= limit:
             self._time_s += passed_s
-        while self._time_s >= self._part.trajectory.duration_s and self._index + 1 < len(self.plan.parts):
+        self._begin_parts_that_are_due()
+
+    def _begin_parts_that_are_due(self) -> None:
+        while (self._part is not None and self._time_s >= self._part.trajectory.duration_s
+               and self._index + 1 < len(self.plan.parts)):
             self._time_s -= self._part.trajectory.duration_s
             self._index += 1
             self._part = self.plan.parts[self._index]
 
-    def _lag(self, now: Reference, pose: Pose2) -> float:
-        """How far the robot is behind on its way, m or rad."""
-        error = deviation(now, pose)
-        motion = self._part.motion
-        return math.copysign(1.0, motion.angle) * error.heading if isinstance(motion, Pivot) else error.x * motion.sign
-
-    def _retime(self, way: float, speed: float) -> bool:
-        rest = self._part.motion.from_way(max(way, 0.0))
-        trajectory = rest and rest.timed(self._limits, self._speed, speed)
-        if trajectory is None:
+    def _retime(self, part: Part, way: float, speed: float) -> bool:
+        rest = part.motion.from_way(max(way, 0.0))
+        trajectory = None if rest is None else rest.timed(self._limits, self._speed, speed)
+        if rest is None or trajectory is None:
             return False
         self._part, self._time_s = Part(rest, trajectory), 0.0
         return True
@@ -153,9 +151,7 @@ class Follower:
         return late or miss_of(self.plan.goal, pose, self._parameters.arrival).is_within
 
     def _remaining(self) -> float:
-        if self._part is None:
+        if self._part is None or self._is_over():
             return 0.0
-        if self._is_over():
-            return 0.0
-        done = self.reference().way if self._part.trajectory.length_m else 0.0
+        done = 0.0 if self._part.is_on_the_spot else self.reference().way
         return max(self._part.trajectory.length_m - done + self.plan.length_after(self._index), LEAST_REMAINING_M)

@@ -32,14 +32,15 @@ class StallWatch:
 
     def stalls(self, pose: Pose2, is_wanted: bool, now_s: float) -> bool:
         """True when motion has been wanted for a while and the pose stayed."""
-        if not is_wanted or self._from is None or self._since_s is None or self._moved(pose):
+        if not is_wanted or self._from is None or self._since_s is None or _has_moved(self._from, pose):
             self._since_s, self._from = now_s, pose
             return False
         return now_s - self._since_s > STALL_AFTER_S
 
-    def _moved(self, pose: Pose2) -> bool:
-        moved = self._from.inverse() @ pose
-        return math.hypot(moved.x, moved.y) > MOVED_M or abs(moved.heading) > MOVED_RAD
+
+def _has_moved(before: Pose2, now: Pose2) -> bool:
+    moved = before.inverse() @ now
+    return math.hypot(moved.x, moved.y) > MOVED_M or abs(moved.heading) > MOVED_RAD
 
 
 def is_heading_into(keep_out: KeepOut, pose: Pose2, robot: RobotState, wanted: Velocity, parameters: MotionParameters

@@ -6,6 +6,7 @@ from typing import List, Sequence, Tuple
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
 STEP_M = 0.03
@@ -24,11 +25,11 @@ class Curve:
     """Samples at equal distances along the way; headings are directions of travel."""
 
     step_m: float
-    x: np.ndarray
-    y: np.ndarray
-    heading: np.ndarray
-    curvature: np.ndarray
-    bend: np.ndarray  # change of curvature, 1/m2
+    x: FloatArray
+    y: FloatArray
+    heading: FloatArray
+    curvature: FloatArray
+    bend: FloatArray  # change of curvature, 1/m2
 
     @property
     def length(self) -> float:
@@ -51,7 +52,7 @@ class Curve:
         return Curve(self.step_m, self.x[first:], self.y[first:], self.heading[first:], self.curvature[first:],
                      self.bend[first:])
 
-    def slid(self, aside: np.ndarray) -> "Curve":
+    def slid(self, aside: FloatArray) -> "Curve":
         """The same headings and curvatures, on a way that goes to the left by a length in each step between samples."""
         steps = np.diff(self.x) + 1j * np.diff(self.y)
         steps = steps + aside * np.exp(0.5j * (self.heading[1:] + self.heading[:-1] + math.pi))

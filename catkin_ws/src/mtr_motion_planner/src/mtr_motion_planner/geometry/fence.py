@@ -6,6 +6,7 @@ import numpy as np
 from shapely.geometry import MultiPoint, Polygon
 from shapely.prepared import prep
 
+from mtr_core.arrays import FloatArray
 from mtr_core.errors import ConfigurationError
 from mtr_core.se2 import Pose2
 
@@ -29,7 +30,7 @@ class Fence:
         self._area = prep(Polygon(corners))
         self._footprint, self._limits = footprint, limits
 
-    def holds(self, poses: np.ndarray, speeds: np.ndarray) -> bool:
+    def holds(self, poses: FloatArray, speeds: FloatArray) -> bool:
         """True when the robot may have these poses (rows of x, y, heading) at these signed speeds in m/s."""
         ahead, aside = self._footprint.half_length_m, self._footprint.half_width_m
         reach = speeds * np.abs(speeds) / (2.0 * self._limits.acceleration_mps2)

@@ -8,6 +8,7 @@ from shapely.geometry import LineString, MultiPoint, Polygon
 from shapely.geometry import Point as ShapelyPoint
 from shapely.geometry.polygon import orient
 
+from mtr_core.arrays import FloatArray
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 
@@ -43,7 +44,7 @@ class KeepOut:
         self.plain: Polygon = plain_of(self.hull)
         self._edge = _sampled(self.outline)
 
-    def clearances(self, poses: np.ndarray) -> np.ndarray:
+    def clearances(self, poses: FloatArray) -> FloatArray:
         """Distance of the footprint from the outline at each pose (rows of x, y, heading); 0 when they overlap."""
         half_length, half_width = self._footprint.half_length_m, self._footprint.half_width_m
         cos, sin = np.cos(poses[:, 2:3]), np.sin(poses[:, 2:3])
@@ -132,7 +133,7 @@ def polygon_of(points: Sequence[Point]) -> Polygon:
     return polygon
 
 
-def _sampled(polygon: Polygon) -> Tuple[np.ndarray, np.ndarray]:
+def _sampled(polygon: Polygon) -> Tuple[FloatArray, FloatArray]:
     corners = np.asarray(polygon.exterior.coords)
     parts = []
     for a, b in zip(corners, corners[1:]):

@@ -13,8 +13,9 @@ from ..geometry.keep_out import KeepOut
 from ..geometry.route import facing, moved
 from ..parameters import MotionParameters
 from ..timing.blend import Blend, Turns, keeps, overlapped, overlaps_of
+from ..timing.motion import CurveMotion, Motion, Pivot
 from ..timing.plan import Moving, Part
-from ..timing.trajectory import Drive, Motion, Pivot, Trajectory
+from ..timing.trajectory import Trajectory
 from .candidates import MOVING_MPS, Candidate
 from .options import ROUNDING_M, Straight
 from .shaping import ATTEMPTS, CLOSE_M, Driving, Start, curve_of
@@ -59,18 +60,20 @@ class Assembly:
         transit = self._transit(candidate, begin, end)
         if transit is None:
             return None
-        if len(transit) > 1:
-            for blend in self._blends(candidate, begin, end, transit, best_s):
-                parts = self.timed([*before, (blend, 0.0), *after], start.pose)
-                if parts:
-                    return parts
+        blends = self._blends(candidate, begin, end, transit, best_s) if len(transit) > 1 else ()
+        for blend in blends:
+            parts = self.timed([*before, (blend, 0.0), *after], start.pose)
+            if parts:
+                return parts
         return self.timed([*before, *transit, *after], start.pose)
 
     def _blends(self, candidate: Candidate, begin: Moving, end: Pose2, transit: List[Begun], best_s: float
                 ) -> Iterator[Blend]:
         """The transit with turns that overlap with the drive, the quickest first."""
         turns, slip = self._turns(transit), self._parameters.footprint.slip
-        for overlap_s in overlaps_of(turns, self._parameters.limits, slip) if turns else []:
+        if turns is None:
+            return
+        for overlap_s in overlaps_of(turns, self._parameters.limits, slip):
             if self.blends_left == 0 or turns.duration_s - sum(overlap_s) >= best_s:
                 return
             self.blends_left -= 1
@@ -84,8 +87,8 @@ class Assembly:
         start, aim = begin.pose, end
         for _ in range(ATTEMPTS):
             transit = self._transit(candidate, Moving(start, begin.linear_mps, begin.angular_radps), aim)
-            turns = transit and self._turns(transit)
-            if not turns:
+            turns = None if transit is None else self._turns(transit)
+            if transit is None or turns is None:
                 return None
             trajectory, aside = overlapped(turns, overlap_s, self._parameters.footprint.slip,
                                            complex(begin.pose.x, begin.pose.y))
@@ -93,7 +96,7 @@ class Assembly:
                 return None
             x, y = trajectory.poses[-1, :2]
             if math.hypot(end.x - x, end.y - y) < CLOSE_M:
-                return Blend(next(motion for motion, _ in transit if isinstance(motion, Drive)), trajectory)
+                return Blend(next(motion for motion, _ in transit if isinstance(motion, CurveMotion)), trajectory)
             # Once the first turn is done the robot is to be on the drive's own way, which keeps away from the Car.
             begun = Pose2(begin.pose.x + aside.real, begin.pose.y + aside.imag, begin.pose.heading)
             aim = Pose2(aim.x + end.x - x + begun.x - start.x, aim.y + end.y - y + begun.y - start.y, end.heading)
@@ -103,7 +106,7 @@ class Assembly:
     def _turns(self, transit: List[Begun]) -> Optional[Turns]:
         """Their trajectories; None when the robot is too fast to stop on the drive."""
         limits = self._parameters.limits
-        middle = next(index for index, (motion, _) in enumerate(transit) if isinstance(motion, Drive))
+        middle = next(index for index, (motion, _) in enumerate(transit) if isinstance(motion, CurveMotion))
         first, drive, last = (motions[0][0].timed(limits, self._speed, max(motions[0][1], 0.0)) if motions else None
                               for motions in (transit[:middle], transit[middle:middle + 1], transit[middle + 1:]))
         return Turns(first, drive, last) if drive else None
@@ -117,7 +120,7 @@ class Assembly:
         if curve is None:
             return None
         first, last = facing(curve.start, sign), facing(curve.end, sign)
-        motions: List[Begun] = [(Drive(curve, sign), speed)]
+        motions: List[Begun] = [(CurveMotion(curve, sign), speed)]
         if shape.first == 0.0:
             motions[:0] = pivot(begin.pose, first.heading)
         if shape.last == 0.0:
@@ -158,13 +161,13 @@ class Assembly:
         # Where even the longest stop on the curve is too short, the straight one is not.
         curves = (trace(facing(start.pose, sign), [0.0, share * limits.stopping_distance(speed) + BRAKE_M], ends)
                   for ends in ([bend, 0.0], [0.0, 0.0]) for share in BRAKE_SHARES)
-        drives = (Drive(curve, sign) for curve in curves)
+        drives = (CurveMotion(curve, sign) for curve in curves)
         return next(Part(drive, timed) for drive in drives for timed in [drive.timed(limits, speed, speed)] if timed)
 
 
-def line(start: Pose2, straight: Straight) -> Drive:
+def line(start: Pose2, straight: Straight) -> CurveMotion:
     """Straight motion from a pose of the robot."""
-    return Drive(trace(facing(start, straight.sign), [0.0, straight.length], [0.0, 0.0]), straight.sign)
+    return CurveMotion(trace(facing(start, straight.sign), [0.0, straight.length], [0.0, 0.0]), straight.sign)
 
 
 def pivot(start: Pose2, heading: float) -> List[Begun]:

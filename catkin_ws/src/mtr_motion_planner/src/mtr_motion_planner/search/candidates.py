@@ -14,7 +14,7 @@ from ..limits import MotionLimits, rest_to_rest_time
 from ..parameters import MotionParameters
 from ..timing.plan import Moving
 from .estimate import time_of
-from .options import Goal, Straight, arrivals, departures
+from .options import Straight, Target, arrivals, departures
 from .shaping import Shape, route_of
 
 # Radii of the turns at both ends, in m, beside the one that is driven at full speed: about as tight as linear and
@@ -49,7 +49,7 @@ class Candidates:
         self._rings, self._close_rings = ([Ring(centres(zone, size, gap), size) for size in sorted(sizes)]
                                           for zone in (keep_out.plain, keep_out.hull))
 
-    def between(self, start: Moving, goal: Goal) -> List[Candidate]:
+    def between(self, start: Moving, goal: Target) -> List[Candidate]:
         """Candidates, the quickest first; PlanRefused when start or goal lies too close to the Car."""
         outs = departures(start.pose, self._keep_out, self._parameters)
         ins = arrivals(goal, self._keep_out, self._parameters)

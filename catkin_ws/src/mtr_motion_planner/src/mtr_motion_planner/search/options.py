@@ -34,7 +34,7 @@ NONE = Straight()
 
 
 @dataclass(frozen=True)
-class Goal:
+class Target:
     """Pose of the turn centre to come to; a correction comes from close by."""
 
     pose: Pose2
@@ -54,7 +54,7 @@ def departures(start: Pose2, keep_out: KeepOut, parameters: MotionParameters) ->
     return found
 
 
-def arrivals(goal: Goal, keep_out: KeepOut, parameters: MotionParameters) -> List[Straight]:
+def arrivals(goal: Target, keep_out: KeepOut, parameters: MotionParameters) -> List[Straight]:
     """Straight pieces into the goal, none where the robot may turn at it; PlanRefused when no way leads there."""
     if keep_out.distance(goal.pose) >= parameters.pivot_gap_m:
         if goal.is_correction:

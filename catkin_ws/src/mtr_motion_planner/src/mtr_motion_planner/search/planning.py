@@ -13,7 +13,7 @@ from ..parameters import MotionParameters
 from ..timing.plan import Moving, Part, Plan, PlanRefused
 from .assembly import Assembly, line, pivot
 from .candidates import MOVING_MPS, Candidates
-from .options import Goal, Straight
+from .options import Straight, Target
 
 # A robot this close to the goal's axis drives straight along it; the controller takes the rest out on the way, as early
 # as it can. With the direction of travel given the axis matters more than the time.
@@ -47,7 +47,7 @@ class Effort(NamedTuple):
 
 
 STANDING = Effort(120, 8, 40)
-# A robot that moves follows its old plan for as long as the new one takes (background_planning.py). This takes 0.09 s
+# A robot that moves follows its old plan for as long as the new one takes (replanning.py). This takes 0.09 s
 # on average, 0.26 s at most (standing: 0.1 and 0.5 s).
 MOVING = Effort(6, 2, 3)
 
@@ -60,7 +60,7 @@ class Planning:
         self._candidates = Candidates(keep_out, parameters, speed)
         self._assembly = Assembly(keep_out, fence, parameters, speed)
 
-    def plan(self, start: Moving, goal: Goal) -> Plan:
+    def plan(self, start: Moving, goal: Target) -> Plan:
         """The quickest plan found that goes on from the present motion, with a stop first if need be."""
         self._check(start.pose, goal.pose)
         effort = MOVING if moves(start) else STANDING
@@ -77,7 +77,7 @@ class Planning:
                               f"{' and inside the test area' if self._fence else ''}.")
         return Plan(goal.pose, tuple(parts))
 
-    def straight(self, start: Moving, goal: Goal) -> Optional[Plan]:
+    def straight(self, start: Moving, goal: Target) -> Optional[Plan]:
         """The plan without a turn, after a stop if need be; quickly made, None where there is none."""
         self._check(start.pose, goal.pose)
         parts = self._straight(start, goal.pose, goal.direction)
@@ -105,7 +105,7 @@ class Planning:
         if self._fence and not self._fence.holds_pose(start):
             raise PlanRefused("The robot stands outside the test area; move it back by hand.")
 
-    def _parts(self, start: Moving, goal: Goal, effort: Effort) -> Optional[List[Part]]:
+    def _parts(self, start: Moving, goal: Target, effort: Effort) -> Optional[List[Part]]:
         parts = self._straight(start, goal.pose, goal.direction)
         return self._quickest(start, goal, effort) if parts is None else parts
 
@@ -126,7 +126,7 @@ class Planning:
         drive = line(moved(goal, offset.x), Straight(sign, way))
         return self._assembly.timed([(drive, sign * start.linear_mps)], start.pose)
 
-    def _quickest(self, start: Moving, goal: Goal, effort: Effort) -> Optional[List[Part]]:
+    def _quickest(self, start: Moving, goal: Target, effort: Effort) -> Optional[List[Part]]:
         best: Optional[List[Part]] = None
         compared = 0
         for candidate in self._candidates.between(start, goal)[:effort.tried]:

@@ -6,9 +6,10 @@ from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2, wrap_angle
 
-from ..geometry.circles import Circle, circle_through
+from ..geometry.circles import circle_through
 from ..geometry.curve import Curve, Piece, breakpoints, merged, trace
 from ..geometry.route import Ring, Route, around, moved, route_along
 from ..limits import MotionLimits
@@ -60,10 +61,8 @@ def route_of(shape: Shape, start: Pose2, end: Pose2) -> Optional[Route]:
     """Route between two poses in the direction of travel."""
     begin, finish = moved(start, shape.way_out), moved(end, -shape.run_in)
     first, last = circle_through(begin, shape.first), circle_through(finish, shape.last)
-    circles: Optional[List[Circle]] = [first, last]
-    if shape.ring:
-        circles = around(first, last, shape.ring, shape.side)
-    return circles and route_along(circles, begin.heading, finish.heading)
+    circles = around(first, last, shape.ring, shape.side) if shape.ring else [first, last]
+    return None if circles is None else route_along(circles, begin.heading, finish.heading)
 
 
 @dataclass(frozen=True)
@@ -91,8 +90,8 @@ def curve_of(shape: Shape, start: Start, end: Pose2, driving: Driving) -> Option
             return None
         shape = _gentle(shape, route, limits, speed)
         curve = _curve(shape, start, route, limits, speed)
-        speeds = curve and speeds_on(curve, limits, speed, start.speed)
-        if speeds is None:
+        speeds = None if curve is None else speeds_on(curve, limits, speed, start.speed)
+        if curve is None or speeds is None:
             return None
         curve = _slid(curve, np.asarray(speeds), driving.slip)
         miss = _miss(curve.end, end, turned_on_the_spot=shape.last == 0.0)
@@ -102,7 +101,7 @@ def curve_of(shape: Shape, start: Start, end: Pose2, driving: Driving) -> Option
     return None
 
 
-def _slid(curve: Curve, speeds: np.ndarray, slip: Slip) -> Curve:
+def _slid(curve: Curve, speeds: FloatArray, slip: Slip) -> Curve:
     curvature, squares = 0.5 * (curve.curvature[1:] + curve.curvature[:-1]), speeds ** 2
     outwards = slip.curve_slip_s2 * curvature * np.abs(curvature) * 0.5 * (squares[1:] + squares[:-1]) * curve.step_m
     return curve.slid(0.5 * slip.acceleration_slip_s2 * curvature * np.diff(squares) - outwards)

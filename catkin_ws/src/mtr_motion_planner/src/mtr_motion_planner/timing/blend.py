@@ -10,10 +10,14 @@ from typing import Iterator, List, Optional, Tuple
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
+from mtr_core.se2 import Pose2
+
 from ..limits import MotionLimits
 from ..parameters import Slip
+from .motion import CurveMotion, Motion
 from .speeds import SAMPLE_S
-from .trajectory import Drive, Trajectory
+from .trajectory import Trajectory
 
 # Time by which the turns before and after the drive may overlap with it at most. In an overlap of 1.8 s the robot
 # slides 2 cm farther aside than calculated: at the beginning the drive takes that out, at the end a correction of 4.5 s
@@ -41,27 +45,26 @@ class Turns:
 
 
 @dataclass(frozen=True)
-class Blend:
+class Blend(Motion):
     """The motions of some turns, overlapping; it cannot be timed anew in its middle."""
 
-    drive: Drive
+    drive: CurveMotion
     trajectory: Trajectory
-
-    @property
-    def sign(self) -> int:
-        """-1: the rear leads."""
-        return self.drive.sign
 
     @property
     def length_m(self) -> float:
         """Way of the turn centre."""
         return self.drive.length_m
 
-    def timed(self, _limits: MotionLimits, _max_speed: float = 0.0, _start_speed: float = 0.0) -> Trajectory:
-        """From rest."""
+    def timed(self, limits: MotionLimits, max_speed: float, start_speed: float = 0.0) -> Trajectory:
+        """From rest, as it was made."""
         return self.trajectory
 
-    def from_way(self, _way: float) -> None:
+    def lag(self, error: Pose2) -> float:
+        """Way that the robot is behind, m."""
+        return self.drive.lag(error)
+
+    def from_way(self, way: float) -> None:
         """The rest of it needs another plan."""
 
 
@@ -93,7 +96,7 @@ def overlapped(turns: Turns, overlap_s: Tuple[float, float], slip: Slip, begin: 
     starts -= min(0, starts[2])
     count = int(max(start + length for start, length in zip(starts, lengths)))
 
-    def spread(values: np.ndarray, which: int) -> np.ndarray:
+    def spread(values: FloatArray, which: int) -> FloatArray:
         rest = count - starts[which] - len(values)
         return np.concatenate((np.full(starts[which], values[0]), values, np.full(rest, values[-1])))
 

@@ -7,7 +7,8 @@ from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 
 from ..inputs import Point
-from .trajectory import Motion, Trajectory
+from .motion import Motion
+from .trajectory import Trajectory
 
 
 class PlanRefused(RobotError):
@@ -29,6 +30,11 @@ class Part:
 
     motion: Motion
     trajectory: Trajectory
+
+    @property
+    def is_on_the_spot(self) -> bool:
+        """True when its way is an angle."""
+        return self.trajectory.length_m == 0.0
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,8 @@ from typing import Callable, List, Optional
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
+
 from ..geometry.curve import Curve
 from ..limits import MotionLimits
 
@@ -23,7 +25,7 @@ ROUNDING = 1e-6
 Gain = Callable[[int, float], float]
 
 
-def speed_caps(curve: Curve, limits: MotionLimits, max_speed: float) -> np.ndarray:
+def speed_caps(curve: Curve, limits: MotionLimits, max_speed: float) -> FloatArray:
     """Highest speed at each sample of a curve."""
     bends, changes = np.maximum(np.abs(curve.curvature), 1e-9), np.maximum(np.abs(curve.bend), 1e-9)
     caps = np.minimum(limits.max_angular_radps / bends, np.sqrt(limits.lateral_acceleration_mps2 / bends))
@@ -52,7 +54,7 @@ def speeds_on(curve: Curve, limits: MotionLimits, max_speed: float, start_speed:
                         2.0 * limits.acceleration_mps2)
 
 
-def speeds_along(caps: np.ndarray, gain: Gain, step: float, start_speed: float, most: float) -> Optional[List[float]]:
+def speeds_along(caps: FloatArray, gain: Gain, step: float, start_speed: float, most: float) -> Optional[List[float]]:
     """Speed at each sample, ending at rest; None when there is no stop in time.
 
     most is the gain that braking may use where the start is faster than the caps.
@@ -72,7 +74,7 @@ def speeds_along(caps: np.ndarray, gain: Gain, step: float, start_speed: float, 
     return [math.sqrt(max(square, 0.0)) for square in squares]
 
 
-def ways_at_samples(speeds: List[float], step: float, first_way: float, ramp_s: float) -> np.ndarray:
+def ways_at_samples(speeds: List[float], step: float, first_way: float, ramp_s: float) -> FloatArray:
     """Way at each SAMPLE_S, with limited jerk; speeds belong to ways from first_way on, the first is the present one.
 
     first_way is at least history_way: what the moving average still takes from the speed before the start.
@@ -92,7 +94,7 @@ def ways_at_samples(speeds: List[float], step: float, first_way: float, ramp_s: 
     return np.concatenate(([0.0], np.cumsum((sums[window:] - sums[:-window])[1:] / window)))
 
 
-def _evenly(times: np.ndarray, ways: np.ndarray, speeds: np.ndarray) -> np.ndarray:
+def _evenly(times: FloatArray, ways: FloatArray, speeds: FloatArray) -> FloatArray:
     """Ways at each SAMPLE_S, with constant acceleration from one time to the next."""
     at = np.minimum(np.arange(0.0, times[-1] + 2.0 * SAMPLE_S, SAMPLE_S), times[-1])
     index = np.clip(np.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)

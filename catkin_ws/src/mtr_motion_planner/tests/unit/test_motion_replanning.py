@@ -8,8 +8,8 @@ from motion_simulation import PARAMETERS, PERIOD_S, SimulatedRobot
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Result
-from mtr_motion_planner.background_planning import LEAD_S
 from mtr_motion_planner.planner import MotionPlanner
+from mtr_motion_planner.replanning import LEAD_S
 
 START = Pose2(4.0, 2.6, math.radians(-147.0))
 

@@ -1,0 +1,30 @@
+"""What the motion planner says at a tick."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+from typing import Optional, Tuple
+
+from mtr_core.states import Result
+
+from .inputs import Point
+
+
+@dataclass(frozen=True)
+class Path:
+    """Line of the turn centre of a new plan, in map or in the Car's frame."""
+
+    in_car_frame: bool
+    points: Tuple[Point, ...]
+
+
+@dataclass(frozen=True)
+class Output:
+    """Velocity and status of one tick; path only when it is new."""
+
+    linear_mps: float
+    angular_radps: float
+    active: bool
+    goal_id: int
+    result: Result
+    remaining_m: float
+    message: str
+    path: Optional[Path] = None
