@@ -83,7 +83,7 @@ def test_broken_sensor_and_jam_stop_the_lift_and_are_told(board, fault, says):
     board.run(0.6, HIGH_M)
     board.board.fault(fault)
     board.run(SAFE_WITHIN_S, HIGH_M)
-    assert says in board.outcome.message
+    assert says in board.outcome.message.text
     assert abs(board.board.probe().lift_duty) == 0.0
     board.board.fault("none")
     board.run(6.0, LOW_M)

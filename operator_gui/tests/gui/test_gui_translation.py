@@ -10,11 +10,12 @@ from xml.etree import ElementTree
 import pytest
 
 import mtr_operator
+from mtr_operator.domain.ports import Problem
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.gui.i18n import FOLDER, Language, duration, number
 from mtr_operator.gui.names import domain_word, parameter_title
-from mtr_operator.gui.sentences import translated
-from mtr_operator.gui.texts import application, parameter_docs, robot, scenarios, words
+from mtr_operator.gui.sentences import robot_sentences, translated
+from mtr_operator.gui.texts import application, parameter_docs, scenarios, words
 
 SOURCE = pathlib.Path(mtr_operator.__file__).parent
 GUI = SOURCE / "gui"
@@ -111,7 +112,7 @@ def test_every_parameter_scenario_and_word_is_listed():
         assert {flag.doc for flag in scenario.parameters_type.flags().values()} <= set(parameter_docs.SENTENCES)
 
 
-@pytest.mark.parametrize("sentence", [*application.SENTENCES, *robot.SENTENCES])
+@pytest.mark.parametrize("sentence", application.SENTENCES)
 def test_sentence_with_values_becomes_czech_with_the_same_values(czech, sentence):
     values = [f"x{index}y" for index in range(sentence.count("{}"))]
     shown = translated(sentence.format(*values))
@@ -126,6 +127,30 @@ def test_sentence_within_a_sentence_and_numbers_are_translated(czech):
     assert translated("axis 3 (front right): go to the start") == "osa 3 (vpředu vpravo): jízda na začátek"
     assert translated("A sentence that nobody has listed.") == "A sentence that nobody has listed."
     assert (domain_word("not reached"), number(1.25, 2), duration(3900.0)) == ("nedosaženo", "1,25", "1 h 05 min")
+
+
+LOST = (Problem("state_machine.localization_lost_because", (), "Localization is lost. The dispatcher is late."),
+        Problem("state_machine.part_silent", (("part", "dispatcher"), ("age_s", "0.6")), "The dispatcher is late."))
+
+
+def test_sentence_of_the_robot_is_translated_by_its_code_also_within_one_of_the_application(czech):
+    robot_sentences.learn([LOST])
+    shown = "Lokalizace se ztratila. Tato část robotu mlčí už 0,6 s: řízení spojení."
+    assert translated(LOST[0].text) == shown
+    assert translated(f"The robot refused the waypoint: {LOST[0].text}") == f"Robot odmítl cílový bod: {shown}"
+
+
+@pytest.mark.parametrize("problem", [
+    Problem("", (), "Only a text."), Problem("unknown.code", (("x", "1.5"),), "Something of a robot to come, 1.5."),
+    Problem("state_machine.part_silent", (("node", "dispatcher"),), "The dispatcher is silent in another way.")])
+def test_sentence_of_another_version_of_the_robot_stays_english(czech, problem):
+    robot_sentences.learn([(problem,)])
+    assert translated(problem.text) == problem.text
+
+
+def test_robot_speaks_english_with_an_english_window():
+    robot_sentences.learn([LOST])
+    assert translated(LOST[0].text) == LOST[0].text
 
 
 def test_window_speaks_czech(start, settings_path, qtbot):

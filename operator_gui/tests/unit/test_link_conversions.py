@@ -21,6 +21,9 @@ DESIRED = [
     ports.DesiredState(press=ports.Press(9, (1, 2), 0.75, 0.5)),
 ]
 
+LATE = ports.Problem("planner.late", (("age_s", "0.6"),), "It is 0.6 s late.")
+LOST = ports.Problem("planner.lost", (), "Lost. It is 0.6 s late.")
+
 STATUS = ports.RobotStatus(
     id=11, robot_session_id=2 ** 62, stamp_s=100.02, x=1.5, y=-0.5, heading=0.25, speed_mps=-0.5, yaw_rate_radps=0.125,
     pose_valid=True, position_sigma_m=0.25, variance_x_m2=0.5, variance_y_m2=0.125,
@@ -29,11 +32,14 @@ STATUS = ports.RobotStatus(
     mode=ports.Mode.MAPPING_CAR,
     car=ports.CarDimensions(4.5, 1.75, 0.25, 0.125, ((2.25, 0.5), (-2.25, 0.5), (0.0, -0.875))),
     car_frame=ports.CarFrame(3, 0.5, -0.25, 0.125),
-    car_check=ports.CarCheck(7, ports.CheckState.FAILED, 0.25, 0.125, 0.5, 0.0625, "Moved."),
+    car_check=ports.CarCheck(7, ports.CheckState.FAILED, 0.25, 0.125, 0.5, 0.0625, "Moved.", (LATE,)),
     session_id=2 ** 63 - 1, command_id=5,
-    waypoint_id=4, waypoint_result=ports.WaypointResult.REFUSED, waypoint_message="Too close.",
-    presses=(ports.PressConfirmation(1, 2.5, 3.5), ports.PressConfirmation(2, 4.5, 4.5, "Servo jammed.")), map_car_id=3,
-    log=(ports.LogMessage(1, 99.5, 2, "lift", "Slow."),), notifications=(ports.Notification("link_lost", 3, "Lost."),),
+    waypoint_id=4, waypoint_result=ports.WaypointResult.REFUSED, waypoint_message="Lost. It is 0.6 s late.",
+    waypoint_problems=(LOST, LATE),
+    presses=(ports.PressConfirmation(1, 2.5, 3.5), ports.PressConfirmation(2, 4.5, 4.5, "Servo jammed.", (LATE,))),
+    map_car_id=3,
+    log=(ports.LogMessage(1, 99.5, 2, "lift", "Slow."),),
+    notifications=(ports.Notification("link_lost", 3, "Lost.", (LOST, LATE)),),
     rejected_messages=6, software_version="1.2")
 
 
@@ -101,5 +107,5 @@ def test_other_bytes_are_undecodable(payload):
 @pytest.mark.parametrize("message", ["Command", "RobotState", "CarDimensions", "CarCheck"])
 def test_every_status_field_of_the_proto_is_read(message):
     """A field added to the proto must be thought of here."""
-    known = {"Command": 13, "RobotState": 19, "CarDimensions": 11, "CarCheck": 7}
+    known = {"Command": 13, "RobotState": 19, "CarDimensions": 11, "CarCheck": 8}
     assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]

@@ -13,6 +13,7 @@ import enum
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
+from typing import Iterator
 
 
 class Direction(enum.Enum):
@@ -102,13 +103,30 @@ class DesiredState:
 
 
 @dataclass(frozen=True)
+class Problem:
+    """One sentence of the robot, by which it can be translated. In a list each is followed by its cause, whose text
+    stands within its own.
+
+    Attributes:
+        code: stable word "package.what"; empty when the robot gives only the text.
+        arguments: name and value of each placeholder, as in the text.
+        text: the sentence in English.
+    """
+
+    code: str
+    arguments: tuple[tuple[str, str], ...]
+    text: str
+
+
+@dataclass(frozen=True)
 class PressConfirmation:
-    """One press as executed; error is empty when it was."""
+    """One press as executed; error is empty when it was. problems: the error with its causes."""
 
     id: int
     start_s: float
     end_s: float
     error: str = ""
+    problems: tuple[Problem, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -141,7 +159,10 @@ class CarFrame:
 
 @dataclass(frozen=True)
 class CarCheck:
-    """The Car seen anew, compared with where it was; NaN while unknown. id: the request that it answers, 0 for none."""
+    """The Car seen anew, compared with where it was; NaN while unknown.
+
+    id: the request that it answers, 0 for none. problems: the message with its causes.
+    """
 
     id: int = 0
     state: CheckState = CheckState.NONE
@@ -150,15 +171,20 @@ class CarCheck:
     limit_m: float = math.nan
     limit_rad: float = math.nan
     message: str = ""
+    problems: tuple[Problem, ...] = ()
 
 
 @dataclass(frozen=True)
 class Notification:
-    """A sentence that concerns the Operator now. severity: 1 info, 2 warning, 3 error."""
+    """A sentence that concerns the Operator now.
+
+    code: kind of notification. severity: 1 info, 2 warning, 3 error. problems: the text with its causes.
+    """
 
     code: str
     severity: int
     text: str
+    problems: tuple[Problem, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -211,12 +237,21 @@ class RobotStatus:
     waypoint_id: int = 0
     waypoint_result: WaypointResult = WaypointResult.NONE
     waypoint_message: str = ""
+    waypoint_problems: tuple[Problem, ...] = ()
     presses: tuple[PressConfirmation, ...] = ()
     map_car_id: int = 0
     log: tuple[LogMessage, ...] = ()
     notifications: tuple[Notification, ...] = ()
     rejected_messages: int = 0
     software_version: str = ""
+
+    def problems(self) -> Iterator[tuple[Problem, ...]]:
+        """Every sentence of this Status with its causes, as far as the robot gives codes."""
+        yield self.waypoint_problems
+        yield from (notification.problems for notification in self.notifications)
+        yield from (press.problems for press in self.presses)
+        if self.car_check is not None:
+            yield self.car_check.problems
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,8 @@ from PyQt5.QtCore import QObject, QTimer, pyqtSignal
 from mtr_operator.station.mailbox import Mailbox
 from mtr_operator.station.view_model import ViewModel
 
+from .sentences import robot_sentences
+
 FRAME_MS = 33
 # Without any event the view still learns that the robot is silent, and time goes on.
 HEARTBEAT_MS = 500
@@ -49,6 +51,7 @@ class Bridge(QObject):
     def deliver(self) -> None:
         """Hand over what has come since."""
         batch = self.mailbox.take()
+        robot_sentences.learn(batch.said)
         self.model.apply(batch)
         self.frames += 1
         for event in batch.events:

@@ -1,7 +1,7 @@
-"""Sentences that come from below the window, in the language in use: by template, with the values put in.
+"""Sentences that come from below the window, in the language in use.
 
-The domain, the links and the robot speak English, and know no Qt. texts/ lists their sentences with {} for what varies;
-one that is not listed is shown as it is.
+The domain and the links speak English, and know no Qt. texts/ lists their sentences with {} for what varies, which may
+be a sentence of the robot, translated by its code. One that is not listed is shown as it is.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -14,7 +14,10 @@ from mtr_operator.domain.parameters import KILOMETRES_PER_HOUR, ParameterSet, wi
 
 from .i18n import ENGLISH, decimal_sign, language_code, translate
 from .names import domain_word, parameter_title
-from .texts import application, robot
+from .robot_sentences import RobotSentences
+from .texts import application
+
+robot_sentences = RobotSentences()
 
 # A number, with or without its unit.
 _DECIMAL = re.compile(r"[+-]?\d+\.\d+( \S+)?")
@@ -25,6 +28,9 @@ def translated(sentence: str) -> str:
     """The sentence in the language in use."""
     if not sentence or language_code() == ENGLISH:
         return sentence
+    said = robot_sentences.translated(sentence, language_code())
+    if said is not None:
+        return said
     for template, pattern in _patterns():
         match = pattern.fullmatch(sentence)
         if match is not None:
@@ -61,6 +67,6 @@ def _value(text: str) -> str:
 @functools.lru_cache(maxsize=1)
 def _patterns() -> list[tuple[str, re.Pattern]]:
     # The one with the most fixed text says most.
-    templates = sorted((*application.SENTENCES, *robot.SENTENCES), key=lambda text: -len(text.replace("{}", "")))
+    templates = sorted(application.SENTENCES, key=lambda text: -len(text.replace("{}", "")))
     return [(template, re.compile("(.+?)".join(map(re.escape, template.split("{}"))), re.DOTALL))
             for template in templates]

@@ -112,7 +112,8 @@ class ZmqRobotLink(RobotLink):
         if status.session_id in (0, self.session_id):
             return status
         return dataclasses.replace(status, controlled_by_other=True, command_id=0, waypoint_id=0,
-                                   waypoint_result=WaypointResult.NONE, waypoint_message="", presses=(), map_car_id=0,
+                                   waypoint_result=WaypointResult.NONE, waypoint_message="", waypoint_problems=(),
+                                   presses=(), map_car_id=0,
                                    car_check=status.car_check and CarCheck())
 
     def _receive_waiting(self) -> None:

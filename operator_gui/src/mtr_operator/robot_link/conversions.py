@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Iterable
 
 from google.protobuf.message import DecodeError
 
@@ -117,10 +117,13 @@ def robot_status_from(message: pb.Status) -> ports.RobotStatus:
         car_check=_check_from(message.car_check) if message.HasField("car_check") else None,
         session_id=message.session_id, command_id=message.command_id, waypoint_id=message.waypoint_id,
         waypoint_result=ports.WaypointResult(message.waypoint_result), waypoint_message=message.waypoint_message,
-        presses=tuple(ports.PressConfirmation(p.id, p.start_s, p.end_s, p.error) for p in message.presses),
+        waypoint_problems=_problems_from(message.waypoint_problems),
+        presses=tuple(ports.PressConfirmation(p.id, p.start_s, p.end_s, p.error, _problems_from(p.problems))
+                      for p in message.presses),
         map_car_id=message.map_car_id,
         log=tuple(ports.LogMessage(m.id, m.stamp_s, m.severity, m.source, m.text) for m in message.log),
-        notifications=tuple(ports.Notification(n.code, n.severity, n.text) for n in message.notifications),
+        notifications=tuple(ports.Notification(n.code, n.severity, n.text, _problems_from(n.problems))
+                            for n in message.notifications),
         rejected_messages=message.rejected_messages, software_version=message.software_version)
 
 
@@ -142,13 +145,16 @@ def status_message_from(status: ports.RobotStatus) -> pb.Status:
         id=status.id, robot_session_id=status.robot_session_id, sent_time_s=status.stamp_s, state=state,
         mode=status.mode.value, session_id=status.session_id, command_id=status.command_id,
         waypoint_id=status.waypoint_id, waypoint_result=status.waypoint_result.value,
-        waypoint_message=status.waypoint_message, map_car_id=status.map_car_id,
+        waypoint_message=status.waypoint_message,
+        waypoint_problems=_problem_messages(status.waypoint_problems), map_car_id=status.map_car_id,
         rejected_messages=status.rejected_messages, software_version=status.software_version,
-        presses=[pb.PressConfirmation(id=p.id, start_s=p.start_s, end_s=p.end_s, error=p.error)
+        presses=[pb.PressConfirmation(id=p.id, start_s=p.start_s, end_s=p.end_s, error=p.error,
+                                      problems=_problem_messages(p.problems))
                  for p in status.presses],
         log=[pb.LogMessage(id=m.id, stamp_s=m.stamp_s, severity=m.severity, source=m.source, text=m.text)
              for m in status.log],
-        notifications=[pb.Notification(code=n.code, severity=n.severity, text=n.text) for n in status.notifications])
+        notifications=[pb.Notification(code=n.code, severity=n.severity, text=n.text,
+                                       problems=_problem_messages(n.problems)) for n in status.notifications])
     if status.car is not None:
         message.car.CopyFrom(_car_message(status.car, status.car_frame))
     if status.car_check is not None:
@@ -165,6 +171,7 @@ def _car_message(car: ports.CarDimensions, frame: ports.CarFrame) -> pb.CarDimen
 
 def _fill_check(message: pb.CarCheck, check: ports.CarCheck) -> None:
     message.id, message.state, message.message = check.id, check.state.value, check.message
+    message.problems.extend(_problem_messages(check.problems))
     for name in _CHECK_FIGURES:
         value = getattr(check, name)
         if not math.isnan(value):
@@ -186,7 +193,17 @@ def _frame_from(car: pb.CarDimensions) -> ports.CarFrame:
 
 def _check_from(check: pb.CarCheck) -> ports.CarCheck:
     figures = {name: _value(check, name, math.nan) for name in _CHECK_FIGURES}
-    return ports.CarCheck(id=check.id, state=ports.CheckState(check.state), message=check.message, **figures)
+    return ports.CarCheck(id=check.id, state=ports.CheckState(check.state), message=check.message,
+                          problems=_problems_from(check.problems), **figures)
+
+
+def _problems_from(messages: Iterable[pb.Problem]) -> tuple[ports.Problem, ...]:
+    return tuple(ports.Problem(m.code, tuple(zip(m.names, m.values)), m.text) for m in messages)
+
+
+def _problem_messages(problems: Iterable[ports.Problem]) -> list[pb.Problem]:
+    return [pb.Problem(code=problem.code, names=[name for name, _ in problem.arguments],
+                       values=[value for _, value in problem.arguments], text=problem.text) for problem in problems]
 
 
 def _value(message: Any, name: str, default: Any) -> Any:

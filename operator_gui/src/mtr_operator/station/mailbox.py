@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Callable
 
 from mtr_operator.domain.geometry.pose import Point
+from mtr_operator.domain.ports import Problem
 
 from .events import RobotSnapshot, StationEvent
 
@@ -19,11 +20,15 @@ MAX_TRAIL = 512
 
 @dataclass(frozen=True)
 class Batch:
-    """Everything since the batch before. robot: newest, None when no Status came. trail: places passed."""
+    """Everything since the batch before.
+
+    robot: newest, None when no Status came. trail: places passed. said: sentences of the robot, each with its causes.
+    """
 
     events: tuple[StationEvent, ...]
     robot: RobotSnapshot | None
     trail: tuple[Point, ...]
+    said: tuple[tuple[Problem, ...], ...] = ()
 
 
 class Mailbox:
@@ -35,6 +40,7 @@ class Mailbox:
         self._events: list[StationEvent] = []
         self._robot: RobotSnapshot | None = None
         self._trail: list[Point] = []
+        self._said: dict[str, tuple[Problem, ...]] = {}
 
     def put(self, event: StationEvent) -> None:
         """An event; none is lost."""
@@ -50,6 +56,7 @@ class Mailbox:
         with self._lock:
             first = self._is_empty()
             self._robot = snapshot
+            self._said.update((problems[0].text, problems) for problems in status.problems() if problems)
             if status.pose_valid:
                 self._trail.append((status.x, status.y))
                 if len(self._trail) > MAX_TRAIL:
@@ -60,8 +67,8 @@ class Mailbox:
     def take(self) -> Batch:
         """Empty the mailbox."""
         with self._lock:
-            batch = Batch(tuple(self._events), self._robot, tuple(self._trail))
-            self._events, self._robot, self._trail = [], None, []
+            batch = Batch(tuple(self._events), self._robot, tuple(self._trail), tuple(self._said.values()))
+            self._events, self._robot, self._trail, self._said = [], None, [], {}
         return batch
 
     def _is_empty(self) -> bool:

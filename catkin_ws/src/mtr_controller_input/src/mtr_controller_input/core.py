@@ -4,6 +4,9 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple, Optional, Sequence, Tuple
 
+from mtr_core.problems import NO_PROBLEM, Problem
+
+from . import problems
 from .parameters import Parameters
 
 
@@ -27,11 +30,11 @@ RELEASED = Velocity(0.0, 0.0, False)
 
 @dataclass(frozen=True)
 class Outcome:
-    """What the person wants at a tick; lock_reason is empty when the robot may move."""
+    """What the person wants at a tick; lock_reason is no problem when the robot may move."""
 
     velocity: Velocity = RELEASED
     lift_mps: float = 0.0
-    lock_reason: str = ""
+    lock_reason: Problem = NO_PROBLEM
 
 
 class Controller:
@@ -47,7 +50,7 @@ class Controller:
         self._heard_s = self._changed_s = 0.0
         self._is_stopped = False
         self._release_since_s: Optional[float] = None
-        self._lost = ""
+        self._lost = NO_PROBLEM
 
     def take(self, joy: Joy, now_s: float) -> None:
         """Next message of the controller's driver."""
@@ -66,18 +69,18 @@ class Controller:
         self._watch(now_s, is_present, wanted, self._lift(self._joy.axes))
         self._watch_release(now_s, self._joy.buttons)
         if self._is_stopped:
-            return Outcome(lock_reason="The emergency stop of the manual controller is pressed.")
+            return Outcome(lock_reason=problems.EMERGENCY_STOP())
         if self._lost:
             return Outcome(lock_reason=self._lost)
         return Outcome(wanted, self._lift(self._joy.axes) if wanted.active else 0.0)
 
     def _watch(self, now_s: float, is_present: bool, wanted: Velocity, lift_mps: float) -> None:
         if not is_present or not 0.0 <= now_s - self._heard_s <= self._parameters.silent_after_s:
-            self._lost = "The manual controller is lost; the robot stands until it is back and released."
+            self._lost = problems.LOST()
         elif _moves(wanted, lift_mps) and now_s - self._changed_s > self._parameters.frozen_after_s:
-            self._lost = "The manual controller does not change any more; release it to go on."
+            self._lost = problems.FROZEN()
         elif not wanted.active:
-            self._lost = ""
+            self._lost = NO_PROBLEM
 
     def _watch_release(self, now_s: float, buttons: Sequence[int]) -> None:
         held = {index for index, value in enumerate(buttons) if value == 1}

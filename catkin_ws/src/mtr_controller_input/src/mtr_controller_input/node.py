@@ -9,7 +9,8 @@ import sensor_msgs.msg
 
 from mtr_core import names, schedule
 from mtr_core.lockstep import Ticker, clock, publisher, run_node
-from mtr_msgs.msg import LiftCommand, MotionLock, VelocityCommand
+from mtr_core.problems import messages_of
+from mtr_msgs.msg import LiftCommand, MotionLock, Problem, VelocityCommand
 
 from .core import RELEASED, Controller, Joy, Outcome
 from .parameters import Parameters
@@ -50,7 +51,8 @@ class ControllerInputNode:
 
     def _publish(self, outcome: Outcome, tick: int) -> None:
         stamp = clock.stamp_of(tick)
-        lock = MotionLock(owner=OWNER, engaged=bool(outcome.lock_reason), reason=outcome.lock_reason)
+        lock = MotionLock(owner=OWNER, engaged=bool(outcome.lock_reason), reason=outcome.lock_reason.text,
+                          problems=messages_of(outcome.lock_reason, Problem))
         lock.header.stamp = stamp
         self._lock.publish(lock)
         if outcome.velocity.active or self._before.velocity.active:
@@ -64,7 +66,7 @@ class ControllerInputNode:
 
     def _log(self, outcome: Outcome) -> None:
         if outcome.lock_reason != self._before.lock_reason:
-            rospy.logwarn(outcome.lock_reason or "The manual controller locks the robot no longer.")
+            rospy.logwarn(outcome.lock_reason.text or "The manual controller locks the robot no longer.")
         if outcome.velocity.active != self._before.velocity.active:
             rospy.loginfo("Manual control %s.", "ends" if outcome.velocity == RELEASED else "begins")
 

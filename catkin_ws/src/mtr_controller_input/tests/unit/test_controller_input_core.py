@@ -90,7 +90,7 @@ def test_silent_controller_locks_and_stays_locked_until_it_is_back_and_released(
     assert not hand.pull_the_plug(0.1).lock_reason
     lost = hand.pull_the_plug(0.02)
     assert lost.velocity == RELEASED
-    assert "lost" in lost.lock_reason
+    assert "lost" in lost.lock_reason.text
     assert hand.hold(DRIVING, 1.0).lock_reason
     assert hand.hold(IDLE) == Outcome()
 
@@ -104,13 +104,13 @@ def test_idle_controller_that_is_unplugged_is_a_lost_emergency_stop():
 def test_controller_whose_device_is_gone_is_lost_though_its_driver_repeats_the_last_message():
     hand = Hand()
     hand.hold(DRIVING, 1.0)
-    assert "lost" in hand.controller.step(hand.now_s, is_present=False).lock_reason
+    assert "lost" in hand.controller.step(hand.now_s, is_present=False).lock_reason.text
 
 
 def test_drive_that_never_changes_is_a_lost_controller():
     hand = Hand()
     assert hand.hold(DRIVING, 1.9, still=True).velocity.active
-    assert "does not change" in hand.hold(DRIVING, 0.3, still=True).lock_reason
+    assert "does not change" in hand.hold(DRIVING, 0.3, still=True).lock_reason.text
     assert hand.hold(DRIVING, 0.3).lock_reason
     assert hand.hold(IDLE) == Outcome()
 
@@ -128,7 +128,7 @@ def test_emergency_stop_locks_at_once_and_releasing_the_button_does_not_unlock()
     hand.hold(DRIVING, 0.4)
     stopped = hand.hold(Joy(sticks(1.0), buttons(SLOW_BUTTON, E_STOP)))
     assert stopped.velocity == RELEASED
-    assert "emergency stop" in stopped.lock_reason
+    assert "emergency stop" in stopped.lock_reason.text
     assert hand.hold(DRIVING, 5.0).lock_reason
 
 
@@ -152,7 +152,7 @@ def test_emergency_stop_outlasts_a_lost_controller():
     hand = Hand()
     hand.hold(Joy(sticks(), buttons(E_STOP)))
     hand.pull_the_plug(3.0)
-    assert "emergency stop" in hand.hold(IDLE, 1.0).lock_reason
+    assert "emergency stop" in hand.hold(IDLE, 1.0).lock_reason.text
 
 
 @pytest.mark.parametrize("deflection, rate", [(1.0, 0.1), (-1.0, -0.1), (0.0, 0.0)])

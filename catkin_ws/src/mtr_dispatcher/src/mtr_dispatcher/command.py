@@ -1,14 +1,19 @@
 """A Command of the Operator's application as plain data, and what makes one unacceptable."""
 # SPDX-License-Identifier: Apache-2.0
+import functools
 import math
 from dataclasses import dataclass
-from typing import Optional, Tuple
+from typing import Callable, Optional, Tuple
 
-from mtr_core.errors import range_problem
+from mtr_core.problems import NO_PROBLEM, Problem, Sentence
 from mtr_core.states import Direction
+
+from . import problems
 
 # A test area is some ten metres across; a waypoint farther away is a mistake of units or sign.
 MAX_COORDINATE_M = 100.0
+# Two turns: a heading may be wound up a little, one beyond is a mistake of units.
+MAX_HEADING_RAD = 4.0 * math.pi
 # Highest key of any supported mast; the peripherals know the real range.
 MAX_KEY_HEIGHT_M = 3.0
 MAX_PRESS_DURATION_S = 10.0
@@ -54,38 +59,45 @@ class Command:
     check_car_id: int = 0
 
 
-def problem_of(command: Command, platform_speed_mps: float) -> str:
-    """Sentence that says why the Command is refused; empty when it is acceptable."""
+def problem_of(command: Command, platform_speed_mps: float) -> Problem:
+    """Why the Command is refused; no problem when it is acceptable."""
     return (_waypoint_problem(command.waypoint)
-            or _choice_problem("Maximum speed", command.max_speed_mps, 0.01, platform_speed_mps, "m/s")
-            or _choice_problem("Key height", command.key_height_m, 0.0, MAX_KEY_HEIGHT_M, "m")
+            or _choice_problem(problems.MAXIMUM_SPEED, command.max_speed_mps, 0.01, platform_speed_mps)
+            or _choice_problem(problems.KEY_HEIGHT, command.key_height_m, 0.0, MAX_KEY_HEIGHT_M)
             or _press_problem(command.press))
 
 
-def _waypoint_problem(waypoint: Optional[Waypoint]) -> str:
+def _waypoint_problem(waypoint: Optional[Waypoint]) -> Problem:
     if waypoint is None:
-        return ""
+        return NO_PROBLEM
     if waypoint.id == 0:
-        return "Waypoint without an id; ids count from 1."
+        return problems.WAYPOINT_WITHOUT_ID()
     if waypoint.direction not in tuple(Direction):
-        return f"Waypoint {waypoint.id}: direction is {waypoint.direction}; allowed are 0, 1 and 2."
-    name = f"Waypoint {waypoint.id}"
-    return (range_problem(f"{name}: x", waypoint.x, -MAX_COORDINATE_M, MAX_COORDINATE_M, "m")
-            or range_problem(f"{name}: y", waypoint.y, -MAX_COORDINATE_M, MAX_COORDINATE_M, "m")
-            or range_problem(f"{name}: heading", waypoint.heading, -4.0 * math.pi, 4.0 * math.pi, "rad"))
+        return problems.WAYPOINT_DIRECTION(id=waypoint.id, value=waypoint.direction)
+    x, y, heading = (functools.partial(sentence, id=waypoint.id) for sentence in (
+        problems.WAYPOINT_X, problems.WAYPOINT_Y, problems.WAYPOINT_HEADING))
+    return (_range_problem(x, waypoint.x, -MAX_COORDINATE_M, MAX_COORDINATE_M)
+            or _range_problem(y, waypoint.y, -MAX_COORDINATE_M, MAX_COORDINATE_M)
+            or _range_problem(heading, waypoint.heading, -MAX_HEADING_RAD, MAX_HEADING_RAD))
 
 
-def _press_problem(press: Optional[Press]) -> str:
+def _press_problem(press: Optional[Press]) -> Problem:
     if press is None:
-        return ""
+        return NO_PROBLEM
     if press.id == 0:
-        return "Button press without an id; ids count from 1."
-    name = f"Button press {press.id}"
+        return problems.PRESS_WITHOUT_ID()
     if not 1 <= len(press.buttons) <= MAX_BUTTONS or 0 in press.buttons:
-        return f"{name}: buttons are {list(press.buttons)}; allowed are 1 to {MAX_BUTTONS} numbers above 0."
-    return (range_problem(f"{name}: strength", press.strength, 0.0, 1.0)
-            or range_problem(f"{name}: duration", press.duration_s, 0.0, MAX_PRESS_DURATION_S, "s"))
+        return problems.PRESS_BUTTONS(id=press.id, buttons=str(list(press.buttons)), maximum=MAX_BUTTONS)
+    strength, duration = (functools.partial(sentence, id=press.id) for sentence in (
+        problems.PRESS_STRENGTH, problems.PRESS_DURATION))
+    return (_range_problem(strength, press.strength, 0.0, 1.0)
+            or _range_problem(duration, press.duration_s, 0.0, MAX_PRESS_DURATION_S))
 
 
-def _choice_problem(name: str, value: Optional[float], low: float, high: float, unit: str) -> str:
-    return "" if value is None else range_problem(name, value, low, high, unit)
+def _choice_problem(sentence: Sentence, value: Optional[float], low: float, high: float) -> Problem:
+    return NO_PROBLEM if value is None else _range_problem(sentence, value, low, high)
+
+
+def _range_problem(sentence: Callable[..., Problem], value: float, low: float, high: float) -> Problem:
+    """NaN is out of any range."""
+    return NO_PROBLEM if low <= value <= high else sentence(value=value, low=low, high=high)

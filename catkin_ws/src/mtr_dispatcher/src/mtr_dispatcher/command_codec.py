@@ -5,30 +5,31 @@ from typing import Any, Optional
 
 from google.protobuf.message import DecodeError
 
-from mtr_core.errors import RobotError
+from mtr_core.problems import ProblemError
 from mtr_proto import robot_link_pb2 as link
 
+from . import problems
 from .command import Command, Press, Waypoint
 
 # A Command takes some 200 bytes.
 MAX_MESSAGE_BYTES = 64 * 1024
 
 
-class UndecodableError(RobotError):
+class UndecodableError(ProblemError):
     """The bytes are no Command."""
 
 
 def decode(data: bytes) -> Command:
     """Command in the bytes; raises UndecodableError with a sentence."""
     if len(data) > MAX_MESSAGE_BYTES:
-        raise UndecodableError(f"A message of {len(data)} bytes was ignored; allowed are {MAX_MESSAGE_BYTES}.")
+        raise UndecodableError(problems.OVERSIZED(size=len(data), maximum=MAX_MESSAGE_BYTES))
     message = link.Command()
     try:
         message.ParseFromString(data)
     except DecodeError:
-        raise UndecodableError(f"A message of {len(data)} bytes that is no Command was ignored.") from None
+        raise UndecodableError(problems.UNDECODABLE(size=len(data))) from None
     if not message.session_id or not message.id:
-        raise UndecodableError("A Command without session or id was ignored.")
+        raise UndecodableError(problems.INCOMPLETE())
     return Command(
         session_id=message.session_id, id=message.id, seen_status_id=message.seen_status_id,
         seen_robot_time_s=_float(message, "seen_robot_time_s", math.nan), stop=message.stop,

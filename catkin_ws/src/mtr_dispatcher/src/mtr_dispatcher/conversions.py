@@ -5,7 +5,8 @@ import math
 import rospy
 
 from mtr_core import names
-from mtr_msgs.msg import ButtonPress, DesiredState, MotionLock, Waypoint
+from mtr_core.problems import messages_of
+from mtr_msgs.msg import ButtonPress, DesiredState, MotionLock, Problem, Waypoint
 
 from .command import Command
 from .session import Desired
@@ -28,7 +29,8 @@ def desired_message(desired: Desired, stamp: rospy.Time, default_speed_mps: floa
 
 def lock_message(desired: Desired, stamp: rospy.Time) -> MotionLock:
     """Reason to stand still, for drive control."""
-    message = MotionLock(owner=OWNER, engaged=bool(desired.stop_reason), reason=desired.stop_reason)
+    message = MotionLock(owner=OWNER, engaged=bool(desired.stop_reason), reason=desired.stop_reason.text,
+                         problems=messages_of(desired.stop_reason, Problem))
     message.header.stamp = stamp
     return message
 

@@ -3,6 +3,7 @@
 import itertools
 from typing import List, Optional, Tuple
 
+from . import problems
 from .command import Command
 from .command_codec import UndecodableError, decode
 from .inputs import Inputs
@@ -36,13 +37,13 @@ class Dispatcher:
         try:
             command = decode(data)
         except UndecodableError as error:
-            self._reject(Notice("bad_message", WARNING, str(error)), now_s)
+            self._reject(Notice("bad_message", WARNING, error.problem), now_s)
             return None, str(error)
         before = self.session.session_id
         verdict = self.session.take(command, now_s, self.status_id)
         if verdict is Verdict.FOREIGN:
             self.rejected_messages += 1
-            return verdict, self._foreign.hear(self.session.session_id, command.session_id, now_s)
+            return verdict, self._foreign.hear(self.session.session_id, command.session_id, now_s).text
         if verdict in REJECTIONS:
             return verdict, self._reject(self._rejection(verdict, command), now_s)
         return verdict, self._event(verdict, command, before)
@@ -81,13 +82,12 @@ class Dispatcher:
         self.rejected_messages += 1
         if notice.code != "command_refused":
             self._recent.add(notice, now_s)
-        return notice.text
+        return notice.problem.text
 
     def _rejection(self, verdict: Verdict, command: Command) -> Notice:
         if verdict is Verdict.EXPIRED:
-            return Notice("command_expired", WARNING,
-                          f"Command {command.id} had expired when it arrived and was ignored.")
-        return Notice("command_refused", ERROR, f"Command {command.id} was refused: {self.session.refusal}")
+            return Notice("command_expired", WARNING, problems.EXPIRED(id=command.id))
+        return Notice("command_refused", ERROR, problems.REFUSED(id=command.id, cause=self.session.refusal))
 
     def _event(self, verdict: Verdict, command: Command, session_before: int) -> str:
         if verdict is Verdict.ENDED:

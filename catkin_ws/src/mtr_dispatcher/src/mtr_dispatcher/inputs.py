@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, NamedTuple, Optional, Protocol, Sequence, TypeVar
 
+from mtr_core.problems import ProblemFields
+
 # Age at which a periodic message no longer tells the present.
 STALE_AFTER_S = 0.5
 
@@ -23,6 +25,7 @@ class PoseReport(Stamped, Protocol):
     speed_mps: float
     yaw_rate_radps: float
     message: str
+    problems: Sequence[ProblemFields]
 
 
 class CarReport(Stamped, Protocol):
@@ -55,6 +58,7 @@ class ModeReport(Stamped, Protocol):
     waypoint_id: int
     waypoint_result: int
     message: str
+    problems: Sequence[ProblemFields]
 
 
 class PressReport(Protocol):
@@ -65,6 +69,7 @@ class PressReport(Protocol):
     start: Any
     end: Any
     error: str
+    problems: Sequence[ProblemFields]
 
 
 class PeripheralsReport(Stamped, Protocol):
@@ -76,6 +81,7 @@ class PeripheralsReport(Stamped, Protocol):
     presses: Sequence[PressReport]
     battery: float
     message: str
+    problems: Sequence[ProblemFields]
 
 
 class CheckReport(Stamped, Protocol):
@@ -88,6 +94,7 @@ class CheckReport(Stamped, Protocol):
     limit_m: float
     limit_rad: float
     message: str
+    problems: Sequence[ProblemFields]
 
 
 M = TypeVar("M", bound=Stamped)

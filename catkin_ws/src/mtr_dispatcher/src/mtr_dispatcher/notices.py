@@ -3,8 +3,10 @@
 import math
 from typing import Dict, Iterator, List, NamedTuple, Tuple
 
+from mtr_core.problems import Problem, problem_of
 from mtr_core.states import State
 
+from . import problems
 from .inputs import Inputs
 from .session import Desired
 
@@ -16,11 +18,11 @@ FOREIGN_SHOWN_S = 10.0
 
 
 class Notice(NamedTuple):
-    """One sentence. code: stable word; severity: 1 info, 2 warning, 3 error."""
+    """One sentence. code: stable word for the kind of notice; severity: 1 info, 2 warning, 3 error."""
 
     code: str
     severity: int
-    text: str
+    problem: Problem
 
 
 class RecentNotices:
@@ -44,10 +46,10 @@ class ForeignApplications:
     def __init__(self) -> None:
         self._heard: Dict[int, float] = {}
 
-    def hear(self, controlling_id: int, session_id: int, now_s: float) -> str:
+    def hear(self, controlling_id: int, session_id: int, now_s: float) -> Problem:
         """A Command of one came; the sentence about it."""
         self._heard[session_id] = now_s
-        return _foreign_sentence(controlling_id, session_id)
+        return _foreign_problem(controlling_id, session_id)
 
     def notices(self, controlling_id: int, now_s: float) -> List[Notice]:
         """One notice, the same as long as such an application is heard; none when nobody controls the robot."""
@@ -55,11 +57,11 @@ class ForeignApplications:
                        if now_s - heard_s <= FOREIGN_SHOWN_S and session_id != controlling_id}
         if not controlling_id or not self._heard:
             return []
-        return [Notice("controlled_by_other", WARNING, _foreign_sentence(controlling_id, min(self._heard)))]
+        return [Notice("controlled_by_other", WARNING, _foreign_problem(controlling_id, min(self._heard)))]
 
 
-def _foreign_sentence(controlling_id: int, session_id: int) -> str:
-    return (f"Application {controlling_id:x} controls the robot; Commands of application {session_id:x} are ignored.")
+def _foreign_problem(controlling_id: int, session_id: int) -> Problem:
+    return problems.FOREIGN_APPLICATION(controlling=f"{controlling_id:x}", foreign=f"{session_id:x}")
 
 
 def standing_notices(desired: Desired, fresh: Inputs, low_battery: float) -> Iterator[Notice]:
@@ -70,25 +72,27 @@ def standing_notices(desired: Desired, fresh: Inputs, low_battery: float) -> Ite
         yield Notice("command_refused", ERROR, desired.stop_reason)
     yield from _mode_notices(fresh)
     if fresh.pose is not None and not fresh.pose.valid:
-        yield Notice("not_localized", ERROR, fresh.pose.message or "The robot does not know its position.")
+        yield Notice("not_localized", ERROR, problem_of(fresh.pose.problems, fresh.pose.message)
+                     or problems.POSITION_UNKNOWN())
     yield from _peripherals_notices(fresh, low_battery)
 
 
 def _mode_notices(fresh: Inputs) -> Iterator[Notice]:
     if fresh.mode is None:
-        yield Notice("state_machine_silent", ERROR, "The robot's state machine is silent; the robot stands still.")
+        yield Notice("state_machine_silent", ERROR, problems.STATE_MACHINE_SILENT())
     elif fresh.mode.mode == State.FAULT:
-        yield Notice("fault", ERROR, fresh.mode.message)
+        yield Notice("fault", ERROR, problem_of(fresh.mode.problems, fresh.mode.message))
     elif fresh.mode.message:
-        yield Notice("mode", INFO, fresh.mode.message)
+        yield Notice("mode", INFO, problem_of(fresh.mode.problems, fresh.mode.message))
 
 
 def _peripherals_notices(fresh: Inputs, low_battery: float) -> Iterator[Notice]:
     state = fresh.peripherals
     if state is None:
-        yield Notice("peripherals_silent", ERROR, "The node of lift and buttons is silent.")
+        yield Notice("peripherals_silent", ERROR, problems.PERIPHERALS_SILENT())
         return
     if state.message:
-        yield Notice("peripherals", WARNING if state.alive else ERROR, state.message)
+        yield Notice("peripherals", WARNING if state.alive else ERROR,
+                     problem_of(state.problems, state.message))
     if not math.isnan(state.battery) and state.battery < low_battery:
-        yield Notice("low_battery", WARNING, f"The battery is at {100.0 * state.battery:.0f} %.")
+        yield Notice("low_battery", WARNING, problems.LOW_BATTERY(percent=100.0 * state.battery))

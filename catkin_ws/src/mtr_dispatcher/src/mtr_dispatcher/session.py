@@ -5,6 +5,9 @@ import math
 from dataclasses import dataclass
 from typing import Dict, Optional
 
+from mtr_core.problems import NO_PROBLEM, Problem
+
+from . import problems
 from .command import Command, problem_of
 from .parameters import Parameters
 
@@ -30,14 +33,14 @@ REJECTIONS = (Verdict.EXPIRED, Verdict.FOREIGN, Verdict.REFUSED)
 
 @dataclass(frozen=True)
 class Desired:
-    """What the robot shall do now. stop_reason is empty when it may move."""
+    """What the robot shall do now. stop_reason is no problem when it may move."""
 
     session_id: int
     command: Command
     map_order: int
     check_order: int
     link_alive: bool
-    stop_reason: str
+    stop_reason: Problem
 
 
 class OrderNumbers:
@@ -66,7 +69,7 @@ class Session:
     Attributes:
         session_id: application in control, 0 for none.
         command: newest Command that was taken.
-        refusal: why its newest Command was refused; empty when it was not.
+        refusal: why its newest Command was refused; no problem when it was not.
         answered_status_id: newest Status that the application in control has answered.
         map_orders: numbers of the orders to map the Car.
         check_orders: numbers of the orders to check it.
@@ -76,7 +79,7 @@ class Session:
         self._parameters = parameters
         self.session_id = 0
         self.command = Command()
-        self.refusal = ""
+        self.refusal = NO_PROBLEM
         self.answered_status_id = 0
         self.map_orders, self.check_orders = OrderNumbers(), OrderNumbers()
         self._newest_id = 0
@@ -109,14 +112,14 @@ class Session:
         check_order = self.check_orders.number_of(self.session_id, self.command.check_car_id)
         return Desired(self.session_id, self.command, map_order, check_order, alive, self._stop_reason(alive))
 
-    def _stop_reason(self, alive: bool) -> str:
+    def _stop_reason(self, alive: bool) -> Problem:
         if not self.session_id:
-            return "No application controls the robot."
+            return problems.NO_APPLICATION()
         if not alive:
-            return f"The application has been silent for more than {self._parameters.link_timeout_s:g} s."
+            return problems.APPLICATION_SILENT(limit_s=self._parameters.link_timeout_s)
         if self.refusal:
-            return f"Command refused: {self.refusal}"
-        return "The Operator stopped the robot." if self.command.stop else ""
+            return problems.COMMAND_REFUSED(cause=self.refusal)
+        return problems.STOPPED_BY_OPERATOR() if self.command.stop else NO_PROBLEM
 
     def _accept(self, command: Command) -> Verdict:
         if command.id == self._newest_id:
@@ -133,7 +136,7 @@ class Session:
         if self._is_former(command) or (self.session_id and not silent):
             return False
         self._remember(self.session_id, self._newest_id)
-        self.session_id, self.command, self.refusal = command.session_id, Command(), ""
+        self.session_id, self.command, self.refusal = command.session_id, Command(), NO_PROBLEM
         self._newest_id, self.answered_status_id = self._former.get(command.session_id, 0), 0
         return True
 
@@ -143,7 +146,7 @@ class Session:
             return Verdict.OUTDATED
         self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
         self._remember(self.session_id, command.id)
-        self.session_id, self.command, self.refusal, self._newest_id = 0, Command(), "", 0
+        self.session_id, self.command, self.refusal, self._newest_id = 0, Command(), NO_PROBLEM, 0
         return Verdict.ENDED
 
     def _is_former(self, command: Command) -> bool:

@@ -3,6 +3,7 @@
 import math
 from typing import Iterable, NamedTuple, Optional
 
+from mtr_core.problems import messages_of, problem_of
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Result
 from mtr_proto import robot_link_pb2 as link
@@ -61,7 +62,8 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
         status.log.add(id=entry.id, stamp_s=entry.stamp_s, severity=entry.severity, source=entry.source,
                        text=entry.text)
     for notice in report.notices:
-        status.notifications.add(code=notice.code, severity=notice.severity, text=notice.text)
+        status.notifications.add(code=notice.code, severity=notice.severity, text=notice.problem.text,
+                                 problems=messages_of(notice.problem, link.Problem))
     return status.SerializeToString()
 
 
@@ -74,6 +76,8 @@ def _add_mode(status: link.Status, mode: Optional[ModeReport], session_id: int) 
         status.waypoint_id, status.waypoint_result = mode.waypoint_id, mode.waypoint_result
         if mode.waypoint_result in (Result.REFUSED, Result.BLOCKED):
             status.waypoint_message = mode.message
+            status.waypoint_problems.extend(
+                messages_of(problem_of(mode.problems, mode.message), link.Problem))
 
 
 def _add_pose(state: link.RobotState, fresh: Inputs) -> None:
@@ -124,6 +128,7 @@ def _add_check(message: link.CarCheck, check: Optional[CheckReport], check_car_i
     if not check_car_id:
         return
     message.id, message.state, message.message = check_car_id, check.state, check.message
+    message.problems.extend(messages_of(problem_of(check.problems, check.message), link.Problem))
     if math.isfinite(check.difference_m):
         message.difference_m, message.difference_rad = check.difference_m, check.difference_rad
 
@@ -137,4 +142,5 @@ def _add_peripherals(status: link.Status, peripherals: Optional[PeripheralsRepor
         status.state.battery_level = round(100.0 * min(max(peripherals.battery, 0.0), 1.0))
     for press in peripherals.presses:
         if session_id and press.session_id == session_id:
-            status.presses.add(id=press.id, start_s=press.start.to_sec(), end_s=press.end.to_sec(), error=press.error)
+            status.presses.add(id=press.id, start_s=press.start.to_sec(), end_s=press.end.to_sec(), error=press.error,
+                               problems=messages_of(problem_of(press.problems, press.error), link.Problem))

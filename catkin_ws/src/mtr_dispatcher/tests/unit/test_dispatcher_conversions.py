@@ -4,17 +4,19 @@ import math
 
 import rospy
 
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_dispatcher.command import Command, Press, Waypoint
 from mtr_dispatcher.conversions import desired_message, lock_message
 from mtr_dispatcher.session import Desired
 
+NOBODY = Problem("dispatcher.nobody", "No application.")
 STAMP = rospy.Time(12, 34)
 
 
 def test_whole_command_arrives_in_the_message():
     command = Command(5, 6, waypoint=Waypoint(1, 2.0, 3.0, 0.5, 2), max_speed_mps=0.7, key_height_m=1.2,
                       press=Press(4, (1, 2), 0.5, 0.25), map_car_id=9, check_car_id=2)
-    message = desired_message(Desired(5, command, 3, 7, True, ""), STAMP, 0.5)
+    message = desired_message(Desired(5, command, 3, 7, True, NO_PROBLEM), STAMP, 0.5)
     waypoint, press = message.waypoint, message.press
     assert (message.session_id, message.command_id, message.link_alive, message.stop) == (5, 6, True, False)
     assert (waypoint.id, waypoint.frame_id, waypoint.x, waypoint.y) == (1, "car", 2.0, 3.0)
@@ -26,12 +28,13 @@ def test_whole_command_arrives_in_the_message():
 
 
 def test_what_the_command_leaves_open_becomes_the_default():
-    message = desired_message(Desired(0, Command(), 0, 0, False, "No application."), STAMP, 0.5)
+    message = desired_message(Desired(0, Command(), 0, 0, False, NOBODY), STAMP, 0.5)
     assert (message.waypoint.id, message.press.id, message.map_car_id, message.max_speed_mps) == (0, 0, 0, 0.5)
     assert math.isnan(message.key_height_m) and message.stop
 
 
 def test_lock_carries_the_reason():
-    message = lock_message(Desired(0, Command(), 0, 0, False, "No application."), STAMP)
+    message = lock_message(Desired(0, Command(), 0, 0, False, NOBODY), STAMP)
     assert (message.owner, message.engaged, message.reason) == ("dispatcher", True, "No application.")
-    assert not lock_message(Desired(1, Command(), 0, 0, True, ""), STAMP).engaged
+    assert [problem.code for problem in message.problems] == [NOBODY.code]
+    assert not lock_message(Desired(1, Command(), 0, 0, True, NO_PROBLEM), STAMP).engaged

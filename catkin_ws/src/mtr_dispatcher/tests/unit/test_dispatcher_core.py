@@ -11,10 +11,13 @@ from mtr_dispatcher.inputs import Inputs
 from mtr_dispatcher.parameters import Parameters
 from mtr_dispatcher.session import Verdict
 from mtr_dispatcher.status_builder import Identity
-from mtr_msgs.msg import CarCheck, CarEstimate, LocalizedPose, PeripheralsState, PressReport, RobotMode
+from mtr_msgs.msg import CarCheck, CarEstimate, LocalizedPose, PeripheralsState, PressReport, Problem, RobotMode
 from mtr_proto import robot_link_pb2 as link
 
 NOW_S = 100.0
+TOO_NEAR = Problem(code="motion_planner.too_near", text="Too near.")
+JAMMED = Problem(code="peripherals.jammed", text="jammed")
+MOVED = Problem(code="car_locator.moved", names=["shift_cm"], values=["15"], text="Moved.")
 
 
 @pytest.fixture
@@ -154,14 +157,17 @@ def test_stale_messages_tell_nothing(core):
 def test_confirmations_speak_of_the_session_in_control_only(core):
     core.receive(command_bytes(number=3, map_car_id=8), NOW_S)
     order = core.desired(NOW_S).map_order
-    presses = [PressReport(session_id=4, id=1), PressReport(session_id=5, id=2, start=genpy.Time(99), error="jammed")]
+    presses = [PressReport(session_id=4, id=1), PressReport(session_id=5, id=2, start=genpy.Time(99), error="jammed",
+                                                                problems=[JAMMED])]
     mode = RobotMode(mode=RobotMode.FOLLOWING_WAYPOINT, session_id=5, waypoint_id=6, waypoint_result=3,
-                     message="Too near.", map_car_id=order)
+                     message="Too near.", problems=[TOO_NEAR], map_car_id=order)
     message = status(core, mode=mode, peripherals=PeripheralsState(alive=True, presses=presses, battery=math.nan))
     assert (message.session_id, message.command_id, message.map_car_id) == (5, 3, 8)
     assert (message.waypoint_id, message.waypoint_result) == (6, link.WAYPOINT_RESULT_REFUSED)
     assert message.waypoint_message == "Too near."
+    assert [problem.code for problem in message.waypoint_problems] == ["motion_planner.too_near"]
     assert [(press.id, press.start_s, press.error) for press in message.presses] == [(2, 99.0, "jammed")]
+    assert message.presses[0].problems[0].code == "peripherals.jammed"
     assert not message.state.HasField("battery_level")
 
 
@@ -181,9 +187,11 @@ def test_check_is_told_to_the_session_that_ordered_it(core):
     core.receive(command_bytes(check_car_id=9), NOW_S)
     order = core.desired(NOW_S).check_order
     check = CarCheck(id=order, state=CarCheck.FAILED, difference_m=0.03, difference_rad=0.002, limit_m=0.02,
-                     limit_rad=0.01, message="Moved.")
+                     limit_rad=0.01, message="Moved.", problems=[MOVED])
     told = status(core, check=check).car_check
     assert (told.id, told.state, told.message) == (9, link.CHECK_STATE_FAILED, "Moved.")
+    assert [(problem.code, problem.names, problem.values) for problem in told.problems] == [
+        ("car_locator.moved", ["shift_cm"], ["15"])]
     assert (told.difference_m, told.limit_m) == (pytest.approx(0.03), pytest.approx(0.02))
     check.difference_m = math.nan
     assert not status(core, check=check).car_check.HasField("difference_m")
@@ -200,11 +208,22 @@ def test_another_sessions_waypoint_is_not_confirmed(core):
 
 
 def test_fault_and_low_battery_are_notifications(core):
-    message = status(core, mode=RobotMode(mode=RobotMode.FAULT, message="The motion planner is silent."),
+    silent = Problem(code="state_machine.silent", text="The motion planner is silent.")
+    message = status(core, mode=RobotMode(mode=RobotMode.FAULT, message=silent.text, problems=[silent]),
                      peripherals=PeripheralsState(alive=True, battery=0.1))
     texts = {notice.code: notice.text for notice in message.notifications}
     assert texts["fault"] == "The motion planner is silent." and "10 %" in texts["low_battery"]
     assert message.state.battery_level == 10
+    codes_of = {notice.code: [problem.code for problem in notice.problems] for notice in message.notifications}
+    assert codes_of["fault"] == ["state_machine.silent"] and codes_of["low_battery"] == ["dispatcher.low_battery"]
+
+
+def test_cause_of_a_refusal_follows_it(core):
+    core.receive(command_bytes(waypoint=link.Waypoint(id=3, x=200.0, y=0.0, heading=0.0)), NOW_S)
+    notice = next(notice for notice in status(core).notifications if notice.code == "command_refused")
+    assert [problem.code for problem in notice.problems] == ["dispatcher.command_refused", "dispatcher.waypoint_x"]
+    assert notice.problems[1].text == "Waypoint 3: x is 200 m; allowed is -100 to 100 m."
+    assert notice.text == notice.problems[0].text == f"Command refused: {notice.problems[1].text}"
 
 
 def test_log_entry_goes_out_in_ten_status_messages(core):

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import pytest
 
+from mtr_core.problems import NO_PROBLEM
 from mtr_dispatcher.command import Command, Press, Waypoint
 from mtr_dispatcher.parameters import Parameters
 from mtr_dispatcher.session import Session, Verdict, is_same
@@ -34,7 +35,7 @@ def test_without_application_the_robot_stops(session):
 def test_first_command_takes_control(session):
     assert take(session, command(waypoint=Waypoint(1, 2.0, 3.0, 0.5))) is Verdict.TAKEN
     desired = session.desired(100.0)
-    assert (desired.session_id, desired.link_alive, desired.stop_reason) == (1, True, "")
+    assert (desired.session_id, desired.link_alive, desired.stop_reason) == (1, True, NO_PROBLEM)
     assert desired.command.waypoint == Waypoint(1, 2.0, 3.0, 0.5)
 
 
@@ -46,11 +47,11 @@ def test_repetition_keeps_the_link_alive(session):
 
 def test_silence_beyond_the_limit_stops_and_the_same_command_resumes(session):
     take(session, command())
-    assert session.desired(101.0).stop_reason == ""
+    assert session.desired(101.0).stop_reason == NO_PROBLEM
     lost = session.desired(101.01)
-    assert not lost.link_alive and "silent" in lost.stop_reason and lost.session_id == 1
+    assert not lost.link_alive and "silent" in lost.stop_reason.text and lost.session_id == 1
     assert take(session, command(seen_s=105.0), 105.0) is Verdict.REPEATED
-    assert session.desired(105.0).stop_reason == ""
+    assert session.desired(105.0).stop_reason == NO_PROBLEM
 
 
 @pytest.mark.parametrize("seen_s", [98.9, 101.1, math.nan, -math.inf])
@@ -135,11 +136,11 @@ REFUSED = {
 def test_unacceptable_content_stops_the_robot_until_a_good_command(session, content):
     take(session, command(1, 1))
     assert take(session, command(1, 2, **content)) is Verdict.REFUSED
-    assert "refused" in session.desired(100.0).stop_reason and session.desired(100.0).link_alive
+    assert "refused" in session.desired(100.0).stop_reason.text and session.desired(100.0).link_alive
     assert take(session, command(1, 2, **content)) is Verdict.REFUSED
     assert take(session, command(1, 1)) is Verdict.OUTDATED
     assert take(session, command(1, 3)) is Verdict.TAKEN
-    assert session.desired(100.0).stop_reason == ""
+    assert session.desired(100.0).stop_reason == NO_PROBLEM
 
 
 def test_mapping_orders_of_two_sessions_differ(session):

@@ -77,7 +77,7 @@ def velocity_message(output: Output, header: Header) -> VelocityCommand:
 
 def status_message(output: Output, header: Header) -> MotionStatus:
     """Status for the state machine."""
-    return MotionStatus(header, output.goal_id, int(output.result), output.remaining_m, output.message)
+    return MotionStatus(header, output.goal_id, int(output.result), output.remaining_m, output.message, [])
 
 
 def path_message(planned: PlannedPath, stamp: Any) -> Path:

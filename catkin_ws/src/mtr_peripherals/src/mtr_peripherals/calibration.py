@@ -4,8 +4,11 @@ import math
 from dataclasses import dataclass
 from typing import Iterable, Tuple
 
-from mtr_core.errors import RobotError, check_range
+from mtr_core.errors import check_range
 from mtr_core.parameters import ParameterSet, number
+from mtr_core.problems import ProblemError
+
+from . import problems
 
 MAX_SERVOS = 2
 MAX_BUTTON = 255
@@ -13,7 +16,7 @@ MAX_BUTTON = 255
 HEIGHT_ROUNDING_M = 1e-3
 
 
-class OrderRefused(RobotError):
+class OrderRefused(ProblemError):
     """The lift or a servo cannot do what is asked."""
 
 
@@ -61,7 +64,7 @@ class Calibration(ParameterSet):
             return math.nan
         low, high = self.key_height_at_lower_stop_m, self.highest_key_m
         if not low - HEIGHT_ROUNDING_M <= key_height_m <= high + HEIGHT_ROUNDING_M:
-            raise OrderRefused(f"Key height {key_height_m:g} m was refused; allowed is {low:g} to {high:g} m.")
+            raise OrderRefused(problems.KEY_HEIGHT(value=key_height_m, low=low, high=high))
         return min(max(key_height_m - low, 0.0), self.lift_stroke_m)
 
     def servos(self, buttons: Iterable[int]) -> int:
@@ -70,17 +73,16 @@ class Calibration(ParameterSet):
         for button in buttons:
             if button not in self.button_of_servo:
                 known = ", ".join(map(str, self.button_of_servo))
-                raise OrderRefused(f"Button {button} was refused; this key's mount has servos for {known}.")
+                raise OrderRefused(problems.UNKNOWN_BUTTON(button=button, known=known))
             bits |= 1 << self.button_of_servo.index(button)
         if not bits:
-            raise OrderRefused("A press without a button was refused.")
+            raise OrderRefused(problems.NO_BUTTON())
         return bits
 
     def strength(self, strength: float) -> float:
         """The strength when it is allowed. Raises OrderRefused."""
         if not self.minimum_strength <= strength <= self.maximum_strength:
-            raise OrderRefused(f"Strength {strength:g} was refused; allowed is {self.minimum_strength:g} "
-                               f"to {self.maximum_strength:g}.")
+            raise OrderRefused(problems.STRENGTH(value=strength, low=self.minimum_strength, high=self.maximum_strength))
         return strength
 
     def hold_ms(self, duration_s: float) -> int:
@@ -88,6 +90,5 @@ class Calibration(ParameterSet):
         if duration_s == 0.0:
             duration_s = self.default_hold_s
         if not 0.0 < duration_s <= self.maximum_hold_s:
-            raise OrderRefused(f"Duration {duration_s:g} s was refused; "
-                               f"allowed is above 0 to {self.maximum_hold_s:g} s.")
+            raise OrderRefused(problems.DURATION(value=duration_s, high=self.maximum_hold_s))
         return max(1, round(1000.0 * duration_s))

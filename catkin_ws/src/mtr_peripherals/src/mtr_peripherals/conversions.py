@@ -8,6 +8,7 @@ from sensor_msgs.msg import JointState
 
 from mtr_core.crc import seal
 from mtr_core.lockstep import clock
+from mtr_core.problems import messages_of
 from mtr_msgs.msg import (
     DesiredState,
     FirmwareCommand,
@@ -16,6 +17,7 @@ from mtr_msgs.msg import (
     FirmwareState,
     PeripheralsState,
     PressReport,
+    Problem,
     RobotMode,
 )
 
@@ -72,7 +74,7 @@ def state_message(outcome: Outcome, battery: float, stamp: rospy.Time) -> Periph
     message = PeripheralsState(
         alive=outcome.alive, key_height_m=outcome.key_height_m, pressed_buttons=list(outcome.pressed_buttons),
         presses=[_press_report(result) for result in outcome.results], battery=battery, led=outcome.led_shown,
-        message=outcome.message)
+        message=outcome.message.text, problems=messages_of(outcome.message, Problem))
     message.header.stamp = stamp
     return message
 
@@ -91,4 +93,4 @@ def battery_charge(percentage: Optional[float]) -> float:
 
 def _press_report(result: PressResult) -> PressReport:
     return PressReport(result.session_id, result.id, clock.stamp_of(result.start_ns), clock.stamp_of(result.end_ns),
-                       result.error)
+                       result.error.text, messages_of(result.error, Problem))

@@ -4,8 +4,10 @@ import math
 from dataclasses import dataclass
 from typing import List, Optional, Tuple
 
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.states import State
 
+from . import problems
 from .calibration import OrderRefused
 from .firmware import FAULTS, FirmwareOrder, FirmwareReport, Led
 from .parameters import Parameters
@@ -50,7 +52,7 @@ class Outcome:
     pressed_buttons: Tuple[int, ...]
     results: List[PressResult]
     led_shown: str
-    message: str
+    message: Problem
 
 
 class Peripherals:
@@ -66,8 +68,7 @@ class Peripherals:
         lift_height_m, refusal = self._lift(orders, report)
         # A press that has begun ends by itself; a new one needs a live link.
         press = self._presses.step(orders.press if orders.link_alive else PressOrder(), report, now_ns)
-        fault = FAULTS.get(report.fault, f"The firmware reports fault {report.fault}.") if (
-            report and report.fault and not silence) else ""
+        fault = _fault(report) if report and not silence else NO_PROBLEM
         return Outcome(
             lift_height_m, self._led(orders, bool(silence or fault)), press, not silence,
             lift_now_m=report.lift_height_m if report else 0.0,
@@ -75,34 +76,34 @@ class Peripherals:
             pressed_buttons=self._presses.pressed_buttons, results=list(self._presses.results),
             led_shown=_led_name(report), message=silence or fault or refusal)
 
-    def _silence(self, report: Optional[FirmwareReport], now_ns: int) -> str:
+    def _silence(self, report: Optional[FirmwareReport], now_ns: int) -> Problem:
         if report is None:
-            return "The firmware of lift and buttons has not reported yet."
+            return problems.FIRMWARE_NOT_REPORTED()
         age_s = (now_ns - report.stamp_ns) * NS
         if age_s > self._parameters.firmware_silent_after_s:
-            return f"The firmware of lift and buttons has been silent for {age_s:.1f} s; check cable and power."
-        return ""
+            return problems.FIRMWARE_SILENT(age_s=age_s)
+        return NO_PROBLEM
 
-    def _lift(self, orders: Orders, report: Optional[FirmwareReport]) -> Tuple[float, str]:
+    def _lift(self, orders: Orders, report: Optional[FirmwareReport]) -> Tuple[float, Problem]:
         if report is not None and (orders.calibrates or report.is_calibrating):
             return self._while_calibrating(orders, report)
         if orders.manual_lift_mps and report is not None:
             ahead_m = report.lift_height_m + MANUAL_LEAD_S * orders.manual_lift_mps
-            return min(max(ahead_m, 0.0), self._calibration.lift_stroke_m), ""
+            return min(max(ahead_m, 0.0), self._calibration.lift_stroke_m), NO_PROBLEM
         if not orders.link_alive:
-            return math.nan, ""
+            return math.nan, NO_PROBLEM
         try:
-            return self._calibration.lift_height_m(orders.key_height_m), ""
+            return self._calibration.lift_height_m(orders.key_height_m), NO_PROBLEM
         except OrderRefused as refused:
-            return math.nan, str(refused)
+            return math.nan, refused.problem
 
-    def _while_calibrating(self, orders: Orders, report: FirmwareReport) -> Tuple[float, str]:
+    def _while_calibrating(self, orders: Orders, report: FirmwareReport) -> Tuple[float, Problem]:
         """Any height lets the firmware go on, NaN ends its calibration: the lift moves by itself then."""
         if orders.session_id or orders.manual_lift_mps:
-            return math.nan, "The lift is not calibrated while an application or the manual controller is in control."
+            return math.nan, problems.CALIBRATION_REFUSED()
         if not orders.calibrates:
-            return math.nan, "The calibration of the lift was ended: calibrate_lift is silent."
-        return min(max(report.lift_height_m, 0.0), self._calibration.lift_stroke_m), ""
+            return math.nan, problems.CALIBRATION_ENDED()
+        return min(max(report.lift_height_m, 0.0), self._calibration.lift_stroke_m), NO_PROBLEM
 
     def _led(self, orders: Orders, failed: bool) -> Led:
         choices = (
@@ -116,6 +117,13 @@ class Peripherals:
             (Led.MOVING, orders.mode == State.FOLLOWING_WAYPOINT and orders.has_goal),
         )
         return next((led for led, holds in choices if holds), Led.READY)
+
+
+def _fault(report: FirmwareReport) -> Problem:
+    if not report.fault:
+        return NO_PROBLEM
+    known = FAULTS.get(report.fault)
+    return known() if known else problems.OTHER_FAULT(fault=report.fault)
 
 
 def _led_name(report: Optional[FirmwareReport]) -> str:

@@ -3,6 +3,8 @@
 import enum
 from dataclasses import dataclass
 
+from . import problems
+
 
 class PressState(enum.Enum):
     """What the firmware says of a press; the values are those of FirmwareState."""
@@ -29,12 +31,8 @@ class Led(enum.Enum):
     WARNING = 9
 
 
-FAULTS = {
-    1: "The lift is jammed.",
-    2: "The position sensor of the lift is broken.",
-    3: "The firmware hears no commands.",
-}
-
+# Of FirmwareState.fault.
+FAULTS = {1: problems.LIFT_JAMMED, 2: problems.LIFT_SENSOR_BROKEN, 3: problems.NO_COMMANDS}
 
 # Of FirmwareState.lift_state.
 CALIBRATING = 2

@@ -153,7 +153,7 @@ class PeripheralsNode:
 
     def _log(self, outcome: Outcome) -> None:
         newest = outcome.results[-1] if outcome.results else None
-        now = (outcome.message.split(" for ")[0], newest)
+        now = (outcome.message.text.split(" for ")[0], newest)
         if newest and self._logged and newest != self._logged[1]:
             rospy.loginfo("Press %d: %s", newest.id, newest.error or "done.")
         if outcome.message and (not self._logged or now[0] != self._logged[0]):

@@ -4,6 +4,9 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Deque, Optional, Tuple
 
+from mtr_core.problems import NO_PROBLEM, Problem
+
+from . import problems
 from .calibration import Calibration, OrderRefused
 from .firmware import FirmwareOrder, FirmwareReport, PressState
 
@@ -27,13 +30,13 @@ class PressOrder:
 
 @dataclass(frozen=True)
 class PressResult:
-    """One press as it went; error is empty when it was carried out. Times on the robot's clock."""
+    """One press as it went; error is no problem when it was carried out. Times on the robot's clock."""
 
     session_id: int
     id: int
     start_ns: int
     end_ns: int
-    error: str = ""
+    error: Problem = NO_PROBLEM
 
 
 @dataclass
@@ -83,7 +86,7 @@ class Presses:
                                      self._calibration.strength(order.strength),
                                      self._calibration.hold_ms(order.duration_s))
         except OrderRefused as refused:
-            self._finish(order, now_ns, now_ns, str(refused))
+            self._finish(order, now_ns, now_ns, refused.problem)
             return
         self._running = _Running(order, firmware, now_ns + firmware.hold_ms * MILLISECOND_NS + PRESS_MARGIN_NS)
 
@@ -93,14 +96,15 @@ class Presses:
             if report.press_state is PressState.DONE:
                 self._finish(running.order, report.press_start_ns, report.press_end_ns)
             elif report.press_state is PressState.REFUSED:
-                self._finish(running.order, now_ns, now_ns, "The firmware refused the press.")
+                self._finish(running.order, now_ns, now_ns, problems.PRESS_REFUSED())
             elif report.press_state is PressState.CUT_SHORT:
-                self._finish(running.order, now_ns, now_ns, "The press was cut short; it may have pressed or not.")
+                self._finish(running.order, now_ns, now_ns, problems.PRESS_CUT_SHORT())
         elif running.seen:
-            self._finish(running.order, now_ns, now_ns, "The firmware started again during the press.")
+            self._finish(running.order, now_ns, now_ns, problems.PRESS_RESTARTED())
         if self._running and now_ns > running.deadline_ns:
-            self._finish(running.order, now_ns, now_ns, "The firmware did not report the press as done in time.")
+            self._finish(running.order, now_ns, now_ns, problems.PRESS_LATE())
 
-    def _finish(self, order: PressOrder, start_ns: int, end_ns: int, error: str = "") -> None:
+    def _finish(self, order: PressOrder, start_ns: int, end_ns: int,
+                error: Problem = NO_PROBLEM) -> None:
         self.results.append(PressResult(order.session_id, order.id, start_ns, end_ns, error))
         self._running = None

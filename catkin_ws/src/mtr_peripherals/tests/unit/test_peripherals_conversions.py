@@ -5,6 +5,7 @@ import math
 import rospy
 
 from mtr_core.crc import is_sound
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_msgs.msg import ButtonPress, DesiredState, FirmwareState, RobotMode, Waypoint
 from mtr_peripherals.conversions import (
     battery_charge,
@@ -21,9 +22,11 @@ from mtr_peripherals.firmware_clock import SharedClock
 from mtr_peripherals.presses import PressResult
 
 SECOND_NS = 1_000_000_000
+REFUSED = Problem("peripherals.refused", "A sentence.")
 STAMP = rospy.Time(5)
 OUTCOME = Outcome(0.5, Led.MOVING, FirmwareOrder(3, 2, 0.5, 250), True, 0.4, 0.75, (2,),
-                  [PressResult(7, 8, 4 * SECOND_NS, 4 * SECOND_NS + 1, "")], "moving", "A sentence.")
+                  [PressResult(7, 8, 4 * SECOND_NS, 4 * SECOND_NS + 1, NO_PROBLEM),
+                   PressResult(7, 9, 5 * SECOND_NS, 5 * SECOND_NS, REFUSED)], "moving", REFUSED)
 
 
 def test_leds_are_those_of_the_message():
@@ -59,7 +62,11 @@ def test_outcome_becomes_messages():
     state, joints = state_message(OUTCOME, 0.9, STAMP), joint_message(OUTCOME, STAMP)
     press = press_message(OUTCOME.press)
     assert (state.alive, state.key_height_m, state.pressed_buttons, state.battery) == (True, 0.75, [2], 0.9)
-    assert [(report.session_id, report.id, report.start) for report in state.presses] == [(7, 8, rospy.Time(4))]
+    assert [(report.session_id, report.id, report.start) for report in state.presses] == [
+        (7, 8, rospy.Time(4)), (7, 9, rospy.Time(5))]
+    assert [(report.error, [problem.code for problem in report.problems]) for report in state.presses] == [
+        ("", []), (REFUSED.text, [REFUSED.code])]
+    assert [problem.code for problem in state.problems] == [REFUSED.code]
     assert (state.led, state.message, state.header.stamp) == ("moving", "A sentence.", STAMP)
     assert (press.id, press.servos, press.strength, press.hold_ms) == (3, 2, 0.5, 250)
     assert joints.name[0] == "lift" and joints.position[0] == 0.4 and len(joints.name) == len(joints.position) == 5

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import pytest
 
+from mtr_core.problems import NO_PROBLEM
 from mtr_peripherals.core import Orders, Peripherals
 from mtr_peripherals.firmware import FirmwareReport, Led, PressState
 from mtr_peripherals.parameters import Parameters
@@ -63,7 +64,7 @@ def test_press_is_carried_out_once_and_reported_with_its_times(core):
     firmware = FakeFirmware()
     outcome = run(core, PRESSING_LIVE, firmware, 20)
     assert [(order.servos, order.strength, order.hold_ms) for order in firmware.pressed] == [(2, 0.8, 250)]
-    assert [(result.session_id, result.id, result.error) for result in outcome.results] == [(3, 1, "")]
+    assert [(result.session_id, result.id, result.error) for result in outcome.results] == [(3, 1, NO_PROBLEM)]
     assert outcome.results[0].end_ns - outcome.results[0].start_ns == 250 * MS
 
 
@@ -111,21 +112,21 @@ def test_impossible_press_is_reported_with_the_reason_and_not_sent(core, press, 
     firmware = FakeFirmware()
     outcome = run(core, replace(LIVE, press=press), firmware, 5)
     assert not firmware.pressed and [result.id for result in outcome.results] == [1]
-    assert word in outcome.results[0].error
+    assert word in outcome.results[0].error.text
 
 
 def test_press_that_the_firmware_refuses_is_an_error(core):
     firmware = FakeFirmware()
     firmware.refuses = True
     outcome = run(core, PRESSING_LIVE, firmware, 5)
-    assert [result.error for result in outcome.results] == ["The firmware refused the press."]
+    assert [result.error.text for result in outcome.results] == ["The firmware refused the press."]
 
 
 def test_press_that_is_never_reported_is_an_error(core):
     firmware = FakeFirmware()
     firmware.deaf = 1000
     outcome = run(core, PRESSING_LIVE, firmware, 40)
-    assert len(outcome.results) == 1 and "in time" in outcome.results[0].error
+    assert len(outcome.results) == 1 and "in time" in outcome.results[0].error.text
 
 
 def test_firmware_that_starts_again_during_a_press_is_an_error_and_presses_no_second_time(core):
@@ -133,7 +134,7 @@ def test_firmware_that_starts_again_during_a_press_is_an_error_and_presses_no_se
     run(core, PRESSING_LIVE, firmware, 3)
     firmware.report = FirmwareReport(START)
     outcome = run(core, PRESSING_LIVE, firmware, 20, 3)
-    assert len(firmware.pressed) == 1 and "started again" in outcome.results[0].error
+    assert len(firmware.pressed) == 1 and "started again" in outcome.results[0].error.text
 
 
 @pytest.mark.parametrize("orders", [replace(PRESSING_LIVE, link_alive=False), replace(LIVE, press=PressOrder())])
@@ -153,7 +154,7 @@ def test_lift_follows_the_live_order_even_while_the_robot_is_stopped(core):
 
 def test_height_out_of_range_holds_the_lift_and_says_why(core):
     outcome = run(core, replace(LIVE, key_height_m=2.0), FakeFirmware(), 1)
-    assert math.isnan(outcome.lift_height_m) and "2 m" in outcome.message and outcome.alive
+    assert math.isnan(outcome.lift_height_m) and "2 m" in outcome.message.text and outcome.alive
 
 
 def test_reported_height_is_above_ground(core):
@@ -165,7 +166,7 @@ def test_silent_firmware_is_not_alive_and_says_so(core):
     report = FirmwareReport(START)
     assert core.step(LIVE, report, START + 1_000 * MS).alive
     outcome = core.step(LIVE, report, START + 1_001 * MS)
-    assert not outcome.alive and "silent for 1.0 s" in outcome.message and outcome.led is Led.ERROR
+    assert not outcome.alive and "silent for 1.0 s" in outcome.message.text and outcome.led is Led.ERROR
 
 
 def test_firmware_that_never_reported_is_not_alive(core):
@@ -174,7 +175,7 @@ def test_firmware_that_never_reported_is_not_alive(core):
 
 
 def test_fault_of_the_firmware_is_a_sentence(core):
-    assert core.step(LIVE, FirmwareReport(START, fault=1), START).message == "The lift is jammed."
+    assert core.step(LIVE, FirmwareReport(START, fault=1), START).message.text == "The lift is jammed."
 
 
 @pytest.mark.parametrize("orders, led", [
@@ -223,4 +224,4 @@ def test_calibration_goes_on_while_its_person_is_heard_and_nobody_else_is_in_con
 def test_calibration_is_ended_when_its_person_is_silent_or_another_is_in_control(core, orders, word):
     outcome = core.step(orders, CALIBRATING, START)
     assert math.isnan(outcome.lift_height_m)
-    assert word in outcome.message
+    assert word in outcome.message.text

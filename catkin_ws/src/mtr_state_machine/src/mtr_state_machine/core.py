@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 from typing import Hashable, Optional, Tuple
 
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.states import CarState, Check, Result, State
 
+from . import problems
 from .goals import NO_GOAL, Goals, WaypointResult
 from .observation import Observation, Part, Place
 from .parameters import Parameters
@@ -16,12 +18,11 @@ UNWELCOME = (Result.REFUSED, Result.BLOCKED)
 LOCKED_STATES = (State.STARTING, State.FAULT)
 # States that rest on the Car's frame.
 FRAME_STATES = (State.FOLLOWING_WAYPOINT, State.CHECKING_CAR)
-LOST_CAR = "The position of the Car is no longer known; order the robot to map the Car again."
 
 
 @dataclass(frozen=True)
 class Decision:
-    """What follows from an observation; lock_reason is empty when the robot may move."""
+    """What follows from an observation; lock_reason is no problem when the robot may move."""
 
     state: State
     goal: Place
@@ -31,8 +32,8 @@ class Decision:
     session_id: int
     waypoint_id: int
     waypoint_result: Result
-    message: str
-    lock_reason: str
+    message: Problem
+    lock_reason: Problem
     check_car_id: int = 0
 
 
@@ -69,30 +70,31 @@ class StateMachine:
         self._pursue(seen)
         return self._decision(seen, problem)
 
-    def _problem(self, seen: Observation) -> str:
+    def _problem(self, seen: Observation) -> Problem:
         for part in Part:
             found = seen.part_problem(part, self._parameters.silent_after_s)
             if found:
                 return found
         return self._car_problem(seen)
 
-    def _car_problem(self, seen: Observation) -> str:
+    def _car_problem(self, seen: Observation) -> Problem:
         state = self._before_fault if self.state is State.FAULT else self.state
         failed = seen.car.state is CarState.FAILED and seen.car.map_car_id == self._map_car_id
         if state is State.MAPPING_CAR and failed and not self._failure_is_old:
-            return seen.car.message or "The Car was not found."
-        return self._frame_problem(state, seen) if state in FRAME_STATES else ""
+            return seen.car.message or problems.CAR_NOT_FOUND()
+        return self._frame_problem(state, seen) if state in FRAME_STATES else NO_PROBLEM
 
-    def _frame_problem(self, state: State, seen: Observation) -> str:
+    def _frame_problem(self, state: State, seen: Observation) -> Problem:
         if seen.car.state is not CarState.LOCATED:
-            return seen.car.message if seen.car.state is CarState.FAILED and seen.car.message else LOST_CAR
+            failed = seen.car.state is CarState.FAILED
+            return seen.car.message if failed and seen.car.message else problems.CAR_LOST()
         if seen.map_revision != self._map_revision:
-            return f"Localization has another map than the one in which the Car was found. {LOST_CAR}"
+            return problems.OTHER_MAP(cause=problems.CAR_LOST())
         if state is State.CHECKING_CAR and self._check_is(Check.FAILED, seen):
-            return seen.check.message or "The Car does not stand where it was measured."
-        return ""
+            return seen.check.message or problems.CAR_ELSEWHERE()
+        return NO_PROBLEM
 
-    def _event(self, seen: Observation, problem: str) -> Optional[Event]:
+    def _event(self, seen: Observation, problem: Problem) -> Optional[Event]:
         if self.state is State.STARTING:
             return None if problem else Event.ALL_RUNNING
         may_order = not problem or self._car_problem(seen) == problem
@@ -143,7 +145,7 @@ class StateMachine:
     def _check_is(self, state: Check, seen: Observation) -> bool:
         return seen.check.id == self._check_car_id and seen.check.state is state
 
-    def _is_new_attempt(self, seen: Observation, problem: str) -> bool:
+    def _is_new_attempt(self, seen: Observation, problem: Problem) -> bool:
         """A waypoint that is not the one under which mapping failed tries again."""
         failed = self._before_fault is State.MAPPING_CAR and problem == self._car_problem(seen)
         new = seen.desired.waypoint.id and _waypoint_key(seen) != self._failed_waypoint
@@ -182,23 +184,23 @@ class StateMachine:
             return ("checking", self._check_car_id, place.id), place
         return None
 
-    def _decision(self, seen: Observation, problem: str) -> Decision:
+    def _decision(self, seen: Observation, problem: Problem) -> Decision:
         locked = self.state in LOCKED_STATES
         message = problem if locked else self._message(seen)
         return Decision(self.state, self._goals.goal, seen.desired.max_speed_mps, self.state is State.MAPPING_CAR,
                         self._map_car_id, self._waypoint.session_id, self._waypoint.waypoint_id,
-                        self._waypoint.result, message, message if locked else "", self._check_car_id)
+                        self._waypoint.result, message, message if locked else NO_PROBLEM, self._check_car_id)
 
-    def _message(self, seen: Observation) -> str:
+    def _message(self, seen: Observation) -> Problem:
         if self.state is State.READY_TO_MAP_CAR:
-            return "Waits for the first waypoint to map the Car."
+            return problems.WAITS_FOR_WAYPOINT()
         if self.state is State.FOLLOWING_WAYPOINT:
-            return self._waypoint.message if self._waypoint.result in UNWELCOME else ""
+            return self._waypoint.message if self._waypoint.result in UNWELCOME else NO_PROBLEM
         goal_id = self._goals.goal.id
         if goal_id and seen.motion.goal_id == goal_id and seen.motion.result in UNWELCOME:
             return seen.motion.message
         if self.state is State.CHECKING_CAR:
-            return seen.check.message if seen.check.id == self._check_car_id else "Looks at the Car again."
+            return seen.check.message if seen.check.id == self._check_car_id else problems.CHECKS_CAR()
         return seen.car.message
 
 

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from typing import Hashable, Optional
 
+from mtr_core.problems import NO_PROBLEM
 from mtr_core.states import Result
 
 from .observation import Motion, Place
@@ -47,18 +48,18 @@ class WaypointResult:
         self.session_id = 0
         self.waypoint_id = 0
         self.result = Result.IDLE
-        self.message = ""
+        self.message = NO_PROBLEM
 
     def expect(self, session_id: int, waypoint_id: int) -> None:
         """The Operator wants this waypoint now; 0 is none."""
         if (session_id, waypoint_id) != (self.session_id, self.waypoint_id):
-            self.session_id, self.waypoint_id, self.message = session_id, waypoint_id, ""
+            self.session_id, self.waypoint_id, self.message = session_id, waypoint_id, NO_PROBLEM
             self.result = Result.PENDING if waypoint_id else Result.IDLE
 
     def reopen(self) -> None:
         """The robot has left the waypoint for something else; it is to be reached again."""
         if self.waypoint_id:
-            self.result, self.message = Result.PENDING, ""
+            self.result, self.message = Result.PENDING, NO_PROBLEM
 
     def update(self, goal: Place, motion: Motion) -> None:
         """Take the planner's report on the goal that stands for the waypoint."""
@@ -67,4 +68,4 @@ class WaypointResult:
         if goal.id and motion.goal_id == goal.id and motion.result is not Result.IDLE:
             self.result, self.message = motion.result, motion.message
         else:
-            self.result, self.message = Result.PENDING, ""
+            self.result, self.message = Result.PENDING, NO_PROBLEM

@@ -58,7 +58,7 @@ class StateMachineNode:
         self._log(decision)
 
     def _log(self, decision: Decision) -> None:
-        reason = decision.lock_reason
+        reason = decision.lock_reason.text
         now = (decision.state, reason.split(" for ")[0], decision.goal.id)
         if now[:2] != self._logged[:2]:
             log = rospy.logwarn if decision.state is State.FAULT else rospy.loginfo

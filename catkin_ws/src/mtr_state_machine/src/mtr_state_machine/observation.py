@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from dataclasses import dataclass, field
-from typing import Dict, Optional
+from typing import Dict
 
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.states import CarState, Check, Result
+
+from . import problems
 
 
 class Part(enum.Enum):
@@ -49,7 +52,7 @@ class CheckReport:
 
     id: int = 0
     state: Check = Check.NONE
-    message: str = ""
+    message: Problem = NO_PROBLEM
 
 
 @dataclass(frozen=True)
@@ -59,7 +62,7 @@ class Car:
     state: CarState = CarState.UNKNOWN
     next_waypoint: Place = Place(frame_id="map")
     map_car_id: int = 0
-    message: str = ""
+    message: Problem = NO_PROBLEM
 
 
 @dataclass(frozen=True)
@@ -68,7 +71,7 @@ class Motion:
 
     goal_id: int = 0
     result: Result = Result.IDLE
-    message: str = ""
+    message: Problem = NO_PROBLEM
 
 
 @dataclass(frozen=True)
@@ -78,7 +81,7 @@ class Observation:
     Attributes:
         map_revision: map that the robot's pose is in.
         age_s: age of each part's newest message; a part that is missing has not reported yet.
-        complaint: sentence of a part that reports but is not well, e.g. a localization that is lost.
+        complaint: of a part that reports but is not well, e.g. a localization that is lost.
     """
 
     desired: Desired = Desired()
@@ -87,12 +90,12 @@ class Observation:
     map_revision: int = 0
     motion: Motion = Motion()
     age_s: Dict[Part, float] = field(default_factory=dict)
-    complaint: Dict[Part, str] = field(default_factory=dict)
+    complaint: Dict[Part, Problem] = field(default_factory=dict)
 
-    def part_problem(self, part: Part, silent_after_s: float) -> Optional[str]:
-        """Sentence when the part is silent or not well, None when it is well."""
+    def part_problem(self, part: Part, silent_after_s: float) -> Problem:
+        """What is wrong when the part is silent or not well."""
         if part not in self.age_s:
-            return f"The {part.value} has not reported yet."
+            return problems.PART_NOT_REPORTED(part=part.value)
         if self.age_s[part] > silent_after_s:
-            return f"The {part.value} has been silent for {self.age_s[part]:.1f} s."
-        return self.complaint.get(part) or None
+            return problems.PART_SILENT(part=part.value, age_s=self.age_s[part])
+        return self.complaint.get(part, NO_PROBLEM)

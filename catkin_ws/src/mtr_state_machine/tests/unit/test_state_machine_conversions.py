@@ -3,12 +3,15 @@
 import genpy
 import pytest
 
+from mtr_core.problems import Problem
 from mtr_core.states import CarState, Check, Result, State
 from mtr_msgs.msg import CarCheck, CarEstimate, DesiredState, LocalizedPose, MotionStatus, PeripheralsState, Waypoint
+from mtr_msgs.msg import Problem as ProblemMessage
 from mtr_state_machine.conversions import lock_message, mode_message, observation
 from mtr_state_machine.core import Decision
 from mtr_state_machine.observation import Part, Place
 
+LOST = Problem("state_machine.lost", "Lost.")
 TICK_NS = 10_020_000_000
 
 
@@ -25,14 +28,14 @@ def test_messages_become_an_observation():
         Part.MOTION_PLANNER: stamped(MotionStatus(goal_id=8, result=4, message="Blocked.")),
         Part.LOCALIZATION: stamped(LocalizedPose(valid=True, map_revision=3)),
         Part.PERIPHERALS: None}, CarCheck(id=6, state=CarCheck.FAILED, message="Moved."), TICK_NS)
-    assert (seen.check.id, seen.check.state, seen.check.message) == (6, Check.FAILED, "Moved.")
+    assert (seen.check.id, seen.check.state, seen.check.message.text) == (6, Check.FAILED, "Moved.")
     assert (seen.map_revision, seen.desired.check_car_id) == (3, 6)
     assert (seen.desired.session_id, seen.desired.link_alive, seen.desired.stop) == (3, True, False)
     assert seen.desired.waypoint == Place(4, "car", 1, 2, 3, 1) and seen.desired.map_car_id == 7
     assert seen.car.state is CarState.COLLECTING and seen.car.next_waypoint.frame_id == "map"
     assert (seen.motion.goal_id, seen.motion.result) == (8, Result.BLOCKED)
     assert seen.age_s[Part.DISPATCHER] == pytest.approx(0.02) and Part.PERIPHERALS not in seen.age_s
-    assert seen.part_problem(Part.LOCALIZATION, 0.5) is None
+    assert not seen.part_problem(Part.LOCALIZATION, 0.5)
 
 
 def test_without_a_message_nothing_is_wanted():
@@ -41,17 +44,25 @@ def test_without_a_message_nothing_is_wanted():
 
 
 def test_lost_localization_and_silent_firmware_are_complaints():
-    seen = observation({Part.LOCALIZATION: stamped(LocalizedPose(message="No IMU.")),
-                        Part.PERIPHERALS: stamped(PeripheralsState())}, None, TICK_NS)
-    assert seen.part_problem(Part.LOCALIZATION, 0.5) == "Localization is lost. No IMU."
-    assert "firmware" in seen.part_problem(Part.PERIPHERALS, 0.5)
+    lost = LocalizedPose(message="No IMU.", problems=[ProblemMessage(code="localization.no_imu", text="No IMU.")])
+    seen = observation({Part.LOCALIZATION: stamped(lost), Part.PERIPHERALS: stamped(PeripheralsState())}, None, TICK_NS)
+    problem = seen.part_problem(Part.LOCALIZATION, 0.5)
+    assert problem.text == "Localization is lost. No IMU."
+    assert problem.cause == Problem("localization.no_imu", "No IMU.")
+    assert "firmware" in seen.part_problem(Part.PERIPHERALS, 0.5).text
+
+
+def test_localization_that_says_nothing_is_lost_without_a_cause():
+    seen = observation({Part.LOCALIZATION: stamped(LocalizedPose())}, None, TICK_NS)
+    assert seen.part_problem(Part.LOCALIZATION, 0.5).text == "Localization is lost."
 
 
 def test_decision_becomes_mode_and_lock():
     decision = Decision(State.FAULT, Place(3, "map", 1.0, 2.0, 0.5, 1), 0.7, False, 4, 5, 6, Result.REFUSED,
-                        "Lost.", "Lost.", 8)
+                        LOST, LOST, 8)
     mode, lock = mode_message(decision, genpy.Time(9)), lock_message(decision, genpy.Time(9))
     assert (mode.mode, mode.goal.id, mode.goal.frame_id, mode.goal.direction) == (mode.FAULT, 3, "map", 1)
     assert (mode.max_speed_mps, mode.mapping, mode.map_car_id, mode.session_id) == (0.7, False, 4, 5)
     assert (mode.waypoint_id, mode.waypoint_result, mode.message, mode.check_car_id) == (6, 3, "Lost.", 8)
     assert (lock.owner, lock.engaged, lock.reason) == ("state_machine", True, "Lost.")
+    assert [problem.code for problem in (*mode.problems, *lock.problems)] == [LOST.code, LOST.code]

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.states import CarState, Check, Result, State
 from mtr_state_machine.core import StateMachine
 from mtr_state_machine.observation import Car, CheckReport, Desired, Motion, Observation, Part, Place
@@ -18,8 +19,9 @@ LOCATED = Car(CarState.LOCATED)
 CHECK_PLACE = Place(5, "map", 6.0, 1.0, 2.0)
 LOOKING = replace(LOCATED, next_waypoint=CHECK_PLACE)
 ORDERS_CHECK = replace(WANTS, check_car_id=4)
-PASSED = CheckReport(4, Check.PASSED, "Passed.")
-NOT_PASSED = CheckReport(4, Check.FAILED, "The Car stands 3.0 cm off.")
+PASSED = CheckReport(4, Check.PASSED, Problem(text="Passed."))
+NOT_PASSED = CheckReport(4, Check.FAILED, Problem("car_locator.elsewhere", "The Car stands 3.0 cm off."))
+LOST = {Part.LOCALIZATION: Problem(text="Localization is lost.")}
 
 
 def seen(**changes):
@@ -52,7 +54,7 @@ def checking(following):
     return following
 
 
-def reported(decision, result, message=""):
+def reported(decision, result, message=NO_PROBLEM):
     return Motion(decision.goal.id, result, message)
 
 
@@ -60,7 +62,7 @@ def reported(decision, result, message=""):
 def test_starting_waits_for_each_part(machine, part):
     decision = machine.step(seen(age_s={other: 0.1 for other in Part if other is not part}))
     assert decision.state is State.STARTING and decision.goal.id == 0
-    assert part.value in decision.message and decision.lock_reason == decision.message
+    assert part.value in decision.message.text and decision.lock_reason == decision.message
 
 
 def test_ready_waits_for_a_waypoint(machine):
@@ -109,9 +111,9 @@ def test_located_car_leads_to_the_waypoint(mapping):
 @pytest.mark.parametrize("result", [Result.PENDING, Result.REFUSED, Result.BLOCKED])
 def test_result_follows_the_planner(following, result):
     decision = following.step(seen(car=LOCATED))
-    decision = following.step(seen(car=LOCATED, motion=reported(decision, result, "Why.")))
+    decision = following.step(seen(car=LOCATED, motion=reported(decision, result, Problem(text="Why."))))
     assert decision.waypoint_result is result
-    assert decision.message == ("" if result is Result.PENDING else "Why.")
+    assert decision.message == (NO_PROBLEM if result is Result.PENDING else Problem(text="Why."))
     decision = following.step(seen(car=LOCATED, motion=reported(decision, Result.PENDING)))
     assert decision.waypoint_result is Result.PENDING
 
@@ -167,9 +169,9 @@ def test_mapping_order_maps_without_a_waypoint(machine):
 
 
 def test_failed_mapping_is_a_fault_until_the_next_order(mapping):
-    failed = Car(CarState.FAILED, message="No Car was found.")
+    failed = Car(CarState.FAILED, message=Problem(text="No Car was found."))
     decision = mapping.step(seen(car=failed))
-    assert (decision.state, decision.message, decision.goal.id) == (State.FAULT, "No Car was found.", 0)
+    assert (decision.state, decision.message, decision.goal.id) == (State.FAULT, Problem(text="No Car was found."), 0)
     assert mapping.step(seen(car=failed)).state is State.FAULT
     decision = mapping.step(seen(car=failed, desired=replace(WANTS, map_car_id=2)))
     assert decision.state is State.MAPPING_CAR and not decision.lock_reason
@@ -177,7 +179,7 @@ def test_failed_mapping_is_a_fault_until_the_next_order(mapping):
 
 @pytest.mark.parametrize("change", [{"session_id": 10}, {"waypoint": replace(WAYPOINT, id=8)}])
 def test_new_waypoint_tries_a_failed_mapping_again(mapping, change):
-    failed, again = Car(CarState.FAILED, message="No Car was found."), replace(WANTS, **change)
+    failed, again = Car(CarState.FAILED, message=Problem(text="No Car was found.")), replace(WANTS, **change)
     assert mapping.step(seen(car=failed)).state is State.FAULT
     assert mapping.step(seen(car=failed, desired=replace(again, stop=True))).state is State.FAULT
     assert mapping.step(seen(car=failed, desired=again)).state is State.MAPPING_CAR
@@ -196,23 +198,23 @@ def test_failed_part_is_a_fault_with_its_sentence_and_ends_where_it_began(machin
     machine.step(seen(desired=desired, car=Car() if before is State.READY_TO_MAP_CAR else COLLECTING))
     well = seen(desired=desired, car=car)
     assert machine.step(well).state is before
-    silent, unwell = {**ALL_WELL, part: 0.51}, {part: f"The {part.value} is unwell."}
+    silent, unwell = {**ALL_WELL, part: 0.51}, {part: Problem(text=f"The {part.value} is unwell.")}
     ill = replace(well, age_s=silent) if trouble == "silent" else replace(well, complaint=unwell)
     decision = machine.step(ill)
     assert decision.state is State.FAULT and decision.goal.id == 0 and not decision.mapping
-    assert part.value in decision.message and decision.lock_reason == decision.message
+    assert part.value in decision.message.text and decision.lock_reason == decision.message
     assert machine.step(ill).state is State.FAULT
     assert machine.step(well).state is before
 
 
 def test_lost_car_is_a_fault(following):
     decision = following.step(seen(car=Car()))
-    assert decision.state is State.FAULT and "map the Car again" in decision.message
+    assert decision.state is State.FAULT and "map the Car again" in decision.message.text
 
 
 def test_mapping_order_does_not_end_a_fault_of_a_part(following):
     order = replace(WANTS, map_car_id=4)
-    ill = seen(car=LOCATED, desired=order, complaint={Part.LOCALIZATION: "Localization is lost."})
+    ill = seen(car=LOCATED, desired=order, complaint=LOST)
     assert following.step(ill).state is State.FAULT
     assert following.step(ill).state is State.FAULT
     assert following.step(seen(car=LOCATED, desired=order)).state is State.MAPPING_CAR
@@ -240,7 +242,7 @@ def test_check_can_be_stopped_and_resumed(checking):
 
 
 def test_passed_check_leads_back_to_the_waypoint(checking):
-    running = CheckReport(4, Check.RUNNING, "Looks.")
+    running = CheckReport(4, Check.RUNNING, Problem(text="Looks."))
     assert checking.step(seen(car=LOOKING, desired=ORDERS_CHECK, check=running)).state is State.CHECKING_CAR
     decision = checking.step(seen(car=LOCATED, desired=ORDERS_CHECK, check=PASSED))
     assert decision.state is State.FOLLOWING_WAYPOINT and decision.goal.frame_id == "car"
@@ -256,7 +258,7 @@ def test_answer_to_an_earlier_check_counts_for_nothing(checking):
 def test_failed_check_is_a_fault_that_only_another_check_or_map_ends(checking):
     ill = seen(car=LOCATED, desired=ORDERS_CHECK, check=NOT_PASSED)
     decision = checking.step(ill)
-    assert (decision.state, decision.lock_reason) == (State.FAULT, "The Car stands 3.0 cm off.")
+    assert (decision.state, decision.lock_reason) == (State.FAULT, NOT_PASSED.message)
     for change in ({"stop": True}, {"waypoint": replace(WAYPOINT, id=8)}, {"session_id": 10}, {"check_car_id": 0}):
         assert checking.step(replace(ill, desired=replace(ORDERS_CHECK, **change))).state is State.FAULT
     again = replace(ORDERS_CHECK, check_car_id=5)
@@ -292,17 +294,17 @@ def test_waypoint_that_a_check_led_away_from_is_to_be_reached_again(following):
 
 
 def test_localization_that_comes_back_in_its_map_goes_on(following):
-    lost = seen(car=LOCATED, complaint={Part.LOCALIZATION: "Localization is lost."})
+    lost = seen(car=LOCATED, complaint=LOST)
     assert following.step(lost).state is State.FAULT
     assert following.step(seen(car=LOCATED)).state is State.FOLLOWING_WAYPOINT
 
 
 @pytest.mark.parametrize("desired", [WANTS, ORDERS_CHECK])
 def test_localization_in_another_map_asks_to_map_again(following, desired):
-    lost = seen(car=LOCATED, desired=desired, complaint={Part.LOCALIZATION: "Localization is lost."})
+    lost = seen(car=LOCATED, desired=desired, complaint=LOST)
     assert following.step(lost).state is State.FAULT
     decision = following.step(seen(car=LOCATED, desired=desired, map_revision=1))
-    assert decision.state is State.FAULT and "map the Car again" in decision.message
+    assert decision.state is State.FAULT and "map the Car again" in decision.message.text
     order = replace(desired, map_car_id=3)
     assert following.step(seen(car=LOCATED, desired=order, map_revision=1)).state is State.MAPPING_CAR
     located = seen(car=replace(LOCATED, map_car_id=3), desired=replace(order, check_car_id=0), map_revision=2)
@@ -311,5 +313,6 @@ def test_localization_in_another_map_asks_to_map_again(following, desired):
 
 
 def test_car_that_was_moved_stops_the_robot_with_the_locators_sentence(following):
-    decision = following.step(seen(car=Car(CarState.FAILED, message="The Car was moved, by 15 cm.")))
-    assert (decision.state, decision.lock_reason) == (State.FAULT, "The Car was moved, by 15 cm.")
+    moved = Problem("car_locator.moved", "The Car was moved, by 15 cm.", (("shift_cm", "15"),))
+    decision = following.step(seen(car=Car(CarState.FAILED, message=moved)))
+    assert (decision.state, decision.lock_reason) == (State.FAULT, moved)

@@ -306,22 +306,22 @@
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="124"/>
+        <location filename="../windows/main_window.py" line="125"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="139"/>
+        <location filename="../windows/main_window.py" line="140"/>
         <source>A test is running. Stop the robot and close? What is measured is kept; the next start offers to go on.</source>
         <translation>Test běží. Zastavit robot a zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="141"/>
+        <location filename="../windows/main_window.py" line="142"/>
         <source>Stop and close</source>
         <translation>Zastavit a zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="141"/>
+        <location filename="../windows/main_window.py" line="142"/>
         <source>Go on measuring</source>
         <translation>Měřit dál</translation>
     </message>
@@ -700,7 +700,7 @@
 <context>
     <name>Picture</name>
     <message>
-        <location filename="../pictures/car_layer.py" line="72"/>
+        <location filename="../pictures/layers/car_layer.py" line="72"/>
         <source>FRONT</source>
         <translation>PŘEDEK</translation>
     </message>
@@ -1496,246 +1496,6 @@
         <translation>Zpráva byla ignorována: {}</translation>
     </message>
     <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>No application controls the robot.</source>
-        <translation>Robot neovládá žádná aplikace.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The application has been silent for more than {} s.</source>
-        <translation>Aplikace mlčí déle než {} s.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Command refused: {}</source>
-        <translation>Příkaz odmítnut: {}</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Command {} was refused: {}</source>
-        <translation>Příkaz {} byl odmítnut: {}</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Application {} controls the robot; Commands of application {} are ignored.</source>
-        <translation>Robot ovládá aplikace {}; příkazy aplikace {} se ignorují.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Operator stopped the robot.</source>
-        <translation>Obsluha robot zastavila.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot&apos;s state machine is silent; the robot stands still.</source>
-        <translation>Stavový automat robotu mlčí; robot stojí.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The node of lift and buttons is silent.</source>
-        <translation>Uzel zdvihu a tlačítek mlčí.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The battery is at {} %.</source>
-        <translation>Baterie je na {} %.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot does not know its position.</source>
-        <translation>Robot nezná svou polohu.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Localization is lost. {}</source>
-        <translation>Lokalizace se ztratila. {}</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Localization is lost.</source>
-        <translation>Lokalizace se ztratila.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The position of the Car is no longer known; order the robot to map the Car again.</source>
-        <translation>Poloha auta už není známa; nechte robot auto znovu zmapovat.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Waits for the first waypoint to map the Car.</source>
-        <translation>Robot čeká na první cílový bod, aby zmapoval auto.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The {} has not reported yet.</source>
-        <translation>Část „{}“ se ještě nehlásila.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The {} has been silent for {} s.</source>
-        <translation>Část „{}“ mlčí {} s.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>There is nothing of a Car&apos;s size where the Car should stand; check the starting place.</source>
-        <translation>Kde má stát auto, není nic jeho velikosti; zkontrolujte výchozí místo.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Not enough of the Car was seen: one long side and one end are needed at least.</source>
-        <translation>Z auta bylo vidět málo: třeba je aspoň jedna dlouhá strana a jeden konec.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>What was found is {} m away from where the Car should stand; allowed is {} m.</source>
-        <translation>Nalezený objekt je {} m od místa, kde má auto stát; povoleno je {} m.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>What was found has a {} of {} m; expected is {} m, at most {} m off.</source>
-        <translation>Nalezený objekt: {} {} m; očekává se {} m s odchylkou nejvýše {} m.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car was found: {} m long, {} m wide.</source>
-        <translation>Auto nalezeno: délka {} m, šířka {} m.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car was not found. {} Put the robot at the starting place and map again.</source>
-        <translation>Auto nebylo nalezeno. {} Postavte robot na výchozí místo a mapujte znovu.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot goes round the Car: place {} of {}.</source>
-        <translation>Robot objíždí auto: místo {} z {}.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot looks at the Car from where it stands.</source>
-        <translation>Robot si prohlíží auto z místa, kde stojí.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot stands before it touches the Car.</source>
-        <translation>Robot zastavil, než by se dotkl auta.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot is told to drive and does not move.</source>
-        <translation>Robot má jet, ale nehýbe se.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot stands so close to the Car that it cannot drive straight out; move it by hand.</source>
-        <translation>Robot stojí tak blízko auta, že nemůže rovně odjet; přesuňte jej ručně.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>At the goal the robot would leave {} m to the Car; at least {} m must be left.</source>
-        <translation>V cíli by robotu k autu zbývalo {} m; zbýt musí aspoň {} m.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot stands too close to the Car to plan; move it away by hand.</source>
-        <translation>Robot stojí pro plánování příliš blízko auta; odsuňte jej ručně.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>No straight piece leads to the goal past the Car without getting too close to it.</source>
-        <translation>K cíli nevede rovný úsek, který by neprocházel příliš blízko auta.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>After {} corrections the robot stands {} m and {} deg off its goal.</source>
-        <translation>Robot po {} opravách stojí {} m a {} stupňů mimo cíl.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Key height {} m was refused; allowed is {} to {} m.</source>
-        <translation>Výška klíče {} m byla odmítnuta; povoleno je {} až {} m.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>A press without a button was refused.</source>
-        <translation>Stisk bez tlačítka byl odmítnut.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Strength {} was refused; allowed is {} to {}.</source>
-        <translation>Síla {} byla odmítnuta; povoleno je {} až {}.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Duration {} s was refused; allowed is above 0 to {} s.</source>
-        <translation>Délka {} s byla odmítnuta; povoleno je více než 0 až {} s.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Button {} was refused; this key&apos;s mount has servos for {}.</source>
-        <translation>Tlačítko {} bylo odmítnuto; držák klíče má serva pro {}.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The firmware of lift and buttons has not reported yet.</source>
-        <translation>Firmware zdvihu a tlačítek se ještě nehlásil.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The firmware of lift and buttons is silent.</source>
-        <translation>Firmware zdvihu a tlačítek mlčí.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The firmware of lift and buttons has been silent for {} s; check cable and power.</source>
-        <translation>Firmware zdvihu a tlačítek mlčí {} s; zkontrolujte kabel a napájení.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The firmware reports fault {}.</source>
-        <translation>Firmware hlásí poruchu {}.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The lift is jammed.</source>
-        <translation>Zdvih se zasekl.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The position sensor of the lift is broken.</source>
-        <translation>Snímač polohy zdvihu je vadný.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The firmware hears no commands.</source>
-        <translation>Firmware neslyší příkazy.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The firmware did not report the press as done in time.</source>
-        <translation>Firmware včas neohlásil vykonání stisku.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The firmware started again during the press.</source>
-        <translation>Firmware se během stisku spustil znovu.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The firmware refused the press.</source>
-        <translation>Firmware stisk odmítl.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The waypoint ({} m, {} m) is too close to the Car.</source>
-        <translation>Cílový bod ({} m, {} m) je příliš blízko auta.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The waypoint is not a number.</source>
-        <translation>Cílový bod není číslo.</translation>
-    </message>
-    <message>
         <location filename="../texts/application.py" line="5"/>
         <source>wait for the robot</source>
         <translation>čekám na robot</translation>
@@ -1784,321 +1544,6 @@
         <location filename="../texts/application.py" line="5"/>
         <source>The Car&apos;s bus is not connected.</source>
         <translation>Sběrnice auta není připojena.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Localization has another map than the one in which the Car was found. {}</source>
-        <translation>Lokalizace má jinou mapu než tu, v níž bylo auto nalezeno. {}</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Localization has another map than the one in which the Car was found.</source>
-        <translation>Lokalizace má jinou mapu než tu, v níž bylo auto nalezeno.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car does not stand where it was measured.</source>
-        <translation>Auto nestojí tam, kde bylo změřeno.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Looks at the Car again.</source>
-        <translation>Robot si auto prohlíží znovu.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>There is nothing of a Car&apos;s size where the Car should stand.</source>
-        <translation>Kde má stát auto, není nic jeho velikosti.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Not enough of a Car was seen: one long side and one end are needed at least, or all four wheels.</source>
-        <translation>Z auta bylo vidět málo: třeba je aspoň jedna dlouhá strana a jeden konec, nebo všechna čtyři kola.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>What stands there looks too little like a Car: {} % of a Car&apos;s outline was seen; its likeness is {}, needed is {}.</source>
-        <translation>Nalezený objekt se autu málo podobá: vidět bylo {} % obrysu auta; podobnost je {}, třeba je {}.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Only wheels of the Car were seen, and they do not stand as a car&apos;s do.</source>
-        <translation>Vidět byla jen kola a nestojí tak, jak u auta stojí.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>What was found is {} m and {} deg away from where the Car should stand; allowed is {} m and {} deg.</source>
-        <translation>Nalezený objekt je {} m a {} stupňů od místa, kde má auto stát; povoleno je {} m a {} stupňů.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Two things of a Car&apos;s size stand there, {} m apart, and which of them is the Car cannot be told.</source>
-        <translation>Stojí tam dva objekty velikosti auta, {} m od sebe, a nelze říci, který z nich je auto.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car&apos;s long sides were seen too little to tell its heading.</source>
-        <translation>Dlouhé strany auta byly vidět příliš málo na určení jeho směru.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car was found: {} m long (1 sigma {} cm), {} m wide (1 sigma {} cm).</source>
-        <translation>Auto nalezeno: délka {} m (1 sigma {} cm), šířka {} m (1 sigma {} cm).</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car was found by its wheels, {} m long (1 sigma {} cm), {} m wide (1 sigma {} cm); the LiDARs look under its bumpers. Known length and front overhang make it more exact.</source>
-        <translation>Auto nalezeno podle kol: délka {} m (1 sigma {} cm), šířka {} m (1 sigma {} cm); lidary hledí pod jeho nárazníky. Se známou délkou a předním převisem je to přesnější.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car&apos;s frame was corrected by {} cm and {} deg, as it is seen now; it has revision {}.</source>
-        <translation>Soustava auta byla opravena o {} cm a {} stupňů podle toho, jak je vidět nyní; má revizi {}.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car is no longer seen where it was measured.</source>
-        <translation>Auto už není vidět tam, kde bylo změřeno.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car was moved, by {} cm and {} deg.</source>
-        <translation>Auto bylo posunuto o {} cm a {} stupňů.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car&apos;s position is lost. {} Put the robot at the starting place and map again.</source>
-        <translation>Poloha auta se ztratila. {} Postavte robot na výchozí místo a mapujte znovu.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot&apos;s pose is not known yet.</source>
-        <translation>Poloha robotu ještě není známa.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car stands {} cm and {} deg from where it was measured (1 sigma {} cm, {} deg).</source>
-        <translation>Auto stojí {} cm a {} stupňů od místa, kde bylo změřeno (1 sigma {} cm, {} stupňů).</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car stands {} cm and {} deg from where it was measured (1 sigma {} cm, {} deg); allowed is {} cm and {} deg. Close its doors and check again, or map it again.</source>
-        <translation>Auto stojí {} cm a {} stupňů od místa, kde bylo změřeno (1 sigma {} cm, {} stupňů); povoleno je {} cm a {} stupňů. Zavřete jeho dveře a ověřte znovu, nebo je znovu zmapujte.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car stands {} cm from where it was measured.</source>
-        <translation>Auto stojí {} cm od místa, kde bylo změřeno.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car stands {} cm from where it was measured; allowed is {} cm. Map it again.</source>
-        <translation>Auto stojí {} cm od místa, kde bylo změřeno; povoleno je {} cm. Zmapujte je znovu.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot goes to look at the Car again.</source>
-        <translation>Robot jede auto znovu prohlédnout.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car could be looked at from {} of {} places only; clear the way round it, or map it again.</source>
-        <translation>Auto šlo prohlédnout jen z {} z {} míst; uvolněte cestu kolem něj, nebo je znovu zmapujte.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot makes a map of what it has seen.</source>
-        <translation>Robot vytváří mapu z toho, co viděl.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Localization has not made its map within {} s.</source>
-        <translation>Lokalizace do {} s nevytvořila mapu.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Localization could not make a map of what was seen.</source>
-        <translation>Lokalizace nedokázala z viděného vytvořit mapu.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>No way to the goal was found that keeps the robot away from the Car.</source>
-        <translation>Nenašla se cesta k cíli v dostatečném odstupu od auta.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>No way to the goal was found that keeps the robot away from the Car and inside the test area.</source>
-        <translation>Nenašla se cesta k cíli v dostatečném odstupu od auta a uvnitř zkušební plochy.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>At the goal the robot would not be inside the test area.</source>
-        <translation>V cíli by robot nebyl uvnitř zkušební plochy.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot stands outside the test area; move it back by hand.</source>
-        <translation>Robot stojí mimo zkušební plochu; vraťte jej ručně.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot is {} by an obstacle {} m {}.</source>
-        <translation>Překážka: robot je {0}, vzdálenost {1} m ({2}).</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot is {} by an obstacle.</source>
-        <translation>Překážka: robot je {}.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The robot stands because a LiDAR that should see its way is silent.</source>
-        <translation>Robot stojí, protože lidar, který má vidět na cestu, mlčí.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The press was cut short; it may have pressed or not.</source>
-        <translation>Stisk byl přerušen; mohl, ale nemusel zabrat.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Stand still: measuring the gyro&apos;s bias.</source>
-        <translation>Stůjte: měří se posun gyroskopu.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Waiting for wheel odometry.</source>
-        <translation>Čeká se na odometrii kol.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Wheel odometry is silent, or its stamps are old.</source>
-        <translation>Odometrie kol mlčí, nebo má staré časy.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Wheel odometry is not a finite number.</source>
-        <translation>Odometrie kol není konečné číslo.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Wheel odometry was silent for {} s.</source>
-        <translation>Odometrie kol mlčela {0} s.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Wheel odometry jumped by {} m.</source>
-        <translation>Odometrie kol skočila o {0} m.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Waiting for the IMU.</source>
-        <translation>Čeká se na IMU.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The IMU is silent.</source>
-        <translation>IMU mlčí.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The IMU was silent for {} s.</source>
-        <translation>IMU mlčela {0} s.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The IMU&apos;s rate is not a number.</source>
-        <translation>Úhlová rychlost z IMU není číslo.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Position lost: {} Map the Car again.</source>
-        <translation>Poloha ztracena: {0} Zmapujte auto znovu.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Position lost: {} Searching near the last position.</source>
-        <translation>Poloha ztracena: {0} Hledá se blízko poslední polohy.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Position lost: the LiDAR does not see what the map shows here. Searching near the last position.</source>
-        <translation>Poloha ztracena: lidar nevidí, co zde ukazuje mapa. Hledá se blízko poslední polohy.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Position lost: the LiDAR does not see what it saw on the way. Unless it does again, map the Car again.</source>
-        <translation>Poloha ztracena: lidar nevidí, co viděl cestou. Neuvidí-li to znovu, zmapujte auto znovu.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Position lost: nothing of the map has been in view for too long. Searching near the last position.</source>
-        <translation>Poloha ztracena: příliš dlouho není vidět nic z mapy. Hledá se blízko poslední polohy.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Position lost: by satellites the robot is {} m from there. Searching near the last position.</source>
-        <translation>Poloha ztracena: podle družic je robot {0} m odtud. Hledá se blízko poslední polohy.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>There is no transform from {} to &apos;{}&apos;. The satellite receiver is not used.</source>
-        <translation>Chybí transformace z {0} do '{1}'. Družicový přijímač se nepoužívá.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Its fixes are none, or they do not say that they are within 5 m (1 sigma). The satellite receiver is not used.</source>
-        <translation>Družicové polohy chybějí, nebo neříkají, že jsou do 5 m (1 sigma). Družicový přijímač se nepoužívá.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The key-frames gave no map. {}</source>
-        <translation>Z měření nevznikla mapa. {0}</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The position was lost on the way round the Car, and the robot went on; map the Car again.</source>
-        <translation>Při objíždění auta se ztratila poloha a robot jel dál; zmapujte auto znovu.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Only {} key-frames were taken, {} are needed: drive round the Car.</source>
-        <translation>Je jen {0} klíčových snímků, potřeba je {1}: objeďte auto.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The way round the Car was not closed: it must end within {} m of where it passed before.</source>
-        <translation>Cesta kolem auta se neuzavřela: musí skončit do {0} m od místa, kudy už vedla.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>What the LiDARs saw from different places disagrees by {} times its uncertainty.</source>
-        <translation>Co lidary viděly z různých míst, se liší o {0}násobek nejistoty.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>Wheels and gyro disagree with the LiDARs by {} times their uncertainty.</source>
-        <translation>Kola a gyroskop se od lidarů liší o {0}násobek své nejistoty.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car is {} m {} at the LiDARs&apos; height, {} cm {} than its data sheet says; check which car stands there.</source>
-        <translation>Ve výšce lidarů měří auto {0} m ({1}), o {2} cm {3}, než říká jeho technický list; ověřte, které auto tam stojí.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The lift is not calibrated while an application or the manual controller is in control.</source>
-        <translation>Zdvih se nekalibruje, dokud řídí aplikace nebo ruční ovladač.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The calibration of the lift was ended: calibrate_lift is silent.</source>
-        <translation>Kalibrace zdvihu skončila: calibrate_lift mlčí.</translation>
-    </message>
-    <message>
-        <location filename="../texts/robot.py" line="5"/>
-        <source>The Car was found by its wheels, {} m long (1 sigma {} cm), {} m wide (1 sigma {} cm); the LiDARs look under its bumpers.</source>
-        <translation>Auto nalezeno podle kol: délka {} m (1 sigma {} cm), šířka {} m (1 sigma {} cm); lidary hledí pod jeho nárazníky.</translation>
     </message>
 </context>
 <context>
@@ -2383,17 +1828,17 @@
 <context>
     <name>StatusWord</name>
     <message>
-        <location filename="../header/status_word.py" line="40"/>
+        <location filename="../header/status_word.py" line="45"/>
         <source>Status: {word}</source>
         <translation>Stav: {word}</translation>
     </message>
     <message>
-        <location filename="../header/status_word.py" line="42"/>
+        <location filename="../header/status_word.py" line="47"/>
         <source>Everything is ready for a test.</source>
         <translation>Vše je připraveno k testu.</translation>
     </message>
     <message>
-        <location filename="../header/status_word.py" line="53"/>
+        <location filename="../header/status_word.py" line="58"/>
         <source>Nothing stands against it.</source>
         <translation>Nic tomu nebrání.</translation>
     </message>
@@ -2663,61 +2108,6 @@
         <location filename="../texts/words.py" line="5"/>
         <source>publisher</source>
         <translation>vydavatel</translation>
-    </message>
-    <message>
-        <location filename="../texts/words.py" line="5"/>
-        <source>blocked</source>
-        <translation>zablokován</translation>
-    </message>
-    <message>
-        <location filename="../texts/words.py" line="5"/>
-        <source>slowed</source>
-        <translation>zpomalen</translation>
-    </message>
-    <message>
-        <location filename="../texts/words.py" line="5"/>
-        <source>ahead</source>
-        <translation>vpředu</translation>
-    </message>
-    <message>
-        <location filename="../texts/words.py" line="5"/>
-        <source>behind</source>
-        <translation>vzadu</translation>
-    </message>
-    <message>
-        <location filename="../texts/words.py" line="5"/>
-        <source>to the left</source>
-        <translation>vlevo</translation>
-    </message>
-    <message>
-        <location filename="../texts/words.py" line="5"/>
-        <source>to the right</source>
-        <translation>vpravo</translation>
-    </message>
-    <message>
-        <location filename="../texts/words.py" line="5"/>
-        <source>away</source>
-        <translation>daleko</translation>
-    </message>
-    <message>
-        <location filename="../texts/words.py" line="5"/>
-        <source>long</source>
-        <translation>délka</translation>
-    </message>
-    <message>
-        <location filename="../texts/words.py" line="5"/>
-        <source>wide</source>
-        <translation>šířka</translation>
-    </message>
-    <message>
-        <location filename="../texts/words.py" line="5"/>
-        <source>more</source>
-        <translation>více</translation>
-    </message>
-    <message>
-        <location filename="../texts/words.py" line="5"/>
-        <source>less</source>
-        <translation>méně</translation>
     </message>
 </context>
 </TS>

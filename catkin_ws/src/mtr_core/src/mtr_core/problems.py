@@ -1,0 +1,117 @@
+"""What a node says to the Operator: a code, arguments, and the English sentence that they make.
+
+Each package declares its sentences in one table, its module `problems` (in C++ its header `problems.hpp`); whoever
+translates does it by code and never by text.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+from string import Formatter
+from typing import Callable, Iterator, List, Optional, Protocol, Sequence, Tuple, TypeVar, Union
+
+from .errors import RobotError, figure
+
+# Placeholder for the text of another problem, the cause.
+CAUSE = "cause"
+Value = Union[str, float]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One sentence for the Operator: what is wrong, or what a node waits for or does. False when there is none.
+
+    Attributes:
+        code: stable word "package.what"; empty for a text that comes without one.
+        text: the sentence in English.
+        arguments: name and value of each placeholder, as they stand in the text.
+        cause: the problem whose text stands for {cause}.
+    """
+
+    code: str = ""
+    text: str = ""
+    arguments: Tuple[Tuple[str, str], ...] = ()
+    cause: Optional["Problem"] = None
+
+    def __bool__(self) -> bool:
+        return bool(self.text)
+
+    def __str__(self) -> str:
+        return self.text
+
+    def chain(self) -> Iterator["Problem"]:
+        """This problem, its cause, the cause of that and so on; nothing when there is no problem."""
+        problem: Optional[Problem] = self
+        while problem:
+            yield problem
+            problem = problem.cause
+
+
+NO_PROBLEM = Problem()
+
+
+class Sentence:
+    """A row of a package's table: calling it with the values of its placeholders makes the problem.
+
+    Attributes:
+        code: stable word "package.what", a promise to whoever translates.
+        template: English sentence with named placeholders and their formats, as in str.format.
+    """
+
+    def __init__(self, code: str, template: str):
+        self.code, self.template = code, template
+
+    @property
+    def placeholders(self) -> Tuple[str, ...]:
+        """Names of the placeholders in the order of the template."""
+        return tuple(name for _, name, _, _ in Formatter().parse(self.template) if name)
+
+    def __call__(self, cause: Optional[Problem] = None, **values: Value) -> Problem:
+        """The problem with these values; KeyError when a placeholder has none."""
+        formats = {name: spec for _, name, spec, _ in Formatter().parse(self.template) if name and name != CAUSE}
+        arguments = tuple((name, _formatted(values[name], spec or "")) for name, spec in formats.items())
+        shown = dict(arguments, cause=cause.text if cause else "")
+        pieces = ((literal, shown[name] if name else "") for literal, name, _, _ in Formatter().parse(self.template))
+        return Problem(self.code, "".join(literal + value for literal, value in pieces), arguments, cause)
+
+
+class ProblemError(RobotError):
+    """An error that is told to the Operator.
+
+    Attributes:
+        problem: its sentence.
+    """
+
+    def __init__(self, problem: Problem):
+        super().__init__(problem.text)
+        self.problem = problem
+
+
+class ProblemFields(Protocol):
+    """What a message says of one problem, in mtr_msgs as in the link's proto."""
+
+    code: str
+    names: Sequence[str]
+    values: Sequence[str]
+    text: str
+
+
+Message = TypeVar("Message")
+
+
+def messages_of(problem: Problem, message_type: Callable[..., Message]) -> List[Message]:
+    """The problem and its causes, outermost first, as messages of this type."""
+    return [message_type(code=each.code, names=[name for name, _ in each.arguments],
+                         values=[value for _, value in each.arguments], text=each.text) for each in problem.chain()]
+
+
+def problem_of(messages: Sequence[ProblemFields], text: str) -> Problem:
+    """The problem in messages of `messages_of`; the text alone when its sender knows no codes."""
+    problem: Optional[Problem] = None
+    for message in reversed(messages):
+        problem = Problem(message.code, message.text, tuple(zip(message.names, message.values)), problem)
+    return problem or Problem(text=text)
+
+
+def _formatted(value: Value, spec: str) -> str:
+    if spec:
+        return format(value, spec)
+    return value if isinstance(value, str) else figure(value)

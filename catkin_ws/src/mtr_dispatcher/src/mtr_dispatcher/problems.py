@@ -1,0 +1,46 @@
+"""What the dispatcher says to the Operator."""
+# SPDX-License-Identifier: Apache-2.0
+from mtr_core.problems import Sentence
+
+# Why the robot stands
+NO_APPLICATION = Sentence("dispatcher.no_application", "No application controls the robot.")
+APPLICATION_SILENT = Sentence("dispatcher.application_silent",
+                              "The application has been silent for more than {limit_s} s.")
+STOPPED_BY_OPERATOR = Sentence("dispatcher.stopped_by_operator", "The Operator stopped the robot.")
+COMMAND_REFUSED = Sentence("dispatcher.command_refused", "Command refused: {cause}")
+
+# Messages that moved nothing
+OVERSIZED = Sentence("dispatcher.oversized", "A message of {size} bytes was ignored; allowed are {maximum}.")
+UNDECODABLE = Sentence("dispatcher.undecodable", "A message of {size} bytes that is no Command was ignored.")
+INCOMPLETE = Sentence("dispatcher.incomplete", "A Command without session or id was ignored.")
+EXPIRED = Sentence("dispatcher.expired", "Command {id} had expired when it arrived and was ignored.")
+REFUSED = Sentence("dispatcher.refused", "Command {id} was refused: {cause}")
+FOREIGN_APPLICATION = Sentence(
+    "dispatcher.foreign_application",
+    "Application {controlling} controls the robot; Commands of application {foreign} are ignored.")
+
+# What makes a Command unacceptable
+WAYPOINT_WITHOUT_ID = Sentence("dispatcher.waypoint_without_id", "Waypoint without an id; ids count from 1.")
+WAYPOINT_DIRECTION = Sentence("dispatcher.waypoint_direction",
+                              "Waypoint {id}: direction is {value}; allowed are 0, 1 and 2.")
+WAYPOINT_X = Sentence("dispatcher.waypoint_x", "Waypoint {id}: x is {value} m; allowed is {low} to {high} m.")
+WAYPOINT_Y = Sentence("dispatcher.waypoint_y", "Waypoint {id}: y is {value} m; allowed is {low} to {high} m.")
+WAYPOINT_HEADING = Sentence("dispatcher.waypoint_heading",
+                            "Waypoint {id}: heading is {value} rad; allowed is {low} to {high} rad.")
+MAXIMUM_SPEED = Sentence("dispatcher.maximum_speed",
+                         "Maximum speed is {value} m/s; allowed is {low} to {high} m/s.")
+KEY_HEIGHT = Sentence("dispatcher.key_height", "Key height is {value} m; allowed is {low} to {high} m.")
+PRESS_WITHOUT_ID = Sentence("dispatcher.press_without_id", "Button press without an id; ids count from 1.")
+PRESS_BUTTONS = Sentence("dispatcher.press_buttons",
+                         "Button press {id}: buttons are {buttons}; allowed are 1 to {maximum} numbers above 0.")
+PRESS_STRENGTH = Sentence("dispatcher.press_strength",
+                          "Button press {id}: strength is {value}; allowed is {low} to {high}.")
+PRESS_DURATION = Sentence("dispatcher.press_duration",
+                          "Button press {id}: duration is {value} s; allowed is {low} to {high} s.")
+
+# Nodes and battery
+STATE_MACHINE_SILENT = Sentence("dispatcher.state_machine_silent",
+                                "The robot's state machine is silent; the robot stands still.")
+PERIPHERALS_SILENT = Sentence("dispatcher.peripherals_silent", "The node of lift and buttons is silent.")
+POSITION_UNKNOWN = Sentence("dispatcher.position_unknown", "The robot does not know its position.")
+LOW_BATTERY = Sentence("dispatcher.low_battery", "The battery is at {percent:.0f} %.")

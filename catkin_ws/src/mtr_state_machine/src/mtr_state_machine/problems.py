@@ -1,0 +1,22 @@
+"""What the state machine says to the Operator."""
+# SPDX-License-Identifier: Apache-2.0
+from mtr_core.problems import Sentence
+
+# Parts of the robot
+PART_NOT_REPORTED = Sentence("state_machine.part_not_reported", "The {part} has not reported yet.")
+PART_SILENT = Sentence("state_machine.part_silent", "The {part} has been silent for {age_s:.1f} s.")
+LOCALIZATION_LOST = Sentence("state_machine.localization_lost", "Localization is lost.")
+LOCALIZATION_LOST_BECAUSE = Sentence("state_machine.localization_lost_because", "Localization is lost. {cause}")
+FIRMWARE_SILENT = Sentence("state_machine.firmware_silent", "The firmware of lift and buttons is silent.")
+
+# The Car
+CAR_NOT_FOUND = Sentence("state_machine.car_not_found", "The Car was not found.")
+CAR_LOST = Sentence("state_machine.car_lost",
+                    "The position of the Car is no longer known; order the robot to map the Car again.")
+OTHER_MAP = Sentence("state_machine.other_map",
+                     "Localization has another map than the one in which the Car was found. {cause}")
+CAR_ELSEWHERE = Sentence("state_machine.car_elsewhere", "The Car does not stand where it was measured.")
+
+# What it waits for or does
+WAITS_FOR_WAYPOINT = Sentence("state_machine.waits_for_waypoint", "Waits for the first waypoint to map the Car.")
+CHECKS_CAR = Sentence("state_machine.checks_car", "Looks at the Car again.")
