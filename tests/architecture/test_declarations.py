@@ -1,0 +1,208 @@
+"""What code imports, includes, launches or reads as a message is what its package.xml or pyproject.toml declares."""
+# SPDX-License-Identifier: Apache-2.0
+import ast
+import functools
+import importlib.util
+import pathlib
+import re
+import sysconfig
+from typing import Dict, Iterator, Set
+from xml.etree import ElementTree
+
+import pytest
+from project import TOP, imports, package_folders, package_name, tracked
+
+OWN = {package_name(folder) for folder in package_folders()}
+
+# Module -> rosdep key, where they differ; ROS names its Python packages after the key. None: no package of ROS's kind.
+KEYS = {
+    "can": "python3-can", "cantools": "python3-cantools-pip", "catkin_pkg": "catkin", "evdev": "python3-evdev",
+    "google": "python3-protobuf", "hypothesis": "python3-hypothesis",
+    "matplotlib": "python3-matplotlib", "mtr_drive_control_core": "mtr_drive_control",
+    "mujoco": "python3-mujoco-pip", "numpy": "python3-numpy", "pytest": "python3-pytest", "rospkg": "python3-rospkg",
+    # The laptop's application, which CI tests with the robot, and the firmware's emulator.
+    "mtr_operator": None, "PyQt5": None, "mtr_emulator": None,
+    "scipy": "python3-scipy", "serial": "python3-serial", "setuptools": "python3-setuptools",
+    "shapely": "python3-shapely", "tqdm": "python3-tqdm", "transitions": "python3-transitions",
+    "urdf_parser_py": "urdfdom_py", "yaml": "python3-yaml", "zmq": "python3-zmq",
+}
+# First folder or whole name of a header -> rosdep key, where they differ.
+HEADER_KEYS = {
+    "Eigen": "eigen", "gtest": "gtest", "nlohmann": "nlohmann-json-dev", "pybind11": "pybind11-dev", "ros": "roscpp",
+    "rosbag": "rosbag_storage", "urdf_model": "urdf", "urdf_parser": "urdf", "XmlRpcValue.h": "xmlrpcpp",
+}
+# Headers of C, C++ and POSIX have no folder of their own but these.
+SYSTEM_FOLDERS = {"sys", "bits", "netinet", "arpa", "linux"}
+
+# Parts of the Python that every machine has lie here.
+STANDARD_FOLDER = pathlib.Path(sysconfig.get_paths()["stdlib"])
+
+# Declared for another reason than a line of code.
+WITHOUT_CODE = {
+    "catkin": "builds every package",
+    "message_generation": "makes the messages", "message_runtime": "runs them",
+    "protobuf-dev": "protoc makes the module",
+    "gtest": "tests in C++ are linked with it",
+    "rostest": "runs the package's *.test files",
+    "python3-pytest": "runs the package's unit tests",
+    "python3-protobuf": "the generated module imports it",
+}
+
+
+def python_files(folder: pathlib.Path) -> Iterator[pathlib.Path]:
+    """Python files of a package, with suffix or not; what only builds it (setup.py) excluded."""
+    inside = tracked(f"{folder.relative_to(TOP)}/*.py", f"{folder.relative_to(TOP)}/scripts/*")
+    yield from (path for path in inside if path != folder / "setup.py" and is_python(path))
+
+
+def is_python(path: pathlib.Path) -> bool:
+    """By suffix, or by the first line of a program."""
+    if path.suffix:
+        return path.suffix == ".py"
+    return path.read_text(encoding="utf-8").partition("\n")[0].endswith("python3")
+
+
+def is_test(path: pathlib.Path, folder: pathlib.Path) -> bool:
+    """Part of the package's tests; all of mtr_tests is."""
+    return folder.name == "tests" or "tests" in path.relative_to(folder).parts
+
+
+@functools.lru_cache(maxsize=None)
+def is_standard(module: str) -> bool:
+    """True for what every Python brings along, and for what lies within another module."""
+    if "." in module:
+        return True
+    found = importlib.util.find_spec(module) if module != "__main__" else None
+    origin = found.origin if found else None
+    return origin in ("built-in", "frozen") or (origin is not None and STANDARD_FOLDER in pathlib.Path(origin).parents)
+
+
+def python_keys(path: pathlib.Path, siblings: Set[str]) -> Set[str]:
+    """Keys that a Python file needs."""
+    modules = {name for name in imports(path) if not is_standard(name)} - siblings - optional(path)
+    return {key for key in (KEYS.get(name, name) for name in modules) if key}
+
+
+def optional(path: pathlib.Path) -> Set[str]:
+    """Modules that a Python file can do without: it catches their ImportError."""
+    tries = [node for node in nodes(path) if isinstance(node, ast.Try)
+             and any(isinstance(caught.type, ast.Name) and caught.type.id == "ImportError" for caught in node.handlers)]
+    return {(inner.module or "").split(".")[0] for node in tries for statement in node.body
+            for inner in ast.walk(statement) if isinstance(inner, ast.ImportFrom)}
+
+
+def nodes(path: pathlib.Path) -> Iterator[ast.AST]:
+    """The syntax tree of a Python file."""
+    return ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+
+
+def header_keys(path: pathlib.Path) -> Set[str]:
+    """Keys that a C++ file needs; a header in quotes that lies in the package itself is its own."""
+    keys = set()
+    for quote, name in re.findall(r'^#include ([<"])([^>"]+)[>"]', path.read_text(encoding="utf-8"), re.MULTILINE):
+        first = name.split("/")[0]
+        own = quote == '"' and any((folder / name).is_file() for folder in surroundings(path))
+        if not own and (first in HEADER_KEYS or ("/" in name and first not in SYSTEM_FOLDERS)):
+            keys.add(HEADER_KEYS.get(first, first))
+    return keys
+
+
+def surroundings(path: pathlib.Path) -> Iterator[pathlib.Path]:
+    """Folders in which a header in quotes may lie: the file's, those above it in the package, and their src."""
+    for folder in path.relative_to(TOP).parents:
+        yield TOP / folder
+        yield TOP / folder / "src"
+        if (TOP / folder / "package.xml").is_file():
+            return
+
+
+def launch_keys(path: pathlib.Path) -> Set[str]:
+    """Packages that a launch file or rostest names."""
+    text = path.read_text(encoding="utf-8")
+    return set(re.findall(r'\bpkg="([a-z0-9_]+)"', text)) | set(re.findall(r"\$\(find ([a-z0-9_]+)\)", text))
+
+
+def message_keys(path: pathlib.Path) -> Set[str]:
+    """Packages whose messages a message contains."""
+    found = set(re.findall(r"^([a-z0-9_]+)/\w+", path.read_text(encoding="utf-8"), re.MULTILINE))
+    header = re.search(r"^Header ", path.read_text(encoding="utf-8"), re.MULTILINE)
+    return found | ({"std_msgs"} if header else set())
+
+
+def needed(folder: pathlib.Path) -> Dict[str, bool]:
+    """Keys that a package needs, each with: is it needed apart from tests?"""
+    found: Dict[str, bool] = {}
+    under = folder.relative_to(TOP)
+    python = list(python_files(folder))
+    siblings = {path.stem for path in python if is_test(path, folder)} | {"project"}
+    uses = [(path, python_keys(path, siblings)) for path in python]
+    uses += [(path, header_keys(path)) for path in tracked(f"{under}/*.cpp", f"{under}/*.hpp")
+             if "mrpt_icp_slam" not in path.parts]
+    uses += [(path, launch_keys(path)) for path in tracked(f"{under}/*.launch", f"{under}/*.test")]
+    uses += [(path, message_keys(path)) for path in tracked(f"{under}/*.msg", f"{under}/*.srv")]
+    for path, keys in uses:
+        for key in keys - {package_name(folder)}:
+            found[key] = found.get(key, False) or not is_test(path, folder)
+    return found
+
+
+def declared(folder: pathlib.Path) -> Dict[str, Set[str]]:
+    """Keys of a package.xml, each with its kinds of dependence."""
+    found: Dict[str, Set[str]] = {}
+    for element in ElementTree.parse(folder / "package.xml").getroot():
+        if element.tag.endswith("depend"):
+            found.setdefault(element.text or "", set()).add(element.tag)
+    return found
+
+
+def named(folder: pathlib.Path) -> Set[str]:
+    """Every string in the package's Python: a program or package may be asked for by its name."""
+    return {node.value for path in python_files(folder) for node in nodes(path)
+            if isinstance(node, ast.Constant) and isinstance(node.value, str)}
+
+
+@pytest.mark.parametrize("folder", package_folders(), ids=package_name)
+def test_a_package_declares_what_its_code_needs(folder):
+    present = declared(folder)
+    missing = {key for key, always in needed(folder).items()
+               if not present.get(key, set()) - ({"test_depend"} if always else set())}
+    assert sorted(missing) == []
+
+
+@pytest.mark.parametrize("folder", package_folders(), ids=package_name)
+def test_a_package_uses_what_it_declares(folder):
+    used = set(needed(folder)) | named(folder) | set(WITHOUT_CODE)
+    assert sorted(set(declared(folder)) - used) == []
+
+
+@pytest.mark.parametrize("folder", package_folders(), ids=package_name)
+def test_what_only_tests_need_is_declared_for_tests(folder):
+    only_tests = {key for key, always in needed(folder).items() if not always} - named(folder) - set(WITHOUT_CODE)
+    assert sorted(key for key in only_tests if declared(folder).get(key) == {"exec_depend"}) == []
+
+
+def noetic_keys() -> Set[str]:
+    """The keys that rosdep knows for Noetic."""
+    text = (TOP / "tests" / "architecture" / "noetic_keys.txt").read_text(encoding="utf-8")
+    return {line.split()[0] for line in text.splitlines() if line and not line.startswith("#")}
+
+
+@pytest.mark.parametrize("folder", package_folders(), ids=package_name)
+def test_rosdep_knows_every_key_for_noetic(folder):
+    assert sorted(set(declared(folder)) - OWN - noetic_keys()) == []
+
+
+def test_no_noetic_key_is_listed_in_vain():
+    assert sorted(noetic_keys() - {key for folder in package_folders() for key in declared(folder)}) == []
+
+
+# Module -> name of the distribution on the package index, where they differ.
+DISTRIBUTIONS = {"can": "python-can", "google": "protobuf", "serial": "pyserial", "yaml": "pyyaml", "zmq": "pyzmq"}
+
+
+def test_the_application_declares_exactly_what_it_imports():
+    modules = {name for path in tracked("operator_gui/src/*.py") for name in imports(path) if not is_standard(name)}
+    used = {DISTRIBUTIONS.get(name, name) for name in modules - {"mtr_operator"}}
+    text = (TOP / "operator_gui" / "pyproject.toml").read_text(encoding="utf-8")
+    block = re.search(r"^dependencies = \[(.*?)^\]", text, re.MULTILINE | re.DOTALL)
+    assert block and set(re.findall(r'"([\w-]+)', block.group(1))) == used
