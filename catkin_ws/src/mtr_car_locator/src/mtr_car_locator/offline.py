@@ -115,8 +115,8 @@ def _prior(folder: pathlib.Path, car: Optional[Pose2], parameters: LocatorParame
     return prior_from_start(Pose2(*frames[0, 1:]), parameters)
 
 
-def _table(path: pathlib.Path, columns: Sequence[str], most: float = math.inf) -> FloatArray:
-    """The wanted columns of a file with a header, up to the row whose first one is above most.
+def _table(path: pathlib.Path, columns: Sequence[str], maximum: float = math.inf) -> FloatArray:
+    """The wanted columns of a file with a header, up to the row whose first one is above the maximum.
 
     Lines that begin with # are skipped.
     """
@@ -124,7 +124,7 @@ def _table(path: pathlib.Path, columns: Sequence[str], most: float = math.inf) -
         with path.open(newline="", encoding="utf-8") as lines:
             rows = csv.DictReader(line for line in lines if not line.startswith("#"))
             numbers = ([float(row[name]) for name in columns] for row in rows)
-            return np.array(list(takewhile(lambda row: row[0] <= most, numbers))).reshape(-1, len(columns))
+            return np.array(list(takewhile(lambda row: row[0] <= maximum, numbers))).reshape(-1, len(columns))
     except OSError as error:
         raise FilesUnusable(f"{path} cannot be read: {error.strerror}.") from None
     except (KeyError, TypeError, ValueError):

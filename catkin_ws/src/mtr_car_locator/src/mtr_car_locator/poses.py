@@ -12,7 +12,7 @@ from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2, wrap_angle
 
 # Localization gives a pose each 20 ms; over a longer gap nothing is interpolated.
-LONGEST_GAP_S = 0.1
+MAX_GAP_S = 0.1
 KEPT = 100
 # Below these a robot stands.
 STANDING_MPS, STANDING_RADPS = 0.01, 0.01
@@ -95,7 +95,7 @@ class PoseHistory:
             return None
         first = np.searchsorted(known, begin, side="right") - 1
         last = np.searchsorted(known, end, side="left")
-        if last > first and np.diff(known[first:last + 1]).max() > LONGEST_GAP_S:
+        if last > first and np.diff(known[first:last + 1]).max() > MAX_GAP_S:
             return None
         x, y, heading = (np.interp(times_s, known, rows[:, column]) for column in (1, 2, 3))
         return x, y, heading

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from mtr_car_locator.measure.close_up import MOST_SWEEPS, WayRound
+from mtr_car_locator.measure.close_up import MAX_SWEEPS, WayRound
 from mtr_car_locator.scan import Returns
 from mtr_core.se2 import Pose2
 
@@ -68,7 +68,7 @@ def test_sweeps_outside_of_the_key_frames_do_not_count():
 
 def test_robot_that_stands_adds_nothing_and_what_is_far_is_left_out():
     way = way_round(np.arange(0.0, 2.0, 0.04))
-    for _ in range(2 * MOST_SWEEPS):
+    for _ in range(2 * MAX_SWEEPS):
         way.add(sweep(1.96), LIDAR)
     assert len(way.close_up(key_frames(0.0, 1.9), 0.0).points) == 48
     far = WayRound(20.0, 1.0)

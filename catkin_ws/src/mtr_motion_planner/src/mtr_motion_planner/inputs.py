@@ -12,7 +12,7 @@ from mtr_core.states import Direction
 Point = Tuple[float, float]
 
 # Of the platform, by its data sheet.
-HIGHEST_SPEED_MPS = 2.0
+MAX_SPEED_MPS = 2.0
 
 
 @dataclass(frozen=True)
@@ -145,7 +145,7 @@ def _value_fault(order: Order, robot: RobotState, car: Car) -> str:
         return "The robot's pose is not a number."
     if not (car.pose.is_finite() and all(math.isfinite(c) for point in car.outline for c in point)):
         return "The Car's position is not a number."
-    if not 0.0 < order.max_speed_mps <= HIGHEST_SPEED_MPS:
+    if not 0.0 < order.max_speed_mps <= MAX_SPEED_MPS:
         return (f"The maximum speed is {order.max_speed_mps:g} m/s; it must be above 0 and at most "
-                f"{HIGHEST_SPEED_MPS:g} m/s.")
+                f"{MAX_SPEED_MPS:g} m/s.")
     return ""

@@ -12,7 +12,7 @@ AROUND = [(4.0, 0.0, 180.0), (4.0, -3.0, 140.0), (0.0, -4.0, 90.0), (-5.0, -2.0,
           (-1.0, 3.0, -90.0), (3.0, 3.0, -135.0), (1.5, -1.6, 90.0), (-3.1, 0.3, 0.0)]
 
 # What drive control lets pass: 1.0 m/s2 in 40 ms.
-LARGEST_STEP_MPS = 0.04 + 1e-6
+MAX_STEP_MPS = 0.04 + 1e-6
 
 
 def assert_stands_at_goal(robot):
@@ -30,7 +30,7 @@ def test_goal_on_any_side_is_reached_without_touching_the_car(start, goal):
     assert robot.run().result == Result.REACHED
     assert robot.least_clearance > 0.10
     assert_stands_at_goal(robot)
-    assert robot.largest_step() <= LARGEST_STEP_MPS or robot.ticks < 2
+    assert robot.largest_step() <= MAX_STEP_MPS or robot.ticks < 2
 
 
 @pytest.mark.parametrize("car_pose", [Pose2(7.0, -3.0, 2.0), Pose2(-2.0, 5.0, -0.7)])
@@ -75,7 +75,7 @@ def test_unlock_in_mid_approach_reverses_without_a_jump():
     assert robot.tick().goal_id == 2
     assert robot.run().result == Result.REACHED
     assert_stands_at_goal(robot)
-    assert robot.largest_step() <= LARGEST_STEP_MPS
+    assert robot.largest_step() <= MAX_STEP_MPS
     assert max(abs(pose.x) for pose in robot.poses) <= 0.02
 
 
@@ -96,7 +96,7 @@ def test_goal_replaced_on_a_route_is_reached_without_touching_the_car(after_s):
     robot.go(2, 3.5, -0.5, 170.0)
     assert robot.run().result == Result.REACHED
     assert robot.least_clearance > 0.10
-    assert robot.largest_step() <= LARGEST_STEP_MPS
+    assert robot.largest_step() <= MAX_STEP_MPS
     assert_stands_at_goal(robot)
 
 
@@ -155,7 +155,7 @@ def test_goal_id_zero_brakes_within_the_limit_and_becomes_idle():
     assert output.result == Result.IDLE
     assert not output.active
     assert output.linear_mps == 0.0
-    assert robot.largest_step() <= LARGEST_STEP_MPS
+    assert robot.largest_step() <= MAX_STEP_MPS
 
 
 def test_held_robot_is_reported_blocked_and_goes_on_when_released():

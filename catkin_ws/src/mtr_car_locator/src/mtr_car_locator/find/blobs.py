@@ -10,7 +10,7 @@ from scipy.cluster.hierarchy import fcluster, linkage
 from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
-from ..measure.wheels import LONGEST_WHEELBASE_M, SHORTEST_WHEELBASE_M, WHEELBASE_SHARE
+from ..measure.wheels import MAX_WHEELBASE_M, MIN_WHEELBASE_M, WHEELBASE_SHARE
 from ..parameters import LocatorParameters
 from ..rectangle import Rectangle
 from ..surfels import Surfels, in_frame
@@ -19,8 +19,8 @@ from .prior import Prior
 
 # Parts of a wheel are nearer to each other than this, and a wheel is larger than a leg and smaller than a sill.
 LINK_M = 0.3
-LEAST_M, MOST_M = 0.1, 0.95
-NARROWEST_TRACK_M, WIDEST_TRACK_M = 1.2, 1.9
+MIN_WHEEL_M, MAX_WHEEL_M = 0.1, 0.95
+MIN_TRACK_M, MAX_TRACK_M = 1.2, 1.9
 # The middle of what is seen of a wheel is so far from its middle.
 OFF_M = 0.4
 
@@ -42,7 +42,7 @@ def _blobs(surfels: Surfels) -> FloatArray:
     for label in np.unique(labels):
         mine = surfels.where(labels == label)
         span = np.ptp(mine.ends(), axis=0)
-        if LEAST_M <= math.hypot(*span) <= MOST_M:
+        if MIN_WHEEL_M <= math.hypot(*span) <= MAX_WHEEL_M:
             middles.append(0.5 * (mine.ends().min(axis=0) + mine.ends().max(axis=0)))
     return np.array(middles).reshape(-1, 2)
 
@@ -51,7 +51,7 @@ def _cars(blobs: FloatArray, parameters: LocatorParameters) -> Iterator[Rectangl
     """Rectangles, in the frame of the blobs, with two wheels on one side and a third beside one of them."""
     for rear, front in itertools.permutations(blobs, 2):
         wheelbase, heading = math.hypot(*(front - rear)), math.atan2(*(front - rear)[::-1])
-        if (not SHORTEST_WHEELBASE_M <= wheelbase <= LONGEST_WHEELBASE_M
+        if (not MIN_WHEELBASE_M <= wheelbase <= MAX_WHEELBASE_M
                 or abs(heading) > parameters.heading_tolerance_rad):
             continue
         frame = Pose2(rear[0], rear[1], heading)
@@ -63,5 +63,5 @@ def _cars(blobs: FloatArray, parameters: LocatorParameters) -> Iterator[Rectangl
 def _tracks(blobs: List[List[float]], wheelbase: float) -> Iterator[float]:
     """Sideways distances of blobs that stand beside one of the axles, to the left positive."""
     for along, across in blobs:
-        if min(abs(along), abs(along - wheelbase)) <= OFF_M and NARROWEST_TRACK_M <= abs(across) <= WIDEST_TRACK_M:
+        if min(abs(along), abs(along - wheelbase)) <= OFF_M and MIN_TRACK_M <= abs(across) <= MAX_TRACK_M:
             yield across

@@ -19,13 +19,13 @@ from .prior import Prior
 from .scoring import Score, score_of
 
 # Surface within this distance beyond the expected Car and the tolerance of its place may be its own.
-REACH_M = 0.8
+MARGIN_M = 0.8
 HEADING_BIN_RAD, HEADING_SIGMA_BINS = math.radians(0.5), 3.0
-MOST_HEADINGS, LEAST_OF_BEST_HEADING = 3, 0.4
+MAX_HEADINGS, MIN_SHARE_OF_BEST_HEADING = 3, 0.4
 LEVEL_BIN_M, LEVEL_SIGMA_BINS = 0.02, 1.5
 # Surface that makes a level: half a sill, or the middle of a bumper.
-LEAST_SURFACE_M = {"front": 0.25, "rear": 0.25, "left": 0.4, "right": 0.4}
-MOST_LEVELS = 5
+MIN_SURFACE_M = {"front": 0.25, "rear": 0.25, "left": 0.4, "right": 0.4}
+MAX_LEVELS = 5
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Candidate:
 def near(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> Surfels:
     """Those that may be the Car's."""
     car, swing_m = prior.car, prior.reach_m * parameters.heading_tolerance_rad
-    reach = 0.5 * math.hypot(car.length, car.width) + parameters.position_tolerance_m + swing_m + REACH_M
+    reach = 0.5 * math.hypot(car.length, car.width) + parameters.position_tolerance_m + swing_m + MARGIN_M
     return surfels.where(np.hypot(*(surfels.position - (car.pose.x, car.pose.y)).T) < reach)
 
 
@@ -71,7 +71,7 @@ def headings(surfels: Surfels, prior: Prior, tolerance_rad: float) -> List[float
     counts, edges = np.histogram(quarter, bins=edges, weights=surfels.length)
     density = smoothed(counts, HEADING_SIGMA_BINS)
     density[np.abs(0.5 * (edges[:-1] + edges[1:])) > tolerance_rad] = 0.0
-    best = peaks(density, LEAST_OF_BEST_HEADING * density.max())[:MOST_HEADINGS]
+    best = peaks(density, MIN_SHARE_OF_BEST_HEADING * density.max())[:MAX_HEADINGS]
     return [float(0.5 * (edges[index] + edges[index + 1])) for index in best]
 
 
@@ -84,8 +84,8 @@ def levels(side: Side) -> List[float]:
     counts, _ = np.histogram(side.outward, bins=count, range=(low, low + count * LEVEL_BIN_M))
     density = smoothed(counts * SAMPLE_M, LEVEL_SIGMA_BINS)
     # A single level of surface s makes a peak of this height.
-    height = LEAST_SURFACE_M[side.name] / (LEVEL_SIGMA_BINS * math.sqrt(2.0 * math.pi))
-    return [low + (index + 0.5) * LEVEL_BIN_M for index in peaks(density, height)[:MOST_LEVELS]]
+    height = MIN_SURFACE_M[side.name] / (LEVEL_SIGMA_BINS * math.sqrt(2.0 * math.pi))
+    return [low + (index + 0.5) * LEVEL_BIN_M for index in peaks(density, height)[:MAX_LEVELS]]
 
 
 def smoothed(values: FloatArray, sigma_bins: float) -> FloatArray:
@@ -95,10 +95,10 @@ def smoothed(values: FloatArray, sigma_bins: float) -> FloatArray:
     return np.convolve(values.astype(float), kernel / kernel.sum(), mode="same")
 
 
-def peaks(density: FloatArray, least: float) -> List[int]:
+def peaks(density: FloatArray, minimum: float) -> List[int]:
     """Indices of the local maxima above a height, highest first."""
     padded = np.concatenate(([-1.0], density, [-1.0]))
-    top = (density > padded[:-2]) & (density >= padded[2:]) & (density > 0.0) & (density >= least)
+    top = (density > padded[:-2]) & (density >= padded[2:]) & (density > 0.0) & (density >= minimum)
     return sorted(np.nonzero(top)[0].tolist(), key=lambda index: -density[index])
 
 

@@ -21,12 +21,12 @@ from .scoring import score_of
 
 # Fit of a whole Car, seen from all sides, is 0.7 and more, of one seen from one side and one end 0.35; a wall, a group
 # of persons or a neighbour's near side stays below 0.2 (tests/unit/test_locator_scenes.py).
-LEAST_QUALITY = 0.25
+MIN_QUALITY = 0.25
 # The faces of four tyres are 0.2 to 0.3 of a Car's outline; that they stand as a car's do has been checked before.
-LEAST_QUALITY_ON_WHEELS = 0.15
+MIN_QUALITY_ON_WHEELS = 0.15
 # Two candidates are two things when their centres are so far apart, and alike when their evidence is.
 TWO_THINGS_M, ALIKE = 0.8, 0.5
-LEAST_SURFACE_M = 1.0
+MIN_SURFACE_M = 1.0
 
 
 def fit_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters,
@@ -36,7 +36,7 @@ def fit_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters,
     Surfels tell what the Car is and where; close_up, all returns near it, tells its sides to millimetres.
     """
     seen = near(surfels, prior, parameters)
-    if seen.length.sum() < LEAST_SURFACE_M:
+    if seen.length.sum() < MIN_SURFACE_M:
         raise NotLocated("There is nothing of a Car's size where the Car should stand.")
     best = _chosen(candidates(seen, prior, parameters))
     found = Alignment(seen, close_up, parameters.profile, on_wheels=best.wheels is not None).aligned(best.car)
@@ -62,13 +62,13 @@ def _chosen(found: List[Candidate]) -> Candidate:
         raise NotLocated("Not enough of a Car was seen: one long side and one end are needed at least, or all four "
                          "wheels.")
     best = found[0]
-    least = LEAST_QUALITY_ON_WHEELS if best.wheels else LEAST_QUALITY
-    if best.score.quality < least:
+    minimum = MIN_QUALITY_ON_WHEELS if best.wheels else MIN_QUALITY
+    if best.score.quality < minimum:
         raise NotLocated(f"What stands there looks too little like a Car: {100.0 * best.score.cover:.0f} % of a Car's "
-                         f"outline was seen; its likeness is {best.score.quality:.2f}, needed is {least:g}.")
+                         f"outline was seen; its likeness is {best.score.quality:.2f}, needed is {minimum:g}.")
     for other in found[1:]:
         apart = other.car.pose.distance_to(best.car.pose)
-        if (apart > TWO_THINGS_M and other.score.quality >= least
+        if (apart > TWO_THINGS_M and other.score.quality >= minimum
                 and other.score.total >= ALIKE * best.score.total):
             raise NotLocated(f"Two things of a Car's size stand there, {apart:.1f} m apart, and which of them is the "
                              "Car cannot be told.")

@@ -7,7 +7,7 @@ import numpy as np
 
 from mtr_core.arrays import BoolArray
 
-from ..measure.belonging import BEYOND_M, LEAST_FACING, belongs, facing
+from ..measure.belonging import BEYOND_M, MIN_OUTWARD_COSINE, belongs, facing
 from ..measure.side import OUTWARDS
 from ..parameters import CarProfile
 from ..rectangle import Rectangle
@@ -44,7 +44,7 @@ def score_of(surfels: Surfels, car: Rectangle, prior: Prior, profile: CarProfile
     seen = surfels.in_frame(car.pose)
     outside = car.outside(seen.position)
     explained = belongs(seen, car)
-    beside = (outside > BEYOND_M) & (outside < BESIDE_M) & (facing(seen, car) > LEAST_FACING) & _along(seen, car)
+    beside = (outside > BEYOND_M) & (outside < BESIDE_M) & (facing(seen, car) > MIN_OUTWARD_COSINE) & _along(seen, car)
     contradicting = (outside < -DEEP_M) | beside
     good, bad = seen.length[explained].sum(), seen.length[contradicting].sum()
     if good <= 0.0:
@@ -64,7 +64,7 @@ def cover_of(explained: Surfels, car: Rectangle) -> float:
     for name, outwards in OUTWARDS.items():
         half = 0.5 * (car.width if name in ("front", "rear") else car.length)
         bins = max(round(2.0 * half / COVER_BIN_M), 1)
-        mine = explained.where(explained.normal @ np.array(outwards) > LEAST_FACING)
+        mine = explained.where(explained.normal @ np.array(outwards) > MIN_OUTWARD_COSINE)
         along = mine.samples()[0] @ np.abs(np.array(outwards[::-1]))
         counts, _ = np.histogram(along, bins=bins, range=(-half, half))
         covered, total = covered + np.count_nonzero(counts), total + bins

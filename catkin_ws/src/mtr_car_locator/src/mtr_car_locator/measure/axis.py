@@ -12,7 +12,7 @@ from .side import BIN_M, MAP_SHARE, Side
 
 # The ends of a side bend towards the bumpers; with one side alone they would turn the axis.
 ENDS_M = 0.6
-LEAST_BINS = 6
+MIN_BINS = 6
 # Spread of a car's surface about its symmetric shape; bins farther off count less and less.
 SHAPE_SIGMA_M = 0.005
 ROUNDS = 8
@@ -36,13 +36,13 @@ def axis_of(left: Side, right: Side, *, length: float) -> Optional[Axis]:
     """Middle between both sides where both were seen, else parallel to one; None when they tell nothing."""
     lefts, rights = left.bins(), right.bins()
     both = sorted(set(lefts) & set(rights))
-    if len(both) >= LEAST_BINS:
+    if len(both) >= MIN_BINS:
         middle = np.array([0.5 * (lefts[number] - rights[number]) for number in both])
         sigma = 0.5 * math.hypot(_sigma(left), _sigma(right))
         return _axis((np.array(both) + 0.5) * BIN_M, middle, sigma, is_centred=True)
     for side, bins, sign in ((left, lefts, 1.0), (right, rights, -1.0)):
         inner = [number for number in sorted(bins) if abs((number + 0.5) * BIN_M) < 0.5 * length - ENDS_M]
-        if len(inner) >= LEAST_BINS:
+        if len(inner) >= MIN_BINS:
             levels = sign * np.array([bins[number] for number in inner])
             return _axis((np.array(inner) + 0.5) * BIN_M, levels, _sigma(side), is_centred=False)
     return None

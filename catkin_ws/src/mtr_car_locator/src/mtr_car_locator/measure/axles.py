@@ -17,7 +17,7 @@ FACE_SIGMA_M = 0.04
 # The same when all returns tell it: 1 mm rms on level ground, 5 mm on slopes of 1 deg (recorded drives).
 EXACT_FACE_SIGMA_M = 0.004
 # So far from where the face puts it a tread is looked for, and so much of its width has to be seen.
-REACH_M, LEAST_TREAD_M = 0.12, 0.06
+TREAD_GATE_M, MIN_TREAD_M = 0.12, 0.06
 # Rounded shoulders and the smeared edge towards the face: treads of recorded drives lie up to 5 mm inside.
 TREAD_SIGMA_M = 0.005
 # Wheelbase of a data sheet against this Car: tolerance of the wheels' alignment, load.
@@ -81,8 +81,8 @@ def _treads(sides: Sequence[Side], outward_m: float) -> List[Tuple[float, float]
     """Level and 1 sigma of each tread near a distance outwards."""
     found = []
     for side in sides:
-        near = np.abs(side.outward - outward_m) <= REACH_M
-        if np.count_nonzero(near) * SAMPLE_M >= LEAST_TREAD_M:
+        near = np.abs(side.outward - outward_m) <= TREAD_GATE_M
+        if np.count_nonzero(near) * SAMPLE_M >= MIN_TREAD_M:
             sigma = math.hypot(float(np.median(side.sigma[near])), TREAD_SIGMA_M)
             found.append((float(np.median(side.outward[near])), sigma))
     return found

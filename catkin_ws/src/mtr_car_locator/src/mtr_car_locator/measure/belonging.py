@@ -9,13 +9,13 @@ from ..surfels import Surfels
 
 # A surfel belongs to the Car when it is so near its outline and faces outwards; sills and round corners lie inside.
 BEYOND_M, DEPTH_M = 0.08, 0.40
-LEAST_FACING = 0.3
+MIN_OUTWARD_COSINE = 0.3
 
 
 def belongs(in_car: Surfels, car: Rectangle, beyond_m: float = BEYOND_M) -> BoolArray:
     """Mask of the surfels, in the Car's frame, that its outline explains."""
     outside = car.outside(in_car.position)
-    return (outside <= beyond_m) & (outside >= -DEPTH_M) & (facing(in_car, car) > LEAST_FACING)
+    return (outside <= beyond_m) & (outside >= -DEPTH_M) & (facing(in_car, car) > MIN_OUTWARD_COSINE)
 
 
 def facing(in_car: Surfels, car: Rectangle) -> FloatArray:

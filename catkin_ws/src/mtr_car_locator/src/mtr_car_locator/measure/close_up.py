@@ -12,9 +12,9 @@ from ..scan import Returns
 from ..surfels import rotated_back
 
 # The Car's farthest corner from where it was guessed: half its diagonal and the Operator's error.
-REACH_M = 4.5
+HALF_SIDE_M = 4.5
 # A robot that stands sees the same again; a way round has some 2500 sweeps of two LiDARs.
-LEAST_MOTION_M, LEAST_TURN_RAD, MOST_SWEEPS = 0.005, 0.005, 10_000
+MIN_MOTION_M, MIN_TURN_RAD, MAX_SWEEPS = 0.005, 0.005, 10_000
 
 
 @dataclass(frozen=True)
@@ -41,10 +41,10 @@ class WayRound:
     def add(self, seen: Returns, lidar: Pose2) -> None:
         """Take a sweep of the LiDAR with that mounting, if the robot has moved since its last one."""
         last = self._last.get(lidar)
-        if len(self._sweeps) >= MOST_SWEEPS or (last is not None and not _has_moved(last, seen.robot)):
+        if len(self._sweeps) >= MAX_SWEEPS or (last is not None and not _has_moved(last, seen.robot)):
             return
         self._last[lidar] = seen.robot
-        near = np.all(np.abs(seen.points - self._centre) < REACH_M, axis=1)
+        near = np.all(np.abs(seen.points - self._centre) < HALF_SIDE_M, axis=1)
         self._sweeps.append(Returns(seen.points[near].astype(np.float32), seen.viewer, seen.time_s, seen.robot))
 
     def close_up(self, key_frames: FloatArray, range_bias_m: float) -> Optional[CloseUp]:
@@ -70,7 +70,7 @@ class WayRound:
 
 def _has_moved(last: Pose2, now: Pose2) -> bool:
     turn = abs((last.inverse() @ now).heading)
-    return last.distance_to(now) >= LEAST_MOTION_M or turn >= LEAST_TURN_RAD
+    return last.distance_to(now) >= MIN_MOTION_M or turn >= MIN_TURN_RAD
 
 
 def _changes(frames: FloatArray, times_s: FloatArray, raw: FloatArray) -> FloatArray:

@@ -16,9 +16,10 @@ from .belonging import belongs
 from .car_fit import CarFit, PlaneSize
 from .close_up import CloseUp
 from .data_sheet import with_data_sheet
+from .incidence import MIN_INCIDENCE_COSINE
 from .outline import outline_of
-from .profile import outermost, profile_of, summit
 from .side import ENDS, LONG_SIDES, MAP_SHARE, MIDDLE_SHARE, OUTWARDS, Extent, Side, middle_of, sides_of
+from .side_profile import outermost, profile_of, summit
 from .wheels import Wheels
 
 # What lies on the outline is the Car's.
@@ -27,9 +28,8 @@ BEYOND_M = 0.06
 UNSEEN_SIGMA_M = {ENDS: 0.4, LONG_SIDES: 0.1}
 # Tyres stand inside of the body by more than sills and bumpers do; 1 sigma of that on each side.
 TYRE_INSET_SIGMA_M = 0.03
-# Returns so near the level that surfels show are the side's; what is seen at more than 75 degrees from the normal is
-# the smeared edge of something.
-NEAR_M, LEAST_FACING = 0.12, 0.25
+# Returns so near the level that surfels show are the side's.
+NEAR_M = 0.12
 # Error of a level by what its profile does not show, such as the sway of the robot: with it lengths and widths in 36
 # drives with 2 cm of noise are as far off as their sigmas say.
 LEVEL_SIGMA_M = 0.0008
@@ -99,7 +99,7 @@ def _close_level(name: str, rough: Extent, close_up: CloseUp, car: Rectangle) ->
     outwards = np.array(OUTWARDS[name])
     along, outward = close_up.points @ np.abs(outwards[::-1]), close_up.points @ outwards
     low, high = middle_of(_reach(name, car), MIDDLE_SHARE if name in ENDS else 1.0)
-    used = ((along >= low) & (along <= high) & (close_up.beams @ outwards < -LEAST_FACING)
+    used = ((along >= low) & (along <= high) & (close_up.beams @ outwards < -MIN_INCIDENCE_COSINE)
             & (np.abs(outward - rough.level) < NEAR_M))
     profile = profile_of(along[used], outward[used])
     if profile is None:

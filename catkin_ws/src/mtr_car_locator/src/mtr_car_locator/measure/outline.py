@@ -16,7 +16,7 @@ Point = Tuple[float, float]
 # What reaches so far beyond the measured side is still the Car's: a mirror or a tow bar.
 PROTRUSION_M = 0.25
 # Corners that bend the outline less are left out.
-LEAST_BEND_M = 0.003
+MIN_BEND_M = 0.003
 
 
 def outline_of(surfels: Surfels, car: Rectangle, seen: Iterable[str]) -> Tuple[Point, ...]:
@@ -58,7 +58,7 @@ def _simplified(corners: List[List[float]]) -> List[List[float]]:
     while len(kept) > 8:
         bends = [_bend(kept[index - 1], kept[index], kept[(index + 1) % len(kept)]) for index in range(len(kept))]
         flattest = min(range(len(kept)), key=bends.__getitem__)
-        if bends[flattest] >= LEAST_BEND_M:
+        if bends[flattest] >= MIN_BEND_M:
             break
         del kept[flattest]
     return kept

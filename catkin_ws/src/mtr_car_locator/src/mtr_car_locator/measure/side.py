@@ -14,13 +14,13 @@ from ..surfels import SAMPLE_M, Surfels
 OUTWARDS = {"front": (1.0, 0.0), "rear": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
 ENDS, LONG_SIDES = ("front", "rear"), ("left", "right")
 # A surfel belongs to a side when its normal is within 53 degrees of the side's direction: bumpers are round.
-LEAST_COSINE = 0.6
+MIN_COSINE = 0.6
 # A bumper is seen in the middle of the Car; tyres, which face forwards too, are not.
 MIDDLE_SHARE = 0.6
 # What reaches farther out than the side has to be supported by so much surface within LAYER_M: a mirror or a leg has
 # less. A mirror is 0.1 to 0.25 m long.
 LAYER_M = 0.05
-LEAST_SUPPORT_M = {"front": 0.25, "rear": 0.25, "left": 0.4, "right": 0.4}
+MIN_SUPPORT_M = {"front": 0.25, "rear": 0.25, "left": 0.4, "right": 0.4}
 SUPPORT_SHARE = 0.12
 # The extent is the mean of the surface about the level that this much of it reaches: the very outermost point of
 # surfels that are millimetres wrong would lie too far out.
@@ -36,7 +36,7 @@ EXTENT_SIGMA_FLOOR_M = 0.005
 # The error of one surface element is mostly its own; a whole side shares so much of it.
 MAP_SHARE = 0.4
 BIN_M = 0.10
-LEAST_IN_BIN_M = 0.03
+MIN_IN_BIN_M = 0.03
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class Side:
         """Outermost supported level, roughly; None without support."""
         order = np.argsort(-self.outward)
         levels = self.outward[order]
-        needed_m = max(LEAST_SUPPORT_M[self.name], SUPPORT_SHARE * self.surface_m)
+        needed_m = max(MIN_SUPPORT_M[self.name], SUPPORT_SHARE * self.surface_m)
         below = np.searchsorted(-levels, -(levels - LAYER_M), side="right") - np.arange(len(levels))
         supported = np.nonzero(below * SAMPLE_M >= needed_m)[0]
         if len(supported) == 0:
@@ -87,7 +87,7 @@ class Side:
         number = np.floor(self.along / BIN_M).astype(int)
         order = np.lexsort((-self.outward, number))
         number, outward = number[order], self.outward[order]
-        found, rank = {}, round(LEAST_IN_BIN_M / SAMPLE_M)
+        found, rank = {}, round(MIN_IN_BIN_M / SAMPLE_M)
         for each in np.unique(number):
             levels = outward[number == each]
             if len(levels) > rank:
@@ -104,15 +104,15 @@ class Side:
         return Extent(float(levels.mean()), math.hypot(sigma, EXTENT_SIGMA_FLOOR_M), map_sigma)
 
 
-def side_of(name: str, in_car: Surfels, least_outward_m: float = 0.0, least_cosine: float = LEAST_COSINE) -> Side:
+def side_of(name: str, in_car: Surfels, min_outward_m: float = 0.0, min_cosine: float = MIN_COSINE) -> Side:
     """What surfels in the Car's frame show of a side."""
     outwards = np.array(OUTWARDS[name])
-    mine = np.nonzero(in_car.normal @ outwards > least_cosine)[0]
+    mine = np.nonzero(in_car.normal @ outwards > min_cosine)[0]
     seen = in_car.where(mine)
     points, index = seen.samples()
     along, middle = points @ np.abs(outwards[::-1]), (seen.position @ outwards)[index]
     outward = middle + TILT_SHARE * (points @ outwards - middle)
-    keep = outward > least_outward_m
+    keep = outward > min_outward_m
     return Side(name, along[keep], outward[keep], in_car.sigma[mine][index[keep]], mine[index[keep]])
 
 

@@ -7,16 +7,16 @@ import numpy as np
 from mtr_core.arrays import FloatArray, IntArray
 
 from .close_up import CloseUp
+from .incidence import MIN_TYRE_INCIDENCE_COSINE
 from .side import OUTWARDS
-from .wheels import LEAST_FACE_M, MOST_FACE_M
+from .wheels import MAX_FACE_M, MIN_FACE_M
 
 BIN_M = 0.01
-# Returns so near the level are the face's: noise, the robot's sway, and how far the level itself may be off. What is
-# seen at more than 73 degrees from the normal is the smeared edge of something.
-NEAR_M, LEAST_FACING = 0.06, 0.3
+# Returns so near the level are the face's: noise, the robot's sway, and how far the level itself may be off.
+NEAR_M = 0.06
 # Sills and bumpers that the LiDARs meet now and then, where the ground is uneven, have a tenth of a face's returns.
-LEAST_OF_DENSEST, DENSEST_PERCENT = 0.25, 90.0
-LEAST_RETURNS = 100
+MIN_SHARE_OF_DENSEST, DENSEST_PERCENT = 0.25, 90.0
+MIN_RETURNS = 100
 # A gap that is no end, in bins; bins at both ends that are smeared.
 GAP_BINS, SMEARED_BINS = 5, 3
 
@@ -28,22 +28,22 @@ def faces_in(close_up: CloseUp, name: str, level_m: float) -> List[float]:
     ends alike, so the middle is exact to millimetres although the length is not.
     """
     outwards = np.array(OUTWARDS[name])
-    facing = close_up.beams @ outwards < -LEAST_FACING
+    facing = close_up.beams @ outwards < -MIN_TYRE_INCIDENCE_COSINE
     along = close_up.points[facing & (np.abs(close_up.points @ outwards - level_m) < NEAR_M)] @ np.abs(outwards[::-1])
-    if len(along) < LEAST_RETURNS:
+    if len(along) < MIN_RETURNS:
         return []
     first = np.floor(along.min() / BIN_M) - GAP_BINS
     count = np.bincount((np.floor(along / BIN_M) - first).astype(int), minlength=2 * GAP_BINS)
     density = np.convolve(np.append(count, np.zeros(GAP_BINS)), np.full(3, 1.0 / 3.0), "same")
-    least = LEAST_OF_DENSEST * np.percentile(density[density > 0.0], DENSEST_PERCENT)
-    ends = [_ends(density, *piece) for piece in _pieces(np.nonzero(density > least)[0])]
+    minimum = MIN_SHARE_OF_DENSEST * np.percentile(density[density > 0.0], DENSEST_PERCENT)
+    ends = [_ends(density, *piece) for piece in _pieces(np.nonzero(density > minimum)[0])]
     return [(first + 0.5 + 0.5 * (low + high)) * BIN_M for low, high in ends
-            if LEAST_FACE_M <= (high - low) * BIN_M <= MOST_FACE_M]
+            if MIN_FACE_M <= (high - low) * BIN_M <= MAX_FACE_M]
 
 
 def _pieces(bins: IntArray) -> List[Tuple[int, int]]:
     parts = np.split(bins, np.nonzero(np.diff(bins) > GAP_BINS)[0] + 1)
-    return [(part[0], part[-1]) for part in parts if (part[-1] - part[0]) * BIN_M >= LEAST_FACE_M]
+    return [(part[0], part[-1]) for part in parts if (part[-1] - part[0]) * BIN_M >= MIN_FACE_M]
 
 
 def _ends(density: FloatArray, low: int, high: int) -> Tuple[float, float]:

@@ -14,8 +14,8 @@ from .side import ENDS, LONG_SIDES, Side, side_of
 
 # Surface so near the side's level is the outer face of a tyre; pieces farther apart than the gap are two wheels.
 FACE_DEPTH_M, GAP_M = 0.08, 0.5
-LEAST_FACE_M, MOST_FACE_M = 0.25, 0.95
-SHORTEST_WHEELBASE_M, LONGEST_WHEELBASE_M = 1.8, 4.0
+MIN_FACE_M, MAX_FACE_M = 0.25, 0.95
+MIN_WHEELBASE_M, MAX_WHEELBASE_M = 1.8, 4.0
 # The axles of one side must not differ more from those of the other; the ends of the faces may be missing.
 SQUARE_M = 0.20
 # The same of faces that all returns tell.
@@ -55,7 +55,7 @@ def wheels_between(sides: Dict[str, Side], y: float, width: float, profile: CarP
     if any(len(each) != 2 for each in faces) or np.any(np.ptp(faces, axis=0) > SQUARE_M):
         return None
     rear, front = np.mean(faces, axis=0).tolist()
-    if not SHORTEST_WHEELBASE_M <= front - rear <= LONGEST_WHEELBASE_M:
+    if not MIN_WHEELBASE_M <= front - rear <= MAX_WHEELBASE_M:
         return None
     widths = ((y + 0.5 * width - TYRE_WIDTH_M, y + 0.5 * width), (y - 0.5 * width, y - 0.5 * width + TYRE_WIDTH_M))
     ahead, behind = ([sides[name].within(*each) for each in widths] for name in ENDS)
@@ -70,7 +70,7 @@ def wheels_from(faces: Sequence[Sequence[float]], profile: CarProfile) -> Option
     wheelbase.
     """
     pairs = [[pair for pair in itertools.combinations(sorted(each), 2)
-              if SHORTEST_WHEELBASE_M <= pair[1] - pair[0] <= LONGEST_WHEELBASE_M] for each in faces]
+              if MIN_WHEELBASE_M <= pair[1] - pair[0] <= MAX_WHEELBASE_M] for each in faces]
     both = [(left, right) for left, right in itertools.product(*pairs)
             if max(abs(left[0] - right[0]), abs(left[1] - right[1])) <= EXACT_SQUARE_M]
     if profile.wheelbase_m:
@@ -87,8 +87,8 @@ def wheel_faces(side: Side, level: float) -> List[float]:
     along = np.sort(side.along[np.abs(side.outward - level) <= FACE_DEPTH_M])
     pieces = np.split(along, np.nonzero(np.diff(along) > GAP_M)[0] + 1)
     spans = [(piece[0], piece[-1]) for piece in pieces if len(piece)]
-    spans = [(low, high) for low, high in spans if high - low >= LEAST_FACE_M]
-    if any(high - low > MOST_FACE_M for low, high in spans):
+    spans = [(low, high) for low, high in spans if high - low >= MIN_FACE_M]
+    if any(high - low > MAX_FACE_M for low, high in spans):
         return []
     return [0.5 * (low + high) for low, high in spans]
 

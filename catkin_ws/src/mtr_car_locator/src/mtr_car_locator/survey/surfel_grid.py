@@ -10,11 +10,11 @@ from ..surfels import Surfels
 CELL_M = 0.08
 HALF_SIDE_M = 6.0
 # A cell that was hit less often is dirt in the air or the edge of a beam; a shorter one has no direction.
-LEAST_HITS = 6
-LEAST_LENGTH_M = 0.02
+MIN_HITS = 6
+MIN_LENGTH_M = 0.02
 # A surface that runs along the border of two cells leaves the tail of its noise in one of them: such a cell has fewer
 # hits than its neighbour.
-LEAST_OF_NEIGHBOUR = 0.35
+MIN_SHARE_OF_NEIGHBOUR = 0.35
 # What the spread of points does not show: rounding to a straight piece.
 SIGMA_FLOOR_M = 0.002
 
@@ -44,7 +44,7 @@ class SurfelGrid:
     def surfels(self, pose_sigma_m: float) -> Surfels:
         """One per cell; pose_sigma_m is how well the robot knew where it was."""
         hits = self._sums[:, 0].reshape(self._side, self._side)
-        whole = (hits >= LEAST_HITS) & (hits >= LEAST_OF_NEIGHBOUR * ndimage.maximum_filter(hits, 3))
+        whole = (hits >= MIN_HITS) & (hits >= MIN_SHARE_OF_NEIGHBOUR * ndimage.maximum_filter(hits, 3))
         sums = self._sums[whole.ravel()]
         hits, mean = sums[:, 0], sums[:, 1:3] / sums[:, :1]
         xx, xy, yy = (sums[:, column] / hits - mean[:, a] * mean[:, b]
@@ -57,4 +57,4 @@ class SurfelGrid:
         sigma = np.sqrt(thin_m2 / hits + SIGMA_FLOOR_M ** 2 + pose_sigma_m ** 2)
         # A straight piece of length l has the variance l * l / 12 along it.
         found = Surfels(mean + self._centre, normal, np.sqrt(12.0 * long_m2), sigma, hits)
-        return found.where(found.length >= LEAST_LENGTH_M)
+        return found.where(found.length >= MIN_LENGTH_M)

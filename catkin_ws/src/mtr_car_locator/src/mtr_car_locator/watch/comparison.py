@@ -10,6 +10,7 @@ from scipy.spatial import cKDTree
 from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
+from ..measure.incidence import MIN_INCIDENCE_COSINE
 from ..measure.side import OUTWARDS
 from ..scan import Returns
 from ..surfels import Surfels, in_frame, rotated_back
@@ -17,14 +18,12 @@ from ..surfels import Surfels, in_frame, rotated_back
 # Points farther from every known surface are something else: a person, an open door.
 FIRST_GATE_M, LAST_GATE_M = 0.20, 0.05
 ROUNDS = 8
-# A surface that is seen at a flatter angle is not used: there the LiDAR's spot is long.
-LEAST_FACING = 0.25
 # 1 sigma of a LiDAR's range, and of what the surfels simplify.
 POINT_SIGMA_M = 0.015
-# Without evidence the Car stands where it stood: 1 sigma before the look, along x, y (m) and heading (rad).
+# Without evidence the Car stands where it stood: 1 sigma before the observation, along x, y (m) and heading (rad).
 BEFORE_SIGMAS = (0.10, 0.10, math.radians(2.0))
-LEAST_POINTS = 40
-LEAST_POINTS_ON_SIDE = 20
+MIN_POINTS = 40
+MIN_POINTS_ON_SIDE = 20
 SIDE_COSINE = 0.8
 # Neighbouring beams hit the same unevenness and are wrong together: so many of them count as one.
 BEAMS_PER_SAMPLE = 10.0
@@ -32,14 +31,14 @@ BEAMS_PER_SAMPLE = 10.0
 
 @dataclass(frozen=True)
 class Evidence:
-    """What one look, or several, say of the Car's motion (x, y, heading) in its own frame.
+    """What one observation, or several, tell of the Car's motion (x, y, heading) in its own frame.
 
     Attributes:
         information: inverse covariance by the points' scatter, 3x3.
         weighted: information times motion.
         sides: median shift outwards of each side that was seen, m.
         points: how many were used.
-        common: covariance of what is common to a whole look: the robot's pose.
+        common: covariance of what is common to a whole observation: the robot's pose.
     """
 
     information: FloatArray
@@ -87,14 +86,14 @@ class Reference:
         self._normals = surfels.normal[index]
         self._tree = cKDTree(self._points)
 
-    def compare(self, looks: List[Returns], car: Pose2, pose_covariance: FloatArray) -> Optional[Evidence]:
+    def compare(self, sweeps: List[Returns], car: Pose2, pose_covariance: FloatArray) -> Optional[Evidence]:
         """Motion that fits what was seen from one place, None when too little of the Car was seen.
 
         pose_covariance: of the robot's pose in map.
         """
-        points = in_frame(np.vstack([look.points for look in looks]), car) if looks else np.empty((0, 2))
-        viewers = [in_frame(look.viewer[np.newaxis], car).repeat(len(look.points), axis=0) for look in looks]
-        viewer = np.vstack(viewers) if looks else points
+        points = in_frame(np.vstack([sweep.points for sweep in sweeps]), car) if sweeps else np.empty((0, 2))
+        viewers = [in_frame(sweep.viewer[np.newaxis], car).repeat(len(sweep.points), axis=0) for sweep in sweeps]
+        viewer = np.vstack(viewers) if sweeps else points
         motion = np.zeros(3)
         for turn in range(ROUNDS):
             gate_m = max(FIRST_GATE_M * 0.6 ** turn, LAST_GATE_M)
@@ -116,8 +115,8 @@ class Reference:
         normals = self._normals[np.where(found, index, 0)]
         back = rotated_back(viewer - points, pose.heading)
         back /= np.maximum(np.linalg.norm(back, axis=1), 1e-6)[:, np.newaxis]
-        found &= np.sum(normals * back, axis=1) > LEAST_FACING
-        if np.count_nonzero(found) < LEAST_POINTS:
+        found &= np.sum(normals * back, axis=1) > MIN_INCIDENCE_COSINE
+        if np.count_nonzero(found) < MIN_POINTS:
             return None
         moved, normals = moved[found], normals[found]
         rest = np.sum(normals * (moved - self._points[index[found]]), axis=1)
@@ -126,7 +125,7 @@ class Reference:
 
 
 def joined(first: Evidence, second: Evidence) -> Evidence:
-    """Both looks together; a side that both saw counts with its larger shift."""
+    """Both observations together; a side that both saw counts with its larger shift."""
     sides = dict(first.sides)
     for name, shift in second.sides.items():
         sides[name] = max(shift, sides.get(name, 0.0), key=abs)
@@ -140,7 +139,7 @@ def _solve(rows: FloatArray, rest: FloatArray, motion: FloatArray) -> Tuple[Floa
     scatter = math.sqrt(float(np.sum(weights * rest ** 2) / np.sum(weights)))
     scale = 1.0 / (BEAMS_PER_SAMPLE * max(scatter, 0.2 * POINT_SIGMA_M) ** 2)
     information = scale * (rows * weights[:, np.newaxis]).T @ rows
-    # The residual is what is left beyond the present motion; the whole motion is wanted.
+    # The residual is what is left beyond the present motion; the whole motion is sought.
     weighted = scale * rows.T @ (weights * (rest + rows @ motion))
     return np.linalg.solve(information + _before(), weighted), information, weighted
 
@@ -149,7 +148,7 @@ def _side_shifts(shift: FloatArray, normals: FloatArray) -> Dict[str, float]:
     found = {}
     for name, outwards in OUTWARDS.items():
         mine = normals @ np.array(outwards) > SIDE_COSINE
-        if np.count_nonzero(mine) >= LEAST_POINTS_ON_SIDE:
+        if np.count_nonzero(mine) >= MIN_POINTS_ON_SIDE:
             found[name] = float(np.median(shift[mine]))
     return found
 

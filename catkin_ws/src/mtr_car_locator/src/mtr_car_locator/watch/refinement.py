@@ -1,4 +1,4 @@
-"""Looks at the Car whenever the robot stands during a test, and says when its frame has to change."""
+"""Observes the Car whenever the robot stands during a test, and tells when its frame has to change."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -11,13 +11,13 @@ from ..parameters import RefinementParameters
 from ..poses import PoseHistory
 from ..scan import Scan
 from .comparison import Evidence, Reference
-from .look import SETTLING_S, Look
+from .observation import SETTLING_S, Observation
 
 # A change has to stand out of its own uncertainty by this Mahalanobis distance (99.9 % of three degrees of freedom).
 SIGNIFICANT = 4.0
-# Two looks in a row have to agree.
+# Two observations in a row have to agree.
 AGREE_M, AGREE_RAD = 0.01, math.radians(0.3)
-# A robot that goes on standing looks again after this time; one look costs some 20 ms.
+# A robot that goes on standing observes again after this time; one observation costs some 20 ms.
 AGAIN_AFTER_S = 10.0
 # A Car that is not seen at all for so long, from so near, has gone; somebody who walks by hides it for less.
 UNSEEN_LIMIT_S, SEEN_FROM_M = 5.0, 8.0
@@ -37,18 +37,18 @@ class Change:
 
 
 class Refinement:
-    """Two looks that agree on a significant change make a Change; one that sees none ends the looking for a while."""
+    """Two observations that agree on a significant change make a Change; one that shows none ends them for a while."""
 
     def __init__(self, car: CarFit, parameters: RefinementParameters):
         self._car, self._parameters = car, parameters
         self._reference = Reference(car.surfels)
-        self._look: Optional[Look] = None
+        self._observation: Optional[Observation] = None
         self._suspected: Optional[Pose2] = None
         self._satisfied_s: Optional[float] = None
         self._unseen_since_s: Optional[float] = None
 
     def wants_scans(self, now_s: float, poses: PoseHistory) -> bool:
-        """True while a look is under way or due."""
+        """True while an observation is under way or due."""
         if poses.standing_s(now_s) < SETTLING_S:
             self._satisfied_s = self._unseen_since_s = None
             return False
@@ -57,14 +57,14 @@ class Refinement:
     def step(self, now_s: float, scans: Sequence[Scan], poses: PoseHistory) -> Optional[Change]:
         """One tick; a change only while the robot stands."""
         if not self.wants_scans(now_s, poses):
-            self._look = None
+            self._observation = None
             return None
-        self._look = self._look or Look(self._parameters.look_s)
-        self._look.collect(now_s, scans, poses)
-        if not self._look.is_over(now_s):
+        self._observation = self._observation or Observation(self._parameters.look_s)
+        self._observation.collect(now_s, scans, poses)
+        if not self._observation.is_over(now_s):
             return None
-        evidence = self._look.result(self._car, self._reference, poses)
-        self._look = None
+        evidence = self._observation.result(self._car, self._reference, poses)
+        self._observation = None
         if evidence is None and poses.newest.pose.distance_to(self._car.rectangle.pose) <= SEEN_FROM_M:
             return self._miss(now_s)
         self._unseen_since_s = None

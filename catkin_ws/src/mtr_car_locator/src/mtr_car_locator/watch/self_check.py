@@ -13,13 +13,13 @@ from ..poses import PoseHistory
 from ..scan import Scan
 from .comparison import Evidence, Reference, joined
 from .corners import corners, nearest
-from .look import Look
+from .observation import Observation
 
 PLACES = 2
 # A place that is blocked longer than this is left out; the Car has four corners.
 BLOCKED_LIMIT_S = 10.0
 # Standing at the place, the Car has to be seen by then.
-LOOK_LIMIT_S = 5.0
+OBSERVATION_LIMIT_S = 5.0
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class CheckReport:
 
 
 class SelfCheck:
-    """Goes to two corners of the Car and looks.
+    """Goes to two corners of the Car and observes it from there.
 
     Attributes:
         report: how it stands.
@@ -46,7 +46,7 @@ class SelfCheck:
         places = corners(car.rectangle, parameters.check_distance_m)
         self._places = _order(places, nearest(places, robot))
         self._found: List[Evidence] = []
-        self._look: Optional[Look] = None
+        self._observation: Optional[Observation] = None
         self._since_s = now_s
         self.report = CheckReport(check_id, Check.RUNNING, message="The robot goes to look at the Car again.")
 
@@ -74,21 +74,21 @@ class SelfCheck:
             self._judge()
 
     def _observe(self, now_s: float, scans: Sequence[Scan], poses: PoseHistory) -> None:
-        if self._look is None:
-            self._look = Look(self._parameters.look_s)
+        if self._observation is None:
+            self._observation = Observation(self._parameters.look_s)
             self._since_s = now_s
-        self._look.collect(now_s, scans, poses)
-        if self._look.is_over(now_s):
-            evidence = self._look.result(self._car, self._reference, poses)
+        self._observation.collect(now_s, scans, poses)
+        if self._observation.is_over(now_s):
+            evidence = self._observation.result(self._car, self._reference, poses)
             if evidence:
                 self._found.append(evidence)
             self._next(now_s)
-        elif now_s - self._since_s >= LOOK_LIMIT_S:
+        elif now_s - self._since_s >= OBSERVATION_LIMIT_S:
             self._next(now_s)
 
     def _next(self, now_s: float) -> None:
         self._places = self._places[1:]
-        self._look, self._since_s = None, now_s
+        self._observation, self._since_s = None, now_s
 
     def _judge(self) -> None:
         check_id = self.report.check_id

@@ -24,7 +24,7 @@ STANDING_MPS, STANDING_RADPS = 0.02, 0.03
 # After the end of the last trajectory the controller has so long to take out what is left.
 SETTLE_S = 0.8
 # Said to remain while the robot still turns on the spot.
-LEAST_REMAINING_M = 0.001
+MIN_REMAINING_M = 0.001
 
 
 @dataclass(frozen=True)
@@ -154,4 +154,4 @@ class Follower:
         if self._part is None or self._is_over():
             return 0.0
         done = 0.0 if self._part.is_on_the_spot else self.reference().way
-        return max(self._part.trajectory.length_m - done + self.plan.length_after(self._index), LEAST_REMAINING_M)
+        return max(self._part.trajectory.length_m - done + self.plan.length_after(self._index), MIN_REMAINING_M)

@@ -10,7 +10,7 @@ from .tracking import Velocity
 LEAD_MPS, LEAD_RADPS = 0.3, 0.8
 PERIOD_S = 0.04
 # A gap between ticks counts as at most this.
-LONGEST_STEP_S = 0.1
+MAX_STEP_S = 0.1
 STILL_MPS, STILL_RADPS = 0.02, 0.05
 # The controller may add to the planned accelerations; with the defaults this is what drive control lets pass.
 LINEAR_SHARE, ANGULAR_SHARE = 1.25, 1.4
@@ -40,7 +40,7 @@ class Ramp:
     def begin(self, now_s: float, robot: RobotState) -> None:
         """Start a tick."""
         passed = PERIOD_S if self._last_s is None else now_s - self._last_s
-        self.step_s = max(0.0, min(passed, LONGEST_STEP_S))
+        self.step_s = max(0.0, min(passed, MAX_STEP_S))
         self._last_s = now_s
         self.linear_mps = robot.speed_mps + _clamp(self.linear_mps - robot.speed_mps, LEAD_MPS)
         self.angular_radps = robot.yaw_rate_radps + _clamp(self.angular_radps - robot.yaw_rate_radps, LEAD_RADPS)

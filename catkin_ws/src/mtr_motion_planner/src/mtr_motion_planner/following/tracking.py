@@ -19,10 +19,10 @@ ALONG_GAIN_PER_S = 2.0
 HEADING_GAIN_PER_S = 5.5
 # An offset decays over this length, at higher speeds over more, as the loop's delay bounds the gain.
 OFFSET_LENGTH_M = 0.2
-HEADING_GAIN_MAX_PER_S = 6.0
+MAX_HEADING_GAIN_PER_S = 6.0
 # Feedback is bounded: a jump of the pose must not become a jump of the robot.
 FEEDBACK_MPS, FEEDBACK_RADPS = 0.15, 0.6
-OFFSET_MAX_M = 0.10
+MAX_OFFSET_M = 0.10
 # At a reference that stands nothing is corrected below these; the robot would only rock to and fro.
 DEAD_M, DEAD_RAD = 0.007, math.radians(0.25)
 
@@ -47,9 +47,9 @@ def tracked(reference: Reference, ahead: Reference, pose: Pose2) -> Velocity:
     if speed == 0.0 and ahead.angular_radps == 0.0:
         return _at_rest(error)
     along = _clamp(ALONG_GAIN_PER_S * error.x, FEEDBACK_MPS)
-    length = max(OFFSET_LENGTH_M, 2.0 * abs(speed) / HEADING_GAIN_MAX_PER_S)
+    length = max(OFFSET_LENGTH_M, 2.0 * abs(speed) / MAX_HEADING_GAIN_PER_S)
     gain = max(HEADING_GAIN_PER_S, 2.0 * abs(speed) / length)
-    offset = _clamp(error.y, OFFSET_MAX_M) * _sinc(error.heading) / length ** 2
+    offset = _clamp(error.y, MAX_OFFSET_M) * _sinc(error.heading) / length ** 2
     turning = _clamp(gain * error.heading + speed * offset, FEEDBACK_RADPS)
     linear = speed * math.cos(error.heading) + along
     # A robot that is ahead of its reference waits for it; it does not go back.

@@ -17,11 +17,11 @@ from ..parameters import Footprint
 
 # The outline is sampled this densely; a footprint 0.1 m beside it is then seen at most 2 mm too far away.
 OUTLINE_STEP_M = 0.04
-LEAST_AREA_M2 = 0.05
+MIN_AREA_M2 = 0.05
 # A line that only grazes a zone by less than this runs along its edge.
 GRAZE_M = 0.005
 # Sides shorter than this give way to a corner that lies no farther than that from the hull.
-SHORT_SIDE_M, CORNER_REACH_M = 1.0, 0.3
+SHORT_SIDE_M, CORNER_MARGIN_M = 1.0, 0.3
 
 
 class OutlineUnusable(RobotError):
@@ -106,7 +106,7 @@ def _corners_for_short_sides(corners: Sequence[Point], hull: Polygon) -> Iterato
     for i in sorted(range(count), key=lengths.__getitem__):
         if lengths[i] < SHORT_SIDE_M:
             corner = _meeting(*(corners[(i + k) % count] for k in (-1, 0, 1, 2)))
-            if corner and hull.distance(ShapelyPoint(corner)) <= CORNER_REACH_M:
+            if corner and hull.distance(ShapelyPoint(corner)) <= CORNER_MARGIN_M:
                 yield i, corner
 
 
@@ -126,7 +126,7 @@ def polygon_of(points: Sequence[Point]) -> Polygon:
         raise OutlineUnusable("The Car's outline is unknown, so there is no way around it.")
     polygon = Polygon(points)
     # Points on a line are an invalid polygon too; their hull tells them from one that crosses itself.
-    if polygon.convex_hull.area < LEAST_AREA_M2:
+    if polygon.convex_hull.area < MIN_AREA_M2:
         raise OutlineUnusable("The Car's outline has no size.")
     if not polygon.is_valid:
         raise OutlineUnusable("The Car's outline crosses itself.")

@@ -10,7 +10,7 @@ from ..inputs import Point
 from .circles import Circle, tangent
 
 # More than this in one arc is a loop that no quick route has.
-LONGEST_ARC_RAD = math.radians(250.0)
+MAX_ARC_RAD = math.radians(250.0)
 
 
 class Ring:
@@ -80,7 +80,7 @@ def route_along(circles: Sequence[Circle], first_heading: float, last_heading: f
         points += [circle.point(direction), following.point(direction)]
         heading = direction
     legs.append(Leg(circles[-1].radius, circles[-1].turn(heading, last_heading), 0.0))
-    if any(abs(leg.turn) > LONGEST_ARC_RAD for leg in legs) or any(abs(leg.turn) > math.pi for leg in legs[1:-1]):
+    if any(abs(leg.turn) > MAX_ARC_RAD for leg in legs) or any(abs(leg.turn) > math.pi for leg in legs[1:-1]):
         return None
     return Route(tuple(legs), tuple(points))
 

@@ -46,7 +46,7 @@ class Assembly:
 
     def work_out(self, candidate: Candidate, start: Moving, goal: Pose2, best_s: float = math.inf
                  ) -> Optional[List[Part]]:
-        """Parts of a candidate; None when its curve does not exist or is not free. best_s: nothing longer is wanted."""
+        """Parts of a candidate; None when its curve does not exist or is not free. best_s: nothing longer is of use."""
         out, sign, into = candidate.out, candidate.sign, candidate.into
         before: List[Begun] = []
         after: List[Begun] = []
@@ -129,22 +129,23 @@ class Assembly:
 
     def timed(self, motions: Sequence[Begun], start: Pose2) -> Optional[List[Part]]:
         """Motions with trajectories; None when one cannot be driven from its first speed or is not free."""
-        least = min(self._parameters.margins.keep_out_m, self._keep_out.clearance(start)) - ROUNDING_M
+        min_clearance_m = min(self._parameters.margins.keep_out_m, self._keep_out.clearance(start)) - ROUNDING_M
         total, done, parts = sum(motion.length_m for motion, _ in motions), 0.0, []
         for motion, speed in motions:
             trajectory = motion.timed(self._parameters.limits, self._speed, max(speed, 0.0))
-            if trajectory is None or speed < -MOVING_MPS or not self._is_free(trajectory, least, done, total):
+            if trajectory is None or speed < -MOVING_MPS or not self._is_free(trajectory, min_clearance_m, done, total):
                 return None
             done += motion.length_m
             parts.append(Part(motion, trajectory))
         return parts
 
-    def _is_free(self, trajectory: Trajectory, least: float, done: float, total: float) -> bool:
+    def _is_free(self, trajectory: Trajectory, min_clearance_m: float, done: float, total: float) -> bool:
         poses, ways = trajectory.poses[::CHECKED], trajectory.ways[::CHECKED]
         along = done + (ways if trajectory.length_m else np.zeros(len(ways)))
         on_the_way = (along > ENDS_M) & (along < total - ENDS_M)
-        wanted = np.where(on_the_way, max(least, CORNER_SHARE * self._parameters.margins.route_margin_m), least)
-        if (self._keep_out.clearances(poses) < wanted).any():
+        corner_m = max(min_clearance_m, CORNER_SHARE * self._parameters.margins.route_margin_m)
+        required_m = np.where(on_the_way, corner_m, min_clearance_m)
+        if (self._keep_out.clearances(poses) < required_m).any():
             return False
         return self._fence is None or self._fence.holds(poses, trajectory.linear[::CHECKED])
 

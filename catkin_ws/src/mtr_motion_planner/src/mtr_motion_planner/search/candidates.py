@@ -20,7 +20,7 @@ from .shaping import Shape, route_of
 # Radii of the turns at both ends, in m, beside the one that is driven at full speed: about as tight as linear and
 # angular acceleration build up together from rest. Tighter turns are made while the robot sets out (blend.py).
 TIGHT_RADII_M = (0.45,)
-LARGEST_RING_M = 1.5
+MAX_RING_M = 1.5
 MOVING_MPS = 0.02
 # A robot that moves has no time to build up a high yaw rate in a short turn: radii, as shares of that at full speed.
 MOVING_SHARES = (1.0, 2.0, 5.0)
@@ -45,7 +45,7 @@ class Candidates:
         cruise = parameters.limits.corner_radius(speed)
         self._radii = sorted({*(radius for radius in TIGHT_RADII_M if radius < 0.9 * cruise), cruise})
         gap = parameters.route_gap_m
-        sizes = {gap, min(LARGEST_RING_M, max(gap, cruise)), min(LARGEST_RING_M, max(gap, 0.6 * cruise))}
+        sizes = {gap, min(MAX_RING_M, max(gap, cruise)), min(MAX_RING_M, max(gap, 0.6 * cruise))}
         self._rings, self._close_rings = ([Ring(centres(zone, size, gap), size) for size in sorted(sizes)]
                                           for zone in (keep_out.plain, keep_out.hull))
 

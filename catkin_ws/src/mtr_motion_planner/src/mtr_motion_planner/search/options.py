@@ -15,7 +15,7 @@ from ..parameters import MotionParameters
 from ..timing.plan import PlanRefused
 
 STEP_M = 0.05
-LONGEST_STRAIGHT_M = 6.0
+MAX_STRAIGHT_M = 6.0
 ROUNDING_M = 0.005
 # A correction comes to the goal on a straight piece, which takes out what is left across its axis.
 CORRECTION_RUN_IN_M = 0.5
@@ -46,9 +46,9 @@ def departures(start: Pose2, keep_out: KeepOut, parameters: MotionParameters) ->
     """None needed where the robot may turn, else the shortest ways straight out; PlanRefused when there is none."""
     if keep_out.distance(start) >= parameters.pivot_gap_m:
         return [NONE]
-    least = min(parameters.margins.keep_out_m, keep_out.clearance(start)) - ROUNDING_M
+    min_clearance_m = min(parameters.margins.keep_out_m, keep_out.clearance(start)) - ROUNDING_M
     found = [Straight(sign, length) for sign in (-1, 1)
-             for length in _free_after(start, sign, least, keep_out, parameters)]
+             for length in _free_after(start, sign, min_clearance_m, keep_out, parameters)]
     if not found:
         raise PlanRefused("The robot stands so close to the Car that it cannot drive straight out; move it by hand.")
     return found
@@ -62,21 +62,21 @@ def arrivals(goal: Target, keep_out: KeepOut, parameters: MotionParameters) -> L
         if goal.direction == Direction.ANY:
             return [NONE]
         return [Straight(sign, parameters.run_in_m) for sign in SIGNS[goal.direction]]
-    least = parameters.margins.keep_out_m - ROUNDING_M
+    min_clearance_m = parameters.margins.keep_out_m - ROUNDING_M
     found = [Straight(sign, length + parameters.run_in_m) for sign in SIGNS[goal.direction]
-             for length in _free_after(goal.pose, -sign, least, keep_out, parameters)]
+             for length in _free_after(goal.pose, -sign, min_clearance_m, keep_out, parameters)]
     if not found:
         raise PlanRefused("No straight piece leads to the goal past the Car without getting too close to it.")
     return found
 
 
-def _free_after(pose: Pose2, sign: int, least: float, keep_out: KeepOut, parameters: MotionParameters
+def _free_after(pose: Pose2, sign: int, min_clearance_m: float, keep_out: KeepOut, parameters: MotionParameters
                 ) -> Sequence[float]:
     """Length, if any, of the shortest straight piece from the pose to where the robot may turn."""
-    lengths = STEP_M * np.arange(1, math.ceil(LONGEST_STRAIGHT_M / STEP_M))
+    lengths = STEP_M * np.arange(1, math.ceil(MAX_STRAIGHT_M / STEP_M))
     poses = np.column_stack((pose.x + sign * lengths * math.cos(pose.heading),
                              pose.y + sign * lengths * math.sin(pose.heading), np.full_like(lengths, pose.heading)))
-    clear = keep_out.clearances(poses) >= least
+    clear = keep_out.clearances(poses) >= min_clearance_m
     for length, is_clear in zip(lengths.tolist(), clear.tolist()):
         if not is_clear:
             return ()

@@ -23,7 +23,7 @@ ON_AXIS_RAD = {Direction.ANY: math.radians(3.0), Direction.FORWARD: math.radians
                Direction.BACKWARD: math.radians(10.0)}
 # Within this distance a correction may go either way, whatever direction was asked for.
 CORRECTION_M = 0.10
-LEAST_CLEARANCE_M = 0.02
+MIN_CLEARANCE_M = 0.02
 TURNING_RADPS = 0.05
 # A way longer than the straight line by more than this is compared with a stop and a new beginning.
 DETOUR_SHARE, DETOUR_M = 1.15, 0.3
@@ -98,7 +98,7 @@ class Planning:
         if left < keep_out:
             raise PlanRefused(f"At the goal the robot would leave {left:.2f} m to the Car; at least {keep_out:.2f} m "
                               "must be left.")
-        if self._keep_out.clearance(start) < LEAST_CLEARANCE_M:
+        if self._keep_out.clearance(start) < MIN_CLEARANCE_M:
             raise PlanRefused("The robot stands too close to the Car to plan; move it away by hand.")
         if self._fence and not self._fence.holds_pose(goal):
             raise PlanRefused("At the goal the robot would not be inside the test area.")

@@ -23,9 +23,9 @@ ATTEMPTS = 8
 MERGE_M = 0.25
 # A straight line gives at most this share to the turn at one of its ends.
 GIVEN_SHARE = 0.45
-LARGEST_STRETCHED_RAD = 2.0
-# Turns at the ends below this are made gentle; least: as if they were so large.
-SMALL_TURN_RAD, LEAST_TURN_RAD = 0.35, 0.002
+MAX_STRETCHED_RAD = 2.0
+# Turns at the ends below this are made gentle; the smallest as if they were so large.
+SMALL_TURN_RAD, MIN_TURN_RAD = 0.35, 0.002
 
 
 @dataclass(frozen=True)
@@ -107,9 +107,9 @@ def _slid(curve: Curve, speeds: FloatArray, slip: Slip) -> Curve:
     return curve.slid(0.5 * slip.acceleration_slip_s2 * curvature * np.diff(squares) - outwards)
 
 
-def _miss(reached: Pose2, wanted: Pose2, turned_on_the_spot: bool) -> Pose2:
-    heading = 0.0 if turned_on_the_spot else wrap_angle(wanted.heading - reached.heading)
-    return Pose2(wanted.x - reached.x, wanted.y - reached.y, heading)
+def _miss(reached: Pose2, aim: Pose2, turned_on_the_spot: bool) -> Pose2:
+    heading = 0.0 if turned_on_the_spot else wrap_angle(aim.heading - reached.heading)
+    return Pose2(aim.x - reached.x, aim.y - reached.y, heading)
 
 
 def _curve(shape: Shape, start: Start, route: Route, limits: MotionLimits, speed: float) -> Optional[Curve]:
@@ -154,7 +154,7 @@ def stretched(pieces: Sequence[Piece], limits: MotionLimits, speed: float) -> Li
     for i in range(1, len(pieces) - 1):
         before, piece, after = pieces[i - 1], pieces[i], pieces[i + 1]
         turn = abs(piece.curvature * piece.length)
-        if piece.curvature == 0.0 or before.curvature or after.curvature or turn > LARGEST_STRETCHED_RAD:
+        if piece.curvature == 0.0 or before.curvature or after.curvature or turn > MAX_STRETCHED_RAD:
             continue
         tangent = math.tan(0.5 * turn)
         radius = 2.0 * speed / math.sqrt(limits.angular_acceleration_radps2 * turn)
@@ -170,10 +170,10 @@ def stretched(pieces: Sequence[Piece], limits: MotionLimits, speed: float) -> Li
 def _gentle(shape: Shape, route: Route, limits: MotionLimits, speed: float) -> Shape:
     """The same for the first and the last turn; both are made from or to standstill if the robot stands there."""
     def radius(signed: float, turn: float) -> float:
-        size = max(abs(turn), LEAST_TURN_RAD)
-        least = 2.0 * speed / math.sqrt(limits.angular_acceleration_radps2 * size)
+        size = max(abs(turn), MIN_TURN_RAD)
+        minimum = 2.0 * speed / math.sqrt(limits.angular_acceleration_radps2 * size)
         # From rest with full linear and angular acceleration: length = half of a t^2 while the turn is done.
-        least = min(least, 4.0 * limits.acceleration_mps2 / limits.angular_acceleration_radps2)
-        return math.copysign(max(abs(signed), least), signed) if signed and size < SMALL_TURN_RAD else signed
+        minimum = min(minimum, 4.0 * limits.acceleration_mps2 / limits.angular_acceleration_radps2)
+        return math.copysign(max(abs(signed), minimum), signed) if signed and size < SMALL_TURN_RAD else signed
 
     return replace(shape, first=radius(shape.first, route.legs[0].turn), last=radius(shape.last, route.legs[-1].turn))

@@ -79,8 +79,8 @@ def overlaps_of(turns: Turns, limits: MotionLimits, slip: Slip) -> Iterator[Tupl
     return (pair for pair in sorted(pairs, key=sum, reverse=True)[:-1] if keep(pair))
 
 
-def _times(turn: Optional[Trajectory], most_s: float) -> List[float]:
-    return np.arange(min(turn.duration_s, most_s), 0.0, -STEP_S).tolist() if turn else []
+def _times(turn: Optional[Trajectory], max_s: float) -> List[float]:
+    return np.arange(min(turn.duration_s, max_s), 0.0, -STEP_S).tolist() if turn else []
 
 
 def overlapped(turns: Turns, overlap_s: Tuple[float, float], slip: Slip, begin: complex = 0j

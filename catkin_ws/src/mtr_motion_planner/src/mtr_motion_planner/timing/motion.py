@@ -17,7 +17,7 @@ from .trajectory import Trajectory
 
 PIVOT_STEP_RAD = 0.02
 # A robot slower than this is taken to stand.
-SLOWEST_MPS, SLOWEST_RADPS = 0.02, 0.03
+STANDING_MPS, STANDING_RADPS = 0.02, 0.03
 
 
 class Motion(ABC):
@@ -56,7 +56,7 @@ class CurveMotion(Motion):
     def timed(self, limits: MotionLimits, max_speed: float, start_speed: float = 0.0) -> Optional[Trajectory]:
         """None when the robot cannot stop on the curve from the start speed."""
         curve = self.curve
-        start_speed = start_speed if start_speed > SLOWEST_MPS else 0.0
+        start_speed = start_speed if start_speed > STANDING_MPS else 0.0
         first = math.ceil(history_way(start_speed, limits.ramp_s) / curve.step_m)
         if first + 1 >= len(curve.x):
             return None
@@ -105,7 +105,7 @@ class Pivot(Motion):
     def timed(self, limits: MotionLimits, max_speed: float, start_speed: float = 0.0) -> Optional[Trajectory]:
         """start_speed is the present yaw rate towards the angle, rad/s. None when it is too fast to stop."""
         size = abs(self.angle)
-        start_rate = start_speed if start_speed > SLOWEST_RADPS else 0.0
+        start_rate = start_speed if start_speed > STANDING_RADPS else 0.0
         first = history_way(start_rate, limits.angular_ramp_s)
         steps = max(2, math.ceil((size - first) / PIVOT_STEP_RAD))
         step = (size - first) / steps

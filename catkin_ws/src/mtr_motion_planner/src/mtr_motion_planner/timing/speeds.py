@@ -54,12 +54,13 @@ def speeds_on(curve: Curve, limits: MotionLimits, max_speed: float, start_speed:
                         2.0 * limits.acceleration_mps2)
 
 
-def speeds_along(caps: FloatArray, gain: Gain, step: float, start_speed: float, most: float) -> Optional[List[float]]:
+def speeds_along(caps: FloatArray, gain: Gain, step: float, start_speed: float, max_gain: float
+                 ) -> Optional[List[float]]:
     """Speed at each sample, ending at rest; None when there is no stop in time.
 
-    most is the gain that braking may use where the start is faster than the caps.
+    max_gain is the gain that braking may use where the start is faster than the caps.
     """
-    braking = start_speed ** 2 - most * step * np.arange(len(caps))
+    braking = start_speed ** 2 - max_gain * step * np.arange(len(caps))
     squares = np.maximum(caps ** 2, braking).tolist()
     squares[-1] = 0.0
     for i in range(len(squares) - 2, -1, -1):

@@ -1,4 +1,4 @@
-"""A look at the Car from where the robot stands."""
+"""An observation of the Car from where the robot stands."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 from typing import List, Optional, Sequence
@@ -16,14 +16,14 @@ SETTLING_S = 0.3
 NEAR_M = 0.4
 
 
-class Look:
+class Observation:
     """Collects scans while the robot stands, and compares them with the Car as it was measured.
 
     A robot that moves meanwhile begins again.
     """
 
-    def __init__(self, look_s: float):
-        self._look_s = look_s
+    def __init__(self, duration_s: float):
+        self._duration_s = duration_s
         self._returns: List[Returns] = []
         self._first_s: Optional[float] = None
 
@@ -41,10 +41,10 @@ class Look:
 
     def is_over(self, now_s: float) -> bool:
         """True when it has lasted long enough."""
-        return self._first_s is not None and now_s - self._first_s >= self._look_s
+        return self._first_s is not None and now_s - self._first_s >= self._duration_s
 
     def result(self, car: CarFit, reference: Reference, poses: PoseHistory) -> Optional[Evidence]:
-        """What it says, None when it has seen too little of the Car."""
+        """What it tells, None when it has seen too little of the Car."""
         near = [each for each in (_near(seen, car) for seen in self._returns) if len(each.points)]
         return reference.compare(near, car.rectangle.pose, np.array(poses.newest.covariance))
 

@@ -12,7 +12,7 @@ from .side import Extent
 
 BIN_M = 0.02
 # A bin with fewer returns is the smeared edge of something; the share is of the median bin.
-LEAST_RETURNS, LEAST_OF_MEDIAN = 20, 0.3
+MIN_RETURNS, MIN_SHARE_OF_MEDIAN = 20, 0.3
 # Returns farther than this from the middle of their bin are strays: 2.5 sigma of a LiDAR with 2 cm of noise.
 STRAY_M = 0.05
 # Bins farther than this from a parabola count less.
@@ -20,16 +20,16 @@ STRAY_SIGMAS = 3.0
 ROUNDS = 3
 # A piece of a long side is straight as long as the means scatter about its line by no more than their noise and this,
 # 1 sigma; the largest mean square, and the largest of one bin and of the bend, in sigmas.
-LEAST_STRAIGHT_BINS, STRAIGHT_SIGMA_M, MOST_SQUARE, MOST_SIGMAS, MOST_BEND = 5, 0.0005, 3.0, 4.0, 3.0
+MIN_STRAIGHT_BINS, STRAIGHT_SIGMA_M, MAX_MEAN_SQUARE, MAX_SIGMAS, MAX_BEND_SIGMAS = 5, 0.0005, 3.0, 4.0, 3.0
 # Where the next bin falls away from the line by so much, a wheel arch begins in it, and its mean is smeared.
 # Where in it is not known: somewhere within half a bin, as the standard deviation of a uniform distribution.
 STEP_M, STEP_SIGMAS, EDGE_SIGMA_BINS = 0.003, 2.0, 0.29
 # A bumper is a parabola as far as it lies within this distance of its top; 1 sigma of its scatter about that.
-TOP_M, SHAPE_SIGMA_M, LEAST_BUMPER_BINS = 0.01, 0.001, 8
+TOP_M, SHAPE_SIGMA_M, MIN_BUMPER_BINS = 0.01, 0.001, 8
 
 
 @dataclass(frozen=True)
-class Profile:
+class SideProfile:
     """Mean distance outwards of each bin along a side, in the order of the bins, with the mean's 1 sigma."""
 
     number: IntArray
@@ -41,15 +41,15 @@ class Profile:
         """Middles of the bins along the side, m."""
         return (self.number + 0.5) * BIN_M
 
-    def below(self, level_m: float) -> "Profile":
+    def below(self, level_m: float) -> "SideProfile":
         """Without the bins that reach farther out."""
         keep = self.level <= level_m
-        return Profile(self.number[keep], self.level[keep], self.sigma[keep])
+        return SideProfile(self.number[keep], self.level[keep], self.sigma[keep])
 
 
-def profile_of(along: FloatArray, outward: FloatArray) -> Optional[Profile]:
-    """Profile of returns; None when there are next to none."""
-    if len(along) < LEAST_RETURNS:
+def profile_of(along: FloatArray, outward: FloatArray) -> Optional[SideProfile]:
+    """SideProfile of returns; None when there are next to none."""
+    if len(along) < MIN_RETURNS:
         return None
     number = np.floor(along / BIN_M).astype(int)
     first = number.min()
@@ -61,25 +61,25 @@ def profile_of(along: FloatArray, outward: FloatArray) -> Optional[Profile]:
             None, outward[near], np.square(outward[near])))
         level = sums / np.maximum(returns, 1)
     variance = np.maximum(squares / np.maximum(returns, 1) - level ** 2, 0.0)
-    least = max(LEAST_RETURNS, LEAST_OF_MEDIAN * float(np.median(returns[returns > 0])))
-    good = np.nonzero(returns >= least)[0]
-    return Profile(good + first, level[good], np.sqrt(variance[good] / returns[good])) if len(good) else None
+    minimum = max(MIN_RETURNS, MIN_SHARE_OF_MEDIAN * float(np.median(returns[returns > 0])))
+    good = np.nonzero(returns >= minimum)[0]
+    return SideProfile(good + first, level[good], np.sqrt(variance[good] / returns[good])) if len(good) else None
 
 
-def outermost(side: Profile) -> Optional[Extent]:
+def outermost(side: SideProfile) -> Optional[Extent]:
     """Where a long side reaches farthest out: at the end of a straight piece, as beside a wheel arch."""
     found = [end for piece in _straight_pieces(side) for end in piece.ends(side)]
     return max(found, key=lambda each: each.level - each.sigma) if found else None
 
 
-def summit(end: Profile) -> Optional[Extent]:
+def summit(end: SideProfile) -> Optional[Extent]:
     """How far an end reaches out: the top of the parabola through what is near it."""
-    if len(end.number) < LEAST_BUMPER_BINS:
+    if len(end.number) < MIN_BUMPER_BINS:
         return None
     top = _top_of(end, np.ones(len(end.number), dtype=bool))
     for _ in range(ROUNDS - 1):
         near = np.abs(end.level - top.level) < TOP_M
-        if np.count_nonzero(near) < LEAST_BUMPER_BINS:
+        if np.count_nonzero(near) < MIN_BUMPER_BINS:
             break
         top = _top_of(end, near)
     return top
@@ -95,7 +95,7 @@ class _Piece:
     rise_m: float
     sigma_m: float
 
-    def ends(self, side: Profile) -> Iterator[Extent]:
+    def ends(self, side: SideProfile) -> Iterator[Extent]:
         """Levels at both ends; beside a wheel arch the piece goes on into the bin in which that begins."""
         half = 0.5 * (self.last - self.first)
         count = self.last - self.first + 1
@@ -108,11 +108,11 @@ class _Piece:
             yield Extent(self.middle_m + sign * self.rise_m * reach, sigma_m)
 
 
-def _straight_pieces(side: Profile) -> Iterator[_Piece]:
+def _straight_pieces(side: SideProfile) -> Iterator[_Piece]:
     """Pieces that are as long as they can be."""
     last = ended = -1
-    for first in range(len(side.number) - LEAST_STRAIGHT_BINS + 1):
-        last = max(last, first + LEAST_STRAIGHT_BINS - 1)
+    for first in range(len(side.number) - MIN_STRAIGHT_BINS + 1):
+        last = max(last, first + MIN_STRAIGHT_BINS - 1)
         piece = longer = _straight(side, first, last)
         while longer is not None:
             piece = longer
@@ -122,7 +122,7 @@ def _straight_pieces(side: Profile) -> Iterator[_Piece]:
             yield piece
 
 
-def _straight(side: Profile, first: int, last: int) -> Optional[_Piece]:
+def _straight(side: SideProfile, first: int, last: int) -> Optional[_Piece]:
     """The piece between two bins; None when it has gaps or is not straight."""
     if last >= len(side.number) or side.number[last] - side.number[first] != last - first:
         return None
@@ -131,13 +131,13 @@ def _straight(side: Profile, first: int, last: int) -> Optional[_Piece]:
     middle, rise = float(level.mean()), float(bins @ level / (bins @ bins))
     rest = (level - middle - rise * bins) / sigma
     bend = np.square(bins) - np.square(bins).mean()
-    if (rest @ rest > MOST_SQUARE * (len(bins) - 2) or np.abs(rest).max() > MOST_SIGMAS
-            or abs(rest @ bend) > MOST_BEND * math.sqrt(bend @ bend)):
+    if (rest @ rest > MAX_MEAN_SQUARE * (len(bins) - 2) or np.abs(rest).max() > MAX_SIGMAS
+            or abs(rest @ bend) > MAX_BEND_SIGMAS * math.sqrt(bend @ bend)):
         return None
     return _Piece(first, last, middle, rise, float(sigma.mean()))
 
 
-def _top_of(end: Profile, near: BoolArray) -> Extent:
+def _top_of(end: SideProfile, near: BoolArray) -> Extent:
     return _top_of_parabola(end.along[near], end.level[near], np.hypot(end.sigma[near], SHAPE_SIGMA_M))
 
 
@@ -155,7 +155,7 @@ def _top_of_parabola(along: FloatArray, level: FloatArray, sigma: FloatArray) ->
     return Extent(float(at_top @ shape), math.sqrt(float(at_top @ covariance @ at_top)))
 
 
-def _falls_away(side: Profile, beside: int, neighbour: int, expected_m: float) -> bool:
+def _falls_away(side: SideProfile, beside: int, neighbour: int, expected_m: float) -> bool:
     """True when the bin next to another lies clearly inside of where a straight line would go on."""
     if not 0 <= neighbour < len(side.number) or abs(side.number[neighbour] - side.number[beside]) != 1:
         return False

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from mtr_car_locator.measure.profile import BIN_M, outermost, profile_of, summit
+from mtr_car_locator.measure.side_profile import BIN_M, outermost, profile_of, summit
 
 RETURNS_PER_M = 20_000
 ARCH_M, BEND_M, CORNER_M = 1.717, 1.86, 1.95

@@ -1,0 +1,7 @@
+"""How steeply a beam has to meet a surface for its return to count: cosines between beam and normal."""
+# SPDX-License-Identifier: Apache-2.0
+
+# At more than 75 degrees from the normal the LiDAR's spot is long, and what it shows is the smeared edge of something.
+MIN_INCIDENCE_COSINE = 0.25
+# The same of a tyre's face, whose ends are where its returns get sparse: 73 degrees.
+MIN_TYRE_INCIDENCE_COSINE = 0.3
