@@ -81,8 +81,9 @@ BARE ?= test
 bare-root: ## The whole test on a fresh clone in a fresh Debian 12; needs root and debootstrap
 	@setup/bare_root.sh $(BARE)
 
-bench: setup build firmware ## Benchmarks; figures in out/bench
-	@$(RUN) python -m mtr_benchmarks.components --out out/bench
+bench: setup build firmware ## Benchmarks of the simulation's speed and the serial line; figures in out/bench
+	@$(RUN) failed=0; for part in simulation serial; do \
+		python -m mtr_benchmarks.$$part --out out/bench || failed=1; done; exit $$failed
 
 firmware: setup ## Build the firmware of both boards and its emulator; prints sizes
 	@$(MAKE) --no-print-directory -s -C firmware all

@@ -8,15 +8,58 @@ import shutil
 import subprocess
 import sys
 import time
-from typing import Dict, List, Optional
+from dataclasses import dataclass
+from typing import Dict, List, Optional, Tuple
 
 from mtr_simulation.scenario import named_scenario
 
 from .stack import Stack, StackError, StackOptions
 
-SCENARIOS = {"autolock": 16, "key_press": 8}
+# Scenarios, and how many lines their results have at least.
+MIN_LINES = {"autolock": 16, "key_press": 8}
 EXAMPLES = pathlib.Path("operator_gui") / "examples" / "demo"
 OUTPUTS = ("results.csv", "protocol.png", "progress.json", "truth.csv")
+INTERRUPTED = 130
+Row = Dict[str, str]
+
+
+class DemoError(Exception):
+    """A scenario did not get to its end; the text says where to look."""
+
+
+@dataclass(frozen=True)
+class DemoOptions:
+    """What is run.
+
+    Attributes:
+        folder: of the results; its former content is deleted.
+        seed: of every random number in the simulation.
+        firmware: file for an emulated ATmega2560; without one the firmware is simulated.
+    """
+
+    folder: pathlib.Path
+    seed: int = 1
+    firmware: str = ""
+
+
+@dataclass(frozen=True)
+class DemoResult:
+    """What came of it.
+
+    Attributes:
+        robot_s: time that passed for the robot until the last event.
+        wall_s: wall time, start-up and pictures included, the comparison with the truth not.
+        problems: a sentence for everything that is not as it has to be.
+    """
+
+    robot_s: float
+    wall_s: float
+    problems: Tuple[str, ...]
+
+    @property
+    def real_time_factor(self) -> float:
+        """Robot time by wall time."""
+        return self.robot_s / self.wall_s
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
@@ -26,54 +69,62 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/demo"), help="result folder")
     parser.add_argument("--firmware", default="", help="firmware for an emulated ATmega2560; else it is simulated")
     options = parser.parse_args(arguments)
-
-    shutil.rmtree(options.out, ignore_errors=True)
-    options.out.mkdir(parents=True)
-    started = time.monotonic()
     try:
-        with Stack(StackOptions(options.out, options.seed, rviz="DISPLAY" in os.environ,
-                                arguments={"firmware_elf": options.firmware})) as stack:
-            statuses = [run_scenario(stack, name, options.out / name) for name in SCENARIOS]
-    except StackError as error:
+        result = run_demo(DemoOptions(options.out, options.seed, options.firmware))
+    except (StackError, DemoError) as error:
         print(error, file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        return 130
+        return INTERRUPTED
+    print(f"Robot time {result.robot_s:.0f} s in {result.wall_s:.0f} s of wall time: "
+          f"{result.real_time_factor:.1f} x real time, start-up and pictures included.")
+    for problem in result.problems:
+        print(problem, file=sys.stderr)
+    return 1 if result.problems else 0
+
+
+def run_demo(options: DemoOptions) -> DemoResult:
+    """Run both scenarios and compare them with the truth.
+
+    Raises:
+        StackError: the simulated robot did not start.
+        DemoError: a scenario failed.
+    """
+    shutil.rmtree(options.folder, ignore_errors=True)
+    options.folder.mkdir(parents=True)
+    started_s = time.monotonic()
+    with Stack(StackOptions(options.folder, options.seed, rviz="DISPLAY" in os.environ,
+                            arguments={"firmware_elf": options.firmware})) as stack:
+        statuses = [run_scenario(stack, name, options.folder / name) for name in MIN_LINES]
     if any(statuses):
-        print(f"A scenario failed; see {stack.log} and {options.out}.", file=sys.stderr)
-        return 1
-    return report(options.out, time.monotonic() - started)
+        raise DemoError(f"A scenario failed; see {stack.log} and {options.folder}.")
+    wall_s = time.monotonic() - started_s
+    problems = [problem for name in MIN_LINES for problem in problems_of(options.folder, name)]
+    times_s = [time_s for name in MIN_LINES for time_s in event_times(read_rows(results_of(options.folder, name)))]
+    return DemoResult(max(times_s, default=0.0), wall_s, tuple(problems))
 
 
-def run_scenario(stack: Stack, name: str, out: pathlib.Path) -> int:
-    """Run one scenario with the Operator's application, as a person would from the command line."""
+def run_scenario(stack: Stack, name: str, folder: pathlib.Path) -> int:
+    """Run one scenario with the Operator's application, as a person would from the command line; its exit status."""
     print(f"=== {name}", flush=True)
     return subprocess.run([
         sys.executable, "-m", "mtr_operator", "run", name, "--params", str(EXAMPLES / f"{name}.yaml"),
-        "--out", str(out), "--robot", "127.0.0.1", "--subscriber-port", str(stack.status_port),
+        "--out", str(folder), "--robot", "127.0.0.1", "--subscriber-port", str(stack.status_port),
         "--publisher-port", str(stack.command_port), "--can-interface", "slcan", "--can-channel", str(stack.can_link),
         "--can-bitrate", "500000", "--car-profile", "mtr_demo_car",
     ], check=False).returncode
 
 
-def report(out: pathlib.Path, wall_s: float) -> int:
-    """Compare with the truth, print the figures, and say what is missing."""
+def problems_of(folder: pathlib.Path, name: str) -> List[str]:
+    """Compare a scenario's results with the truth; a sentence for each thing that is wrong or missing."""
     problems = []
-    robot_s = 0.0
-    for name, least_lines in SCENARIOS.items():
-        folder = out / name
-        if compare(out / "truth_events.csv", folder):
-            problems.append(f"{name}: measured and true events do not match")
-        problems += [f"{name}: {file} is missing" for file in OUTPUTS if not (folder / file).exists()]
-        rows = read_rows(folder / "results.csv")
-        if len(rows) < least_lines:
-            problems.append(f"{name}: {len(rows)} lines instead of at least {least_lines}")
-        robot_s = max([robot_s, *event_times(rows)])
-    print(f"Robot time {robot_s:.0f} s in {wall_s:.0f} s of wall time: {robot_s / wall_s:.1f} x real time, "
-          "start-up and pictures included.")
-    for problem in problems:
-        print(problem, file=sys.stderr)
-    return 1 if problems else 0
+    if compare(folder / "truth_events.csv", folder / name):
+        problems.append(f"{name}: measured and true events do not match")
+    problems += [f"{name}: {file} is missing" for file in OUTPUTS if not (folder / name / file).exists()]
+    rows = read_rows(results_of(folder, name))
+    if len(rows) < MIN_LINES[name]:
+        problems.append(f"{name}: {len(rows)} lines instead of at least {MIN_LINES[name]}")
+    return problems
 
 
 def compare(events: pathlib.Path, folder: pathlib.Path) -> int:
@@ -85,17 +136,23 @@ def compare(events: pathlib.Path, folder: pathlib.Path) -> int:
     ], check=False).returncode
 
 
-def event_times(rows: List[Dict[str, str]]) -> List[float]:
+def results_of(folder: pathlib.Path, name: str) -> pathlib.Path:
+    """File with the results of a scenario."""
+    return folder / name / "results.csv"
+
+
+def event_times(rows: List[Row]) -> List[float]:
     """Robot times, in s, of all events in the rows."""
-    return [float(value) for row in rows for column, value in row.items() if column.endswith("robot_time_s") and value]
+    return [float(value) for row in rows for column, value in row.items()
+            if column.endswith("robot_time_s") and value]
 
 
-def read_rows(path: pathlib.Path) -> List[Dict[str, str]]:
+def read_rows(path: pathlib.Path) -> List[Row]:
     """Rows of a results file, metadata lines skipped; none when it is missing."""
     if not path.exists():
         return []
-    with path.open(newline="") as lines:
-        return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import socket
 import subprocess
 import time
 from dataclasses import dataclass
-from typing import Dict, Optional
+from typing import Dict, List, Optional
 
 START_LIMIT_S = 60.0
 STOP_LIMIT_S = 20.0
@@ -72,15 +72,16 @@ class Stack:
         self.log = folder / "stack.log"
         self.status_port, self.command_port, self._master_port = free_port(), free_port(), free_port()
         self.master_uri = f"http://127.0.0.1:{self._master_port}"
-        self._process: Optional[subprocess.Popen] = None
+        self._process: Optional[subprocess.Popen[bytes]] = None
 
     def __enter__(self) -> "Stack":
         self.log.parent.mkdir(parents=True, exist_ok=True)
         with self.log.open("wb") as log:
-            self._process = subprocess.Popen(self._command(), env=self.environment(), stdout=log,
-                                             stderr=subprocess.STDOUT, start_new_session=True)
+            process = subprocess.Popen(self._command(), env=self.environment(), stdout=log, stderr=subprocess.STDOUT,
+                                       start_new_session=True)
+        self._process = process
         try:
-            self._wait_until_reachable()
+            self._wait_until_reachable(process)
         except BaseException:
             self.stop()
             raise
@@ -106,7 +107,7 @@ class Stack:
             os.killpg(process.pid, signal.SIGKILL)
         process.wait()
 
-    def _command(self) -> list:
+    def _command(self) -> List[str]:
         options = self.options
         arguments = {
             "seed": str(options.seed), "real_time_factor": str(options.real_time_factor),
@@ -118,10 +119,10 @@ class Stack:
         return ["roslaunch", "-p", str(self._master_port), "mtr_bringup", "sim.launch",
                 *(f"{name}:={value}" for name, value in arguments.items())]
 
-    def _wait_until_reachable(self) -> None:
+    def _wait_until_reachable(self, process: "subprocess.Popen[bytes]") -> None:
         deadline = time.monotonic() + START_LIMIT_S
         while not (self.can_link.exists() and self._listens(self.status_port) and self._listens(self.command_port)):
-            if self._process.poll() is not None:
+            if process.poll() is not None:
                 raise StackError(f"The simulated robot ended while starting; see {self.log}.")
             if time.monotonic() > deadline:
                 raise StackError(f"The simulated robot did not start within {START_LIMIT_S:.0f} s; see {self.log}.")

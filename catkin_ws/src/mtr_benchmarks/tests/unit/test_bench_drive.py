@@ -7,12 +7,21 @@ import numpy as np
 import pytest
 import rosbag
 
-from mtr_benchmarks.localization import drives
-from mtr_benchmarks.localization.drive_options import DriveOptions
-from mtr_benchmarks.localization.drive_truth import read_truth
-from mtr_benchmarks.localization.legs import LegFollower, Path, Stand, Straight, Turn
-from mtr_benchmarks.localization.pattern import Plan, outline_distance, pieces
-from mtr_benchmarks.localization.record import main, record
+from mtr_benchmarks.localization.drives.legs import LegFollower, Polyline, Stand, Straight, Turn
+from mtr_benchmarks.localization.drives.options import DriveOptions
+from mtr_benchmarks.localization.drives.pattern import Plan, outline_distance, pieces
+from mtr_benchmarks.localization.drives.record import main, record
+from mtr_benchmarks.localization.drives.selection import (
+    CAMPAIGN,
+    CARS,
+    KIDNAP,
+    PLAIN,
+    RANGE_BIAS,
+    SCENES,
+    TILT,
+    all_drives,
+)
+from mtr_benchmarks.localization.drives.truth import read_truth
 from mtr_core import names
 from mtr_core.errors import ConfigurationError
 from mtr_core.se2 import Pose2, wrap_angle
@@ -24,7 +33,7 @@ EIGHTHS = tuple(math.pi / 4.0 * step for step in range(8))
 
 
 def follow(leg, pose):
-    """Poses of a robot that does at once what it is told, until the leg is finished."""
+    """Poses of a robot that does at once what it has to, until the leg is finished."""
     follower, poses, done = LegFollower(leg, pose, TICK_S), [pose], False
     while not done:
         (speed, turning), done = follower.update(poses[-1])
@@ -70,7 +79,7 @@ def test_radial_reaches_as_far_as_it_is_told():
 
 def test_loop_ends_where_it_went_round():
     shape = CAR_SHAPES["hatchback"]
-    way = next(piece.leg for piece in pieces(shape, START, Plan((), (), 1.0)) if isinstance(piece.leg, Path))
+    way = next(piece.leg for piece in pieces(shape, START, Plan((), (), 1.0)) if isinstance(piece.leg, Polyline))
     assert way.points[0] == way.points[-1]
     turns = [wrap_angle(math.atan2(b[1], b[0]) - math.atan2(a[1], a[0])) for a, b in zip(way.points, way.points[1:])]
     assert sum(turns) == pytest.approx(2.0 * math.pi)
@@ -83,10 +92,11 @@ def test_endless_plan_goes_on():
     assert kinds.count("axis") > 30
 
 
-@pytest.mark.parametrize("leg", [Straight((2.0, 0.0), 0.5), Straight((-2.0, 0.0), 0.5, True), Path(((2.0, 1.0),), 0.5)])
+@pytest.mark.parametrize("leg", [Straight((2.0, 0.0), 0.5), Straight((-2.0, 0.0), 0.5, True),
+                                 Polyline(((2.0, 1.0),), 0.5)])
 def test_leg_ends_at_its_goal(leg):
-    goal = leg.points[-1] if isinstance(leg, Path) else leg.to
-    start = Pose2(0.0, 0.0, math.atan2(goal[1], goal[0]) if isinstance(leg, Path) else 0.0)
+    goal = leg.points[-1] if isinstance(leg, Polyline) else leg.to
+    start = Pose2(0.0, 0.0, math.atan2(goal[1], goal[0]) if isinstance(leg, Polyline) else 0.0)
     end = follow(leg, start)[-1]
     assert math.hypot(end.x - goal[0], end.y - goal[1]) < 0.03
 
@@ -138,24 +148,24 @@ def test_wrong_scene_is_named():
 
 
 def test_drives_cover_all_shapes_heights_and_persons_in_each_scene():
-    plain = [each.options for each in drives.all_drives() if each.variant == drives.PLAIN]
-    for scene in drives.SCENES:
+    plain = [each.options for each in all_drives() if each.variant == PLAIN]
+    for scene in SCENES:
         mine = [each for each in plain if each.scene == scene]
         assert len({each.seed for each in mine}) >= 10
-        assert {(each.car, each.lidar_height_m) for each in mine} == set(itertools.product(drives.CARS, (0.2, 0.3)))
+        assert {(each.car, each.lidar_height_m) for each in mine} == set(itertools.product(CARS, (0.2, 0.3)))
         assert {each.person for each in mine} == {True, False}
 
 
 def test_drives_have_names_of_their_own():
-    listed = [each.name for each in drives.all_drives()]
+    listed = [each.name for each in all_drives()]
     assert len(set(listed)) == len(listed)
 
 
 def test_variants_differ_from_a_plain_drive_in_one_error_only():
-    every = drives.all_drives()
-    plain = {(each.options.scene, each.options.seed): each.options for each in every if each.variant == drives.PLAIN}
+    every = all_drives()
+    plain = {(each.options.scene, each.options.seed): each.options for each in every if each.variant == PLAIN}
     for each in every:
         twin = plain[each.options.scene, each.options.seed]
         differing = {name for name in vars(twin) if getattr(twin, name) != getattr(each.options, name)}
-        assert differing == {drives.PLAIN: set(), drives.RANGE_BIAS: {"range_bias_m"}, drives.TILT: {"tilt_deg"},
-                             drives.KIDNAP: {"kidnap"}, drives.CAMPAIGN: {"duration_s", "sweeps_apart"}}[each.variant]
+        assert differing == {PLAIN: set(), RANGE_BIAS: {"range_bias_m"}, TILT: {"tilt_deg"}, KIDNAP: {"kidnap"},
+                             CAMPAIGN: {"duration_s", "sweeps_apart"}}[each.variant]

@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from mtr_benchmarks.localization import mrpt
-from mtr_benchmarks.localization.dead_reckoning import dead_reckoned
-from mtr_benchmarks.localization.drive_truth import DriveTruth
-from mtr_benchmarks.localization.errors import CarPose, errors_of, joined, normalised_squares, percentile
-from mtr_benchmarks.localization.methods import told_car
-from mtr_benchmarks.localization.sensor_log import SensorLog, Sweep
-from mtr_benchmarks.localization.trajectory import aligned, at, compose, trajectory
+from mtr_benchmarks.localization.drives.sensor_log import SensorLog, Sweep
+from mtr_benchmarks.localization.drives.trajectory import aligned, at, compose, trajectory
+from mtr_benchmarks.localization.drives.truth import DriveTruth
+from mtr_benchmarks.localization.methods import mrpt
+from mtr_benchmarks.localization.methods.compared import fitted_car
+from mtr_benchmarks.localization.methods.dead_reckoning import dead_reckoned
+from mtr_benchmarks.localization.methods.errors import CarPose, errors_of, joined, normalised_squares, percentile
 from mtr_core.se2 import Pose2
 
 STAMPS = np.arange(0.0, 20.0, 0.02)
@@ -93,9 +93,9 @@ def test_alignment_finds_the_motion_between_two_tracks():
     assert (found.x, found.y, found.heading) == pytest.approx((5.0, -2.0, 2.9))
 
 
-def test_method_without_locator_is_told_the_car_by_its_loop():
+def test_method_without_locator_is_given_the_car_by_its_loop():
     poses = compose(Pose2(7.0, 8.0, -1.0), circle())
-    car = told_car(trajectory(STAMPS, poses), truth_of(circle())).pose
+    car = fitted_car(trajectory(STAMPS, poses), truth_of(circle())).pose
     assert (car.x, car.y, car.heading) == pytest.approx((7.0, 8.0, -1.0))
 
 

@@ -1,11 +1,11 @@
-"""What the benchmark tells the Car locator of a Car, and which size it judges by what."""
+"""What the benchmark gives the Car locator of a Car, and which size it judges by what."""
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest
 
-from mtr_benchmarks.localization.drive_options import DriveOptions
-from mtr_benchmarks.localization.record import _meta
-from mtr_benchmarks.localization.system import data_sheet, is_below_widest_line, plane_errors
+from mtr_benchmarks.localization.drives.options import DriveOptions
+from mtr_benchmarks.localization.drives.record import _meta
+from mtr_benchmarks.localization.methods.this_system import data_sheet, is_below_widest_line, plane_errors
 from mtr_car_locator.measure.car_fit import CarFit, PlaneSize
 from mtr_car_locator.rectangle import Rectangle
 from mtr_car_locator.surfels import surfels_from
@@ -35,5 +35,5 @@ def test_measured_size_is_judged_and_the_published_one_where_nothing_was_measure
     fit = CarFit(Rectangle(NOWHERE, 4.28, 1.79), (), (0.0, 0.0, 0.0), 0.005, 0.005, (), surfels_from(np.empty((0, 6))),
                  1.0, in_plane=PlaneSize(4.25, 0.002))
     found = plane_errors(fit, {"length_m": 4.251, "width_m": 1.761})
-    assert found["length_error_m"] == pytest.approx(-0.001)
-    assert found["width_error_m"] == pytest.approx(0.029)
+    assert found.length_m == pytest.approx(-0.001)
+    assert found.width_m == pytest.approx(0.029)

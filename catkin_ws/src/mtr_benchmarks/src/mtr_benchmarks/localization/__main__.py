@@ -5,17 +5,17 @@ Usage: python -m mtr_benchmarks.localization --mrpt out/bench/mrpt/mrpt_icp_slam
 # SPDX-License-Identifier: Apache-2.0
 import argparse
 import concurrent.futures
-import json
 import pathlib
 import sys
 import tempfile
 import time
 from typing import List, Optional
 
-from .drives import all_drives
-from .one_drive import DriveResult, Work, run_drive
-from .real_time import real_time
-from .report import document, lines
+from ..harness.report import finish
+from .drives.selection import all_drives
+from .one_drive import DriveResult, DriveTask, run_drive
+from .real_time import measure_real_time
+from .report import report
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
@@ -33,25 +33,22 @@ def main(arguments: Optional[List[str]] = None) -> int:
     options.out.mkdir(parents=True, exist_ok=True)
     drives = [drive for drive in all_drives(options.quick) if drive.name.startswith(options.only)]
     with tempfile.TemporaryDirectory(prefix="mtr_bench_") as folder:
-        work = [Work(drive, options.keep or pathlib.Path(folder), options.mrpt.resolve(), bool(options.keep))
-                for drive in drives]
-        results = run_all(work, options.jobs)
+        tasks = [DriveTask(drive, options.keep or pathlib.Path(folder), options.mrpt.resolve(), bool(options.keep))
+                 for drive in drives]
+        results = run_all(tasks, options.jobs)
     # Alone on the machine, for it measures time.
-    written = document(results, {} if options.only else real_time())
-    text = json.dumps(written, indent=2, allow_nan=False) + "\n"
-    (options.out / "localization.json").write_text(text, encoding="utf-8")
-    print("\n".join(lines(written)))
-    return 0 if all(row["met"] for row in written["table"]) and written["real_time"].get("met", True) else 1
+    real_time = None if options.only else measure_real_time()
+    return finish(report(results, real_time), options.out / "localization.json")
 
 
-def run_all(work: List[Work], jobs: int) -> List[DriveResult]:
-    """Results in the order of the work, which does not depend on who is first."""
+def run_all(tasks: List[DriveTask], jobs: int) -> List[DriveResult]:
+    """Results in the order of the tasks, which does not depend on who is first."""
     begun = time.monotonic()
     with concurrent.futures.ProcessPoolExecutor(max_workers=jobs) as pool:
         results = []
-        for done in pool.map(run_drive, work):
+        for done in pool.map(run_drive, tasks):
             results.append(done)
-            print(progress(done, len(results), len(work), time.monotonic() - begun), flush=True)
+            print(progress(done, len(results), len(tasks), time.monotonic() - begun), flush=True)
         return results
 
 

@@ -2,60 +2,68 @@
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import shutil
-from typing import Dict, NamedTuple
+from typing import Any, Dict, List, NamedTuple, Tuple
 
-from .drive_truth import DriveTruth, read_truth
-from .drives import PLAIN, Drive
-from .methods import THIS_SYSTEM, Outcome, compare
-from .mrpt import MrptError
-from .record import DriveError, record
-from .system import SystemFailure, run_this_system
+from .drives.record import DriveError, record
+from .drives.selection import PLAIN, BenchmarkDrive
+from .drives.truth import DriveTruth, read_truth
+from .methods.compared import compare
+from .methods.mrpt import MrptError
+from .methods.outcome import MRPT_ICP, THIS_SYSTEM, MethodOutcome
+from .methods.this_system import SystemFailure, run_this_system
 
 RECORDING = "recording"
 
 
 class DriveResult(NamedTuple):
-    """What the methods made of one drive, and one sentence for each that failed."""
+    """What the methods made of one drive.
 
-    drive: Drive
-    outcomes: Dict[str, Outcome]
+    Attributes:
+        outcomes: by method.
+        failures: one sentence for each method that failed, or for the recording.
+        segments: pieces of the drive, as in its meta.json.
+    """
+
+    drive: BenchmarkDrive
+    outcomes: Dict[str, MethodOutcome]
     failures: Dict[str, str]
-    segments: list
+    segments: List[Dict[str, Any]]
 
 
-class Work(NamedTuple):
-    """One drive and where to do it; keep: the recording stays, for a look at it."""
+class DriveTask(NamedTuple):
+    """One drive and where to do it; keep: the recording stays, to be looked at."""
 
-    drive: Drive
+    drive: BenchmarkDrive
     folder: pathlib.Path
     mrpt_program: pathlib.Path
     keep: bool = False
 
 
-def run_drive(work: Work) -> DriveResult:
+def run_drive(task: DriveTask) -> DriveResult:
     """Record the drive, let the methods work on it, compare with the truth."""
-    folder = work.folder / work.drive.name
+    folder = task.folder / task.drive.name
     try:
-        meta = record(work.drive.options, folder)
-        outcomes, failures = _methods(work, folder, read_truth(folder))
-        return DriveResult(work.drive, outcomes, failures, meta["segments"])
+        meta = record(task.drive.options, folder)
+        outcomes, failures = _methods(task, folder, read_truth(folder))
+        return DriveResult(task.drive, outcomes, failures, meta["segments"])
     except DriveError as error:
-        return DriveResult(work.drive, {}, {RECORDING: str(error)}, [])
+        return DriveResult(task.drive, {}, {RECORDING: str(error)}, [])
     finally:
-        if not work.keep:
+        if not task.keep:
             shutil.rmtree(folder, ignore_errors=True)
 
 
-def _methods(work: Work, folder: pathlib.Path, truth: DriveTruth) -> tuple:
-    outcomes: Dict[str, Outcome] = {}
+def _methods(task: DriveTask, folder: pathlib.Path,
+             truth: DriveTruth) -> Tuple[Dict[str, MethodOutcome], Dict[str, str]]:
+    outcomes: Dict[str, MethodOutcome] = {}
     failures: Dict[str, str] = {}
     try:
         outcomes[THIS_SYSTEM] = run_this_system(folder, truth)
     except SystemFailure as error:
         failures[THIS_SYSTEM] = str(error)
-    if work.drive.variant == PLAIN:
+    if task.drive.variant == PLAIN:
         try:
-            outcomes.update(compare(folder, truth, work.mrpt_program))
+            outcomes.update(compare(folder, truth, task.mrpt_program))
         except MrptError as error:
-            failures["mrpt_icp"] = str(error)
+            failures[MRPT_ICP] = str(error)
     return outcomes, failures

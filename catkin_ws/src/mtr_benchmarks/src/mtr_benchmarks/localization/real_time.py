@@ -7,48 +7,61 @@ to receiving `map` → `odom` with the time of that sweep, so that both ways thr
 import pathlib
 import statistics
 import tempfile
+from dataclasses import asdict, dataclass
 from typing import Any, Dict, List
 
-from mtr_benchmarks.components.probe import run_probe
-
-from .drive_options import DriveOptions
-from .record import record
-from .recording import BAG
+from ..harness.probe import run_probe
+from ..harness.rows import Requirement, Row, all_met
+from .drives.options import DriveOptions
+from .drives.record import record
+from .drives.recording import BAG
 
 # Both LiDARs with 720 beams at 25 Hz.
 DRIVE = DriveOptions(scene="lot", car="hatchback", rear=True)
 MEASURED_S = 40.0
 LIMIT_S = 300.0
-LATENCY_GOAL_MS, CPU_GOAL_PERCENT = 15.0, 10.0
+# Of the figures in the file.
+DECIMALS = 2
+MAX_LATENCY_MS, MAX_CPU_PERCENT = 15.0, 10.0
+LATENCY = Requirement("sweep to tf, 99 %", "ms", must=MAX_LATENCY_MS)
+UNANSWERED = Requirement("sweeps without tf", "(count)", must=0.0)
+CPU = Requirement("localization's share of one core", "%", must=MAX_CPU_PERCENT)
+ABOUT = ("two LiDARs of 720 beams at 25 Hz, frozen map; wall time of this machine, both ways of the loopback interface "
+         "included; the processor's share is of one core")
 
 
-def real_time() -> Dict[str, Any]:
-    """scan_to_tf_p99_ms and cpu_percent of one core while the robot drives on the frozen map."""
+@dataclass(frozen=True)
+class RealTimeFigures:
+    """What the probe measured; names are those of the file."""
+
+    scan_to_tf_median_ms: float
+    scan_to_tf_p99_ms: float
+    scan_to_tf_largest_ms: float
+    sweeps: int
+    sweeps_without_tf: int
+    cpu_percent: float
+
+    def rows(self) -> List[Row]:
+        """A sweep without an answer fails a row of its own."""
+        return [Row(LATENCY, self.scan_to_tf_p99_ms, remark=f"median {self.scan_to_tf_median_ms:.2f} ms"),
+                Row(UNANSWERED, self.sweeps_without_tf, remark=f"of {self.sweeps}"), Row(CPU, self.cpu_percent)]
+
+    def as_json(self) -> Dict[str, Any]:
+        """The figures, their limits and whether all are met."""
+        values = {name: round(value, DECIMALS) for name, value in asdict(self).items()}
+        return {**values, "goal": {"scan_to_tf_p99_ms": MAX_LATENCY_MS, "cpu_percent": MAX_CPU_PERCENT},
+                "met": all_met(self.rows()), "about": ABOUT}
+
+
+def measure_real_time() -> RealTimeFigures:
+    """Latency and share of one core while the robot drives on the frozen map."""
     with tempfile.TemporaryDirectory(prefix="mtr_bench_") as folder:
         record(DRIVE, pathlib.Path(folder))
         found = run_probe(f"{__package__}.real_time_probe", [str(pathlib.Path(folder) / BAG), str(MEASURED_S)], LIMIT_S)
     return figures(found["latency_ms"], int(found["unanswered"][0]), found["cpu_percent"][0])
 
 
-def figures(latencies_ms: List[float], unanswered: int, cpu_percent: float) -> Dict[str, Any]:
-    """What the probe measured; a sweep without an answer fails the latency."""
-    p99_ms = statistics.quantiles(latencies_ms, n=100)[98]
-    return {
-        "scan_to_tf_median_ms": round(statistics.median(latencies_ms), 2),
-        "scan_to_tf_p99_ms": round(p99_ms, 2),
-        "scan_to_tf_largest_ms": round(max(latencies_ms), 2),
-        "sweeps": len(latencies_ms), "sweeps_without_tf": unanswered,
-        "cpu_percent": round(cpu_percent, 2),
-        "goal": {"scan_to_tf_p99_ms": LATENCY_GOAL_MS, "cpu_percent": CPU_GOAL_PERCENT},
-        "met": not unanswered and p99_ms <= LATENCY_GOAL_MS and cpu_percent <= CPU_GOAL_PERCENT,
-        "about": "two LiDARs of 720 beams at 25 Hz, frozen map; wall time of this machine, both ways of the loopback "
-                 "interface included; the processor's share is of one core",
-    }
-
-
-def sentence(found: Dict[str, Any]) -> str:
-    """The figures for a person."""
-    median_ms, p99_ms = found["scan_to_tf_median_ms"], found["scan_to_tf_p99_ms"]
-    return (f"Sweep to tf: {median_ms:.1f} ms (median), {p99_ms:.1f} ms (99 %), {found['sweeps_without_tf']} of "
-            f"{found['sweeps']} without; {found['cpu_percent']:.1f} % of one core: "
-            f"{'met' if found['met'] else 'NOT MET'}")
+def figures(latencies_ms: List[float], unanswered: int, cpu_percent: float) -> RealTimeFigures:
+    """Figures of what the probe printed."""
+    return RealTimeFigures(statistics.median(latencies_ms), statistics.quantiles(latencies_ms, n=100)[98],
+                           max(latencies_ms), len(latencies_ms), unanswered, cpu_percent)

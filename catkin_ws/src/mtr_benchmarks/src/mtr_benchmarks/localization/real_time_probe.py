@@ -9,7 +9,7 @@ import subprocess
 import sys
 import threading
 import time
-from typing import Any, Deque, Dict, Iterator, List, NamedTuple
+from typing import Any, Deque, Dict, Iterator, List, NamedTuple, Tuple
 
 import rosbag
 import roslib.packages
@@ -18,7 +18,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, LaserScan
 from tf2_msgs.msg import TFMessage
 
-from mtr_benchmarks.components.probe import cpu_s
+from mtr_benchmarks.harness.probe import cpu_s
 from mtr_core import names
 from mtr_msgs.msg import LocalizedPose, MappingOrder
 
@@ -28,14 +28,14 @@ SCANS = (names.FRONT_SCAN, names.REAR_SCAN)
 NODE_START_LIMIT_S = 20.0
 # After the frozen map is in use: its making has left the processor.
 SETTLE_S = 2.0
-# In a recording the ends of both LiDARs' sweeps and the wheels' odometry have one stamp; what is answered to which is
-# told by these differences.
+# In a recording the ends of both LiDARs' sweeps and the wheels' odometry have one stamp; these
+# differences say which is answered.
 APART_NS = {names.FRONT_SCAN: 0, names.REAR_SCAN: -2000, names.WHEEL_ODOMETRY: 2000}
 # The length of a sweep is a number of single precision.
 SAME_STAMP_NS = 500
 
 
-class Entry(NamedTuple):
+class RecordedMessage(NamedTuple):
     """One message of the recording and when it was recorded."""
 
     stamp: rospy.Time
@@ -48,7 +48,7 @@ class Latencies:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._waiting: Deque[tuple] = collections.deque()
+        self._waiting: Deque[Tuple[int, float]] = collections.deque()
         self.values_s: List[float] = []
 
     def sent(self, end_ns: int) -> None:
@@ -56,7 +56,7 @@ class Latencies:
         with self._lock:
             self._waiting.append((end_ns, time.monotonic()))
 
-    def heard(self, stamp_ns: int) -> None:
+    def received(self, stamp_ns: int) -> None:
         """A transform of map and odom has come."""
         with self._lock:
             for index, (end_ns, sent_s) in enumerate(self._waiting):
@@ -72,7 +72,7 @@ class Latencies:
             return len(self._waiting)
 
 
-class Probe:
+class LocalizationProbe:
     """The recording's publishers, and the node's answers."""
 
     def __init__(self) -> None:
@@ -81,18 +81,18 @@ class Probe:
         self.latencies = Latencies()
         self._localized_since_s = 0.0
         self._measures = False
-        self._answers = (rospy.Subscriber("/tf", TFMessage, self._hear, tcp_nodelay=True),
-                         rospy.Subscriber(names.LOCALIZED_POSE, LocalizedPose, self._see, tcp_nodelay=True))
+        self._answers = (rospy.Subscriber("/tf", TFMessage, self._take_transforms, tcp_nodelay=True),
+                         rospy.Subscriber(names.LOCALIZED_POSE, LocalizedPose, self._take_pose, tcp_nodelay=True))
 
     def wait_for_node(self) -> None:
-        """Until every topic has its listener."""
+        """Wait until every topic has its subscriber."""
         deadline = time.monotonic() + NODE_START_LIMIT_S
         while not all(topic.get_num_connections() for topic in self._topics.values()):
             if time.monotonic() > deadline:
-                raise RuntimeError("The localization node does not listen to all of its topics.")
+                raise RuntimeError("The localization node does not subscribe to all of its topics.")
             time.sleep(0.1)
 
-    def play(self, entries: Iterator[Entry], node: int, measured_s: float) -> float:
+    def play(self, entries: Iterator[RecordedMessage], node: int, measured_s: float) -> float:
         """Play until measured_s have been measured; the node's share of one core meanwhile."""
         first = next(entries)
         begin_s, offset = time.monotonic(), rospy.Time.now() - first.stamp
@@ -107,7 +107,7 @@ class Probe:
                 return (cpu_s(node) - used_s) / (now_s - begun_s)
         raise RuntimeError("The recording ended before the frozen map had been used for long enough.")
 
-    def _publish(self, entry: Entry, offset: rospy.Duration) -> None:
+    def _publish(self, entry: RecordedMessage, offset: rospy.Duration) -> None:
         message = entry.message
         if entry.topic != "/tf_static":
             message.header.stamp += offset
@@ -117,21 +117,21 @@ class Probe:
             self.latencies.sent(message.header.stamp.to_nsec() + round(1e9 * message.scan_time))
         self._topics[entry.topic].publish(message)
 
-    def _hear(self, message: TFMessage) -> None:
+    def _take_transforms(self, message: TFMessage) -> None:
         for each in message.transforms:
             if each.header.frame_id == names.MAP:
-                self.latencies.heard(each.header.stamp.to_nsec())
+                self.latencies.received(each.header.stamp.to_nsec())
 
-    def _see(self, pose: LocalizedPose) -> None:
+    def _take_pose(self, pose: LocalizedPose) -> None:
         if pose.mode == LocalizedPose.LOCALIZED and not self._localized_since_s:
             self._localized_since_s = time.monotonic()
 
 
-def recorded(path: str) -> Iterator[Entry]:
+def recorded(path: str) -> Iterator[RecordedMessage]:
     """Messages of the recording in its order."""
     with rosbag.Bag(path) as bag:
         for topic, message, stamp in bag.read_messages(topics=list(KINDS)):
-            yield Entry(stamp, topic, message)
+            yield RecordedMessage(stamp, topic, message)
 
 
 def main(path: str, measured_s: float) -> int:
@@ -140,7 +140,7 @@ def main(path: str, measured_s: float) -> int:
     node = subprocess.Popen([roslib.packages.find_node("mtr_localization", "localization_node")[0],
                              "__name:=localization"], stdout=subprocess.DEVNULL)
     try:
-        probe = Probe()
+        probe = LocalizationProbe()
         probe.wait_for_node()
         share = probe.play(recorded(path), node.pid, measured_s)
         deadline = time.monotonic() + 1.0

@@ -1,12 +1,15 @@
-"""All results of the benchmark as one JSON document and as lines for a person."""
+"""All results of the benchmark: figures for the file, rows of the table, and sentences about failures."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Any, Dict, List, Sequence
+from dataclasses import asdict
+from typing import Any, Dict, List, Optional, Sequence
 
-from . import campaign, kidnapping, real_time, table
-from .drives import CAMPAIGN, KIDNAP, PLAIN, SCENES
-from .figures import scene_figures
-from .methods import METHODS, THIS_SYSTEM, Outcome
+from ..harness.report import Report
+from .drives.selection import CAMPAIGN, KIDNAP, PLAIN, SCENES
+from .judging import campaign, kidnapping, position_rows
+from .judging.figures import scene_figures
+from .methods.outcome import METHODS, THIS_SYSTEM, MethodOutcome
 from .one_drive import DriveResult
+from .real_time import RealTimeFigures
 
 ABOUT = {
     "key position": "distance in m of the key (0.25 m ahead of base_link) in the Car's frame as measured from where it "
@@ -22,29 +25,45 @@ ABOUT = {
 }
 
 
-def document(results: Sequence[DriveResult], in_real_time: Dict[str, Any]) -> Dict[str, Any]:
-    """Everything that goes into localization.json; in_real_time as `real_time` gives it, empty if it was not run."""
-    found = outcomes_of(results)
-    kidnapped = [kidnapping.kidnapping(each.outcomes[THIS_SYSTEM].errors, each.segments) for each in results
-                 if each.drive.variant == KIDNAP and THIS_SYSTEM in each.outcomes]
-    return {
+PER_DRIVE = ("online_rmse_m", "online_p95_m", "online_max_m", "moving_p95_m", "standstill_p95_m", "yaw_p95_deg",
+             "nees_ratio", "cpu_ms_per_scan", "unknown_share")
+
+
+def report(results: Sequence[DriveResult], real_time: Optional[RealTimeFigures]) -> Report:
+    """Everything that goes into localization.json; real_time is None if it was not measured."""
+    campaigns = [campaign.figures(each.errors) for each in outcomes_in(results, CAMPAIGN)]
+    kidnapped = kidnapping.figures([kidnapping.kidnapping(each.outcomes[THIS_SYSTEM].errors, each.segments)
+                                    for each in results if each.drive.variant == KIDNAP
+                                    and THIS_SYSTEM in each.outcomes])
+    found, failed = outcomes_of(results), failures(results)
+    rows = position_rows.rows(found, failed)
+    rows += [row for each in campaigns for row in campaign.rows(each)]
+    rows += kidnapping.rows(kidnapped, sum(position_rows.failed(failed, scene, KIDNAP) for scene in SCENES))
+    rows += real_time.rows() if real_time else []
+    figures = {
         "about": ABOUT,
-        "table": table.rows(found, failures(results)),
-        "scenes": {scene: {method: scene_figures(plain_outcomes(results, scene, method)) for method in METHODS}
-                   for scene in SCENES},
-        "variants": table.variants(found),
-        "campaign": [campaign.figures(each.outcomes[THIS_SYSTEM].errors) for each in results
-                     if each.drive.variant == CAMPAIGN and THIS_SYSTEM in each.outcomes],
-        "kidnapped": kidnapping.figures(kidnapped),
-        "real_time": in_real_time,
-        "failures": failures(results),
+        "scenes": {scene: {method: asdict(scene_figures(plain_outcomes(results, scene, method)))
+                           for method in METHODS} for scene in SCENES},
+        "variants": position_rows.variants(found),
+        "campaign": [asdict(each) for each in campaigns],
+        "kidnapped": asdict(kidnapped),
+        "real_time": real_time.as_json() if real_time else {},
+        "failures": failed,
         "drives": [drive_figures(each) for each in results],
     }
+    return Report(rows, figures, [f"{name}, {method}: {sentence}" for name, sentences in failed.items()
+                                  for method, sentence in sentences.items()])
 
 
-def outcomes_of(results: Sequence[DriveResult]) -> table.Outcomes:
+def outcomes_in(results: Sequence[DriveResult], variant: str) -> List[MethodOutcome]:
+    """This system's outcomes in all drives of a variant."""
+    return [each.outcomes[THIS_SYSTEM] for each in results
+            if each.drive.variant == variant and THIS_SYSTEM in each.outcomes]
+
+
+def outcomes_of(results: Sequence[DriveResult]) -> position_rows.Outcomes:
     """This system's outcomes by scene, variant and seed."""
-    found: table.Outcomes = {scene: {} for scene in SCENES}
+    found: position_rows.Outcomes = {scene: {} for scene in SCENES}
     for each in results:
         if THIS_SYSTEM in each.outcomes:
             of_variant = found[each.drive.options.scene].setdefault(each.drive.variant, {})
@@ -52,13 +71,13 @@ def outcomes_of(results: Sequence[DriveResult]) -> table.Outcomes:
     return found
 
 
-def plain_outcomes(results: Sequence[DriveResult], scene: str, method: str) -> List[Outcome]:
+def plain_outcomes(results: Sequence[DriveResult], scene: str, method: str) -> List[MethodOutcome]:
     """One method's outcomes in a scene's plain drives."""
     return [each.outcomes[method] for each in results
             if each.drive.options.scene == scene and each.drive.variant == PLAIN and method in each.outcomes]
 
 
-def failures(results: Sequence[DriveResult]) -> Dict[str, Dict[str, str]]:
+def failures(results: Sequence[DriveResult]) -> position_rows.Failures:
     """Sentences of what failed, by drive and method."""
     return {each.drive.name: each.failures for each in results if each.failures}
 
@@ -68,22 +87,10 @@ def drive_figures(result: DriveResult) -> Dict[str, Any]:
     options = result.drive.options
     return {"name": result.drive.name, "car": options.car, "lidar_height_m": options.lidar_height_m,
             "person": options.person, "failures": result.failures,
-            **{method: {**{name: value for name, value in scene_figures([outcome]).items() if name in PER_DRIVE},
-                        "car": outcome.car} for method, outcome in result.outcomes.items()}}
+            **{method: method_figures(outcome) for method, outcome in result.outcomes.items()}}
 
 
-PER_DRIVE = ("online_rmse_m", "online_p95_m", "online_max_m", "moving_p95_m", "standstill_p95_m", "yaw_p95_deg",
-             "nees_ratio", "cpu_ms_per_scan", "unknown_share")
-
-
-def lines(written: Dict[str, Any]) -> List[str]:
-    """The table, and what has no row in it."""
-    said = [table.printed(row) for row in written["table"]]
-    said += [campaign.sentence(each) for each in written["campaign"]]
-    if written["kidnapped"]["robots"]:
-        said.append(kidnapping.sentence(written["kidnapped"]))
-    if written["real_time"]:
-        said.append(real_time.sentence(written["real_time"]))
-    for name, sentences in written["failures"].items():
-        said += [f"{name}, {method}: {sentence}" for method, sentence in sentences.items()]
-    return said
+def method_figures(outcome: MethodOutcome) -> Dict[str, Any]:
+    """What one method made of one drive."""
+    found = asdict(scene_figures([outcome]))
+    return {**{name: found[name] for name in PER_DRIVE}, "car": asdict(outcome.car) if outcome.car else {}}

@@ -2,29 +2,30 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, replace
-from typing import Any, Dict, List
+from typing import List, NamedTuple, Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
 from mtr_simulation import robot
-from mtr_simulation.scenario import CarShape, named_scenario
+from mtr_simulation.car_shape import CarShape
+from mtr_simulation.scenario import named_scenario
 
-from .rig import FRONT_M, TICK_S, Rig, Wish
+from .rig import FRONT_M, SLOWED, STOPPED, TICK_S, Rig, Velocity
 
-NEAREST_M, FARTHEST_M = 0.3, 2.5
+MIN_DISTANCE_M, MAX_DISTANCE_M = 0.3, 2.5
+# Name, start in frame car, length in m, speed in m/s.
+Way = Tuple[str, Pose2, float, float]
 MEASURING_MPS = 0.4
 LAP_MPS = 0.8
 LIMIT_S = 40.0
 TURNING_S = 1.0
-# Without a rear LiDAR, but for an axis; robot.launch tells the planner the same.
-LONGEST_REVERSE_M = 1.0
-# States of the zone in DriveStatus: from this on it stands.
-SLOWED, STOPPED = 1, 2
+# Without a rear LiDAR, but for an axis; robot.launch gives the planner the same.
+MAX_REVERSE_M = 1.0
 HALF_WIDTH_M = 0.215
 SITE = replace(named_scenario("lot"), start_offset_m=0.0, start_offset_rad=0.0)
 
 
 @dataclass(frozen=True)
-class Drive:
+class StraightDrive:
     """From a pose in frame car straight ahead and back again.
 
     Attributes:
@@ -45,35 +46,50 @@ class Drive:
     seed: int
 
 
-def drives(car: CarShape) -> List[Drive]:
+def drives(car: CarShape) -> List[StraightDrive]:
     """All axes of the Car and ways along its sides, dry and in the rain, and a long way in the rain alone."""
     places = [*_axes(car), *_sides(car)]
-    found = [Drive(name, start, length, speed, rain, rear, seed)
+    found = [StraightDrive(name, start, length, speed, rain, rear, seed)
              for seed, (name, start, length, speed) in enumerate(places) for rain in (0.0, 0.01)
              for rear in (True, False)]
     alone = Pose2(6.0, -6.0, math.pi / 2.0)
-    return [*found, *(Drive("rain", alone, 8.0, 1.0, 0.02, True, 1000 + seed) for seed in range(10))]
+    return [*found, *(StraightDrive("rain", alone, 8.0, 1.0, 0.02, True, 1000 + seed) for seed in range(10))]
 
 
-def simulate(drive: Drive) -> Dict[str, Any]:
+class DriveEnd(NamedTuple):
+    """How a drive ended.
+
+    Attributes:
+        stops: what drive control said at each stop.
+        slowed_s: time for which it was slowed.
+        ends: how many of its two ends it got to.
+    """
+
+    stops: List[str]
+    slowed_s: float
+    ends: int
+
+
+def simulate(drive: StraightDrive) -> DriveEnd:
     """How often drive control stopped it for nothing, and whether it got to both ends."""
     rig = Rig(replace(SITE, start_in_car=drive.start), drive.seed, drive.rear_lidar, drive.rain, robot.LIFT_STROKE_M)
     slowed_s, was_blocked = 0.0, False
     ends, sentences = [], []
-    begin_m = 0.0 if drive.rear_lidar or drive.name == "axis" else drive.length_m - LONGEST_REVERSE_M
+    begin_m = 0.0 if drive.rear_lidar or drive.name == "axis" else drive.length_m - MAX_REVERSE_M
     for sign in (1.0, -1.0):
         for _ in range(round(LIMIT_S / TICK_S)):
-            along, wish = _wish(drive, rig.sim.truth().car_from_base, sign)
+            along, velocity = _wanted(drive, rig.sim.truth().car_from_base, sign)
             if (along >= drive.length_m) if sign > 0.0 else (along <= begin_m):
                 ends.append(along)
                 break
-            blocked = rig.step(wish).zone >= STOPPED
+            decision = rig.step(velocity)
+            blocked = decision.zone >= STOPPED
             if blocked and not was_blocked:
-                sentences.append(rig.decision.message)
-            slowed_s += TICK_S if rig.decision.zone == SLOWED else 0.0
+                sentences.append(decision.message)
+            slowed_s += TICK_S if decision.zone == SLOWED else 0.0
             was_blocked = blocked
         _stand(rig, TURNING_S)
-    return {"stops": sentences, "slowed_s": slowed_s, "ends": len(ends)}
+    return DriveEnd(sentences, slowed_s, len(ends))
 
 
 def _stand(rig: Rig, duration_s: float) -> None:
@@ -81,21 +97,20 @@ def _stand(rig: Rig, duration_s: float) -> None:
         rig.step((0.0, 0.0))
 
 
-def _wish(drive: Drive, pose: Pose2, sign: float) -> tuple:
+def _wanted(drive: StraightDrive, pose: Pose2, sign: float) -> Tuple[float, Velocity]:
     """Way along the line, and the velocity that keeps to it."""
     off = drive.start.inverse() @ pose
-    speed = sign * drive.speed_mps if rig_may_move(off) else 0.0
+    speed = sign * drive.speed_mps if may_move(off) else 0.0
     turn = -1.5 * wrap_angle(off.heading) - sign * 2.0 * off.y
-    wish: Wish = (speed, max(-0.5, min(0.5, turn)))
-    return off.x, wish
+    return off.x, (speed, max(-0.5, min(0.5, turn)))
 
 
-def rig_may_move(off: Pose2) -> bool:
+def may_move(off: Pose2) -> bool:
     """False when it has lost its line, which would make contacts of the drive's own."""
     return abs(off.y) < 0.1 and abs(wrap_angle(off.heading)) < 0.2
 
 
-def _axes(car: CarShape) -> List[tuple]:
+def _axes(car: CarShape) -> List[Way]:
     """Axes of all sides and corners, facing the Car, up to the nearest distance of the key."""
     half_length, half_width = car.length_m / 2.0, car.width_m / 2.0
     feet = [(half_length, y, 0.0) for y in (-0.6, 0.0, 0.6)] + [(-half_length, y, math.pi) for y in (-0.6, 0.0, 0.6)]
@@ -103,15 +118,15 @@ def _axes(car: CarShape) -> List[tuple]:
     feet += [(x * half_length, y * half_width, math.atan2(y, x)) for x in (1.0, -1.0) for y in (1.0, -1.0)]
     found = []
     for x, y, outward in feet:
-        far = FARTHEST_M + FRONT_M
+        far = MAX_DISTANCE_M + FRONT_M
         start = Pose2(x + far * math.cos(outward), y + far * math.sin(outward), outward + math.pi)
-        found.append(("axis", start, FARTHEST_M - NEAREST_M, MEASURING_MPS))
+        found.append(("axis", start, MAX_DISTANCE_M - MIN_DISTANCE_M, MEASURING_MPS))
     return found
 
 
-def _sides(car: CarShape) -> List[tuple]:
+def _sides(car: CarShape) -> List[Way]:
     """Ways along each side, the footprint at the nearest distance."""
-    x, y = car.length_m / 2.0 + NEAREST_M + HALF_WIDTH_M, car.width_m / 2.0 + NEAREST_M + HALF_WIDTH_M
+    x, y = car.length_m / 2.0 + MIN_DISTANCE_M + HALF_WIDTH_M, car.width_m / 2.0 + MIN_DISTANCE_M + HALF_WIDTH_M
     return [("along", Pose2(-3.5, y, 0.0), 7.0, LAP_MPS), ("along", Pose2(3.5, -y, math.pi), 7.0, LAP_MPS),
             ("across", Pose2(x, -2.5, math.pi / 2.0), 5.0, LAP_MPS),
             ("across", Pose2(-x, 2.5, -math.pi / 2.0), 5.0, LAP_MPS)]

@@ -29,6 +29,7 @@ import numpy as np
 from shapely.geometry import LineString, MultiPoint, Polygon
 from shapely.geometry import Point as ShapelyPoint
 
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2, wrap_angle
 from mtr_motion_planner.limits import MotionLimits, rest_to_rest_time
 
@@ -36,7 +37,7 @@ from .turning_bound import TurningBound
 
 Point = Tuple[float, float]
 STEP_S = 0.01
-LONGEST_S = 120.0
+MAX_DURATION_S = 120.0
 ROUND_STEPS = 32
 
 
@@ -72,10 +73,15 @@ def shortest_way(start: Point, end: Point, zone: Polygon) -> List[Point]:
     if not LineString([start, end]).crosses(zone):
         return [start, end]
     ring = list(MultiPoint([*zone.exterior.coords, start, end]).convex_hull.exterior.coords)[:-1]
-    first, last = (min(range(len(ring)), key=lambda k, at=point: math.dist(ring[k], at)) for point in (start, end))
+    first, last = (_nearest(ring, point) for point in (start, end))
     ahead = [ring[(first + k) % len(ring)] for k in range((last - first) % len(ring) + 1)]
     back = [ring[(first - k) % len(ring)] for k in range((first - last) % len(ring) + 1)]
     return min(ahead, back, key=length_of)
+
+
+def _nearest(ring: Sequence[Point], point: Point) -> int:
+    """Index of the corner that is nearest to a point."""
+    return min(range(len(ring)), key=lambda index: math.dist(ring[index], point))
 
 
 def length_of(points: Sequence[Point]) -> float:
@@ -91,7 +97,7 @@ def travelling(way: Sequence[Point], first_heading: float, last_heading: float, 
         return 0.0
     off_start = _off(first_heading, way[0], way[1])
     off_end = _off(last_heading, way[-2], way[-1])
-    times = np.arange(0.0, LONGEST_S, STEP_S)
+    times = np.arange(0.0, MAX_DURATION_S, STEP_S)
     speeds = _from_rest(times, speed, limits.acceleration_mps2, limits.ramp_s)
     rates = _from_rest(times, limits.max_angular_radps, limits.angular_acceleration_radps2, limits.angular_ramp_s)
     turned = np.concatenate(([0.0], np.cumsum(0.5 * (rates[1:] + rates[:-1]) * STEP_S)))
@@ -111,13 +117,13 @@ def _off(heading: float, a: Point, b: Point) -> float:
     return min(angle, math.pi - angle)
 
 
-def _from_rest(times: np.ndarray, most: float, acceleration: float, ramp_s: float) -> np.ndarray:
+def _from_rest(times: FloatArray, limit: float, acceleration: float, ramp_s: float) -> FloatArray:
     """Quickest speed from rest: acceleration that builds up within the ramp and goes back within it."""
     jerk = acceleration / ramp_s
-    peak = min(acceleration, math.sqrt(most * jerk))
+    peak = min(acceleration, math.sqrt(limit * jerk))
     ramp = peak / jerk
-    hold = max(0.0, most / peak - ramp)
+    hold = max(0.0, limit / peak - ramp)
     first = 0.5 * jerk * np.minimum(times, ramp) ** 2
     middle = peak * np.clip(times - ramp, 0.0, hold)
     late = np.clip(times - ramp - hold, 0.0, ramp)
-    return np.minimum(most, first + middle + peak * late - 0.5 * jerk * late ** 2)
+    return np.minimum(limit, first + middle + peak * late - 0.5 * jerk * late ** 2)

@@ -2,17 +2,20 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
-from typing import Any, Dict, List, Tuple
+from typing import List, NamedTuple, Tuple
 
 import numpy as np
 
 from mtr_core.se2 import Pose2
 from mtr_simulation import robot
-from mtr_simulation.scenario import Scenario, Walk
+from mtr_simulation.scenario import Scenario
+from mtr_simulation.surroundings import Walk
 
-from .rig import PERSON, START_S, TICK_S, Rig, Wish
+from .rig import PERSON, START_S, STOPPED, TICK_S, Rig, Velocity
 
-# Nobody stands so near to base_link when the robot starts: in the footprint, or within a foot's reach of it.
+# What the planner wants, and for how long.
+Wanted = Tuple[Tuple[float, Velocity], ...]
+# Nobody stands so near to base_link when the robot starts: in the footprint, or within a foot's length of it.
 CLEAR_AT_START_M = 0.8
 # Below this nothing moves; the wheels' encoders see as much at rest.
 STANDING_MPS = 0.02
@@ -37,7 +40,7 @@ class Encounter:
         motion: forward, backward, arc or spin.
         approach: front, side or rear, against the direction of motion.
         rear_lidar: the robot has one.
-        wishes: what the planner wants and for how long.
+        wanted: velocities that the planner wants, and for how long each.
         walk: of the person.
         rain: share of beams that end on a drop.
         lift_m: height of the lift.
@@ -47,7 +50,7 @@ class Encounter:
     motion: str
     approach: str
     rear_lidar: bool
-    wishes: Tuple[Tuple[float, Wish], ...]
+    wanted: Wanted
     walk: Walk
     rain: float
     lift_m: float
@@ -67,38 +70,53 @@ def _drawn(seed: int, random: np.random.Generator) -> Encounter:
     motion = str(random.choice(["forward", "backward", "arc", "spin"]))
     approach = str(random.choice(list(BEARINGS)))
     meeting_s = float(random.uniform(1.5, 3.5))
-    wishes = _wishes(random, motion, rear_lidar, meeting_s + AFTER_S)
-    meeting_s = sum(duration for duration, _ in wishes) - AFTER_S
-    place, wish = _expected(wishes, meeting_s)
+    wanted = _wanted(random, motion, rear_lidar, meeting_s + AFTER_S)
+    meeting_s = sum(duration for duration, _ in wanted) - AFTER_S
+    place, velocity = _expected(wanted, meeting_s)
     low, high = (math.radians(bearing) for bearing in BEARINGS[approach])
     from_motion = float(random.choice([-1.0, 1.0]) * random.uniform(low, high))
-    in_base = from_motion + (math.pi if wish[0] < 0.0 else 0.0)
+    in_base = from_motion + (math.pi if velocity[0] < 0.0 else 0.0)
     aim = place.apply(*random.uniform(-0.4, 0.4, 2))
     speed = float(random.uniform(0.5, 1.5) if random.random() < 0.5 else 1.5)
     walk = _walk(random, aim, place.heading + in_base, speed, meeting_s)
-    return Encounter(seed, motion, approach, rear_lidar, wishes, walk, float(random.choice([0.0, RAIN])),
+    return Encounter(seed, motion, approach, rear_lidar, wanted, walk, float(random.choice([0.0, RAIN])),
                      float(random.choice([0.0, robot.LIFT_STROKE_M])))
 
 
-def simulate(encounter: Encounter) -> Dict[str, Any]:
-    """How it ends: whether the person touches the robot, how fast the robot was just before that, and whether the
-    person was watched all the time.
+class EncounterEnd(NamedTuple):
+    """How an encounter ended.
+
+    Attributes:
+        touched: the person touched the robot.
+        moving: and the robot moved just before that.
+        speed_mps: of the robot's fastest point then.
+        stopped: drive control stopped the robot.
+        watched: the person was in view all the time.
     """
+
+    touched: bool
+    moving: bool
+    speed_mps: float
+    stopped: bool
+    watched: bool
+
+
+def simulate(encounter: Encounter) -> EncounterEnd:
+    """Let it happen."""
     scenario = Scenario(world_from_car=FAR_AWAY, start_in_car=FAR_AWAY.inverse(), start_offset_m=0.0,
                         start_offset_rad=0.0, person=encounter.walk)
     rig = Rig(scenario, encounter.seed, encounter.rear_lidar, encounter.rain, encounter.lift_m)
     stopped, speed_mps, touched, watched = False, 0.0, False, True
-    for wish in _ticks(encounter.wishes):
+    for velocity in _ticks(encounter.wanted):
         speed_mps = rig.corner_speed_mps
         watched = watched and (encounter.rear_lidar or _is_in_view(rig, encounter.walk))
-        decision = rig.step(wish)
-        stopped = stopped or decision.zone >= 2
+        decision = rig.step(velocity)
+        stopped = stopped or decision.zone >= STOPPED
         # The person pushes the robot from then on.
         if rig.sim.contacts() & PERSON:
             touched = True
             break
-    return {"touched": touched, "moving": touched and speed_mps > STANDING_MPS, "speed_mps": speed_mps,
-            "stopped": stopped, "watched": watched}
+    return EncounterEnd(touched, touched and speed_mps > STANDING_MPS, speed_mps, stopped, watched)
 
 
 def _is_in_view(rig: Rig, walk: Walk) -> bool:
@@ -110,7 +128,7 @@ def _is_in_view(rig: Rig, walk: Walk) -> bool:
     return math.hypot(x, y) > UNSEEN_WITHIN_M or abs(bearing) < WATCHED_TO_RAD
 
 
-def _wishes(random: np.random.Generator, motion: str, rear_lidar: bool, duration_s: float) -> tuple:
+def _wanted(random: np.random.Generator, motion: str, rear_lidar: bool, duration_s: float) -> Wanted:
     linear, angular = float(random.uniform(0.3, 1.4)), float(random.choice([-1.0, 1.0]) * random.uniform(0.3, 1.0))
     if motion == "forward":
         return ((duration_s, (linear, 0.0)),)
@@ -119,7 +137,7 @@ def _wishes(random: np.random.Generator, motion: str, rear_lidar: bool, duration
     if motion == "arc":
         return ((duration_s, (0.6 * linear, angular)),)
     # Without a rear LiDAR only ground that has just been seen is backed into: the robot's own track.
-    track = () if rear_lidar else ((4.0, (0.7, 0.0)), (1.0, (0.0, 0.0)))
+    track: Wanted = () if rear_lidar else ((4.0, (0.7, 0.0)), (1.0, (0.0, 0.0)))
     return (*track, (duration_s, (-linear, 0.0)))
 
 
@@ -134,14 +152,14 @@ def _walk(random: np.random.Generator, aim: Tuple[float, float], bearing: float,
     return Walk(start, end, speed, START_S + max(0.0, meeting_s - distance / speed))
 
 
-def _ticks(wishes: tuple) -> List[Wish]:
-    return [wish for duration, wish in wishes for _ in range(round(duration / TICK_S))]
+def _ticks(wanted: Wanted) -> List[Velocity]:
+    return [velocity for duration, velocity in wanted for _ in range(round(duration / TICK_S))]
 
 
-def _expected(wishes: tuple, meeting_s: float) -> Tuple[Pose2, Wish]:
-    """Where an undisturbed robot would be then, with 1 m/s2, and what it would want."""
+def _expected(wanted: Wanted, meeting_s: float) -> Tuple[Pose2, Velocity]:
+    """Where an undisturbed robot would be then, with 1 m/s2, and which velocity would be wanted."""
     pose, linear = Pose2(0.0, 0.0, 0.0), 0.0
-    for wish in _ticks(wishes)[:round(meeting_s / TICK_S)]:
-        linear += max(-TICK_S, min(TICK_S, wish[0] - linear))
-        pose = pose @ Pose2(linear * TICK_S, 0.0, wish[1] * TICK_S)
-    return pose, wish
+    for velocity in _ticks(wanted)[:round(meeting_s / TICK_S)]:
+        linear += max(-TICK_S, min(TICK_S, velocity[0] - linear))
+        pose = pose @ Pose2(linear * TICK_S, 0.0, velocity[1] * TICK_S)
+    return pose, velocity

@@ -17,7 +17,7 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import LaserScan
 
-from mtr_benchmarks.components.probe import cpu_s
+from mtr_benchmarks.harness.probe import cpu_s
 from mtr_core import names
 from mtr_msgs.msg import MotionLock, PeripheralsState, VelocityCommand
 
@@ -25,13 +25,13 @@ BEAMS = 720
 FIELD_OF_VIEW_RAD = 1.5 * math.pi
 # An emergency stop from here takes one period.
 CRAWL_MPS = 0.03
-STARTED_WITHIN_S = 20.0
+START_LIMIT_S = 20.0
 # Stops fall anywhere between two of the node's ticks.
 BETWEEN_STOPS_S = (0.15, 0.25)
 JOIN_S = 1.0
 
 
-class Feed:
+class DriveControlFeed:
     """All inputs of drive control at their rates, from one thread; remembers when the wheels' command became zero."""
 
     def __init__(self) -> None:
@@ -54,8 +54,8 @@ class Feed:
         self._thread.start()
 
     def stop_once(self) -> float:
-        """Order one stop, wait for zero, release; the latency in s."""
-        if not self._moves.wait(STARTED_WITHIN_S):
+        """Lock once, wait for zero, release; the latency in s."""
+        if not self._moves.wait(START_LIMIT_S):
             raise RuntimeError("Drive control does not let the robot crawl.")
         self._is_zero.clear()
         self._stopped_at = time.monotonic()
@@ -87,10 +87,10 @@ class Feed:
     def _lock(self, which: int) -> None:
         topic, owner = self._locks[which]
         message = MotionLock(owner=owner, engaged=self._is_stopped.is_set() and which == 0, reason="Stop.")
-        self._say(topic, message)
+        self._publish(topic, message)
 
     @staticmethod
-    def _say(topic: rospy.Publisher, message: Any) -> None:
+    def _publish(topic: rospy.Publisher, message: Any) -> None:
         message.header.stamp = rospy.Time.now()
         topic.publish(message)
 
@@ -100,13 +100,13 @@ class Feed:
             turn += 1
             odometry = Odometry()
             odometry.pose.pose.orientation.w = 1.0
-            self._say(self._odometry, odometry)
+            self._publish(self._odometry, odometry)
             if turn % 2:
-                self._say(self._planner, VelocityCommand(linear_mps=CRAWL_MPS, active=True))
+                self._publish(self._planner, VelocityCommand(linear_mps=CRAWL_MPS, active=True))
                 for topic, frame in self._scans:
-                    self._say(topic, sweep(frame))
+                    self._publish(topic, sweep(frame))
             if turn % 5 == 0:
-                self._say(self._peripherals, PeripheralsState(alive=True, key_height_m=1.0))
+                self._publish(self._peripherals, PeripheralsState(alive=True, key_height_m=1.0))
                 self._lock(0)
                 self._lock(1)
 
@@ -125,7 +125,7 @@ def main(samples: int) -> int:
     rospy.init_node("latency_probe")
     node = subprocess.Popen([roslib.packages.find_node("mtr_drive_control", "drive_control_node")[0],
                              "__name:=drive_control"], stdout=subprocess.DEVNULL)
-    feed = Feed()
+    feed = DriveControlFeed()
     feed.start()
     latencies: List[float] = []
     try:

@@ -1,4 +1,4 @@
-"""The simulated robot with drive control's core and nothing else: a wish in, physics and sensors behind it."""
+"""The simulated robot with drive control's core alone: a wanted velocity in, physics and sensors behind it."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Any, Optional, Tuple
@@ -14,7 +14,9 @@ from mtr_simulation.scan_errors import ScanErrors
 from mtr_simulation.scenario import Scenario
 from mtr_simulation.sim import Sim, SimParameters
 
-Wish = Tuple[float, float]
+Velocity = Tuple[float, float]
+# States of the zone in DriveStatus.
+SLOWED, STOPPED = 1, 2
 FRONT_M = core.default_collision()["front_m"]
 TICK_S = 0.02
 # The robot stands for so long until nothing sways, and then looks around, before its first tick.
@@ -62,13 +64,13 @@ class Rig:
         truth = self.sim.truth()
         return math.hypot(truth.linear_mps, truth.lateral_mps) + abs(truth.angular_radps) * RADIUS_M
 
-    def step(self, wish: Wish, locked: bool = False) -> Any:
-        """One tick with this wish of the planner, or with a motion lock; drive control's decision."""
+    def step(self, velocity: Velocity, locked: bool = False) -> Any:
+        """One tick with this velocity of the planner, or with a motion lock; drive control's decision."""
         sensors = self._sensors
         self._front = sensors.front_scan or self._front
         self._rear = sensors.rear_scan or self._rear
         self.decision = self._control.step(
-            sensors.time_ns, planner=wish, locks=["operator"] if locked else [], front=self._front, rear=self._rear,
+            sensors.time_ns, planner=velocity, locks=["operator"] if locked else [], front=self._front, rear=self._rear,
             odometry=sensors.odometry, key_height_m=self._key_height_m)
         self.sim.command(self.decision.linear_mps, self.decision.angular_radps)
         self._sensors = self.sim.step()

@@ -5,12 +5,11 @@ perfect localization and drive control's limits; its time is compared with a low
 to an axis of the Car, approaches on it to the minimum distance and retreats backwards.
 """
 # SPDX-License-Identifier: Apache-2.0
-import argparse
 import math
 import multiprocessing
 import random
 from dataclasses import dataclass
-from typing import Dict, Iterator, List, Tuple
+from typing import Iterator, List, Sequence, Tuple
 
 import numpy as np
 from shapely.geometry import Polygon
@@ -19,25 +18,33 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
 from mtr_motion_planner.geometry.keep_out import KeepOut
 from mtr_motion_planner.parameters import MotionParameters
-from mtr_simulation.scenario import CarShape
+from mtr_simulation.car_shape import CarShape
 
+from ..harness.rows import Requirement, Row
 from .bound import Ends, lower_bound
-from .trial import Leg, Trial, outline_of
+from .options import MotionOptions
+from .trial import DrivenLeg, Trial, outline_of
 
 SHAPES = (CarShape(length_m=3.6, width_m=1.6, wheelbase_m=2.4), CarShape(),
           CarShape(length_m=5.2, width_m=2.0, height_m=1.7, wheelbase_m=3.1, wheel_radius_m=0.36))
 PAIR_SPEEDS_MPS = (0.5, 0.7, 1.0)
 AXIS_SPEEDS_MPS = (0.3, 0.5, 0.8)
 # Of the footprint from the Car: waypoints lie in a belt around it, axes go from far to the minimum distance.
-NEAREST_M, FARTHEST_M = 0.3, 3.5
+MIN_DISTANCE_M, MAX_DISTANCE_M = 0.3, 3.5
 AXIS_START_M, AXIS_END_M = 2.5, 0.3
 # Pairs closer together are corrections rather than ways.
-LEAST_APART_M = 1.0
+MIN_APART_M = 1.0
 PARAMETERS = MotionParameters()
+TIME_MEDIAN = Requirement("time of a way by its lower bound, median", "(ratio)")
+TIME_P95 = Requirement("time of a way by its lower bound, 95 %", "(ratio)", must=1.15)
+CROSS_TRACK = Requirement("across the axis, 95 %", "m", must=0.02)
+HEADING = Requirement("heading on the axis, 95 %", "deg", must=1.0)
+STOP = Requirement("distance from the waypoint at a stop, 95 %", "m", must=0.02)
+STOP_HEADING = Requirement("heading at a stop, 95 %", "deg", must=1.0)
 
 
 @dataclass(frozen=True)
-class Outcome:
+class PairOutcome:
     """What one pair came to; ratio of time to its lower bound, stops as (m, deg), axis samples as (m, deg)."""
 
     ratio: float
@@ -48,30 +55,59 @@ class Outcome:
     failures: Tuple[str, ...]
 
 
-def run(options: argparse.Namespace) -> Dict[str, object]:
-    """Figures of all pairs; options.pairs says how many, options.seed where they come from, options.jobs processes."""
+@dataclass(frozen=True)
+class TrackingFigures:
+    """Of all pairs; names are those of the file."""
+
+    pairs: int
+    time_ratio_median: float
+    time_ratio_p95: float
+    time_ratio_worst: float
+    cross_track_p95_m: float
+    cross_track_worst_m: float
+    heading_p95_deg: float
+    heading_worst_deg: float
+    stop_error_p95_m: float
+    stop_error_worst_m: float
+    stop_heading_p95_deg: float
+    stop_heading_worst_deg: float
+    contacts_with_car: int
+    min_clearance_m: float
+    not_reached: List[str]
+
+    def rows(self) -> List[Row]:
+        """Times, and errors on the axis and at stops."""
+        return [Row(TIME_MEDIAN, self.time_ratio_median), Row(TIME_P95, self.time_ratio_p95),
+                Row(CROSS_TRACK, self.cross_track_p95_m), Row(HEADING, self.heading_p95_deg),
+                Row(STOP, self.stop_error_p95_m), Row(STOP_HEADING, self.stop_heading_p95_deg)]
+
+
+def measure(options: MotionOptions) -> TrackingFigures:
+    """Drive all pairs."""
     tasks = [(options.seed, number) for number in range(options.pairs)]
     with multiprocessing.Pool(options.jobs) as pool:
-        outcomes = pool.map(_pair, tasks, chunksize=1)
+        return figures(pool.map(_pair, tasks, chunksize=1))
+
+
+def figures(outcomes: Sequence[PairOutcome]) -> TrackingFigures:
+    """Figures of these pairs."""
     ratios = np.array([outcome.ratio for outcome in outcomes])
     stops = np.array([stop for outcome in outcomes for stop in outcome.stops])
     axis = np.abs(np.array([sample for outcome in outcomes for sample in outcome.axis]))
-    return {
-        "pairs": len(outcomes),
-        "time_ratio_median": float(np.median(ratios)), "time_ratio_p95": float(np.percentile(ratios, 95)),
-        "time_ratio_worst": float(ratios.max()),
-        "cross_track_p95_m": float(np.percentile(axis[:, 0], 95)), "cross_track_worst_m": float(axis[:, 0].max()),
-        "heading_p95_deg": float(np.percentile(axis[:, 1], 95)), "heading_worst_deg": float(axis[:, 1].max()),
-        "stop_error_p95_m": float(np.percentile(stops[:, 0], 95)), "stop_error_worst_m": float(stops[:, 0].max()),
-        "stop_heading_p95_deg": float(np.percentile(stops[:, 1], 95)),
-        "stop_heading_worst_deg": float(stops[:, 1].max()),
-        "contacts_with_car": sum(outcome.contacts for outcome in outcomes),
-        "min_clearance_m": min(outcome.clearance_m for outcome in outcomes),
-        "not_reached": [failure for outcome in outcomes for failure in outcome.failures],
-    }
+    return TrackingFigures(
+        pairs=len(outcomes),
+        time_ratio_median=float(np.median(ratios)), time_ratio_p95=float(np.percentile(ratios, 95)),
+        time_ratio_worst=float(ratios.max()),
+        cross_track_p95_m=float(np.percentile(axis[:, 0], 95)), cross_track_worst_m=float(axis[:, 0].max()),
+        heading_p95_deg=float(np.percentile(axis[:, 1], 95)), heading_worst_deg=float(axis[:, 1].max()),
+        stop_error_p95_m=float(np.percentile(stops[:, 0], 95)), stop_error_worst_m=float(stops[:, 0].max()),
+        stop_heading_p95_deg=float(np.percentile(stops[:, 1], 95)), stop_heading_worst_deg=float(stops[:, 1].max()),
+        contacts_with_car=sum(outcome.contacts for outcome in outcomes),
+        min_clearance_m=min(outcome.clearance_m for outcome in outcomes),
+        not_reached=[failure for outcome in outcomes for failure in outcome.failures])
 
 
-def _pair(task: Tuple[int, int]) -> Outcome:
+def _pair(task: Tuple[int, int]) -> PairOutcome:
     seed, number = task
     dice = random.Random(1_000_003 * seed + number)
     shape = SHAPES[number % len(SHAPES)]
@@ -80,18 +116,18 @@ def _pair(task: Tuple[int, int]) -> Outcome:
     trial = Trial(shape, start, PARAMETERS)
     pair = trial.go(end, Direction.ANY, speed)
     hull = Polygon(outline_of(shape)).convex_hull
-    bound_s = lower_bound(Ends(start, end), hull, least_gap(), PARAMETERS.limits, speed)
+    bound_s = lower_bound(Ends(start, end), hull, min_gap(), PARAMETERS.limits, speed)
     far, near = axis_of(dice, shape)
     legs = [pair, trial.go(far, Direction.ANY, speed)]
     speed = dice.choice(AXIS_SPEEDS_MPS)
     axis = [trial.go(near, Direction.FORWARD, speed), trial.go(far, Direction.BACKWARD, speed)]
     legs += axis
-    return Outcome(pair.time_s / bound_s, tuple(_stop(leg) for leg in legs), tuple(_beside(far, axis)),
+    return PairOutcome(pair.time_s / bound_s, tuple(_stop(leg) for leg in legs), tuple(_beside(far, axis)),
                    min(leg.clearance_m for leg in legs), len(trial.contacts & {"car"}),
                    tuple(f"pair {number}: {leg.result.name} {leg.message}" for leg in legs if _failed(leg)))
 
 
-def least_gap() -> float:
+def min_gap() -> float:
     """base_link never gets closer to the Car by plan: half the width, and the margin that a rounded corner leaves."""
     return PARAMETERS.footprint.half_width_m + PARAMETERS.margins.keep_out_m
 
@@ -100,7 +136,7 @@ def waypoint_pair(dice: random.Random, shape: CarShape) -> Tuple[Pose2, Pose2]:
     """Two waypoints that are not too close together."""
     while True:
         start, end = waypoint(dice, shape), waypoint(dice, shape)
-        if start.distance_to(end) >= LEAST_APART_M:
+        if start.distance_to(end) >= MIN_APART_M:
             return start, end
 
 
@@ -115,7 +151,7 @@ def waypoint(dice: random.Random, shape: CarShape) -> Pose2:
             heading = math.atan2(-y, -x)
         pose = Pose2(x, y, heading)
         turn_room = keep_out.distance(pose) >= PARAMETERS.pivot_gap_m
-        if turn_room and NEAREST_M <= keep_out.clearance(pose) <= FARTHEST_M:
+        if turn_room and MIN_DISTANCE_M <= keep_out.clearance(pose) <= MAX_DISTANCE_M:
             return pose
 
 
@@ -125,18 +161,18 @@ def axis_of(dice: random.Random, shape: CarShape) -> Tuple[Pose2, Pose2]:
     side = dice.choice(("front", "rear", "left", "right"))
     across = dice.uniform(-0.9, 0.9) * (half_width if side in ("front", "rear") else half_length)
     turn = {"front": 0.0, "left": 0.5 * math.pi, "rear": math.pi, "right": -0.5 * math.pi}[side]
-    reach = half_length if side in ("front", "rear") else half_width
+    extent = half_length if side in ("front", "rear") else half_width
     front = PARAMETERS.footprint.half_length_m
-    far, near = (Pose2(0.0, 0.0, turn) @ Pose2(reach + distance + front, across, math.pi)
+    far, near = (Pose2(0.0, 0.0, turn) @ Pose2(extent + distance + front, across, math.pi)
                  for distance in (AXIS_START_M, AXIS_END_M))
     return far, near
 
 
-def _stop(leg: Leg) -> Tuple[float, float]:
+def _stop(leg: DrivenLeg) -> Tuple[float, float]:
     return math.hypot(leg.miss.x, leg.miss.y), abs(math.degrees(leg.miss.heading))
 
 
-def _beside(axis: Pose2, legs: List[Leg]) -> Iterator[Tuple[float, float]]:
+def _beside(axis: Pose2, legs: List[DrivenLeg]) -> Iterator[Tuple[float, float]]:
     """Cross-track and heading error at each tick."""
     for leg in legs:
         for pose in leg.poses:
@@ -144,5 +180,5 @@ def _beside(axis: Pose2, legs: List[Leg]) -> Iterator[Tuple[float, float]]:
             yield seen.y, math.degrees(seen.heading)
 
 
-def _failed(leg: Leg) -> bool:
+def _failed(leg: DrivenLeg) -> bool:
     return leg.result != Result.REACHED or bool(leg.message)

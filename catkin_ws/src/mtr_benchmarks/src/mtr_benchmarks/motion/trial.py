@@ -2,25 +2,31 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
-from typing import Tuple
+from typing import List, Optional, Set, Tuple
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
 from mtr_motion_planner.inputs import Car, Goal, Inputs, Order, RobotState
+from mtr_motion_planner.outputs import Output
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.planner import MotionPlanner
 from mtr_motion_planner.replanning import InlineExecutor
-from mtr_simulation.scenario import CarShape, Scenario
+from mtr_simulation.car_shape import CarShape
+from mtr_simulation.scenario import Scenario
 from mtr_simulation.sim import Sim
 
 from .limiter import Limiter, Velocity
 
 TICK_S, PLANNER_TICKS = 0.02, 2
-LONGEST_S = 90.0
+MAX_DURATION_S = 90.0
+# The robot comes to rest after the planner has settled.
+REST_TICKS = 25
+# The clearance is taken at each of so many ticks.
+CLEARANCE_TICKS = 5
 
 
 @dataclass(frozen=True)
-class Leg:
+class DrivenLeg:
     """What a motion to one goal came to; poses are the true ones in the Car's frame at each tick."""
 
     result: Result
@@ -48,30 +54,36 @@ class Trial:
         self._planner, self._limiter = MotionPlanner(parameters, InlineExecutor()), Limiter()
         self._ticks, self._goals = 0, 0
         self._wanted: Velocity = (0.0, 0.0)
-        self.contacts: set = set()
+        self.contacts: Set[str] = set()
 
-    def go(self, goal: Pose2, direction: Direction, speed: float) -> Leg:
+    def go(self, goal: Pose2, direction: Direction, speed: float) -> DrivenLeg:
         """Drive to a goal in the Car's frame; ends when the planner has settled and the robot has come to rest."""
         self._goals += 1
         order_goal = Goal(self._goals, True, goal, direction)
-        begun, poses, least = self._ticks, [], math.inf
-        output = None
-        while (self._ticks - begun) * TICK_S < LONGEST_S:
-            output = self._tick(order_goal, speed) or output
-            truth = self._sim.truth()
-            poses.append(truth.car_from_base)
-            if output and output.result in (Result.REACHED, Result.REFUSED):
-                break
-        time_s = (self._ticks - begun) * TICK_S
+        output, poses, time_s = self._drive(order_goal, speed)
+        clearance_m = math.inf
         if self._planner.site:
-            least = min(self._planner.site.keep_out.clearance(pose @ self._centre) for pose in poses[::5])
-        for _ in range(25):
+            keep_out = self._planner.site.keep_out
+            clearance_m = min(keep_out.clearance(pose @ self._centre) for pose in poses[::CLEARANCE_TICKS])
+        for _ in range(REST_TICKS):
             self._tick(order_goal, speed)
         miss = goal.inverse() @ self._sim.truth().car_from_base
-        return Leg(output.result, output.message, time_s, miss, tuple(poses), least)
+        return DrivenLeg(output.result, output.message, time_s, miss, tuple(poses), clearance_m)
 
-    def _tick(self, goal: Goal, speed: float):
-        """One step of 20 ms; drive control acts on what the planner said at an earlier tick."""
+    def _drive(self, goal: Goal, speed: float) -> Tuple[Output, List[Pose2], float]:
+        """Until the planner has settled: its last output, the poses on the way, and the time."""
+        begun, poses = self._ticks, []
+        output: Optional[Output] = None
+        while (self._ticks - begun) * TICK_S < MAX_DURATION_S:
+            output = self._tick(goal, speed) or output
+            poses.append(self._sim.truth().car_from_base)
+            if output and output.result in (Result.REACHED, Result.REFUSED):
+                break
+        assert output
+        return output, poses, (self._ticks - begun) * TICK_S
+
+    def _tick(self, goal: Goal, speed: float) -> Optional[Output]:
+        """One step of 20 ms; drive control acts on the planner's output of an earlier tick."""
         now_s = 1.0 + self._ticks * TICK_S
         velocity = self._limiter.follow(self._wanted)
         output = None

@@ -12,11 +12,12 @@ import math
 
 import numpy as np
 
+from mtr_core.arrays import BoolArray, FloatArray
 from mtr_core.se2 import wrap_angle
 from mtr_motion_planner.limits import MotionLimits
 
 STEP_S = 0.05
-LONGEST_S = 120.0
+MAX_DURATION_S = 120.0
 LEVELS = 6
 
 
@@ -32,7 +33,7 @@ class TurningBound:
         self._gain = 0.5 * STEP_S * np.outer(np.cos(self._angles), self._speeds)
 
     def time(self, length: float, first_angle: float, last_angle: float, bend: float = 0.0) -> float:
-        """Least time in s for a length, between headings that are off the line by the angles.
+        """Minimum time in s for a length, between headings that are off the line by the angles.
 
         bend: angle by which the line turns to the left between its ends.
         """
@@ -40,7 +41,7 @@ class TurningBound:
         cells = round(bend / max(levels, 1) / float(self._angles[1]))
         start, end = self._begun(first_angle, levels), self._begun(last_angle, levels)
         gone_before = 0.0
-        for step in range(1, round(0.5 * LONGEST_S / STEP_S)):
+        for step in range(1, round(0.5 * MAX_DURATION_S / STEP_S)):
             # The end is worked through backwards: there the line turns the other way.
             start = _bent(self._after(start, first_angle, step, bend), -cells)
             end = _bent(self._after(end, last_angle, step, bend), cells)
@@ -49,15 +50,15 @@ class TurningBound:
                 share = (length - gone_before) / (gone - gone_before)
                 return 2.0 * STEP_S * (step - 1 + share)
             gone_before = max(gone, 0.0)
-        return LONGEST_S
+        return MAX_DURATION_S
 
-    def _begun(self, angle: float, levels: int) -> np.ndarray:
+    def _begun(self, angle: float, levels: int) -> FloatArray:
         """Progress at a state where the robot stands at an end: 0 there, impossible elsewhere."""
         best = np.full((levels + 1, *self._gain.shape), -np.inf)
         best[0, self._near(angle, 0.0), len(self._speeds) // 2] = 0.0
         return best
 
-    def _after(self, best: np.ndarray, angle: float, step: int, bend: float) -> np.ndarray:
+    def _after(self, best: FloatArray, angle: float, step: int, bend: float) -> FloatArray:
         best = best + self._gain
         best = np.maximum(best, np.maximum(np.roll(best, 1, axis=1), np.roll(best, -1, axis=1)))
         faster, slower = np.full_like(best, -np.inf), np.full_like(best, -np.inf)
@@ -69,12 +70,12 @@ class TurningBound:
         best[..., np.abs(self._speeds) > reached] = -np.inf
         return best
 
-    def _near(self, angle: float, reach: float) -> np.ndarray:
+    def _near(self, angle: float, within: float) -> BoolArray:
         off = np.abs(np.vectorize(wrap_angle)(self._angles - angle))
-        return off <= reach + 0.5 * float(self._angles[1]) + 1e-9
+        return off <= within + 0.5 * float(self._angles[1]) + 1e-9
 
 
-def _bent(best: np.ndarray, cells: int) -> np.ndarray:
+def _bent(best: FloatArray, cells: int) -> FloatArray:
     """The line may turn at once, by some parts of its bend: the robot's angle to it changes by so many cells each."""
     for level in range(1, len(best)):
         best[level] = np.maximum(best[level], np.roll(best[level - 1], cells, axis=0))

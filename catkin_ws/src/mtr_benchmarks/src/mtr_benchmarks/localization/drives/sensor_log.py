@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
-from typing import List, NamedTuple
+from typing import Any, List, NamedTuple
 
 import numpy as np
 import rosbag
 
 from mtr_core import names
+from mtr_core.arrays import FloatArray
 from mtr_simulation import robot
 
 MOUNTS = {names.FRONT_SCAN: (robot.FRONT_LIDAR_X_M, robot.FRONT_LIDAR_YAW_RAD),
@@ -17,22 +18,22 @@ MOUNTS = {names.FRONT_SCAN: (robot.FRONT_LIDAR_X_M, robot.FRONT_LIDAR_YAW_RAD),
 class Sweep(NamedTuple):
     """One scan: stamps of its beams in s, their angles in base_link, the LiDAR's place and the ranges."""
 
-    stamps_s: np.ndarray
-    angles_rad: np.ndarray
+    stamps_s: FloatArray
+    angles_rad: FloatArray
     x_m: float
-    ranges_m: np.ndarray
+    ranges_m: FloatArray
 
 
 class SensorLog(NamedTuple):
     """One drive: rows (stamp, speed) of the wheels, rows (stamp, yaw rate) of the gyro, sweeps in order of stamps."""
 
-    wheels: np.ndarray
-    gyro: np.ndarray
+    wheels: FloatArray
+    gyro: FloatArray
     sweeps: List[Sweep]
 
 
 def read_sensors(bag: pathlib.Path) -> SensorLog:
-    """Everything but the orders."""
+    """Everything but the requests to map."""
     wheels, gyro, sweeps = [], [], []
     with rosbag.Bag(str(bag)) as file:
         for topic, message, _ in file.read_messages(topics=[names.WHEEL_ODOMETRY, names.IMU_DATA, *MOUNTS]):
@@ -46,7 +47,7 @@ def read_sensors(bag: pathlib.Path) -> SensorLog:
     return SensorLog(np.array(wheels), np.array(gyro), sorted(sweeps, key=lambda sweep: float(sweep.stamps_s[0])))
 
 
-def _sweep(message: object, stamp_s: float, x_m: float, yaw_rad: float) -> Sweep:
+def _sweep(message: Any, stamp_s: float, x_m: float, yaw_rad: float) -> Sweep:
     ranges = np.array(message.ranges, dtype=np.float32)
     beams = np.arange(len(ranges))
     usable = np.isfinite(ranges) & (ranges >= message.range_min) & (ranges <= message.range_max)

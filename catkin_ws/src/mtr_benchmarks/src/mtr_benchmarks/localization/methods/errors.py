@@ -5,16 +5,17 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
+from mtr_core.arrays import BoolArray, FloatArray
 from mtr_core.se2 import Pose2
 from mtr_simulation import robot
 
-from .drive_truth import DriveTruth
-from .trajectory import Trajectory, at, compose, wrapped
+from ..drives.trajectory import Trajectory, at, compose, wrapped
+from ..drives.truth import DriveTruth
 
 NAN = math.nan
 
 
-class Errors(NamedTuple):
+class PoseErrors(NamedTuple):
     """One row for each 20 ms after the loop; angles in degrees.
 
     Attributes:
@@ -24,23 +25,23 @@ class Errors(NamedTuple):
         standing, on_axis, beyond_m: see DriveTruth.
     """
 
-    stamps_s: np.ndarray
-    key_m: np.ndarray
-    yaw_deg: np.ndarray
-    nees: np.ndarray
-    standing: np.ndarray
-    on_axis: np.ndarray
-    beyond_m: np.ndarray
+    stamps_s: FloatArray
+    key_m: FloatArray
+    yaw_deg: FloatArray
+    nees: FloatArray
+    standing: BoolArray
+    on_axis: BoolArray
+    beyond_m: FloatArray
 
 
 class CarPose(NamedTuple):
     """The Car in a method's map: pose, and its covariance of x, y and heading in map."""
 
     pose: Pose2
-    covariance: np.ndarray
+    covariance: FloatArray
 
 
-def errors_of(track: Trajectory, car: CarPose, truth: DriveTruth) -> Errors:
+def errors_of(track: Trajectory, car: CarPose, truth: DriveTruth) -> PoseErrors:
     """Errors at each judged instant of the truth."""
     judged = truth.judged & (truth.track.stamps_s >= track.stamps_s[0]) & (truth.track.stamps_s <= track.stamps_s[-1])
     stamps = truth.track.stamps_s[judged]
@@ -55,15 +56,15 @@ def errors_of(track: Trajectory, car: CarPose, truth: DriveTruth) -> Errors:
     if track.valid is not None:
         key_m = np.where(track.valid[nearest], key_m, NAN)
     yaw = np.degrees(wrapped(measured[:, 2] - true[:, 2]))
-    return Errors(stamps, key_m, yaw, nees, truth.standing[judged], truth.on_axis[judged], truth.beyond_m[judged])
+    return PoseErrors(stamps, key_m, yaw, nees, truth.standing[judged], truth.on_axis[judged], truth.beyond_m[judged])
 
 
-def keys(poses: np.ndarray) -> np.ndarray:
+def keys(poses: FloatArray) -> FloatArray:
     """Positions (n, 2) of the key for poses of base_link."""
     return poses[:, :2] + robot.KEY_X_M * np.stack([np.cos(poses[:, 2]), np.sin(poses[:, 2])], axis=1)
 
 
-def joined(covariances: np.ndarray, car: CarPose, poses_in_car: np.ndarray) -> np.ndarray:
+def joined(covariances: FloatArray, car: CarPose, poses_in_car: FloatArray) -> FloatArray:
     """Covariances (n, 3, 3) of base_link in frame car from those of base_link and of the Car in map."""
     cos, sin = math.cos(car.pose.heading), math.sin(car.pose.heading)
     turn = np.array(((cos, sin, 0.0), (-sin, cos, 0.0), (0.0, 0.0, 1.0)))
@@ -74,14 +75,14 @@ def joined(covariances: np.ndarray, car: CarPose, poses_in_car: np.ndarray) -> n
     return own + lever @ car.covariance @ lever.transpose(0, 2, 1)
 
 
-def normalised_squares(measured: np.ndarray, true: np.ndarray, covariances: np.ndarray) -> np.ndarray:
+def normalised_squares(measured: FloatArray, true: FloatArray, covariances: FloatArray) -> FloatArray:
     """e P^-1 e for each pose; its mean over many drives is 3 when the covariances are honest."""
     difference = measured - true
     difference[:, 2] = wrapped(difference[:, 2])
     return np.einsum("ni,ni->n", difference, np.linalg.solve(covariances, difference[:, :, np.newaxis])[:, :, 0])
 
 
-def percentile(values: np.ndarray, share: float = 95.0) -> Optional[float]:
+def percentile(values: FloatArray, share: float = 95.0) -> Optional[float]:
     """Percentile of the known values; None when there are none."""
     known = values[np.isfinite(values)]
     return float(np.percentile(known, share)) if len(known) else None

@@ -1,12 +1,12 @@
 """The truth of one drive as read back from its files."""
 # SPDX-License-Identifier: Apache-2.0
 import json
-import math
 import pathlib
 from typing import Any, Dict, NamedTuple
 
 import numpy as np
 
+from mtr_core.arrays import BoolArray, FloatArray
 from mtr_core.se2 import Pose2
 
 from .pattern import AXIS, AXIS_SPEED_MPS
@@ -31,10 +31,10 @@ class DriveTruth(NamedTuple):
     """
 
     track: Trajectory
-    standing: np.ndarray
-    on_axis: np.ndarray
-    beyond_m: np.ndarray
-    judged: np.ndarray
+    standing: BoolArray
+    on_axis: BoolArray
+    beyond_m: FloatArray
+    judged: BoolArray
     meta: Dict[str, Any]
 
     @property
@@ -42,7 +42,7 @@ class DriveTruth(NamedTuple):
         """The Car in the frame of the robot's start."""
         return Pose2(*self.meta["map_from_car"].values())
 
-    def in_loop(self, stamps_s: np.ndarray) -> np.ndarray:
+    def in_loop(self, stamps_s: FloatArray) -> BoolArray:
         """True for stamps while the robot goes round the Car."""
         loop = [each for each in self.meta["segments"] if each["kind"] == "loop"]
         return (stamps_s > loop[0]["begin_s"]) & (stamps_s <= loop[-1]["end_s"])
@@ -59,8 +59,3 @@ def read_truth(folder: pathlib.Path) -> DriveTruth:
                       np.maximum(np.abs(poses[:, 1]) - 0.5 * meta["width_m"], 0.0))
     return DriveTruth(trajectory(columns["stamp_s"], poses), columns["standing"] > 0.5, fast & (kinds == AXIS), beyond,
                       columns["stamp_s"] > meta["loop_end_s"] + EFFECT_S, meta)
-
-
-def heading_difference_deg(first: Pose2, second: Pose2) -> float:
-    """How far two headings are apart."""
-    return math.degrees(abs(math.remainder(first.heading - second.heading, 2.0 * math.pi)))

@@ -7,7 +7,7 @@ from mtr_core.se2 import Pose2, wrap_angle
 from mtr_simulation import robot
 from mtr_simulation.car_shape import CarShape
 
-from .legs import Leg, Lift, Path, Point, Stand, Straight, Turn
+from .legs import Leg, Lift, Point, Polyline, Stand, Straight, Turn
 
 LOOP_DISTANCE_M, LOOP_SPEED_MPS = 1.6, 0.5
 TRANSFER_DISTANCE_M, TRANSFER_SPEED_MPS = 2.2, 0.8
@@ -54,7 +54,7 @@ def pieces(shape: CarShape, start: Pose2, plan: Plan) -> Iterator[Piece]:
     here = (start.x, start.y)
     yield Piece(Stand(STAND_FIRST_S), START)
     way = _loop_way(shape, here)
-    yield from (Piece(Turn(_bearing(here, way[0])), LOOP), Piece(Path(way, LOOP_SPEED_MPS), LOOP),
+    yield from (Piece(Turn(_bearing(here, way[0])), LOOP), Piece(Polyline(way, LOOP_SPEED_MPS), LOOP),
                 Piece(Stand(STAND_AFTER_LOOP_S), SETTLE))
     if plan.kidnap:
         yield from (Piece(LIFTED, KIDNAP), Piece(Stand(STAND_AFTER_LIFT_S), KIDNAP))
@@ -102,7 +102,8 @@ def _axis(shape: CarShape, here: Point, direction: float) -> Tuple[List[Piece], 
     cos, sin = math.cos(direction), math.sin(direction)
     far, near = ((x + (distance + robot.KEY_X_M) * cos, y + (distance + robot.KEY_X_M) * sin)
                  for distance in (AXIS_FAR_M, AXIS_NEAR_M))
-    legs = [Straight(near, AXIS_SPEED_MPS), Stand(STAND_S), Straight(far, AXIS_SPEED_MPS, True), Stand(STAND_S)]
+    legs: List[Leg] = [Straight(near, AXIS_SPEED_MPS), Stand(STAND_S),
+                       Straight(far, AXIS_SPEED_MPS, True), Stand(STAND_S)]
     return [*_transfer(shape, here, far, wrap_angle(direction + math.pi)),
             *(Piece(leg, AXIS, direction) for leg in legs)], far
 
@@ -130,7 +131,7 @@ def _transfer(shape: CarShape, here: Point, there: Point, heading: float) -> Lis
     turns = [(wrap_angle(math.atan2(y, x) - begin), (x, y)) for x, y in places]
     between = [(abs(angle), place) for angle, place in turns if angle * turn > 0.0 and abs(angle) < abs(turn)]
     way = (*(place for _, place in sorted(between)), there)
-    return [Piece(Turn(_bearing(here, way[0])), TRANSFER), Piece(Path(way, TRANSFER_SPEED_MPS), TRANSFER),
+    return [Piece(Turn(_bearing(here, way[0])), TRANSFER), Piece(Polyline(way, TRANSFER_SPEED_MPS), TRANSFER),
             Piece(Turn(heading), TRANSFER)]
 
 

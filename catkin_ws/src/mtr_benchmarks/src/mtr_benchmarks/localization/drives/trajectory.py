@@ -3,10 +3,11 @@
 import csv
 import math
 import pathlib
-from typing import NamedTuple, Optional
+from typing import Dict, NamedTuple, Optional
 
 import numpy as np
 
+from mtr_core.arrays import BoolArray, FloatArray
 from mtr_core.se2 import Pose2
 
 
@@ -16,21 +17,21 @@ class Trajectory(NamedTuple):
     covariances (n, 3, 3) and valid (n) are None from a method that gives none.
     """
 
-    stamps_s: np.ndarray
-    poses: np.ndarray
-    covariances: Optional[np.ndarray] = None
-    valid: Optional[np.ndarray] = None
+    stamps_s: FloatArray
+    poses: FloatArray
+    covariances: Optional[FloatArray] = None
+    valid: Optional[BoolArray] = None
 
 
-def trajectory(stamps_s: np.ndarray, poses: np.ndarray, covariances: Optional[np.ndarray] = None,
-               valid: Optional[np.ndarray] = None) -> Trajectory:
+def trajectory(stamps_s: FloatArray, poses: FloatArray, covariances: Optional[FloatArray] = None,
+               valid: Optional[BoolArray] = None) -> Trajectory:
     """Trajectory whose headings are unwrapped."""
     unwrapped = np.array(poses, dtype=float)
     unwrapped[:, 2] = np.unwrap(unwrapped[:, 2])
     return Trajectory(np.asarray(stamps_s, dtype=float), unwrapped, covariances, valid)
 
 
-def read_columns(path: pathlib.Path) -> dict:
+def read_columns(path: pathlib.Path) -> Dict[str, FloatArray]:
     """Columns of a CSV file of numbers by name."""
     with path.open(newline="", encoding="utf-8") as file:
         rows = csv.reader(file)
@@ -39,19 +40,19 @@ def read_columns(path: pathlib.Path) -> dict:
     return dict(zip(header, values.reshape(-1, len(header)).T))
 
 
-def at(track: Trajectory, stamps_s: np.ndarray) -> np.ndarray:
+def at(track: Trajectory, stamps_s: FloatArray) -> FloatArray:
     """Poses (n, 3) at the stamps, by linear interpolation."""
     return np.stack([np.interp(stamps_s, track.stamps_s, track.poses[:, column]) for column in range(3)], axis=1)
 
 
-def compose(first: Pose2, poses: np.ndarray) -> np.ndarray:
+def compose(first: Pose2, poses: FloatArray) -> FloatArray:
     """first @ each of the poses."""
     cos, sin = math.cos(first.heading), math.sin(first.heading)
     x, y, heading = poses.T
     return np.stack([first.x + cos * x - sin * y, first.y + sin * x + cos * y, heading + first.heading], axis=1)
 
 
-def aligned(measured: np.ndarray, true: np.ndarray) -> Pose2:
+def aligned(measured: FloatArray, true: FloatArray) -> Pose2:
     """The motion true_from_measured that brings the measured poses nearest to the true ones, positions only."""
     middle, target = measured[:, :2].mean(axis=0), true[:, :2].mean(axis=0)
     a, b = measured[:, :2] - middle, true[:, :2] - target
@@ -60,6 +61,6 @@ def aligned(measured: np.ndarray, true: np.ndarray) -> Pose2:
     return Pose2(target[0] - cos * middle[0] + sin * middle[1], target[1] - sin * middle[0] - cos * middle[1], turn)
 
 
-def wrapped(angles_rad: np.ndarray) -> np.ndarray:
+def wrapped(angles_rad: FloatArray) -> FloatArray:
     """Angles within a half turn to either side."""
     return np.remainder(angles_rad + math.pi, 2.0 * math.pi) - math.pi

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, replace
-from typing import Optional
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import ParameterSet, number
@@ -87,6 +86,7 @@ class DriveOptions(ParameterSet):
         imu = ImuParameters(gyro_scale_error=self.gyro_scale_error)
         return Sim(self.seed, self.scenario(), SimParameters(rear_lidar=self.rear, lidar=lidar, imu=imu))
 
-    def _walk(self, site: Scenario) -> Optional[Walk]:
+    def _walk(self, site: Scenario) -> Walk:
         y = -0.5 * self.shape.width_m - PERSON_BESIDE_M
-        return Walk(*(site.world_from_car.apply(x, y) for x in (-PERSON_REACH_M, PERSON_REACH_M)))
+        begin, end = (site.world_from_car.apply(x, y) for x in (-PERSON_REACH_M, PERSON_REACH_M))
+        return Walk(begin, end)

@@ -5,7 +5,7 @@ import math
 import pathlib
 import subprocess
 from dataclasses import replace
-from typing import Any, Dict, Iterable
+from typing import Any, Dict, Iterable, NamedTuple
 
 import numpy as np
 from roslib.packages import find_node
@@ -19,22 +19,22 @@ from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 from mtr_simulation.car_shape import CAR_SHAPES
 
-from .drive_truth import DriveTruth
+from ..drives.recording import BAG
+from ..drives.trajectory import Trajectory, aligned, at, compose, read_columns, trajectory
+from ..drives.truth import DriveTruth
 from .errors import CarPose, errors_of
-from .methods import Outcome
-from .recording import BAG
-from .trajectory import Trajectory, aligned, at, compose, read_columns, trajectory
+from .outcome import CarErrors, MethodOutcome
 
 REPLAY_LIMIT_S = 1800.0
 PARAMETERS = LocatorParameters()
-LEAST_INSET_M = 0.001
+MIN_INSET_M = 0.001
 
 
 class SystemFailure(Exception):
     """The system gave nothing to judge; the text is what it said."""
 
 
-def run_this_system(folder: pathlib.Path, truth: DriveTruth) -> Outcome:
+def run_this_system(folder: pathlib.Path, truth: DriveTruth) -> MethodOutcome:
     """Errors of the whole chain in one drive."""
     out = folder / "replay"
     replay(folder / BAG, out)
@@ -43,8 +43,8 @@ def run_this_system(folder: pathlib.Path, truth: DriveTruth) -> Outcome:
         raise SystemFailure(f"There is no map of this way round. {summary['map_message']}")
     track = read_replayed(out / "trajectory.csv")
     found = locate(out, truth.meta, scans_in(folder / BAG, PARAMETERS))
-    return Outcome(errors_of(track, car_pose(found), truth), float(summary["cpu_ms_per_scan"]),
-                   car_figures(found, key_frames(out), truth))
+    return MethodOutcome(errors_of(track, car_pose(found), truth), float(summary["cpu_ms_per_scan"]),
+                   car_errors(found, key_frames(out), truth))
 
 
 def replay(bag: pathlib.Path, out: pathlib.Path) -> None:
@@ -81,7 +81,7 @@ def is_below_widest_line(meta: Dict[str, Any]) -> bool:
     """True when the plane does not meet the Car where it is longest and widest."""
     at_lidar = meta["at_lidar"]
     return at_lidar["only_wheels"] or min(meta["length_m"] - at_lidar["length_m"],
-                                          meta["width_m"] - at_lidar["width_m"]) > LEAST_INSET_M
+                                          meta["width_m"] - at_lidar["width_m"]) > MIN_INSET_M
 
 
 def data_sheet(meta: Dict[str, Any]) -> CarProfile:
@@ -101,33 +101,44 @@ def car_pose(found: CarFit) -> CarPose:
 
 
 def key_frames(out: pathlib.Path) -> Trajectory:
-    """The adjusted key-frames."""
+    """The adjusted key frames."""
     columns = read_columns(out / "key_frames.csv")
     return trajectory(columns["stamp_s"], np.stack([columns["x_m"], columns["y_m"], columns["heading_rad"]], axis=1))
 
 
-def car_figures(found: CarFit, frames: Trajectory, truth: DriveTruth) -> Dict[str, Any]:
-    """Errors of the Car's pose in the adjusted map, laid on the truth by its key-frames, and of its size.
+def car_errors(found: CarFit, frames: Trajectory, truth: DriveTruth) -> CarErrors:
+    """Errors of the Car's pose in the adjusted map, laid on the truth by its key frames, and of its size.
 
-    What the key-frames are off among themselves is localization's error, the rest is the Car locator's.
+    What the key frames are off among themselves is localization's error, the rest is the Car locator's.
     """
     car, meta = found.rectangle, truth.meta
     true = at(truth.track, frames.stamps_s)
     true_from_found = aligned(frames.poses, true) @ car.pose
     away = (compose(aligned(frames.poses, true), frames.poses) - true)[:, :2]
-    return {"position_error_m": math.hypot(true_from_found.x, true_from_found.y),
-            "along_error_m": true_from_found.x, "across_error_m": true_from_found.y,
-            "yaw_error_deg": abs(math.degrees(true_from_found.heading)),
-            **plane_errors(found, meta["at_lidar"]),
-            "length_error_body_m": car.length - meta["length_m"], "width_error_body_m": car.width - meta["width_m"],
-            "length_sigma_m": found.length_sigma, "width_sigma_m": found.width_sigma, "sigmas": list(found.sigmas),
-            "only_wheels": bool(meta["at_lidar"]["only_wheels"]), "warning": found.warning,
-            "key_frame_rmse_m": math.sqrt(float(np.mean(np.sum(away**2, axis=1))))}
+    in_plane = plane_errors(found, meta["at_lidar"])
+    return CarErrors(
+        position_error_m=math.hypot(true_from_found.x, true_from_found.y),
+        along_error_m=true_from_found.x, across_error_m=true_from_found.y,
+        yaw_error_deg=abs(math.degrees(true_from_found.heading)),
+        length_error_m=in_plane.length_m, width_error_m=in_plane.width_m,
+        length_plane_sigma_m=in_plane.length_sigma_m, width_plane_sigma_m=in_plane.width_sigma_m,
+        length_error_body_m=car.length - meta["length_m"], width_error_body_m=car.width - meta["width_m"],
+        length_sigma_m=found.length_sigma, width_sigma_m=found.width_sigma, sigmas=list(found.sigmas),
+        only_wheels=bool(meta["at_lidar"]["only_wheels"]), warning=found.warning,
+        key_frame_rmse_m=math.sqrt(float(np.mean(np.sum(away**2, axis=1)))))
 
 
-def plane_errors(found: CarFit, at_lidar: Dict[str, Any]) -> Dict[str, float]:
-    """Errors and sigmas of what was measured in the LiDARs' plane; what was not measured is what is published."""
+class PlaneErrors(NamedTuple):
+    """Errors and sigmas of length and width in the LiDARs' plane."""
+
+    length_m: float
+    width_m: float
+    length_sigma_m: float
+    width_sigma_m: float
+
+
+def plane_errors(found: CarFit, at_lidar: Dict[str, Any]) -> PlaneErrors:
+    """Errors of what was measured in the LiDARs' plane; what was not measured is what is published."""
     size, car = found.in_plane, found.rectangle
-    return {"length_error_m": (size.length or car.length) - at_lidar["length_m"],
-            "width_error_m": (size.width or car.width) - at_lidar["width_m"],
-            "length_plane_sigma_m": size.length_sigma, "width_plane_sigma_m": size.width_sigma}
+    return PlaneErrors((size.length or car.length) - at_lidar["length_m"],
+                       (size.width or car.width) - at_lidar["width_m"], size.length_sigma, size.width_sigma)

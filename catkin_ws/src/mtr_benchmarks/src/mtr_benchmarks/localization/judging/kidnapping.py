@@ -1,15 +1,19 @@
 """What the system says after somebody has lifted the robot and put it down 2 m aside."""
 # SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
 from typing import Any, Dict, List, NamedTuple, Optional, Sequence
 
 import numpy as np
 
-from .errors import Errors
-from .pattern import KIDNAP
+from ...harness.rows import Requirement, Row
+from ..drives.pattern import KIDNAP
+from ..methods.errors import PoseErrors
 
 DETECTION_LIMIT_S = 2.0
 # A pose that is valid again has to be this near to the truth.
 RECOVERED_M = 0.1
+DETECTION = Requirement("kidnapped: until it says so, slowest", "s", must=DETECTION_LIMIT_S)
+WRONG = Requirement("kidnapped: wrong poses called valid 2 s after it", "(share)", must=0.0)
 
 
 class Kidnapping(NamedTuple):
@@ -26,7 +30,21 @@ class Kidnapping(NamedTuple):
     wrong_share: float
 
 
-def kidnapping(errors: Errors, segments: Sequence[Dict[str, Any]]) -> Kidnapping:
+@dataclass(frozen=True)
+class KidnappingFigures:
+    """Over all robots."""
+
+    robots: int
+    detected: int
+    slowest_detection_s: Optional[float]
+    recovered: int
+    slowest_recovery_s: Optional[float]
+    longest_wrong_share: Optional[float]
+    limit_s: float
+    met: bool
+
+
+def kidnapping(errors: PoseErrors, segments: Sequence[Dict[str, Any]]) -> Kidnapping:
     """What happened in the drive of these errors."""
     lifted_s = next(each["begin_s"] for each in segments if each["kind"] == KIDNAP)
     after = errors.stamps_s > lifted_s
@@ -38,22 +56,21 @@ def kidnapping(errors: Errors, segments: Sequence[Dict[str, Any]]) -> Kidnapping
                       float(np.mean(wrong[elapsed > DETECTION_LIMIT_S])))
 
 
-def figures(all_of_them: List[Kidnapping]) -> Dict[str, Any]:
+def figures(all_of_them: List[Kidnapping]) -> KidnappingFigures:
     """Over all robots."""
     detected = [each.detected_s for each in all_of_them if each.detected_s is not None]
     recovered = [each.recovered_s for each in all_of_them if each.recovered_s is not None]
     good = [each for each in all_of_them if each.detected_s is not None and each.detected_s <= DETECTION_LIMIT_S
             and each.wrong_share == 0.0]
-    return {"robots": len(all_of_them), "detected": len(detected), "slowest_detection_s": max(detected, default=None),
-            "recovered": len(recovered), "slowest_recovery_s": max(recovered, default=None),
-            "longest_wrong_share": max((each.wrong_share for each in all_of_them), default=None),
-            "limit_s": DETECTION_LIMIT_S, "met": len(good) == len(all_of_them) > 0}
+    return KidnappingFigures(
+        len(all_of_them), len(detected), max(detected, default=None), len(recovered), max(recovered, default=None),
+        max((each.wrong_share for each in all_of_them), default=None), DETECTION_LIMIT_S,
+        len(good) == len(all_of_them) > 0)
 
 
-def sentence(found: Dict[str, Any]) -> str:
-    """The figures for a person."""
-    slowest = found["slowest_detection_s"]
-    return (f"Kidnapped: {found['detected']} of {found['robots']} noticed"
-            f"{'' if slowest is None else f', the slowest after {slowest:.2f} s'}; {found['recovered']} recovered, the "
-            f"others stood; wrong poses called valid for {100.0 * found['longest_wrong_share']:.1f} % of the time at "
-            f"most: {'met' if found['met'] else 'NOT MET'}")
+def rows(found: KidnappingFigures, failed_drives: int = 0) -> List[Row]:
+    """Without failed drives both are met exactly when `met` of the figures is true."""
+    remark = f"{found.detected} of {found.robots} noticed, {found.recovered} recovered, the others stood"
+    is_complete = found.detected == found.robots and not failed_drives
+    return [Row(DETECTION, found.slowest_detection_s, is_complete, {"failed_drives": failed_drives}, remark),
+            Row(WRONG, found.longest_wrong_share, not failed_drives, {"failed_drives": failed_drives})]

@@ -1,4 +1,4 @@
-"""Writes one drive: a bag with what the robot's nodes would hear, and the truth in files of its own."""
+"""Writes one drive: a bag with what the robot's nodes would receive, and the truth in files of its own."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
 import json
@@ -32,7 +32,7 @@ class Recording:
         self._folder, self._lidar_height_m = folder, lidar_height_m
         self._imu = conversions.ImuMessage(ImuParameters())
         self._odometry = conversions.OdometryMessage(names.ODOM)
-        self._bag: Optional[rosbag.Bag] = None
+        self._bag: Any = None
         self._truth: Any = None
         self._rows: Any = None
 
@@ -73,8 +73,8 @@ class Recording:
         self._write(names.IMU_DATA, self._imu.fill(time_ns, sensors.imu), time_ns)
         self._write(names.WHEEL_ODOMETRY, self._odometry.fill(time_ns, sensors.odometry), time_ns)
 
-    def order(self, time_ns: int, map_car_id: int, phase: int) -> None:
-        """What the Car locator orders of localization."""
+    def mapping(self, time_ns: int, map_car_id: int, phase: int) -> None:
+        """The Car locator's request to localization."""
         message = MappingOrder(map_car_id=map_car_id, phase=phase)
         message.header.stamp = conversions.stamp(time_ns)
         self._write(names.MAPPING_ORDER, message, time_ns)

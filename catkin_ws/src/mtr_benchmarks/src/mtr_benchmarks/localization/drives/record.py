@@ -18,8 +18,8 @@ from mtr_msgs.msg import MappingOrder
 from mtr_simulation.car_shape import size_at
 from mtr_simulation.sim import TICK_S, Sim
 
-from .drive_options import DriveOptions
 from .legs import LegFollower, Lift
+from .options import DriveOptions
 from .pattern import LOOP, START, Piece, Plan, pieces
 from .recording import Recording, pose_values
 
@@ -109,7 +109,7 @@ class _Driving:
         sim.scans_wanted = sweep % self._options.sweeps_apart == 0
         sensors = sim.step()
         if CAR_LOCATOR.last_at(sim.time_ns) == sim.time_ns:
-            files.order(sim.time_ns, MAP_CAR_ID if phase else 0, phase)
+            files.mapping(sim.time_ns, MAP_CAR_ID if phase else 0, phase)
         files.sensors(sensors)
         # The truth of a long drive is written as seldom as its sweeps.
         if sim.time_ns // CLOCK_STEP.period_ns % self._options.sweeps_apart == 0:

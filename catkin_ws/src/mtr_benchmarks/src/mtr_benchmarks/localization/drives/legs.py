@@ -35,7 +35,7 @@ class Straight(NamedTuple):
     backwards: bool = False
 
 
-class Path(NamedTuple):
+class Polyline(NamedTuple):
     """Drive forwards along a polyline in frame car, cutting its corners."""
 
     points: Tuple[Point, ...]
@@ -49,7 +49,8 @@ class Lift(NamedTuple):
     turn_rad: float
 
 
-Leg = Union[Stand, Turn, Straight, Path, Lift]
+# One piece of a drive.
+Leg = Union[Stand, Turn, Straight, Polyline, Lift]
 
 
 class LegFollower:
@@ -58,7 +59,7 @@ class LegFollower:
     def __init__(self, leg: Leg, start: Pose2, period_s: float):
         self._leg, self._start, self._period_s = leg, start, period_s
         self._elapsed_s = self._speed = self._turning = 0.0
-        self._ahead: List[Point] = [(start.x, start.y), *leg.points] if isinstance(leg, Path) else []
+        self._ahead: List[Point] = [(start.x, start.y), *leg.points] if isinstance(leg, Polyline) else []
 
     def update(self, pose: Pose2) -> Tuple[Velocity, bool]:
         """Command for the true pose, and whether the leg is finished."""
@@ -71,7 +72,7 @@ class LegFollower:
             return self._turn(wrap_angle(self._leg.heading - pose.heading))
         if isinstance(self._leg, Straight):
             return self._straight(self._leg, pose)
-        return self._path(self._leg, pose)
+        return self._along(self._leg, pose)
 
     def _turn(self, error: float) -> Tuple[Velocity, bool]:
         wanted = math.copysign(min(MAX_TURN_RADPS, math.sqrt(2.0 * TURN_ACCELERATION_RADPS2 * 0.5 * abs(error))), error)
@@ -90,7 +91,7 @@ class LegFollower:
         turning = -HEADING_GAIN_PER_S * heading - CROSS_GAIN_PER_M * speed * aside
         return ((0.0, 0.0) if done else (speed, _clip(turning, MAX_TURN_RADPS))), done
 
-    def _path(self, leg: Path, pose: Pose2) -> Tuple[Velocity, bool]:
+    def _along(self, leg: Polyline, pose: Pose2) -> Tuple[Velocity, bool]:
         goal = self._look_ahead(pose)
         left_m = _length([(pose.x, pose.y), *self._ahead[1:]])
         x, y = pose.inverse().apply(*goal)

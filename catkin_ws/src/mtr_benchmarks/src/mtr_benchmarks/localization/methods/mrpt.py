@@ -7,8 +7,10 @@ from typing import Iterator, List, NamedTuple, Tuple
 
 import numpy as np
 
-from .sensor_log import SensorLog, Sweep
-from .trajectory import Trajectory, at, read_columns, trajectory
+from mtr_core.arrays import FloatArray
+
+from ..drives.sensor_log import SensorLog, Sweep
+from ..drives.trajectory import Trajectory, at, read_columns, trajectory
 
 # Beams over the full circle, as dense as the LiDARs' own.
 BEAMS = 960
@@ -64,7 +66,7 @@ def _turns(sweeps: List[Sweep]) -> Iterator[List[Sweep]]:
         yield together
 
 
-def points(sweep: Sweep, odometry: Trajectory, pose: np.ndarray) -> np.ndarray:
+def points(sweep: Sweep, odometry: Trajectory, pose: FloatArray) -> FloatArray:
     """Returns (n, 2) in base_link at a pose, each seen from where the robot was at its beam's time."""
     seen = sweep.ranges_m > 0.0
     x, y, heading = at(odometry, sweep.stamps_s[seen]).T
@@ -76,9 +78,9 @@ def points(sweep: Sweep, odometry: Trajectory, pose: np.ndarray) -> np.ndarray:
     return np.stack([cos * away_x + sin * away_y, cos * away_y - sin * away_x], axis=1)
 
 
-def rebinned(clouds: List[np.ndarray]) -> np.ndarray:
+def rebinned(clouds: List[FloatArray]) -> FloatArray:
     """Range of the nearest return in each of BEAMS directions from -pi on, 0 where there is none."""
-    cloud: Tuple[np.ndarray, ...] = tuple(np.concatenate(clouds).T)
+    cloud: Tuple[FloatArray, ...] = tuple(np.concatenate(clouds).T)
     distances = np.hypot(*cloud)
     step = 2.0 * math.pi / (BEAMS - 1)
     bins = np.rint((np.arctan2(cloud[1], cloud[0]) + math.pi) / step).astype(int)

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import List, NamedTuple
 
-from .drive_options import DriveOptions
+from .options import DriveOptions
 
 SCENES = ("lot", "far", "cones", "open")
 CARS = ("hatchback", "sedan", "van")
@@ -15,7 +15,7 @@ KIDNAP_SCENES = ("lot", "open")
 CAMPAIGN_S, QUICK_CAMPAIGN_S, CAMPAIGN_SWEEPS_APART = 8.0 * 3600.0, 900.0, 4
 
 
-class Drive(NamedTuple):
+class BenchmarkDrive(NamedTuple):
     """One drive and what it is for; plain drives are also given to the other methods."""
 
     options: DriveOptions
@@ -27,20 +27,20 @@ class Drive(NamedTuple):
         return f"{self.options.scene}_{self.variant}_{self.options.seed}"
 
 
-def all_drives(quick: bool = False) -> List[Drive]:
+def all_drives(quick: bool = False) -> List[BenchmarkDrive]:
     """Drives with other errors use the first of the plain drives' seeds, so that they differ in nothing else."""
     seeds, variant_seeds, kidnap_seeds = ((QUICK_SEEDS,) * 3 if quick else (SEEDS, VARIANT_SEEDS, KIDNAP_SEEDS))
     # The longest first, so that it does not end alone.
     campaign = replace(options("lot", 1), duration_s=QUICK_CAMPAIGN_S if quick else CAMPAIGN_S,
                        sweeps_apart=CAMPAIGN_SWEEPS_APART)
-    drives = [Drive(campaign, CAMPAIGN)]
-    drives += [Drive(options(scene, seed), PLAIN) for scene in SCENES for seed in range(1, seeds + 1)]
+    drives = [BenchmarkDrive(campaign, CAMPAIGN)]
+    drives += [BenchmarkDrive(options(scene, seed), PLAIN) for scene in SCENES for seed in range(1, seeds + 1)]
     for scene in SCENES:
         for seed in range(1, variant_seeds + 1):
             plain = options(scene, seed)
-            drives.append(Drive(replace(plain, range_bias_m=RANGE_BIAS_M), RANGE_BIAS))
-            drives.append(Drive(replace(plain, tilt_deg=TILT_DEG), TILT))
-    drives += [Drive(replace(options(scene, seed), kidnap=True), KIDNAP) for scene in KIDNAP_SCENES
+            drives.append(BenchmarkDrive(replace(plain, range_bias_m=RANGE_BIAS_M), RANGE_BIAS))
+            drives.append(BenchmarkDrive(replace(plain, tilt_deg=TILT_DEG), TILT))
+    drives += [BenchmarkDrive(replace(options(scene, seed), kidnap=True), KIDNAP) for scene in KIDNAP_SCENES
                for seed in range(1, kidnap_seeds + 1)]
     return drives
 

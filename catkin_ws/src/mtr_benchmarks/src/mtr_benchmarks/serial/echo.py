@@ -4,7 +4,8 @@ import io
 import statistics
 import threading
 import time
-from typing import Any, Dict, List, Optional
+from dataclasses import dataclass
+from typing import Dict, List, Optional
 
 from mtr_core import names
 from mtr_core.crc import seal
@@ -21,58 +22,74 @@ PERIOD_S = 0.05
 # Not a whole part of the firmware's reporting period, so that commands meet each phase of it.
 PERIOD_STEP_S = 0.0013
 LIMIT_S = 5.0
-HELD_HEIGHT_M = float("nan")
+# Fewer round trips have no 95 %.
+MIN_ECHOES = 20
+# The lift stays where it is.
+KEPT_HEIGHT_M = float("nan")
 
 
 class EchoTimer(LineObserver):
-    """Notes when the echo of each command comes."""
+    """Takes the time at which the echo of each command arrives.
 
-    def __init__(self) -> None:
+    Attributes:
+        arrivals: times of a clock that never steps, by the number of the command.
+        linked: the device takes commands.
+    """
+
+    def __init__(self, session: SerialSession) -> None:
+        self._session = session
         self.arrivals: Dict[int, float] = {}
         self.linked = threading.Event()
-        self._session: Optional[SerialSession] = None
-
-    def attach(self, session: SerialSession) -> None:
-        """The session whose events these are."""
-        self._session = session
 
     def event(self, event: SessionEvent) -> None:
-        """Something of the session."""
+        """The session has something to act on."""
         if event.opened and names.FIRMWARE_COMMAND in self._session.endpoints.to_device:
             self.linked.set()
         if event.message and self._session.endpoints.by_id[event.message.topic_id].info.name == names.FIRMWARE_ECHO:
             self.arrivals[event.message.payload[0]] = time.monotonic()
 
 
-def sentence(figures: Dict[str, Any]) -> str:
-    """The figures for a person."""
-    return (f"Command to echo at {figures['baud']} baud: {figures['echo_p50_ms']:.1f} ms (median), "
-            f"{figures['echo_p95_ms']:.1f} ms (95 %), {figures['echoes']} of {figures['commands']} echoed.")
+@dataclass(frozen=True)
+class EchoFigures:
+    """Round trips of commands; times are None when too few came back."""
+
+    commands: int
+    echoes: int
+    baud: int
+    echo_p50_ms: Optional[float]
+    echo_p95_ms: Optional[float]
+    echo_max_ms: Optional[float]
 
 
-def figures() -> Dict[str, Any]:
+def measure_echo() -> EchoFigures:
     """Round trips of commands to the emulated board."""
-    timer, parameters = EchoTimer(), SerialParameters()
+    parameters = SerialParameters()
     session = SerialSession(parameters, md5_of, time.time_ns)
-    timer.attach(session)
+    timer = EchoTimer(session)
     with Emulator("atmega2560") as board:
         line = SerialLine(lambda: SerialPort(str(board.pty), parameters.baud), session, timer)
         line.start()
         try:
             if not timer.linked.wait(LIMIT_S):
                 raise SystemExit("The emulated firmware did not answer.")
-            trips = [trip for number in range(COMMANDS) for trip in round_trip(line, timer, number)]
+            trips_ms = [trip for number in range(COMMANDS) for trip in round_trip(line, timer, number)]
         finally:
             line.stop()
-    return {"commands": COMMANDS, "echoes": len(trips), "baud": parameters.baud,
-            "echo_p50_ms": statistics.median(trips), "echo_p95_ms": statistics.quantiles(trips, n=20)[18],
-            "echo_max_ms": max(trips)}
+    return figures_of(trips_ms, parameters.baud)
+
+
+def figures_of(trips_ms: List[float], baud: int) -> EchoFigures:
+    """Median, 95 % and maximum."""
+    if len(trips_ms) < MIN_ECHOES:
+        return EchoFigures(COMMANDS, len(trips_ms), baud, None, None, None)
+    return EchoFigures(COMMANDS, len(trips_ms), baud, statistics.median(trips_ms),
+                       statistics.quantiles(trips_ms, n=20)[18], max(trips_ms))
 
 
 def round_trip(line: SerialLine, timer: EchoTimer, number: int) -> List[float]:
-    """Time in ms from giving a command to the line to hearing its echo; nothing when it was lost."""
+    """Time in ms from queueing a command to receiving its echo; nothing when it was lost."""
     buffer = io.BytesIO()
-    seal(FirmwareCommand(seq=number, lift_height_m=HELD_HEIGHT_M, led_pattern=2)).serialize(buffer)
+    seal(FirmwareCommand(seq=number, lift_height_m=KEPT_HEIGHT_M, led_pattern=2)).serialize(buffer)
     timer.arrivals.clear()
     begun = time.monotonic()
     line.send(names.FIRMWARE_COMMAND, buffer.getvalue())

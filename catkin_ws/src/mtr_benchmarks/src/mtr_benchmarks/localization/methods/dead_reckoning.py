@@ -4,8 +4,10 @@ import math
 
 import numpy as np
 
-from .sensor_log import SensorLog
-from .trajectory import Trajectory, trajectory
+from mtr_core.arrays import FloatArray
+
+from ..drives.sensor_log import SensorLog
+from ..drives.trajectory import Trajectory, trajectory
 
 # Standing: the wheels say nothing for this long.
 STILL_S = 0.5
@@ -26,7 +28,7 @@ def dead_reckoned(log: SensorLog) -> Trajectory:
     return trajectory(stamps, np.stack([x, y, headings], axis=1))
 
 
-def _bias(stamps: np.ndarray, speeds: np.ndarray, rates: np.ndarray) -> np.ndarray:
+def _bias(stamps: FloatArray, speeds: FloatArray, rates: FloatArray) -> FloatArray:
     """The gyro's bias as known at each stamp from the standstills before it."""
     bias, count, still_since = 0.0, 0.0, stamps[0]
     known = np.zeros(len(stamps))

@@ -1,0 +1,54 @@
+"""What a benchmark leaves: a JSON file with its figures and its table, lines for a person, and an exit status."""
+# SPDX-License-Identifier: Apache-2.0
+import json
+import math
+import pathlib
+from dataclasses import dataclass, field
+from typing import Any, Dict, List, Mapping
+
+from .lines import line
+from .rows import Row, all_met
+
+
+@dataclass(frozen=True)
+class Report:
+    """All that one benchmark found.
+
+    Attributes:
+        rows: of the table.
+        figures: everything else in the file, by its top-level key.
+        remarks: sentences below the table.
+    """
+
+    rows: List[Row]
+    figures: Mapping[str, Any]
+    remarks: List[str] = field(default_factory=list)
+
+    def document(self) -> Dict[str, Any]:
+        """What goes into the file; the table is its last key."""
+        return {**{key: _finite(value) for key, value in self.figures.items()},
+                "table": [row.as_json() for row in self.rows]}
+
+
+def write(report: Report, path: pathlib.Path) -> None:
+    """Write the file and, if it is not there, its folder."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(report.document(), indent=2, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def finish(report: Report, path: pathlib.Path) -> int:
+    """Write the file and print the table; the exit status is 0 when every row is what it must be."""
+    write(report, path)
+    print("\n".join([*map(line, report.rows), *report.remarks]), flush=True)
+    return 0 if all_met(report.rows) else 1
+
+
+def _finite(value: Any) -> Any:
+    """The same with null for numbers that JSON does not have."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {key: _finite(each) for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(each) for each in value]
+    return value

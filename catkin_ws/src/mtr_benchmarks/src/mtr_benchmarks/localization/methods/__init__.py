@@ -1,0 +1,2 @@
+"""What this system and two others make of a recorded drive."""
+# SPDX-License-Identifier: Apache-2.0

@@ -1,0 +1,27 @@
+"""Speed of everything together: the demo with both scenarios, the robot's nodes, the simulator and the application."""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+from dataclasses import dataclass
+from typing import Optional, Tuple
+
+from mtr_bringup.demo import DemoError, DemoOptions, run_demo
+from mtr_bringup.stack import StackError
+
+
+@dataclass(frozen=True)
+class WholeStackFigures:
+    """Robot time by wall time, start-up and pictures included; None when the demo failed, which problems explain."""
+
+    real_time_factor: Optional[float]
+    robot_s: Optional[float] = None
+    wall_s: Optional[float] = None
+    problems: Tuple[str, ...] = ()
+
+
+def measure_whole_stack(folder: pathlib.Path) -> WholeStackFigures:
+    """Run the demo with its results in a folder, whose former content is deleted."""
+    try:
+        demo = run_demo(DemoOptions(folder))
+    except (StackError, DemoError) as error:
+        return WholeStackFigures(None, problems=(str(error),))
+    return WholeStackFigures(demo.real_time_factor, demo.robot_s, demo.wall_s, demo.problems)
