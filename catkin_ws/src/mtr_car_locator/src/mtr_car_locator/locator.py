@@ -120,7 +120,7 @@ class CarLocator:
         return self._rough(car, rounded(car, self._parameters.prior_margin_m), self._message)
 
     def _rough(self, car: Rectangle, outline: Tuple[Point, ...], message: str) -> Estimate:
-        sigma, size_sigma = PRIOR_POSITION_SIGMA_M, 0.5 * self._parameters.profile.size_tolerance_m
+        sigma, size_sigma = PRIOR_POSITION_SIGMA_M, 0.5 * self._parameters.sheet.size_tolerance_m
         estimate = Estimate(self._state, car, outline, (sigma, sigma, PRIOR_HEADING_SIGMA_RAD), size_sigma, size_sigma,
                             None, self._map_car_id, message, self._revision)
         survey = self._survey if self._state == CarState.COLLECTING else None

@@ -108,7 +108,7 @@ def summary_of(fit: CarFit) -> List[str]:
 
 def _prior(folder: pathlib.Path, car: Optional[Pose2], parameters: LocatorParameters) -> Prior:
     if car is not None:
-        return prior_at(Rectangle(car, parameters.profile.length_m, parameters.profile.width_m))
+        return prior_at(Rectangle(car, parameters.sheet.length_m, parameters.sheet.width_m))
     frames = _table(folder / KEY_FRAMES, KEY_FRAME_COLUMNS)
     if len(frames) == 0:
         raise FilesUnusable(f"{folder / KEY_FRAMES} has no key-frame, so where the robot started is not known.")

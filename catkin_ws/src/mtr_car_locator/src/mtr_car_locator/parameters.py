@@ -9,7 +9,7 @@ from mtr_core.se2 import Pose2
 
 
 @dataclass(frozen=True)
-class CarProfile(ParameterSet):
+class DataSheet(ParameterSet):
     """What is known of the Car before it is measured; zeros mean that it is not known.
 
     Attributes:
@@ -99,7 +99,7 @@ class LocatorParameters(ParameterSet):
     start_x_m: float = number(4.0, -20.0, 20.0, "m")
     start_y_m: float = number(2.6, -20.0, 20.0, "m")
     start_heading_rad: float = number(math.atan2(-2.6, -4.0), -math.pi, math.pi, "rad")
-    profile: CarProfile = field(default_factory=CarProfile)
+    sheet: DataSheet = field(default_factory=DataSheet)
     refinement: RefinementParameters = field(default_factory=RefinementParameters)
     position_tolerance_m: float = number(1.5, 0.1, 3.0, "m")
     heading_tolerance_rad: float = number(math.radians(25.0), 0.01, 0.7, "rad")
@@ -118,7 +118,7 @@ class LocatorParameters(ParameterSet):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        beyond = (abs(self.start_x_m) - 0.5 * self.profile.length_m, abs(self.start_y_m) - 0.5 * self.profile.width_m)
+        beyond = (abs(self.start_x_m) - 0.5 * self.sheet.length_m, abs(self.start_y_m) - 0.5 * self.sheet.width_m)
         if min(beyond) <= 0.0:
             raise ConfigurationError(
                 f"Parameters start_x_m and start_y_m are {self.start_x_m:g} and {self.start_y_m:g} m; the starting "

@@ -9,7 +9,7 @@ from locator_surfels import SIGMA_M, prior, surfels
 
 from mtr_car_locator.find.fit import fit_car
 from mtr_car_locator.measure.wheels import wheel_sides, wheels_between
-from mtr_car_locator.parameters import CarProfile, LocatorParameters
+from mtr_car_locator.parameters import DataSheet, LocatorParameters
 
 WIDTH_M, FRONT_M, REAR_M, HALF_CHORD_M, TYRE_M = 1.8, 1.45, -1.40, 0.30, 0.2
 LENGTH_M, OVERHANG_M = 4.8, 0.95
@@ -30,7 +30,7 @@ def tyres(treads, seen=0.7, shift=0.15):
 
 
 def wheels_of(rows, **sheet):
-    return wheels_between(wheel_sides(surfels(rows)), 0.0, WIDTH_M, CarProfile(**sheet))
+    return wheels_between(wheel_sides(surfels(rows)), 0.0, WIDTH_M, DataSheet(**sheet))
 
 
 def test_treads_give_both_axles_though_the_outer_faces_were_seen_in_part():
@@ -68,8 +68,8 @@ def test_wheelbase_of_another_car_makes_the_centre_unsure():
 def test_car_of_which_only_parts_of_the_tyres_were_seen_is_located():
     rows = tyres(TREADS, seen=0.55)
     rows = [(x + (0.1 if y > 0.0 and abs(y) > 0.85 else 0.0), y, *rest) for x, y, *rest in rows]
-    profile = CarProfile(**SHEET, known_width_m=WIDTH_M + 0.05)
-    fit = fit_car(surfels(rows), prior(0.2, 0.1, 0.05), LocatorParameters(profile=profile))
+    sheet = DataSheet(**SHEET, known_width_m=WIDTH_M + 0.05)
+    fit = fit_car(surfels(rows), prior(0.2, 0.1, 0.05), LocatorParameters(sheet=sheet))
     assert fit.by_wheels and fit.quality < 0.3
     assert fit.rectangle.pose.x == pytest.approx(CENTRE_M, abs=0.005)
     assert fit.rectangle.pose.y == pytest.approx(0.0, abs=0.005)

@@ -7,11 +7,11 @@ import pytest
 from locator_surfels import LENGTH_M, WIDTH_M, box, prior, surfels
 
 from mtr_car_locator.find.fit import fit_car
-from mtr_car_locator.parameters import CarProfile, LocatorParameters
+from mtr_car_locator.parameters import DataSheet, LocatorParameters
 
 
 def fit_with(sides=("front", "rear", "left", "right"), **sheet):
-    return fit_car(surfels(box(sides=sides)), prior(0.2, 0.1, 0.05), LocatorParameters(profile=CarProfile(**sheet)))
+    return fit_car(surfels(box(sides=sides)), prior(0.2, 0.1, 0.05), LocatorParameters(sheet=DataSheet(**sheet)))
 
 
 def test_size_is_that_of_the_data_sheet_and_the_measured_one_stays_in_the_fit():

@@ -8,7 +8,7 @@ from locator_surfels import LENGTH_M, ORIGIN, PARAMETERS, SIGMA_M, STEP_M, WIDTH
 
 from mtr_car_locator.find.errors import NotLocated
 from mtr_car_locator.find.fit import fit_car
-from mtr_car_locator.parameters import CarProfile, LocatorParameters
+from mtr_car_locator.parameters import DataSheet, LocatorParameters
 from mtr_core.se2 import Pose2
 
 
@@ -98,7 +98,7 @@ def test_nothing_there_is_said(rows):
 
 
 def test_side_inset_widens_the_car():
-    inset = LocatorParameters(profile=CarProfile(side_inset_m=0.02))
+    inset = LocatorParameters(sheet=DataSheet(side_inset_m=0.02))
     plain, wide = (fit_car(surfels(box()), prior(), parameters) for parameters in (PARAMETERS, inset))
     assert wide.rectangle.width - plain.rectangle.width == pytest.approx(0.04)
     assert wide.rectangle.length == pytest.approx(plain.rectangle.length)

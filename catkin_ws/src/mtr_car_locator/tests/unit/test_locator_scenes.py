@@ -16,7 +16,7 @@ from locator_simulation import (
     wheels_alone,
 )
 
-from mtr_car_locator.parameters import CarProfile, LocatorParameters
+from mtr_car_locator.parameters import DataSheet, LocatorParameters
 from mtr_car_locator.survey.survey import MapPhase
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
@@ -86,8 +86,8 @@ def test_wheels_alone_give_pose_and_width_and_a_length_that_says_how_unsure_it_i
 
 
 def test_known_size_makes_a_car_on_wheels_exact():
-    profile = CarProfile(known_length_m=4.5, known_width_m=1.8, front_overhang_m=0.925)
-    world = World(Scene(wheels_alone(), start=OFF, parameters=LocatorParameters(profile=profile)))
+    sheet = DataSheet(known_length_m=4.5, known_width_m=1.8, front_overhang_m=0.925)
+    world = World(Scene(wheels_alone(), start=OFF, parameters=LocatorParameters(sheet=sheet)))
     estimate = world.run()
     position, _, length, width = world.error()
     assert position < 0.02 and abs(length) < 0.001 and abs(width) < 0.001

@@ -6,11 +6,11 @@ import pytest
 from mtr_car_locator.measure.close_up import CloseUp
 from mtr_car_locator.measure.tyre_faces import faces_in
 from mtr_car_locator.measure.wheels import wheels_from
-from mtr_car_locator.parameters import CarProfile
+from mtr_car_locator.parameters import DataSheet
 
 FRONT_M, REAR_M, LEVEL_M = 1.43, -1.42, 0.9
 NOISE_M = 0.02
-SHEET = CarProfile(known_length_m=4.85, front_overhang_m=1.0, wheelbase_m=2.85)
+SHEET = DataSheet(known_length_m=4.85, front_overhang_m=1.0, wheelbase_m=2.85)
 
 
 def face(rng, middle_m, returns=20_000, half_m=0.3, *, heights_m=0.0, level_m=LEVEL_M):
@@ -68,4 +68,4 @@ def test_faces_that_do_not_stand_as_the_cars_wheels_are_none(faces):
 
 
 def test_two_ways_to_see_a_car_in_the_faces_are_not_guessed_between():
-    assert wheels_from([[-2.4, -1.4, 1.0, 1.4]] * 2, CarProfile()) is None
+    assert wheels_from([[-2.4, -1.4, 1.0, 1.4]] * 2, DataSheet()) is None

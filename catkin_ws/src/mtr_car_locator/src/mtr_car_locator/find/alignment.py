@@ -12,7 +12,7 @@ from ..measure.measurement import BEYOND_M, Found, extents_of, sized
 from ..measure.side import ENDS, LONG_SIDES, Extent, sides_of
 from ..measure.tyre_faces import faces_in
 from ..measure.wheels import Wheels, wheel_sides, wheels_between, wheels_from
-from ..parameters import CarProfile
+from ..parameters import DataSheet
 from ..rectangle import Rectangle
 from ..surfels import Surfels
 from .errors import NotLocated
@@ -25,9 +25,9 @@ FIRST_BEYOND_M = 0.12
 class Alignment:
     """Fits rectangles to the same surfels in map."""
 
-    def __init__(self, seen: Surfels, close_up: Optional[CloseUp], profile: CarProfile, *, on_wheels: bool):
+    def __init__(self, seen: Surfels, close_up: Optional[CloseUp], sheet: DataSheet, *, on_wheels: bool):
         """close_up: all returns near the Car, None when there are none; on_wheels: neither front nor rear was seen."""
-        self._seen, self._close_up, self._profile, self._on_wheels = seen, close_up, profile, on_wheels
+        self._seen, self._close_up, self._sheet, self._on_wheels = seen, close_up, sheet, on_wheels
 
     def aligned(self, car: Rectangle) -> Found:
         """The rectangle where its outline meets the surfels; NotLocated when these do not tell."""
@@ -42,7 +42,7 @@ class Alignment:
         in_car = self._seen.in_frame(car.pose)
         extents = extents_of(sides_of(in_car.where(belongs(in_car, car, FIRST_BEYOND_M))), car)
         wheels = self._wheels(in_car, car, extents)
-        return Found(sized(car, extents, axis, wheels, self._profile), axis, wheels)
+        return Found(sized(car, extents, axis, wheels, self._sheet), axis, wheels)
 
     def _axis(self, car: Rectangle, beyond_m: float) -> Axis:
         in_car = self._seen.in_frame(car.pose)
@@ -55,7 +55,7 @@ class Alignment:
     def _wheels(self, in_car: Surfels, car: Rectangle, extents: Dict[str, Extent]) -> Optional[Wheels]:
         """What tells the Car's place along it when its ends do not; None when they do."""
         lacks_an_end = not all(name in extents for name in ENDS)
-        if not self._on_wheels and not (self._profile.front_overhang_m and lacks_an_end):
+        if not self._on_wheels and not (self._sheet.front_overhang_m and lacks_an_end):
             return None
         wheels = self._exact_wheels(car)
         return self._rough_wheels(in_car, car) if wheels is None and self._on_wheels else wheels
@@ -65,10 +65,10 @@ class Alignment:
         if self._close_up is None:
             return None
         in_car = self._close_up.in_frame(car.pose)
-        return wheels_from([faces_in(in_car, name, 0.5 * car.width) for name in LONG_SIDES], self._profile)
+        return wheels_from([faces_in(in_car, name, 0.5 * car.width) for name in LONG_SIDES], self._sheet)
 
     def _rough_wheels(self, in_car: Surfels, car: Rectangle) -> Wheels:
-        found = wheels_between(wheel_sides(in_car), 0.0, car.width, self._profile)
+        found = wheels_between(wheel_sides(in_car), 0.0, car.width, self._sheet)
         if found is None:
             raise NotLocated("Only wheels of the Car were seen, and they do not stand as a car's do.")
         return found

@@ -57,7 +57,7 @@ def _cars(blobs: FloatArray, parameters: LocatorParameters) -> Iterator[Rectangl
         frame = Pose2(rear[0], rear[1], heading)
         for track in _tracks(in_frame(blobs, frame).tolist(), wheelbase):
             yield Rectangle(frame @ Pose2(0.5 * wheelbase, 0.5 * track, 0.0), wheelbase / WHEELBASE_SHARE,
-                            parameters.profile.width_m)
+                            parameters.sheet.width_m)
 
 
 def _tracks(blobs: List[List[float]], wheelbase: float) -> Iterator[float]:

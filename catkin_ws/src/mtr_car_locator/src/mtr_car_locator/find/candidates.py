@@ -12,7 +12,7 @@ from mtr_core.se2 import Pose2
 
 from ..measure.side import ENDS, LONG_SIDES, MIDDLE_SHARE, Side, side_of
 from ..measure.wheels import Wheels, wheel_sides, wheels_between
-from ..parameters import CarProfile, LocatorParameters
+from ..parameters import DataSheet, LocatorParameters
 from ..rectangle import Rectangle
 from ..surfels import SAMPLE_M, Surfels
 from .prior import Prior
@@ -46,14 +46,14 @@ def near(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> Surfe
 
 def candidates(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> List[Candidate]:
     """Candidates within the tolerance of the prior, best first."""
-    profile = parameters.profile
+    sheet = parameters.sheet
     found = []
     for turn in headings(surfels, prior, parameters.heading_tolerance_rad):
         frame = prior.car.pose @ Pose2(0.0, 0.0, turn)
-        for car, wheels in _rectangles(surfels.in_frame(frame), profile):
+        for car, wheels in _rectangles(surfels.in_frame(frame), sheet):
             placed = Rectangle(frame @ car.pose, car.length, car.width)
             if is_allowed(placed, prior, parameters):
-                found.append(Candidate(placed, score_of(surfels, placed, prior, profile), wheels))
+                found.append(Candidate(placed, score_of(surfels, placed, prior, sheet), wheels))
     return sorted(found, key=lambda each: -each.score.total)
 
 
@@ -102,17 +102,17 @@ def peaks(density: FloatArray, minimum: float) -> List[int]:
     return sorted(np.nonzero(top)[0].tolist(), key=lambda index: -density[index])
 
 
-def _rectangles(seen: Surfels, profile: CarProfile) -> Iterator[Tuple[Rectangle, Optional[Wheels]]]:
+def _rectangles(seen: Surfels, sheet: DataSheet) -> Iterator[Tuple[Rectangle, Optional[Wheels]]]:
     """Rectangles in the frame of seen, whose x axis is the Car's."""
     left, right = (side_of(name, seen, -math.inf) for name in LONG_SIDES)
     front, rear = (side_of(name, seen, -math.inf) for name in ENDS)
     treads = wheel_sides(seen)
-    for y, width in _spans(levels(left), levels(right), profile.width_m, profile.size_tolerance_m / 2.0):
+    for y, width in _spans(levels(left), levels(right), sheet.width_m, sheet.size_tolerance_m / 2.0):
         middle = (y - 0.5 * MIDDLE_SHARE * width, y + 0.5 * MIDDLE_SHARE * width)
         ahead, behind = levels(front.within(*middle)), levels(rear.within(*middle))
-        for x, length in _spans(ahead, behind, profile.length_m, profile.size_tolerance_m):
+        for x, length in _spans(ahead, behind, sheet.length_m, sheet.size_tolerance_m):
             yield Rectangle(Pose2(x, y, 0.0), length, width), None
-        wheels = wheels_between(treads, y, width, profile)
+        wheels = wheels_between(treads, y, width, sheet)
         if wheels:
             yield Rectangle(Pose2(wheels.centre_m, y, 0.0), wheels.length_m, width), wheels
 

@@ -39,9 +39,9 @@ def fit_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters,
     if seen.length.sum() < MIN_SURFACE_M:
         raise NotLocated("There is nothing of a Car's size where the Car should stand.")
     best = _chosen(candidates(seen, prior, parameters))
-    found = Alignment(seen, close_up, parameters.profile, on_wheels=best.wheels is not None).aligned(best.car)
-    fit = measured(seen, found, parameters.profile, close_up)
-    fit = replace(fit, quality=score_of(seen, found.car, prior, parameters.profile).quality)
+    found = Alignment(seen, close_up, parameters.sheet, on_wheels=best.wheels is not None).aligned(best.car)
+    fit = measured(seen, found, parameters.sheet, close_up)
+    fit = replace(fit, quality=score_of(seen, found.car, prior, parameters.sheet).quality)
     _check(fit, prior, parameters)
     return fit
 
@@ -76,12 +76,12 @@ def _chosen(found: List[Candidate]) -> Candidate:
 
 
 def _check(fit: CarFit, prior: Prior, parameters: LocatorParameters) -> None:
-    profile, car, size = parameters.profile, fit.rectangle, fit.in_plane
-    for name, found_m, expected in (("length", size.length or car.length, profile.length_m),
-                                    ("width", size.width or car.width, profile.width_m)):
-        if abs(found_m - expected) > profile.size_tolerance_m:
+    sheet, car, size = parameters.sheet, fit.rectangle, fit.in_plane
+    for name, found_m, expected in (("length", size.length or car.length, sheet.length_m),
+                                    ("width", size.width or car.width, sheet.width_m)):
+        if abs(found_m - expected) > sheet.size_tolerance_m:
             raise NotLocated(f"What was found has a {name} of {found_m:.2f} m; expected is {expected:.2f} m, at most "
-                             f"{profile.size_tolerance_m:.2f} m off.")
+                             f"{sheet.size_tolerance_m:.2f} m off.")
     off_m, off_rad = prior.error_of(car.pose)
     if not is_allowed(car, prior, parameters):
         raise NotLocated(f"What was found is {off_m:.2f} m and {math.degrees(off_rad):.0f} deg away from where the Car "

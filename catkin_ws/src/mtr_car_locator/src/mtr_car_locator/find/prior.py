@@ -36,7 +36,7 @@ class Prior:
 def prior_from_start(robot: Pose2, parameters: LocatorParameters) -> Prior:
     """The Car when the robot stands at the starting place."""
     pose = robot @ parameters.car_from_start.inverse()
-    return Prior(Rectangle(pose, parameters.profile.length_m, parameters.profile.width_m), robot)
+    return Prior(Rectangle(pose, parameters.sheet.length_m, parameters.sheet.width_m), robot)
 
 
 def prior_at(car: Rectangle) -> Prior:

@@ -9,7 +9,7 @@ from mtr_core.arrays import BoolArray
 
 from ..measure.belonging import BEYOND_M, MIN_OUTWARD_COSINE, belongs, facing
 from ..measure.side import OUTWARDS
-from ..parameters import CarProfile
+from ..parameters import DataSheet
 from ..rectangle import Rectangle
 from ..surfels import Surfels
 from .prior import Prior
@@ -39,7 +39,7 @@ class Score:
     cover: float
 
 
-def score_of(surfels: Surfels, car: Rectangle, prior: Prior, profile: CarProfile) -> Score:
+def score_of(surfels: Surfels, car: Rectangle, prior: Prior, sheet: DataSheet) -> Score:
     """Evidence that surfels in map give for the Car."""
     seen = surfels.in_frame(car.pose)
     outside = car.outside(seen.position)
@@ -50,8 +50,8 @@ def score_of(surfels: Surfels, car: Rectangle, prior: Prior, profile: CarProfile
     if good <= 0.0:
         return Score(0.0, 0.0, 0.0)
     cover = cover_of(seen.where(explained), car)
-    size = math.exp(-0.5 * ((car.length - profile.length_m) / LENGTH_SPREAD) ** 2
-                    - 0.5 * ((car.width - profile.width_m) / WIDTH_SPREAD_M) ** 2)
+    size = math.exp(-0.5 * ((car.length - sheet.length_m) / LENGTH_SPREAD) ** 2
+                    - 0.5 * ((car.width - sheet.width_m) / WIDTH_SPREAD_M) ** 2)
     quality = float(cover * good / (good + bad) * size)
     off_m, off_rad = prior.error_of(car.pose)
     place = math.exp(-0.5 * (off_m / PLACE_SIGMA_M) ** 2 - 0.5 * (off_rad / PLACE_SIGMA_RAD) ** 2)

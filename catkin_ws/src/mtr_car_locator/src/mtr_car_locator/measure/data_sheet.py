@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import Optional
 
-from ..parameters import CarProfile
+from ..parameters import DataSheet
 from .car_fit import CarFit, PlaneSize
 from .wheels import DATA_SHEET_SIGMA_M
 
@@ -13,23 +13,23 @@ MAX_INSET_M = 0.12
 SIGMAS = 3.0
 
 
-def with_data_sheet(fit: CarFit, profile: CarProfile) -> CarFit:
+def with_data_sheet(fit: CarFit, sheet: DataSheet) -> CarFit:
     """Length and width of the data sheet where they are given; centre, heading and what was measured stay."""
     car = fit.rectangle
-    length, width = profile.known_length_m or car.length, profile.known_width_m or car.width
+    length, width = sheet.known_length_m or car.length, sheet.known_width_m or car.width
     # The outline is grown only: what was seen of the Car is there, whatever its data sheet says.
     along, across = max(1.0, length / car.length), max(1.0, width / car.width)
     return replace(
         fit, rectangle=replace(car, length=length, width=width),
         outline=tuple((along * x, across * y) for x, y in fit.outline),
-        length_sigma=DATA_SHEET_SIGMA_M if profile.known_length_m else fit.length_sigma,
-        width_sigma=DATA_SHEET_SIGMA_M if profile.known_width_m else fit.width_sigma,
-        warning=_warning(fit.in_plane, profile))
+        length_sigma=DATA_SHEET_SIGMA_M if sheet.known_length_m else fit.length_sigma,
+        width_sigma=DATA_SHEET_SIGMA_M if sheet.known_width_m else fit.width_sigma,
+        warning=_warning(fit.in_plane, sheet))
 
 
-def _warning(size: PlaneSize, profile: CarProfile) -> str:
-    found = (_disagreement("long", size.length, size.length_sigma, profile.known_length_m),
-             _disagreement("wide", size.width, size.width_sigma, profile.known_width_m))
+def _warning(size: PlaneSize, sheet: DataSheet) -> str:
+    found = (_disagreement("long", size.length, size.length_sigma, sheet.known_length_m),
+             _disagreement("wide", size.width, size.width_sigma, sheet.known_width_m))
     return " ".join(sentence for sentence in found if sentence)
 
 

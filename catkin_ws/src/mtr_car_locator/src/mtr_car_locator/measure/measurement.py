@@ -8,7 +8,7 @@ import numpy as np
 
 from mtr_core.se2 import Pose2
 
-from ..parameters import CarProfile
+from ..parameters import DataSheet
 from ..rectangle import Rectangle
 from ..surfels import Surfels
 from .axis import Axis
@@ -46,32 +46,32 @@ class Found:
     wheels: Optional[Wheels]
 
 
-def measured(seen: Surfels, found: Found, profile: CarProfile, close_up: Optional[CloseUp]) -> CarFit:
+def measured(seen: Surfels, found: Found, sheet: DataSheet, close_up: Optional[CloseUp]) -> CarFit:
     """Centre, size, sigmas, outline and the surfels that are the Car's; quality is still 0."""
     car, axis, wheels = found.car, found.axis, found.wheels
     in_car = seen.in_frame(car.pose)
     extents = extents_of(sides_of(in_car.where(belongs(in_car, car, BEYOND_M))), car)
     if close_up is not None:
         extents = finer(extents, close_up.in_frame(car.pose), car, [] if wheels else ENDS)
-    car = sized(car, extents, axis, wheels, profile)
+    car = sized(car, extents, axis, wheels, sheet)
     in_car = seen.in_frame(car.pose)
     mine = in_car.where(belongs(in_car, car, BEYOND_M))
     names = tuple(name for name in OUTWARDS if name in extents and not (wheels and name in ENDS))
-    sigmas, sizes = _sigmas(extents, found, profile)
+    sigmas, sizes = _sigmas(extents, found, sheet)
     fit = CarFit(car, outline_of(mine, car, names), sigmas, *sizes, names,
                  in_car.where(car.outside(in_car.position) <= BEYOND_M), 0.0, wheels is not None,
                  PlaneSize() if wheels else _plane_size(extents))
-    return with_data_sheet(_with_inset(fit, profile), profile)
+    return with_data_sheet(_with_inset(fit, sheet), sheet)
 
 
 def sized(car: Rectangle, extents: Dict[str, Extent], axis: Axis, wheels: Optional[Wheels],
-          profile: CarProfile) -> Rectangle:
+          sheet: DataSheet) -> Rectangle:
     """Centre and size from the outermost levels."""
-    y, width = _span([extents.get(name) for name in LONG_SIDES], profile.width_m)
+    y, width = _span([extents.get(name) for name in LONG_SIDES], sheet.width_m)
     if wheels:
         x, length = wheels.centre_m, wheels.length_m
     else:
-        x, length = _span([extents.get(name) for name in ENDS], profile.length_m)
+        x, length = _span([extents.get(name) for name in ENDS], sheet.length_m)
     # The axis of symmetry tells more than two outermost points.
     return Rectangle(car.pose @ Pose2(x, 0.0 if axis.is_centred else y, 0.0), length, width)
 
@@ -135,17 +135,17 @@ def _distance_between(sides: List[Extent]) -> Tuple[Optional[float], float]:
     return sides[0].level + sides[1].level, math.hypot(sides[0].sigma, sides[1].sigma)
 
 
-def _with_inset(fit: CarFit, profile: CarProfile) -> CarFit:
+def _with_inset(fit: CarFit, sheet: DataSheet) -> CarFit:
     if fit.in_plane.width is None:
         return fit
-    return replace(fit, rectangle=replace(fit.rectangle, width=fit.rectangle.width + 2.0 * profile.side_inset_m))
+    return replace(fit, rectangle=replace(fit.rectangle, width=fit.rectangle.width + 2.0 * sheet.side_inset_m))
 
 
 def _sigmas(extents: Dict[str, Extent], found: Found,
-            profile: CarProfile) -> Tuple[Tuple[float, float, float], Tuple[float, float]]:
+            sheet: DataSheet) -> Tuple[Tuple[float, float, float], Tuple[float, float]]:
     """1 sigma of the Car's pose, and of its length and width."""
-    x_sigma, length_sigma = _pair_sigmas(ENDS, extents, profile.known_length_m, profile)
-    y_sigma, width_sigma = _pair_sigmas(LONG_SIDES, extents, profile.known_width_m, profile)
+    x_sigma, length_sigma = _pair_sigmas(ENDS, extents, sheet.known_length_m, sheet)
+    y_sigma, width_sigma = _pair_sigmas(LONG_SIDES, extents, sheet.known_width_m, sheet)
     if found.axis.is_centred:
         y_sigma = found.axis.offset_sigma_m
     if found.wheels:
@@ -155,10 +155,10 @@ def _sigmas(extents: Dict[str, Extent], found: Found,
 
 
 def _pair_sigmas(pair: Tuple[str, str], extents: Dict[str, Extent], known_m: float,
-                 profile: CarProfile) -> Tuple[float, float]:
+                 sheet: DataSheet) -> Tuple[float, float]:
     """1 sigma of the middle between two opposite sides and of their distance."""
     found = [extents[name].sigma for name in pair if name in extents]
-    inset = math.sqrt(2.0) * profile.side_inset_sigma_m
+    inset = math.sqrt(2.0) * sheet.side_inset_sigma_m
     if len(found) == 2:
         own = math.hypot(*found)
         return 0.5 * own, math.hypot(own, inset)
@@ -166,4 +166,4 @@ def _pair_sigmas(pair: Tuple[str, str], extents: Dict[str, Extent], known_m: flo
     if not found:
         return math.hypot(0.5 * size_sigma, size_sigma), size_sigma
     # Opposite insets cancel in the middle between two sides; that of a single one does not.
-    return math.hypot(math.hypot(0.5 * size_sigma, profile.side_inset_sigma_m), found[0]), size_sigma
+    return math.hypot(math.hypot(0.5 * size_sigma, sheet.side_inset_sigma_m), found[0]), size_sigma

@@ -7,7 +7,7 @@ from typing import Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 
-from ..parameters import CarProfile
+from ..parameters import DataSheet
 from ..surfels import Surfels
 from .axles import Axles, axles_at, axles_between
 from .side import ENDS, LONG_SIDES, Side, side_of
@@ -48,7 +48,7 @@ def wheel_sides(in_frame: Surfels) -> Dict[str, Side]:
             **{name: side_of(name, in_frame, -math.inf, TREAD_COSINE) for name in ENDS}}
 
 
-def wheels_between(sides: Dict[str, Side], y: float, width: float, profile: CarProfile) -> Optional[Wheels]:
+def wheels_between(sides: Dict[str, Side], y: float, width: float, sheet: DataSheet) -> Optional[Wheels]:
     """Both axles, when each long side shows two wheels at its level and nothing between them; else None."""
     levels = {"left": 0.5 * width + y, "right": 0.5 * width - y}
     faces = [wheel_faces(sides[name], levels[name]) for name in LONG_SIDES]
@@ -59,10 +59,10 @@ def wheels_between(sides: Dict[str, Side], y: float, width: float, profile: CarP
         return None
     widths = ((y + 0.5 * width - TYRE_WIDTH_M, y + 0.5 * width), (y - 0.5 * width, y - 0.5 * width + TYRE_WIDTH_M))
     ahead, behind = ([sides[name].within(*each) for each in widths] for name in ENDS)
-    return _from_axles(axles_at(front, rear, ahead, behind, profile.wheelbase_m), profile)
+    return _from_axles(axles_at(front, rear, ahead, behind, sheet.wheelbase_m), sheet)
 
 
-def wheels_from(faces: Sequence[Sequence[float]], profile: CarProfile) -> Optional[Wheels]:
+def wheels_from(faces: Sequence[Sequence[float]], sheet: DataSheet) -> Optional[Wheels]:
     """Both axles from exact middles of the outer faces along the left and the right side, m; None when these do not
     stand as a car's do.
 
@@ -73,13 +73,13 @@ def wheels_from(faces: Sequence[Sequence[float]], profile: CarProfile) -> Option
               if MIN_WHEELBASE_M <= pair[1] - pair[0] <= MAX_WHEELBASE_M] for each in faces]
     both = [(left, right) for left, right in itertools.product(*pairs)
             if max(abs(left[0] - right[0]), abs(left[1] - right[1])) <= EXACT_SQUARE_M]
-    if profile.wheelbase_m:
-        both = [each for each in both if all(abs(front - rear - profile.wheelbase_m) <= EXACT_SQUARE_M
+    if sheet.wheelbase_m:
+        both = [each for each in both if all(abs(front - rear - sheet.wheelbase_m) <= EXACT_SQUARE_M
                                              for rear, front in each)]
     if len(both) != 1:
         return None
     rears, fronts = zip(*both[0])
-    return _from_axles(axles_between(fronts, rears, profile.wheelbase_m), profile)
+    return _from_axles(axles_between(fronts, rears, sheet.wheelbase_m), sheet)
 
 
 def wheel_faces(side: Side, level: float) -> List[float]:
@@ -93,18 +93,18 @@ def wheel_faces(side: Side, level: float) -> List[float]:
     return [0.5 * (low + high) for low, high in spans]
 
 
-def _from_axles(axles: Axles, profile: CarProfile) -> Wheels:
-    length, length_sigma = _length_of(axles.wheelbase_m, profile)
-    if profile.front_overhang_m:
-        centre = axles.front_m + profile.front_overhang_m - 0.5 * length
+def _from_axles(axles: Axles, sheet: DataSheet) -> Wheels:
+    length, length_sigma = _length_of(axles.wheelbase_m, sheet)
+    if sheet.front_overhang_m:
+        centre = axles.front_m + sheet.front_overhang_m - 0.5 * length
         centre_sigma = math.hypot(axles.front_sigma_m, DATA_SHEET_SIGMA_M, 0.5 * length_sigma)
     else:
         centre, centre_sigma = axles.middle_m, math.hypot(axles.middle_sigma_m, OVERHANG_SIGMA_M)
     return Wheels(axles.front_m, axles.rear_m, centre, centre_sigma, length, length_sigma)
 
 
-def _length_of(wheelbase: float, profile: CarProfile) -> Tuple[float, float]:
-    if profile.known_length_m:
-        return profile.known_length_m, DATA_SHEET_SIGMA_M
+def _length_of(wheelbase: float, sheet: DataSheet) -> Tuple[float, float]:
+    if sheet.known_length_m:
+        return sheet.known_length_m, DATA_SHEET_SIGMA_M
     length = wheelbase / WHEELBASE_SHARE
     return length, length * WHEELBASE_SHARE_SIGMA / WHEELBASE_SHARE

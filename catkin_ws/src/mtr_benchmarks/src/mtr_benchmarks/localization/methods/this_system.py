@@ -13,7 +13,7 @@ from roslib.packages import find_node
 from mtr_car_locator.conversions import scans_in
 from mtr_car_locator.measure.car_fit import CarFit
 from mtr_car_locator.offline import fit_files
-from mtr_car_locator.parameters import CarProfile, LocatorParameters
+from mtr_car_locator.parameters import DataSheet, LocatorParameters
 from mtr_car_locator.scan import Scan
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
@@ -70,9 +70,9 @@ def locate(out: pathlib.Path, meta: Dict[str, Any], scans: Iterable[Scan] = ()) 
     """The Car among the surfaces; the Operator said where the robot was put, and what the data sheet says of a Car
     that the LiDARs' plane meets below its widest line."""
     prior = Pose2(*meta["prior_car_from_start"].values()).inverse()
-    profile = data_sheet(meta) if is_below_widest_line(meta) else CarProfile()
+    sheet = data_sheet(meta) if is_below_widest_line(meta) else DataSheet()
     try:
-        return fit_files(out, prior, replace(PARAMETERS, profile=profile), scans)
+        return fit_files(out, prior, replace(PARAMETERS, sheet=sheet), scans)
     except RobotError as error:
         raise SystemFailure(f"The Car was not located: {error}") from None
 
@@ -84,9 +84,9 @@ def is_below_widest_line(meta: Dict[str, Any]) -> bool:
                                           meta["width_m"] - at_lidar["width_m"]) > MIN_INSET_M
 
 
-def data_sheet(meta: Dict[str, Any]) -> CarProfile:
+def data_sheet(meta: Dict[str, Any]) -> DataSheet:
     """What a lab knows of its Car."""
-    return CarProfile(known_length_m=meta["length_m"], known_width_m=meta["width_m"],
+    return DataSheet(known_length_m=meta["length_m"], known_width_m=meta["width_m"],
                       front_overhang_m=meta["front_overhang_m"],
                       wheelbase_m=CAR_SHAPES[meta["options"]["car"]].wheelbase_m)
 
