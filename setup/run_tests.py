@@ -51,6 +51,7 @@ def lint() -> Counts:
         "python-3.8": ["vermin", "--quiet", "-t=3.8-", "--no-tips", "--violations", *robot],
         "clang-format": ["clang-format", "--dry-run", "-Werror", *cpp],
         "mypy": [sys.executable, "-m", "mypy"],
+        "mypy-operator": [sys.executable, "-m", "mypy", "--config-file", "operator_gui/mypy.ini"],
         "catkin-lint": ["/usr/bin/catkin_lint", "--quiet", "-W1", *map(str, PACKAGES)],
     }
     results = [check(name, command) for name, command in checks.items()]

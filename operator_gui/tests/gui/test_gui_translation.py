@@ -105,7 +105,7 @@ def test_sentence_from_below_is_listed_for_translation(text):
 def test_every_parameter_scenario_and_word_is_listed():
     for scenario in SCENARIOS.values():
         assert {scenario.title, " ".join(type(scenario).__doc__.split())} <= set(scenarios.SENTENCES)
-        assert {scenario.line_word, *(measurement.word for measurement in scenario.measurements)} <= set(words.WORDS)
+        assert {scenario.line_word, *scenario.distance_words} <= set(words.WORDS)
         for name, declared in scenario.parameters_type.declarations().items():
             assert declared.doc in parameter_docs.SENTENCES
             assert parameter_title(name, declared)

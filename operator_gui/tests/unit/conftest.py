@@ -212,8 +212,8 @@ def run_scenario(robot_link, car_link):
     def run(scenario, parameters, progress=None, is_cancelled=lambda: False, observer=None):
         run.progress = progress or Progress(scenario.name, parameters.to_mapping())
         run.saved = []
-        session = ControlLoop(robot_link, car_link, observer, is_cancelled)
-        Runner(scenario, parameters, session, run.progress,
-               lambda state: run.saved.append([dict(result) for result in state.results])).run()
+        loop = ControlLoop(robot_link, car_link, observer, is_cancelled)
+        Runner(scenario, parameters, loop, run.progress,
+               lambda state: run.saved.append(list(state.results))).run()
         return run.progress.results
     return run

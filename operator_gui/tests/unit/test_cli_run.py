@@ -14,7 +14,9 @@ from mtr_operator.cli import main
 from mtr_operator.cli.display import Display
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import LogMessage, Mode, Notification, RobotStatus
+from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.scenarios.autolock_result import AutolockResult
 from mtr_operator.report.files import write_report
 
 DEMO = pathlib.Path(__file__).resolve().parents[2] / "examples" / "demo"
@@ -200,9 +202,8 @@ def test_terminal_gets_a_bar():
     display = Display(SCENARIOS["autolock"], stream)
     display.on_plan(2, 8)
     display.on_action("approach until the Car unlocks")
-    display.on_result({"axis": 3, "side": "rear_left", "unlock_status": "ok", "unlock_distance_m": 1.2351,
-                       "unlock_uncertainty_m": 0.0321, "lock_status": "not_reached", "lock_distance_m": None,
-                       "lock_uncertainty_m": None, "reason": ""}, 3, 8)
+    display.on_result(AutolockResult(3, "rear_left", -2.25, 0.9, -0.7, 0.7, LineStatus.OK, 1.2351, 0.0321, 12.0,
+                                     LineStatus.NOT_REACHED, None, None, None, ""), 3, 8)
     display.close()
     assert "3 of 8" in stream.getvalue()
     assert "[3/8] axis 3 (rear left): unlock 123.5 \N{PLUS-MINUS SIGN} 3.2 cm, lock not reached" in stream.getvalue()

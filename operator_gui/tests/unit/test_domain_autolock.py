@@ -8,9 +8,11 @@ from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import LinkLost, RobotFailed
 from mtr_operator.domain.ports import KEY_BUTTON, CarCheck, CarDimensions, CheckState, Direction, Mode
+from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenarios.autolock import SCENARIO
 from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
+from mtr_operator.domain.scenarios.autolock_result import AutolockResult
 
 CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
 PARAMETERS = AutolockParameters(measurements_distance_m=10.0, measuring_speed_mps=0.4)
@@ -19,19 +21,19 @@ TOLERANCE_M = 0.005
 
 
 def statuses(results, name):
-    return [result[f"{name}_status"] for result in results]
+    return [distance.status.value for result in results for distance in result.distances if distance.word == name]
 
 
 def test_all_axes_are_measured_at_the_instant_of_the_event(run_scenario, world):
     results = run_scenario(SCENARIO, PARAMETERS)
-    assert [result["axis"] for result in results] == list(range(1, 9))
+    assert [result.axis for result in results] == list(range(1, 9))
     for result in results:
-        assert result["unlock_status"] == result["lock_status"] == "ok"
-        assert result["unlock_distance_m"] == pytest.approx(world.unlock_m, abs=TOLERANCE_M)
-        assert result["lock_distance_m"] == pytest.approx(world.lock_m, abs=TOLERANCE_M)
-        assert result["unlock_robot_time_s"] < result["lock_robot_time_s"]
-        assert 0.03 < result["unlock_uncertainty_m"] < 0.035
-        assert result["reason"] == ""
+        assert result.unlock_status.value == result.lock_status.value == "ok"
+        assert result.unlock_distance_m == pytest.approx(world.unlock_m, abs=TOLERANCE_M)
+        assert result.lock_distance_m == pytest.approx(world.lock_m, abs=TOLERANCE_M)
+        assert result.unlock_robot_time_s < result.lock_robot_time_s
+        assert 0.03 < result.unlock_uncertainty_m < 0.035
+        assert result.reason == ""
 
 
 def test_way_on_an_axis_is_that_of_the_algorithm(run_scenario, robot_link):
@@ -50,30 +52,30 @@ def test_car_that_stays_locked_is_not_reached(run_scenario, world):
     world.unlock_m = 0.3
     results = run_scenario(SCENARIO, PARAMETERS)
     assert set(statuses(results, "unlock") + statuses(results, "lock")) == {"not_reached"}
-    assert results[0]["unlock_distance_m"] is None
-    assert results[0]["reason"] == ""
+    assert results[0].unlock_distance_m is None
+    assert results[0].reason == ""
 
 
 def test_car_that_reacts_late_at_the_end_of_the_approach_is_measured_there(run_scenario, world):
     parameters = replace(PARAMETERS, minimum_distance_m=1.499)
     results = run_scenario(SCENARIO, parameters)
-    assert results[0]["unlock_status"] == "ok"
-    assert results[0]["unlock_distance_m"] == pytest.approx(1.5, abs=TOLERANCE_M)
+    assert results[0].unlock_status.value == "ok"
+    assert results[0].unlock_distance_m == pytest.approx(1.5, abs=TOLERANCE_M)
 
 
 def test_car_that_never_locks_again_is_not_reached_and_then_invalid(run_scenario, world):
     world.lock_m = 99.0
     results = run_scenario(SCENARIO, PARAMETERS)
-    assert (results[0]["unlock_status"], results[0]["lock_status"]) == ("ok", "not_reached")
+    assert (results[0].unlock_status.value, results[0].lock_status.value) == ("ok", "not_reached")
     assert set(statuses(results[1:], "unlock")) == {"invalid"}
-    assert "still unlocked 10 s after" in results[1]["reason"]
+    assert "still unlocked 10 s after" in results[1].reason
 
 
 def test_car_found_unlocked_is_invalid_and_says_what_to_do(run_scenario, world):
     world.locked, world.lock_m = False, 99.0
     results = run_scenario(SCENARIO, PARAMETERS)
     assert set(statuses(results, "unlock")) == set(statuses(results, "lock")) == {"invalid"}
-    assert "lock it with its key, or increase maximum_distance_m" in results[0]["reason"]
+    assert "lock it with its key, or increase maximum_distance_m" in results[0].reason
 
 
 @pytest.mark.parametrize("spoilt", ["unlock", "lock"])
@@ -82,14 +84,14 @@ def test_change_by_a_button_is_no_answer_to_the_keys_vicinity(run_scenario, worl
     world.source_of = lambda source: KEY_BUTTON if world.locked is pressed_when_locked else source
     results = run_scenario(SCENARIO, PARAMETERS)
     assert statuses(results, spoilt) == 8 * ["invalid"]
-    assert "by the button of a key" in results[0]["reason"]
+    assert "by the button of a key" in results[0].reason
 
 
 def test_unlocking_on_the_way_of_straightening_counts(run_scenario, world):
     world.unlock_m, world.lock_m = 3.8, 3.9
     results = run_scenario(SCENARIO, PARAMETERS)
-    assert results[0]["unlock_distance_m"] == pytest.approx(3.8, abs=0.011)
-    assert results[0]["lock_status"] == "not_reached"
+    assert results[0].unlock_distance_m == pytest.approx(3.8, abs=0.011)
+    assert results[0].lock_status.value == "not_reached"
 
 
 def test_line_spoilt_once_is_measured_again_at_the_end(run_scenario, world):
@@ -97,10 +99,10 @@ def test_line_spoilt_once_is_measured_again_at_the_end(run_scenario, world):
     results = run_scenario(SCENARIO, PARAMETERS)
     saved = run_scenario.saved
     assert len(saved) == 9
-    spoilt = [result for result in saved[-2] if result["unlock_status"] == "invalid" or
-              result["lock_status"] == "invalid"]
+    spoilt = [result for result in saved[-2] if result.unlock_status.value == "invalid" or
+              result.lock_status.value == "invalid"]
     assert len(spoilt) == 1
-    assert spoilt[0]["reason"] == "The bus is off."
+    assert spoilt[0].reason == "The bus is off."
     assert statuses(results, "unlock") == statuses(results, "lock") == 8 * ["ok"]
 
 
@@ -108,30 +110,30 @@ def test_measured_half_of_a_spoilt_line_is_kept(run_scenario, world):
     world.car_problem = lambda time_s: "The bus is off." if not world.locked and world.result.name == "PENDING" and \
         world.waypoint.direction is Direction.BACKWARD else ""
     results = run_scenario(SCENARIO, PARAMETERS)
-    assert (results[0]["unlock_status"], results[0]["lock_status"]) == ("ok", "invalid")
-    assert results[0]["unlock_distance_m"] == pytest.approx(1.5, abs=TOLERANCE_M)
-    assert results[0]["lock_distance_m"] is None
+    assert (results[0].unlock_status.value, results[0].lock_status.value) == ("ok", "invalid")
+    assert results[0].unlock_distance_m == pytest.approx(1.5, abs=TOLERANCE_M)
+    assert results[0].lock_distance_m is None
 
 
 def test_refused_waypoint_makes_its_line_invalid_with_the_robots_reason(run_scenario, world):
     world.refuses = lambda waypoint: "A wall is in the way." if waypoint.y < -4.5 and abs(waypoint.x) < 0.01 else ""
     results = run_scenario(SCENARIO, PARAMETERS)
-    assert [result["side"] for result in results if result["unlock_status"] == "invalid"] == ["right"]
-    assert "A wall is in the way." in results[2]["reason"]
+    assert [result.side for result in results if result.unlock_status.value == "invalid"] == ["right"]
+    assert "A wall is in the way." in results[2].reason
     assert len(run_scenario.saved) == 9
 
 
 def test_lost_position_makes_the_line_invalid(run_scenario, spoil):
     spoil(lambda status: 5.0 < status.stamp_s < 5.3, pose_valid=False)
     run_scenario(SCENARIO, PARAMETERS)
-    assert "position" in run_scenario.saved[0][0]["reason"]
+    assert "position" in run_scenario.saved[0][0].reason
     assert statuses(run_scenario.progress.results, "unlock") == 8 * ["ok"]
 
 
 def test_interrupted_link_makes_the_line_invalid(run_scenario, world):
     world.spoil = lambda status: None if 5.0 < status.stamp_s < 6.5 else status
     run_scenario(SCENARIO, PARAMETERS)
-    assert "interrupted for 1.5 s" in run_scenario.saved[0][0]["reason"]
+    assert "interrupted for 1.5 s" in run_scenario.saved[0][0].reason
     assert statuses(run_scenario.progress.results, "unlock") == 8 * ["ok"]
 
 
@@ -154,12 +156,12 @@ def test_wish_to_end_stops_the_robot_and_keeps_what_was_measured(run_scenario, w
 def test_continued_test_measures_the_rest_and_keeps_the_former(run_scenario, world):
     with pytest.raises(Cancelled):
         run_scenario(SCENARIO, PARAMETERS, is_cancelled=lambda: world.time_s > 30.0)
-    former = [dict(result) for result in run_scenario.progress.results]
+    former = list(run_scenario.progress.results)
     world.unlock_m = 1.2
     results = run_scenario(SCENARIO, PARAMETERS, progress=run_scenario.progress)
     assert results[:len(former)] == former
     assert len(results) == 8
-    assert results[-1]["unlock_distance_m"] == pytest.approx(1.2, abs=TOLERANCE_M)
+    assert results[-1].unlock_distance_m == pytest.approx(1.2, abs=TOLERANCE_M)
 
 
 def test_every_line_is_saved_before_the_robot_goes_on(run_scenario):
@@ -198,12 +200,13 @@ def test_robot_that_cannot_find_the_car_is_an_error(run_scenario, world):
 
 def test_better_measurement_of_a_line_wins():
     progress = Progress("autolock", {})
-    good = {"axis": 1, "unlock_status": "ok", "lock_status": "invalid"}
-    bad = {"axis": 1, "unlock_status": "invalid", "lock_status": "invalid"}
-    progress.record(SCENARIO, good)
-    progress.record(SCENARIO, bad)
+    bad = AutolockResult(1, "front", 2.25, 0.0, 1.0, 0.0, LineStatus.INVALID, None, None, None,
+                         LineStatus.INVALID, None, None, None, "The bus is off.")
+    good = replace(bad, unlock_status=LineStatus.OK, unlock_distance_m=1.5)
+    progress.record(good)
+    progress.record(bad)
     assert progress.results == [good]
-    assert progress.to_retry(SCENARIO) == []
+    assert progress.to_retry() == []
 
 
 def test_picture_shows_points_and_gaps_in_order(run_scenario, world):

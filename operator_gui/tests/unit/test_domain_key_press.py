@@ -25,13 +25,13 @@ def buttons(robot_link):
 
 def test_farthest_place_that_works_is_found_with_the_next_one_that_fails(run_scenario):
     results = run_scenario(SCENARIO, PARAMETERS)
-    assert [result["angle_deg"] for result in results] == [0.0, 90.0, 180.0, 270.0]
+    assert [result.angle_deg for result in results] == [0.0, 90.0, 180.0, 270.0]
     for result in results:
-        assert result["status"] == "ok"
-        assert result["distance_m"] == pytest.approx(5.0)
-        assert result["failed_distance_m"] == pytest.approx(5.5)
-        assert result["attempts"] == 3
-        assert result["uncertainty_m"] == pytest.approx(0.03)
+        assert result.status.value == "ok"
+        assert result.distance_m == pytest.approx(5.0)
+        assert result.failed_distance_m == pytest.approx(5.5)
+        assert result.attempts == 3
+        assert result.uncertainty_m == pytest.approx(0.03)
 
 
 def test_button_is_the_one_that_changes_the_lock_state(run_scenario, robot_link):
@@ -41,42 +41,42 @@ def test_button_is_the_one_that_changes_the_lock_state(run_scenario, robot_link)
 
 def test_time_is_the_beginning_of_the_press_that_worked(run_scenario, world):
     results = run_scenario(SCENARIO, PARAMETERS)
-    assert [result["robot_time_s"] for result in results] == pytest.approx(
+    assert [result.robot_time_s for result in results] == pytest.approx(
         [world.presses[index].start_s for index in (2, 5, 8, 11)])
 
 
 def test_first_place_that_works_has_no_failed_one(run_scenario, world):
     world.press_range_m = 20.0
     result = run_scenario(SCENARIO, PARAMETERS)[0]
-    assert (result["status"], result["distance_m"]) == ("ok", pytest.approx(6.0))
-    assert result["failed_distance_m"] is None
-    assert result["attempts"] == 1
+    assert (result.status.value, result.distance_m) == ("ok", pytest.approx(6.0))
+    assert result.failed_distance_m is None
+    assert result.attempts == 1
 
 
 def test_no_place_that_works_is_not_reached(run_scenario, world):
     world.press_range_m = 0.0
     result = run_scenario(SCENARIO, PARAMETERS)[0]
-    assert (result["status"], result["distance_m"], result["robot_time_s"]) == ("not_reached", None, None)
-    assert result["failed_distance_m"] == pytest.approx(3.0)
-    assert result["attempts"] == 7
+    assert (result.status.value, result.distance_m, result.robot_time_s) == ("not_reached", None, None)
+    assert result.failed_distance_m == pytest.approx(3.0)
+    assert result.attempts == 7
 
 
 def test_each_place_gets_all_its_attempts(run_scenario):
     results = run_scenario(SCENARIO, replace(PARAMETERS, attempts=3))
-    assert results[0]["attempts"] == 7
-    assert results[0]["failed_distance_m"] == pytest.approx(5.5)
+    assert results[0].attempts == 7
+    assert results[0].failed_distance_m == pytest.approx(5.5)
 
 
 def test_reaction_after_the_time_limit_does_not_count(run_scenario):
     results = run_scenario(SCENARIO, replace(PARAMETERS, response_timeout_s=0.1, press_duration_s=0.05))
-    assert results[0]["status"] == "not_reached"
+    assert results[0].status.value == "not_reached"
 
 
 def test_change_by_the_keys_vicinity_is_no_answer_to_a_press(run_scenario, world):
     world.source_of = lambda source: PASSIVE_ENTRY
     result = run_scenario(SCENARIO, PARAMETERS)[0]
-    assert (result["status"], result["distance_m"], result["failed_distance_m"]) == ("invalid", None, 5.5)
-    assert result["reason"] == ("The Car was unlocked by the vicinity of a key, not by the press at 5.00 m; switch "
+    assert (result.status.value, result.distance_m, result.failed_distance_m) == ("invalid", None, 5.5)
+    assert result.reason == ("The Car was unlocked by the vicinity of a key, not by the press at 5.00 m; switch "
                                 "passive entry off, or increase minimum_distance_m.")
 
 
@@ -84,29 +84,29 @@ def test_line_spoilt_once_by_the_keys_vicinity_is_measured_again(run_scenario, w
     sources = [PASSIVE_ENTRY]
     world.source_of = lambda source: sources.pop() if sources else source
     results = run_scenario(SCENARIO, PARAMETERS)
-    assert [result["status"] for result in run_scenario.saved[3]] == ["invalid", "ok", "ok", "ok"]
-    assert [result["status"] for result in results] == 4 * ["ok"]
-    assert results[0]["distance_m"] == pytest.approx(5.0)
+    assert [result.status.value for result in run_scenario.saved[3]] == ["invalid", "ok", "ok", "ok"]
+    assert [result.status.value for result in results] == 4 * ["ok"]
+    assert results[0].distance_m == pytest.approx(5.0)
 
 
 def test_car_that_does_not_name_the_source_is_believed(run_scenario, world):
     world.source_of = lambda source: ""
-    assert [result["status"] for result in run_scenario(SCENARIO, PARAMETERS)] == 4 * ["ok"]
+    assert [result.status.value for result in run_scenario(SCENARIO, PARAMETERS)] == 4 * ["ok"]
 
 
 def test_press_that_the_robot_cannot_make_is_invalid(run_scenario, world):
     world.spoil = lambda status: replace(status, presses=tuple(
         replace(press, error="The servo is stuck.") for press in status.presses))
     result = run_scenario(SCENARIO, PARAMETERS)[0]
-    assert result["status"] == "invalid"
-    assert "The servo is stuck." in result["reason"]
+    assert result.status.value == "invalid"
+    assert "The servo is stuck." in result.reason
 
 
 def test_lost_position_makes_the_line_invalid_and_it_is_measured_again(run_scenario, spoil):
     spoil(lambda status: 4.0 < status.stamp_s < 4.5, pose_valid=False)
     results = run_scenario(SCENARIO, PARAMETERS)
-    assert run_scenario.saved[0][0]["status"] == "invalid"
-    assert [result["status"] for result in results] == 4 * ["ok"]
+    assert run_scenario.saved[0][0].status.value == "invalid"
+    assert [result.status.value for result in results] == 4 * ["ok"]
 
 
 def test_places_inside_the_car_are_refused_before_the_robot_moves(run_scenario, world):

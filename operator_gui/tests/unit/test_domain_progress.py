@@ -1,19 +1,26 @@
 """Progress files: round trip, and a sentence for every file that does not fit."""
 # SPDX-License-Identifier: Apache-2.0
+import dataclasses
 import json
+import pathlib
 
 import pytest
 
 from mtr_operator.domain.errors import OutputError, ProgressFileError
 from mtr_operator.domain.ports import CarDimensions
+from mtr_operator.domain.results.document import read_record
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
+from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
+from mtr_operator.report.results_csv import results_csv
 from mtr_operator.storage.atomic import output_folder, write_bytes
-from mtr_operator.storage.progress_file import load_progress, refuse_to_overwrite, save_progress
+from mtr_operator.storage.progress_file import load_progress, open_progress, refuse_to_overwrite, save_progress
 
 SCENARIO = SCENARIOS["key_press"]
 PARAMETERS = KeyPressParameters().to_mapping()
+# Files of a demo with version 0.1.0.
+WRITTEN_BEFORE = pathlib.Path(__file__).parent / "written_before"
 
 
 def result(number, status="ok"):
@@ -24,7 +31,7 @@ def result(number, status="ok"):
 @pytest.fixture
 def progress():
     return Progress("key_press", dict(PARAMETERS), {"started": "today"}, CarDimensions(4.5, 1.8, 0.02, 0.01),
-                    [result(1), result(2)], [2])
+                    [read_record(KeyPressResult, result(number)) for number in (1, 2)], [2])
 
 
 @pytest.fixture
@@ -36,6 +43,14 @@ def path(tmp_path, progress):
 
 def test_round_trip(path, progress):
     assert load_progress(path, SCENARIO, PARAMETERS) == progress
+
+
+@pytest.mark.parametrize("name", list(SCENARIOS))
+def test_files_of_version_0_1_are_read_and_written_again_byte_for_byte(tmp_path, name):
+    scenario, _, progress = open_progress(WRITTEN_BEFORE / name / "progress.json", SCENARIOS)
+    save_progress(tmp_path / "progress.json", progress)
+    assert (tmp_path / "progress.json").read_bytes() == (WRITTEN_BEFORE / name / "progress.json").read_bytes()
+    assert results_csv(scenario, progress) == (WRITTEN_BEFORE / name / "results.csv").read_text(encoding="utf-8")
 
 
 def test_only_the_file_itself_is_left(path):
@@ -69,6 +84,8 @@ def edited(path, **changes):
     ({"results": [{**result(1), "distance_m": None}]}, "damaged"),
     ({"results": [{**result(1), "status": "fine"}]}, "damaged"),
     ({"results": [{**result(1), "reason": None}]}, "damaged"),
+    ({"results": [{**result(1), "attempts": True}]}, "damaged"),
+    ({"results": [{**result(1), "angle_deg": None}]}, "damaged"),
     ({"retried": 3}, "damaged"),
     ({"car": None}, "damaged"),
     ({"car": {"length": 4.5}}, "damaged"),
@@ -173,6 +190,6 @@ def test_interrupted_write_leaves_no_part_of_a_file(path, monkeypatch, progress)
 
 
 def test_numbers_that_are_none_are_refused_by_the_file_format(tmp_path, progress):
-    progress.results[0]["distance_m"] = float("nan")
+    progress.results[0] = dataclasses.replace(progress.results[0], distance_m=float("nan"))
     with pytest.raises(ValueError, match="JSON"):
         save_progress(tmp_path / "progress.json", progress)

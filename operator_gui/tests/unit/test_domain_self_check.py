@@ -12,10 +12,10 @@ from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.actions.robot import CHECK_LIMIT_S, Robot
 from mtr_operator.domain.errors import ProgressFileError, RobotFailed
 from mtr_operator.domain.ports import CarCheck, CarDimensions, CarFrame, CheckState
-from mtr_operator.domain.results.progress import progress_from_document
 from mtr_operator.domain.scenarios.autolock import SCENARIO
 from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
 from mtr_operator.report.results_csv import results_csv
+from mtr_operator.storage.progress_document import progress_from_document
 
 PARAMETERS = AutolockParameters(measurements_distance_m=10.0)
 PASSED = CarCheck(0, CheckState.PASSED, 0.003, 0.001, 0.02, 0.0087, "The Car stands where it was.")
@@ -40,8 +40,8 @@ def test_car_is_checked_before_the_first_line_and_the_difference_is_kept(world, 
     assert actions.said.index("check where the Car stands") < actions.said.index("axis 1 (front): go to the start")
     record = run_scenario.progress.frame_record
     check, = record.checks
-    assert (check["state"], check["difference_m"], check["frame"]) == ("passed", 0.003, 0)
-    assert [frame["revision"] for frame in record.frames] == [2]
+    assert (check.state, check.difference_m, check.frame) == ("passed", 0.003, 0)
+    assert [frame.revision for frame in record.frames] == [2]
     assert record.lines == {str(number): 0 for number in range(1, 9)}
 
 
@@ -50,7 +50,7 @@ def test_test_does_not_begin_when_the_car_stands_elsewhere(world, run_scenario, 
     world.check = answer
     with pytest.raises(RobotFailed, match=answer.message):
         run_scenario(SCENARIO, PARAMETERS)
-    assert not run_scenario.progress.results and run_scenario.progress.frame_record.checks[0]["state"] == "failed"
+    assert not run_scenario.progress.results and run_scenario.progress.frame_record.checks[0].state == "failed"
     assert robot_link.answers[-1][1].stop
 
 
@@ -89,10 +89,10 @@ def test_lines_stay_in_the_frame_in_which_they_were_measured(world, run_scenario
     world.spoil = correct
     results = run_scenario(SCENARIO, PARAMETERS)
     record = run_scenario.progress.frame_record
-    assert [frame["revision"] for frame in record.frames] == [1, 2]
-    assert record.frames[1]["correction_x_m"] == 0.031
+    assert [frame.revision for frame in record.frames] == [1, 2]
+    assert record.frames[1].correction_x_m == 0.031
     assert set(record.lines.values()) == {0, 1} and len(record.lines) == 8
-    assert all(result["unlock_status"] == "ok" for result in results)
+    assert all(result.unlock_status.value == "ok" for result in results)
     notice = results_csv(SCENARIO, replace_session(run_scenario.progress))
     assert "# Car frame 2: revision 2 since" in notice
     assert "corrected by 3.1 cm ahead, -0.4 cm to the left, 0.10 deg; measured in it: " in notice
@@ -118,8 +118,8 @@ def test_line_during_which_the_frame_changed_is_measured_again(world, run_scenar
         def on_result(self, result, done, total):
             saved.append(result)
     results = run_scenario(SCENARIO, PARAMETERS, observer=Lines())
-    assert sum("corrected during the measurement" in result["reason"] for result in saved) == 1
-    assert len(saved) == 9 and all(result["unlock_status"] == "ok" for result in results)
+    assert sum("corrected during the measurement" in result.reason for result in saved) == 1
+    assert len(saved) == 9 and all(result.unlock_status.value == "ok" for result in results)
 
 
 def test_poses_of_two_frames_are_not_mixed(world, robot_link, car_link):

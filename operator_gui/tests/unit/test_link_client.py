@@ -153,8 +153,8 @@ def test_old_backlog_is_skipped_to_the_newest(robot):
         robot.send(status_id)
     # The last one arrives after all others: same connection.
     deadline = time.monotonic() + WAIT_S
-    while robot.link._subscriber.poll(100) and robot.link._inbox._newest_id < newest:
-        robot.link._receive_waiting()
+    while robot.link._sockets.subscriber.poll(100) and robot.link._inbox._newest_id < newest:
+        robot.link._receive_waiting(robot.link._sockets.subscriber)
         assert time.monotonic() < deadline
     assert robot.take().id == newest
     assert robot.link.statistics.lost == MAX_BACKLOG

@@ -7,9 +7,11 @@ import pytest
 from matplotlib.figure import Figure
 
 from mtr_operator.domain.ports import CarDimensions
+from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.picture import Picture, Stretch
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.scenarios.autolock_result import AutolockResult
 from mtr_operator.report.files import write_report
 from mtr_operator.report.protocol_png import label_stretches
 from mtr_operator.report.protocol_rows import date_text
@@ -25,12 +27,13 @@ HEADERS = {
 
 
 def axis(number, unlock="ok", lock="ok", reason=""):
-    return {"axis": number, "side": "left", "origin_x_m": -0.0, "origin_y_m": 0.9, "direction_x": 0.0,
-            "direction_y": 1.0, "unlock_status": unlock, "unlock_distance_m": 1.23456 if unlock == "ok" else None,
-            "unlock_uncertainty_m": 0.03 if unlock == "ok" else None,
-            "unlock_robot_time_s": 12.3456 if unlock == "ok" else None, "lock_status": lock,
-            "lock_distance_m": 2.0 if lock == "ok" else None, "lock_uncertainty_m": None,
-            "lock_robot_time_s": 14.0 if lock == "ok" else None, "reason": reason}
+    unlocked, locked = unlock == "ok", lock == "ok"
+    return AutolockResult(
+        axis=number, side="left", origin_x_m=-0.0, origin_y_m=0.9, direction_x=0.0, direction_y=1.0,
+        unlock_status=LineStatus(unlock), unlock_distance_m=1.23456 if unlocked else None,
+        unlock_uncertainty_m=0.03 if unlocked else None, unlock_robot_time_s=12.3456 if unlocked else None,
+        lock_status=LineStatus(lock), lock_distance_m=2.0 if locked else None, lock_uncertainty_m=None,
+        lock_robot_time_s=14.0 if locked else None, reason=reason)
 
 
 def progress_of(scenario, results):

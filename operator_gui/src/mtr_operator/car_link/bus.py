@@ -19,6 +19,7 @@ from .reader import CanReader, FrameSink
 CATCH_UP_LIMIT_S = 0.25
 # Robot time for which an error frame makes the bus a suspect one.
 _ERROR_FRAME_EFFECT_S = 1.0
+_NOT_CONNECTED = "The Car's CAN bus is not connected."
 
 
 class CanCarLink(CarLink, FrameSink):
@@ -37,7 +38,7 @@ class CanCarLink(CarLink, FrameSink):
         self._profile_name = str(profile)
         self._watch: LockWatch | None = None
         self._reader: CanReader | None = None
-        self._news = threading.Condition()
+        self._changed = threading.Condition()
         self._fault = ""
         self._error_frames = self._seen_error_frames = 0
         self._suspect_until_s = -math.inf
@@ -58,29 +59,30 @@ class CanCarLink(CarLink, FrameSink):
     def observe(self, status: RobotStatus) -> list[CarEvent]:
         """See CarLink."""
         arrival_s = time.monotonic()
-        if self._reader is None:
-            raise ConnectionFailed("The Car's CAN bus is not connected.")
-        with self._news:
-            self._watch.status(status, arrival_s)
-            self._news.wait_for(lambda: bool(self._fault) or self._watch.has_caught_up(), CATCH_UP_LIMIT_S)
+        watch = self._watch
+        if self._reader is None or watch is None:
+            raise ConnectionFailed(_NOT_CONNECTED)
+        with self._changed:
+            watch.status(status, arrival_s)
+            self._changed.wait_for(lambda: bool(self._fault) or watch.has_caught_up(), CATCH_UP_LIMIT_S)
             self._stamp_s = status.stamp_s
             if self._error_frames != self._seen_error_frames:
                 self._seen_error_frames = self._error_frames
                 self._suspect_until_s = status.stamp_s + _ERROR_FRAME_EFFECT_S
-            return self._watch.release(time.monotonic())
+            return watch.release(time.monotonic())
 
     @property
     def lock_state(self) -> LockState:
         """See CarLink."""
-        with self._news:
+        with self._changed:
             return LockState.UNKNOWN if self._watch is None or self._bus_problem() else self._watch.lock_state
 
     @property
     def problem(self) -> str:
         """See CarLink."""
-        with self._news:
+        with self._changed:
             if self._watch is None:
-                return "The Car's CAN bus is not connected."
+                return _NOT_CONNECTED
             return self._bus_problem() or self._watch.problem
 
     def close(self) -> None:
@@ -91,26 +93,28 @@ class CanCarLink(CarLink, FrameSink):
 
     def frame(self, frame: CanFrame) -> None:
         """See FrameSink."""
-        with self._news:
-            self._watch.frame(frame)
+        with self._changed:
+            if self._watch is not None:
+                self._watch.frame(frame)
             self.frames_received += 1
-            self._news.notify_all()
+            self._changed.notify_all()
 
     def error_frame(self) -> None:
         """See FrameSink."""
-        with self._news:
+        with self._changed:
             self._error_frames += 1
 
     def fault(self, text: str) -> None:
         """See FrameSink."""
-        with self._news:
+        with self._changed:
             self._fault = text
-            self._news.notify_all()
+            self._changed.notify_all()
 
     def reopened(self) -> None:
         """See FrameSink."""
-        with self._news:
-            self._watch.restart()
+        with self._changed:
+            if self._watch is not None:
+                self._watch.restart()
 
     def _bus_problem(self) -> str:
         if self._fault:

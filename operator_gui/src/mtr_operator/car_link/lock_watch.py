@@ -76,7 +76,7 @@ class LockWatch:
             self._restart()
             self._is_stamped = is_stamped
             self._map = AdapterClockMap() if is_stamped else ArrivalClockMap()
-        local_s = self._unwrapper.unwrap(frame.stamp_ms) if is_stamped else frame.arrival_s
+        local_s = frame.arrival_s if frame.stamp_ms is None else self._unwrapper.unwrap(frame.stamp_ms)
         # A late frame does not set the time back; NaN before the first frame.
         self._newest_s = max(local_s, self._newest_s)
         self._map.frame(local_s)
@@ -108,12 +108,12 @@ class LockWatch:
         self._liveness.observe(self._stamp_s, now_s)
         if self._liveness.silence_s > _MAX_FOLLOWED_SILENCE_S:
             self._restart()
-        events = []
-        while self._changes and self._map.is_ready \
-                and self._map.to_robot(self._changes[0].local_s) <= self._stamp_s:
+        clock_map, events = self._map, []
+        while self._changes and clock_map is not None and clock_map.is_ready \
+                and clock_map.to_robot(self._changes[0].local_s) <= self._stamp_s:
             change = self._changes.popleft()
             self._released_state = change.reading.state
-            events.append(self._event(change))
+            events.append(self._event(change, clock_map))
         self.lock_state = LockState.UNKNOWN if self._liveness.problem else self._released_state
         return events
 
@@ -133,11 +133,11 @@ class LockWatch:
             self._changes.append(_Change(local_s, self._state_s, reading))
         self._state, self._state_s = reading.state, local_s
 
-    def _event(self, change: _Change) -> CarEvent:
+    def _event(self, change: _Change, clock_map: ClockMap) -> CarEvent:
         # A cyclic message shows a change that happened at any time since the message before.
-        time_s = self._map.to_robot(change.local_s)
-        gap_s = time_s - self._map.to_robot(change.previous_local_s)
+        time_s = clock_map.to_robot(change.local_s)
+        gap_s = time_s - clock_map.to_robot(change.previous_local_s)
         vague = not self._profile.sent_on_change or gap_s > _LOST_CYCLES * self._profile.cycle_time_s
         spread_s = gap_s if vague else 0.0
-        sigma_s = math.hypot(self._map.sigma_s, spread_s / math.sqrt(12.0))
+        sigma_s = math.hypot(clock_map.sigma_s, spread_s / math.sqrt(12.0))
         return CarEvent(time_s - spread_s / 2, sigma_s, change.reading.state, change.reading.source)

@@ -14,7 +14,7 @@ from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, LockState
 
 PROFILE_FOLDER = pathlib.Path(__file__).parent / "profiles"
-_SHORTEST_CYCLE_S = 0.001
+_MIN_CYCLE_S = 0.001
 _MAX_CYCLE_S = 10.0
 _REQUIRED = ("database", "message", "signal", "states", "cycle_time_s")
 _OPTIONAL = ("description", "sent_on_change", "source_signal", "sources")
@@ -145,8 +145,8 @@ def _either(words: Mapping[str, Any]) -> str:
 def _cycle_time(path: pathlib.Path, content: dict[str, Any]) -> float:
     cycle_s = content["cycle_time_s"]
     if isinstance(cycle_s, bool) or not isinstance(cycle_s, (int, float)) \
-            or not _SHORTEST_CYCLE_S <= cycle_s <= _MAX_CYCLE_S:
-        raise ConnectionFailed(f"Car profile {path}: cycle_time_s is {cycle_s}; allowed is {_SHORTEST_CYCLE_S:g} to "
+            or not _MIN_CYCLE_S <= cycle_s <= _MAX_CYCLE_S:
+        raise ConnectionFailed(f"Car profile {path}: cycle_time_s is {cycle_s}; allowed is {_MIN_CYCLE_S:g} to "
                                f"{_MAX_CYCLE_S:g} s.")
     return float(cycle_s)
 
@@ -155,10 +155,12 @@ def _message(path: pathlib.Path, content: dict[str, Any]) -> Any:
     database_path = path.parent / str(content["database"])
     try:
         database = cantools.database.load_file(str(database_path), strict=False)
+        if not isinstance(database, cantools.database.can.Database):
+            raise KeyError(content["message"])
         return database.get_message_by_name(str(content["message"]))
     except KeyError:
         raise ConnectionFailed(f"CAN database {database_path} has no message {content['message']}.") from None
-    except (OSError, UnicodeDecodeError, cantools.database.Error) as error:
+    except (OSError, UnicodeDecodeError, cantools.database.errors.Error) as error:
         raise ConnectionFailed(f"CAN database {database_path} cannot be read: {_one_line(error)}.") from None
 
 

@@ -70,27 +70,28 @@ class CanReader:
 
     def _run(self) -> None:
         while not self._stopping.is_set():
-            if self._bus is None:
+            bus = self._bus
+            if bus is None:
                 self._reopen()
                 continue
             try:
-                self._read()
+                self._read(bus)
             # Drivers raise whatever their vendor's library does.
             except Exception as error:
                 self._sink.fault(f"The CAN adapter has failed: {' '.join(str(error).split())}.")
-                shut_down(self._bus)
+                shut_down(bus)
                 self._bus = None
 
-    def _read(self) -> None:
-        message = self._bus.recv(_POLL_S)
+    def _read(self, bus: can.BusABC) -> None:
+        message = bus.recv(_POLL_S)
         now = time.monotonic()
         if message is not None and message.is_error_frame:
             self._sink.error_frame()
         elif message is not None and not message.is_remote_frame:
             self._sink.frame(CanFrame(message.arbitration_id, message.is_extended_id, bytes(message.data), now,
-                                      getattr(self._bus, "stamp_ms", None)))
-        if isinstance(self._bus, StampedSlcanBus):
-            self._watch_flags(self._bus, now)
+                                      getattr(bus, "stamp_ms", None)))
+        if isinstance(bus, StampedSlcanBus):
+            self._watch_flags(bus, now)
 
     def _watch_flags(self, bus: StampedSlcanBus, now: float) -> None:
         if now - self._flags_s >= _FLAGS_PERIOD_S:

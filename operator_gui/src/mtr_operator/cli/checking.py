@@ -32,6 +32,8 @@ def check(options: argparse.Namespace) -> None:
             found = check_car(robot)
         finally:
             loop.halt()
+    if found is None:
+        raise RobotFailed("The robot's software is too old to check where the Car stands.")
     if found.state is CheckState.FAILED:
         raise RobotFailed(found.message)
     print(found.message)

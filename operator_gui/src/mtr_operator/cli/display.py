@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import sys
-from typing import Any, Mapping, TextIO
+from typing import TextIO
 
 import tqdm
 
 from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.ports import Mode, RobotStatus
-from mtr_operator.domain.scenario import Scenario
+from mtr_operator.domain.results.line_result import LineResult
+from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.report.table import line_text
 
 _SEVERITY = {2: " warning", 3: " error"}
@@ -20,7 +21,7 @@ _BAR = "{n_fmt} of {total_fmt} |{bar:20}| {remaining} left{postfix}"
 class Display(RunObserver):
     """Shows lines done, the present action, and each sentence of the robot once; scenario: None without lines."""
 
-    def __init__(self, scenario: Scenario | None, stream: TextIO | None = None):
+    def __init__(self, scenario: AnyScenario | None, stream: TextIO | None = None):
         self._scenario = scenario
         self._stream = stream or sys.stderr
         self._bar: tqdm.tqdm | None = None
@@ -38,7 +39,7 @@ class Display(RunObserver):
     def on_plan(self, done: int, total: int) -> None:
         """See RunObserver."""
         self.say(f"{total - done} of {total} lines to measure")
-        if self._stream.isatty():
+        if self._scenario is not None and self._stream.isatty():
             self._bar = tqdm.tqdm(total=total, initial=done, unit=self._scenario.line_word, file=self._stream,
                                   dynamic_ncols=True, bar_format=_BAR)
 
@@ -49,9 +50,10 @@ class Display(RunObserver):
         else:
             self.say(text)
 
-    def on_result(self, result: Mapping[str, Any], done: int, total: int) -> None:
+    def on_result(self, result: LineResult, done: int, total: int) -> None:
         """See RunObserver."""
-        self.say(f"[{done}/{total}] {line_text(self._scenario, result)}")
+        if self._scenario is not None:
+            self.say(f"[{done}/{total}] {line_text(self._scenario, result)}")
         if self._bar is not None:
             self._bar.update(done - self._bar.n)
 

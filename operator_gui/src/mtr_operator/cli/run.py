@@ -93,7 +93,7 @@ class CommandLineRun:
         results = self._progress.results
         for line in results_table(self._scenario, results):
             print(line)
-        invalid = sum(1 for result in results if self._scenario.invalid_count(result))
+        invalid = sum(1 for result in results if result.invalid_count)
         tail = f", {invalid} of them invalid" if invalid else ""
         print(f"{len(results)} lines measured{tail}; results are in {self._options.out}.")
 

@@ -146,8 +146,8 @@ class ParameterSet:
                                   "when the Car stands elsewhere than it was measured.")
 
     def __post_init__(self) -> None:
-        for name, declared in self.flags().items():
-            declared.checked(name, getattr(self, name))
+        for name, declared_flag in self.flags().items():
+            declared_flag.checked(name, getattr(self, name))
         for name, declared in self.declarations().items():
             value = getattr(self, name)
             if value is not None and not math.isfinite(value):

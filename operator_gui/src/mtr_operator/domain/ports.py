@@ -284,6 +284,11 @@ class RobotLink(ABC):
 
     statistics: LinkStatistics
 
+    @property
+    def is_secret(self) -> bool:
+        """True when the link is encrypted."""
+        return False
+
     @abstractmethod
     def connect(self) -> None:
         """Connect, or raise errors.ConnectionFailed with a sentence that says which address or port is wrong."""

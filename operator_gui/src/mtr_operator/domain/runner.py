@@ -2,17 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import Any, Callable
+from typing import Callable, Sequence
 
 from .actions.car import Car
 from .actions.control_loop import ControlLoop
 from .actions.preparation import check_car, prepare
 from .actions.robot import Robot
 from .errors import ProgressFileError, RobotFailed
-from .parameters import ParameterSet
 from .ports import CheckState
 from .results.progress import Progress
-from .scenario import Scenario
+from .scenario import AnyScenario, Line, ScenarioParameters
 
 
 class Runner:
@@ -21,7 +20,7 @@ class Runner:
     save is called with the progress after each line and has to return only when it is safe.
     """
 
-    def __init__(self, scenario: Scenario, parameters: ParameterSet, loop: ControlLoop, progress: Progress,
+    def __init__(self, scenario: AnyScenario, parameters: ScenarioParameters, loop: ControlLoop, progress: Progress,
                  save: Callable[[Progress], None]):
         self._scenario = scenario
         self._parameters = parameters
@@ -58,16 +57,17 @@ class Runner:
         if check.state is CheckState.FAILED:
             raise RobotFailed(f"The test does not begin. {check.message}".rstrip())
 
-    def _lines(self) -> list[Any]:
+    def _lines(self) -> Sequence[Line]:
         mapped = self._car.dimensions()
         self._progress.check_car(mapped)
-        self._progress.car = self._progress.car or mapped
-        return self._scenario.lines(self._parameters, self._progress.car)
+        car = self._progress.car = self._progress.car or mapped
+        lines: Sequence[Line] = self._scenario.lines(self._parameters, car)
+        return lines
 
-    def _measure(self, lines: list[Any]) -> None:
+    def _measure(self, lines: Sequence[Line]) -> None:
         by_number = {line.number: line for line in lines}
         self._total = len(lines)
-        done = self._progress.measured(self._scenario)
+        done = self._progress.measured()
         if not set(done) <= set(by_number):
             raise ProgressFileError(f"The progress file holds {self._scenario.line_word} {max(done)}; this test has "
                                     f"{self._total}.")
@@ -75,13 +75,13 @@ class Runner:
         for number, line in by_number.items():
             if number not in done:
                 self._measure_line(line)
-        for number in self._progress.to_retry(self._scenario):
+        for number in self._progress.to_retry():
             self._measure_line(by_number[number])
 
-    def _measure_line(self, line: Any) -> None:
+    def _measure_line(self, line: Line) -> None:
         self._car.wait_for_bus()
         result = self._scenario.measure(line, self._parameters, self._robot, self._car)
-        self._progress.record(self._scenario, result, self._loop.frames.newest)
+        self._progress.record(result, self._loop.frames.newest)
         # Shown first, so that it is not lost for the Operator when it cannot be saved.
         self._loop.observer.on_result(result, len(self._progress.results), self._total)
         self._save(self._progress)

@@ -9,8 +9,7 @@ import pathlib
 from PyQt5.QtCore import QObject, pyqtSignal
 
 from mtr_operator.domain.errors import OperatorError
-from mtr_operator.domain.parameters import ParameterSet
-from mtr_operator.domain.scenario import Scenario
+from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
 from mtr_operator.station.events import (
     CarLinkOpened,
@@ -109,7 +108,7 @@ class Flow(QObject):
 
     # Test
 
-    def start(self, scenario: Scenario, parameters: ParameterSet) -> None:
+    def start(self, scenario: AnyScenario, parameters: ScenarioParameters) -> None:
         """Begin a test."""
         settings = self.store.settings.with_parameters(scenario.name, parameters.to_mapping())
         self.store.change(settings)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mtr_operator.domain.parameters import Declaration, Flag
-from mtr_operator.domain.scenario import Scenario
+from mtr_operator.domain.scenario import AnyScenario
 
 from .i18n import translate
 
@@ -58,12 +58,12 @@ def parameter_doc(declared: Declaration | Flag) -> str:
     return translate("ParameterDoc", declared.doc)
 
 
-def scenario_title(scenario: Scenario) -> str:
+def scenario_title(scenario: AnyScenario) -> str:
     """Name of a scenario."""
     return translate("Scenario", scenario.title)
 
 
-def scenario_doc(scenario: Scenario) -> str:
+def scenario_doc(scenario: AnyScenario) -> str:
     """One sentence on a scenario."""
     return translate("Scenario", " ".join((type(scenario).__doc__ or "").split()))
 

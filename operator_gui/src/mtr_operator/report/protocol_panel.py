@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.scenario import Scenario
+from mtr_operator.domain.scenario import AnyScenario
 
 from .protocol_rows import Row, date_text, parameter_rows, session_rows, summary_rows
 
@@ -15,7 +15,7 @@ INK = "#263238"
 BAR = {"linewidth": 5.0, "alpha": 0.3, "solid_capstyle": "butt"}
 
 
-def write_panel(figure: Figure, axes: Axes, scenario: Scenario, progress: Progress, has_bars: bool) -> None:
+def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Progress, has_bars: bool) -> None:
     """Write heading, date, legend, results, parameters and circumstances to the right of the axes."""
     left, top = 0.69, 0.93
     figure.text(left, top, f"{scenario.title} protocol", fontsize=17, fontweight="bold", color=INK, va="top")

@@ -12,10 +12,9 @@ from matplotlib.patches import Polygon
 from matplotlib.ticker import MultipleLocator
 
 from mtr_operator.domain.geometry.pose import Point
-from mtr_operator.domain.parameters import ParameterSet
 from mtr_operator.domain.results.picture import Picture, PointRole, PointSet
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.scenario import Scenario
+from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
 from .car_drawing import draw_car
 from .protocol_panel import BAR, INK, write_panel
@@ -39,17 +38,17 @@ _STYLES = {
 }
 
 
-def protocol_png(scenario: Scenario, parameters: ParameterSet, progress: Progress) -> bytes:
+def protocol_png(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress) -> bytes:
     """Content of the file; the progress has to hold the Car's dimensions."""
     figure = Figure(figsize=_SIZE_INCH, facecolor="white")
     FigureCanvasAgg(figure)
     axes = figure.add_axes(_AXES_BOX)
-    picture = scenario.picture(parameters, progress.car, progress.results)
+    picture = scenario.picture(parameters, progress.measured_car, progress.results)
     _draw_stretches(axes, picture)
     for points in picture.point_sets:
         _draw_points(axes, points)
     _frame(axes, picture, progress)
-    draw_car(axes, progress.car, _POINTS_PER_INCH / _metres_per_inch(axes))
+    draw_car(axes, progress.measured_car, _POINTS_PER_INCH / _metres_per_inch(axes))
     label_stretches(axes, picture)
     write_panel(figure, axes, scenario, progress, any(points.bars for points in picture.point_sets))
     file = io.BytesIO()
@@ -79,7 +78,7 @@ def label_stretches(axes: Axes, picture: Picture) -> None:
 
 def _metres_per_inch(axes: Axes) -> float:
     # The axes are higher than wide for a Car and its surroundings; otherwise this is a little too small.
-    return (axes.get_ylim()[1] - axes.get_ylim()[0]) / (_SIZE_INCH[1] * _AXES_BOX[3])
+    return float(axes.get_ylim()[1] - axes.get_ylim()[0]) / (_SIZE_INCH[1] * _AXES_BOX[3])
 
 
 def _draw_points(axes: Axes, points: PointSet) -> None:
@@ -108,8 +107,8 @@ def _draw_outline(axes: Axes, points: PointSet, color: str) -> None:
 def _frame(axes: Axes, picture: Picture, progress: Progress) -> None:
     ends = [stretch.end for stretch in picture.stretches] + [point for s in picture.point_sets for point in s.known]
     ends += [end for points in picture.point_sets for bar in points.bars for end in bar]
-    extent_x = max([abs(x) for x, _ in ends] + [progress.car.length])
-    extent_y = max([abs(y) for _, y in ends] + [progress.car.width])
+    extent_x = max([abs(x) for x, _ in ends] + [progress.measured_car.length])
+    extent_y = max([abs(y) for _, y in ends] + [progress.measured_car.width])
     margin = _MARGIN_PART * max(extent_x, extent_y)
     half_height, half_width = extent_x + margin, extent_y + margin
     axes.set_aspect("equal")

@@ -5,8 +5,9 @@ from __future__ import annotations
 import datetime
 from typing import Tuple
 
+from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.scenario import LineStatus, Scenario
+from mtr_operator.domain.scenario import AnyScenario
 
 Row = Tuple[str, str]
 
@@ -21,18 +22,18 @@ def date_text(started: str) -> str:
     return moment.strftime("%Y-%m-%d  %H:%M") + (f"  (UTC{zone[:3]}:{zone[3:]})" if zone else "")
 
 
-def summary_rows(scenario: Scenario, progress: Progress) -> list[Row]:
+def summary_rows(scenario: AnyScenario, progress: Progress) -> list[Row]:
     """How many of the lines came to which end."""
     rows = [("lines", str(len(progress.results)))]
-    for measurement in scenario.measurements:
-        states = [result[measurement.status] for result in progress.results]
-        counts = [(status, states.count(status.value)) for status in LineStatus]
+    for index, word in enumerate(scenario.distance_words):
+        states = [result.distances[index].status for result in progress.results]
+        counts = [(status, states.count(status)) for status in LineStatus]
         text = ", ".join(f"{count} {status.value.replace('_', ' ')}" for status, count in counts if count)
-        rows.append((measurement.word, text or "nothing measured"))
+        rows.append((word, text or "nothing measured"))
     return rows
 
 
-def parameter_rows(scenario: Scenario, progress: Progress) -> list[Row]:
+def parameter_rows(scenario: AnyScenario, progress: Progress) -> list[Row]:
     """Every parameter that was set, as a person reads it."""
     rows = []
     for declared in scenario.parameters_type.declarations().values():
@@ -46,7 +47,7 @@ def parameter_rows(scenario: Scenario, progress: Progress) -> list[Row]:
 
 def session_rows(progress: Progress) -> list[Row]:
     """The Car, and with what it was measured."""
-    car = progress.car
+    car = progress.measured_car
     rows = [("Car measured", f"{car.length:.2f} m \N{MULTIPLICATION SIGN} {car.width:.2f} m")]
     for name in ("car profile", "robot", "software", "robot software"):
         value = str(progress.session.get(name, ""))

@@ -7,25 +7,28 @@ import io
 from typing import Any, Iterator
 
 from mtr_operator.domain.parameters import with_unit
+from mtr_operator.domain.results.document import plain
+from mtr_operator.domain.results.line_result import Column
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.scenario import REASON, Column, Scenario
+from mtr_operator.domain.scenario import AnyScenario
 
 FILE_NAME = "results.csv"
 
 
-def results_csv(scenario: Scenario, progress: Progress) -> str:
+def results_csv(scenario: AnyScenario, progress: Progress) -> str:
     """Content of the file."""
     file = io.StringIO()
     for line in _metadata(scenario, progress):
         file.write(f"# {line}\n")
     writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(column.name for column in scenario.columns)
+    columns = scenario.result_type.columns()
+    writer.writerow(column.name for column in columns)
     for result in progress.results:
-        writer.writerow(_cell(column, result[column.name]) for column in scenario.columns)
+        writer.writerow(_cell(column, plain(getattr(result, column.name))) for column in columns)
     return file.getvalue()
 
 
-def _metadata(scenario: Scenario, progress: Progress) -> Iterator[str]:
+def _metadata(scenario: AnyScenario, progress: Progress) -> Iterator[str]:
     yield f"scenario: {scenario.title}"
     for name, value in progress.session.items():
         yield f"{name}: {_one_line(value)}"
@@ -40,12 +43,12 @@ def _metadata(scenario: Scenario, progress: Progress) -> Iterator[str]:
     for name in scenario.parameters_type.flags():
         yield f"parameter {name}: {str(progress.parameters.get(name, False)).lower()}"
     yield from progress.frame_record.sentences()
-    for column in scenario.columns:
+    for column in scenario.result_type.columns():
         unit = f" [{column.unit}]" if column.unit else ""
         yield f"column {column.name}{unit}: {column.doc}"
     for result in progress.results:
-        if result[REASON]:
-            yield f"{scenario.line_word} {scenario.number_of(result)} is invalid: {_one_line(result[REASON])}"
+        if result.reason:
+            yield f"{scenario.line_word} {result.number} is invalid: {_one_line(result.reason)}"
 
 
 def _cell(column: Column, value: Any) -> str:

@@ -7,6 +7,7 @@ import math
 import secrets
 import threading
 import time
+from typing import TYPE_CHECKING
 
 import zmq
 
@@ -20,11 +21,14 @@ from mtr_operator.domain.ports import (
     WaypointResult,
 )
 
-from . import sockets
 from .address import PUBLISHER_PORT, SUBSCRIBER_PORT, RobotAddress
 from .conversions import CommandHeader, command_from_desired
 from .inbox import Inbox
 from .probe import probe
+from .sockets import LinkSockets, connect
+
+if TYPE_CHECKING:
+    from .sockets import Socket
 
 # Wall time for which closing waits at most until the goodbye has left.
 _GOODBYE_LINGER_MS = 300
@@ -45,9 +49,7 @@ class ZmqRobotLink(RobotLink):
         self.session_id = secrets.randbelow(2 ** _SESSION_BITS - 1) + 1
         self.statistics = LinkStatistics()
         self._timeout_s = connect_timeout_s
-        self._context: zmq.Context | None = None
-        self._subscriber: zmq.Socket | None = None
-        self._publisher: zmq.Socket | None = None
+        self._sockets: LinkSockets | None = None
         self._lock = threading.Lock()
         self._inbox = Inbox(self.statistics)
         self._desired: DesiredState | None = None
@@ -57,32 +59,24 @@ class ZmqRobotLink(RobotLink):
 
     def connect(self) -> None:
         """See RobotLink."""
-        if self._context is not None:
-            return
-        ip = probe(self.address, self._timeout_s)
-        context = zmq.Context()
-        try:
-            self._subscriber = sockets.subscribe(context, ip, self.address.subscriber_port, self._timeout_s)
-            self._publisher = sockets.publish(context, ip, self.address.publisher_port, self._timeout_s)
-        except BaseException:
-            self._subscriber = None
-            context.destroy(linger=0)
-            raise
-        self._context = context
+        if self._sockets is None:
+            ip = probe(self.address, self._timeout_s)
+            self._sockets = connect(ip, self.address.subscriber_port, self.address.publisher_port, self._timeout_s)
 
     def next_status(self, timeout_s: float) -> RobotStatus | None:
         """See RobotLink."""
-        if self._subscriber is None:
+        if self._sockets is None:
             raise ConnectionFailed("The robot is not connected.")
+        subscriber = self._sockets.subscriber
         deadline = time.monotonic() + timeout_s
         while True:
-            self._receive_waiting()
+            self._receive_waiting(subscriber)
             status = self._inbox.take()
             if status is not None:
                 self._seen = self._own_view(status)
                 return self._seen
             left_s = deadline - time.monotonic()
-            if left_s <= 0 or not self._subscriber.poll(math.ceil(left_s * 1000)):
+            if left_s <= 0 or not subscriber.poll(math.ceil(left_s * 1000)):
                 return None
 
     def send(self, desired: DesiredState) -> None:
@@ -95,17 +89,16 @@ class ZmqRobotLink(RobotLink):
 
     def close(self) -> None:
         """See RobotLink."""
-        if self._context is None:
+        sockets = self._sockets
+        if sockets is None:
             return
         self._command_id += 1
         self._publish(DesiredState(stop=True), end_session=True)
         with self._lock:
-            self._publisher.close(linger=_GOODBYE_LINGER_MS)
-            self._publisher = None
-        self._subscriber.close(linger=0)
-        self._subscriber = None
-        self._context.term()
-        self._context = None
+            self._sockets = None
+            sockets.publisher.close(linger=_GOODBYE_LINGER_MS)
+        sockets.subscriber.close(linger=0)
+        sockets.context.term()
 
     def _own_view(self, status: RobotStatus) -> RobotStatus:
         """The Status without confirmations that are another session's: its ids count from 1 as ours do."""
@@ -116,10 +109,10 @@ class ZmqRobotLink(RobotLink):
                                    presses=(), map_car_id=0,
                                    car_check=status.car_check and CarCheck())
 
-    def _receive_waiting(self) -> None:
+    def _receive_waiting(self, subscriber: Socket) -> None:
         while True:
             try:
-                parts = self._subscriber.recv_multipart(zmq.NOBLOCK)
+                parts = subscriber.recv_multipart(zmq.NOBLOCK)
             except zmq.Again:
                 return
             repeated = self._inbox.put(parts)
@@ -134,6 +127,6 @@ class ZmqRobotLink(RobotLink):
                                seen_robot_time_s=seen.stamp_s if seen else None, end_session=end_session)
         payload = command_from_desired(desired, header).SerializeToString()
         with self._lock:
-            if self._publisher is None:
+            if self._sockets is None:
                 raise ConnectionFailed("The robot is not connected.")
-            self._publisher.send(payload)
+            self._sockets.publisher.send(payload)

@@ -80,7 +80,7 @@ def decode_status(payload: bytes) -> ports.RobotStatus:
     return robot_status_from(message)
 
 
-def _decode(payload: bytes, message: Any, required: tuple) -> Any:
+def _decode(payload: bytes, message: Any, required: tuple[str, ...]) -> Any:
     try:
         message.ParseFromString(payload)
     except DecodeError:

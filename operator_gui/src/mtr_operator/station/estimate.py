@@ -8,10 +8,9 @@ from typing import Sequence
 
 from mtr_operator.domain.geometry.pose import wrap_angle
 from mtr_operator.domain.geometry.ray import Ray
-from mtr_operator.domain.parameters import ParameterSet
 from mtr_operator.domain.ports import CarDimensions
 from mtr_operator.domain.results.picture import Stretch
-from mtr_operator.domain.scenario import Scenario
+from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
 # Before the robot has measured the Car: a middle-sized one.
 USUAL_CAR = CarDimensions(4.5, 1.8, math.nan, math.nan)
@@ -54,7 +53,7 @@ class Plan:
         return battery_percent - self.battery_percent >= RESERVE_PERCENT
 
 
-def plan_of(scenario: Scenario, parameters: ParameterSet, car: CarDimensions, is_mapped: bool) -> Plan:
+def plan_of(scenario: AnyScenario, parameters: ScenarioParameters, car: CarDimensions, is_mapped: bool) -> Plan:
     """Plan of a test; InvalidParameter when the parameters do not suit a Car of this size."""
     lines = scenario.lines(parameters, car)
     near_m, far_m = scenario.distance_range(parameters)

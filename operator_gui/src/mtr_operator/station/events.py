@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import enum
 from dataclasses import dataclass
-from typing import Any, Mapping, Union
+from typing import Union
 
 from mtr_operator.domain.ports import CarDimensions, LockState, RobotStatus, Waypoint
+from mtr_operator.domain.results.line_result import LineResult
 
 
 @dataclass(frozen=True)
@@ -68,8 +69,8 @@ class ActionBegun:
 class LineMeasured:
     """A line was measured: all results so far, and the newest one."""
 
-    results: tuple[Mapping[str, Any], ...]
-    newest: Mapping[str, Any]
+    results: tuple[LineResult, ...]
+    newest: LineResult
     done: int
     total: int
 
@@ -89,7 +90,7 @@ class RunEnded:
 
     outcome: Outcome
     text: str
-    results: tuple[Mapping[str, Any], ...]
+    results: tuple[LineResult, ...]
 
 
 @dataclass(frozen=True)

@@ -53,7 +53,8 @@ def read(declared: Declaration, text: str) -> Reading:
 
 def shown_range(declared: Declaration) -> tuple[float, float]:
     """Lowest and highest value in the unit that a person reads."""
-    return tuple(round(limit * declared.shown[1], _ROUNDING_DIGITS) for limit in (declared.low, declared.high))
+    _, per_unit = declared.shown
+    return round(declared.low * per_unit, _ROUNDING_DIGITS), round(declared.high * per_unit, _ROUNDING_DIGITS)
 
 
 def shown_number(declared: Declaration, value: Any) -> float | None:

@@ -79,4 +79,4 @@ def settings_from_document(document: Any) -> Settings:
 def _one_of(allowed: tuple[str, ...], value: Any) -> str:
     if value not in allowed:
         raise NotSettings("They are damaged.")
-    return value
+    return str(value)

@@ -8,10 +8,9 @@ import pathlib
 from dataclasses import dataclass
 
 from mtr_operator import __version__
-from mtr_operator.domain.parameters import ParameterSet
 from mtr_operator.domain.ports import CarDimensions
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.scenario import Scenario
+from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.atomic import output_folder
 from mtr_operator.storage.progress_file import open_progress, save_progress
@@ -29,8 +28,8 @@ class Test:
     # The name would make pytest collect it.
     __test__ = False
 
-    scenario: Scenario
-    parameters: ParameterSet
+    scenario: AnyScenario
+    parameters: ScenarioParameters
     progress: Progress
     path: pathlib.Path
 
@@ -54,7 +53,7 @@ class Test:
         """True when no line is left to be measured."""
         progress = self.progress
         return (progress.car is not None and len(progress.results) == self.line_count
-                and not progress.to_retry(self.scenario))
+                and not progress.to_retry())
 
     def save(self) -> None:
         """Write the progress, and its folder if need be; OutputError when that fails."""
@@ -68,7 +67,8 @@ class Test:
                 self.path.unlink()
 
 
-def new_test(scenario: Scenario, parameters: ParameterSet, folder: pathlib.Path, connection: Connection) -> Test:
+def new_test(scenario: AnyScenario, parameters: ScenarioParameters, folder: pathlib.Path,
+             connection: Connection) -> Test:
     """A test that has measured nothing yet."""
     started = datetime.datetime.now().astimezone()
     session = {

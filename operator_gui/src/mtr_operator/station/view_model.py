@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 import time
-from typing import Any, Callable, Mapping
+from typing import Callable
 
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.ports import CarDimensions, Notification
+from mtr_operator.domain.results.line_result import LineResult
 
 from .estimate import USUAL_CAR, TimeLeft, plan_of
 from .events import ActionBegun, LineMeasured, LinesPlanned, Outcome, RobotSilent, RobotSnapshot, RunEnded, StationEvent
@@ -44,8 +45,8 @@ class ViewModel:
         self.trail: list[Point] = []
         self.test: Test | None = None
         self.phase = Phase.IDLE
-        self.results: tuple[Mapping[str, Any], ...] = ()
-        self.newest: Mapping[str, Any] | None = None
+        self.results: tuple[LineResult, ...] = ()
+        self.newest: LineResult | None = None
         self.done = self.total = 0
         self.action = self.trouble = ""
         self.outcome: Outcome | None = None
@@ -85,7 +86,7 @@ class ViewModel:
     def take_up(self, test: Test) -> None:
         """Take up a test, before it is started or continued."""
         self.test, self.phase, self._car = test, Phase.PAUSED, test.progress.car
-        self.results = tuple(dict(result) for result in test.progress.results)
+        self.results = tuple(test.progress.results)
         self.done, self.total = len(self.results), test.line_count
         self.action = self.trouble = ""
         self.outcome = self.newest = None
@@ -134,6 +135,8 @@ class ViewModel:
 
     def _expect(self) -> None:
         test = self.test
+        if test is None:
+            return
         try:
             plan = plan_of(test.scenario, test.parameters, self.mapped_car or USUAL_CAR, True)
             self._time_left = TimeLeft(plan.lines_s)

@@ -8,11 +8,11 @@ import pathlib
 from typing import Any, Mapping, NoReturn, Sequence
 
 from mtr_operator.domain.errors import InvalidParameter, OutputError, ProgressFileError
-from mtr_operator.domain.parameters import ParameterSet
-from mtr_operator.domain.results.progress import Progress, progress_from_document
-from mtr_operator.domain.scenario import Scenario
+from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
 from .atomic import write_bytes
+from .progress_document import progress_from_document
 
 FILE_NAME = "progress.json"
 # A test of some hundred lines takes 100 kB; a larger file is something else.
@@ -25,7 +25,7 @@ def save_progress(path: pathlib.Path, progress: Progress) -> None:
     write_bytes(path, text.encode("utf-8") + b"\n")
 
 
-def load_progress(path: pathlib.Path, scenario: Scenario, parameters: dict[str, Any]) -> Progress:
+def load_progress(path: pathlib.Path, scenario: AnyScenario, parameters: dict[str, Any]) -> Progress:
     """Progress in a file, to go on with; ProgressFileError says what is wrong with the file."""
     try:
         return progress_from_document(_document(path), scenario, parameters)
@@ -34,13 +34,13 @@ def load_progress(path: pathlib.Path, scenario: Scenario, parameters: dict[str, 
 
 
 def open_progress(path: pathlib.Path,
-                  scenarios: Mapping[str, Scenario]) -> tuple[Scenario, ParameterSet, Progress]:
+                  scenarios: Mapping[str, AnyScenario]) -> tuple[AnyScenario, ScenarioParameters, Progress]:
     """Scenario, parameters and progress in a file; ProgressFileError says what is wrong with the file."""
     try:
         document = _document(path)
         parts = document if isinstance(document, dict) else {}
         name, stored = parts.get("scenario"), parts.get("parameters")
-        if name not in scenarios or not isinstance(stored, dict):
+        if not isinstance(name, str) or name not in scenarios or not isinstance(stored, dict):
             raise ProgressFileError("It is not a progress file of this application, or of a scenario that it does not "
                                     "know.")
         parameters = scenarios[name].parameters_type.from_mapping(stored)

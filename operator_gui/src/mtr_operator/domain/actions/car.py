@@ -35,7 +35,10 @@ class Car:
 
     def dimensions(self) -> CarDimensions:
         """Length and width as the robot measured them; Robot.prepare has waited for them."""
-        return self._loop.car_dimensions
+        dimensions = self._loop.car_dimensions
+        if dimensions is None:
+            raise ValueError("Robot.prepare was not awaited")
+        return dimensions
 
     def prepare(self) -> None:
         """Wait until the bus says whether the Car is locked; ConnectionFailed when it does not."""

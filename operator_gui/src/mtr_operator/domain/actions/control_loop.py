@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import contextlib
 from dataclasses import replace
-from typing import Callable, Iterator
+from typing import Any, Callable, Iterator
 
 from ..errors import LinkLost, RobotFailed
 from ..ports import CarDimensions, CarEvent, CarLink, DesiredState, RobotLink, RobotStatus
@@ -60,9 +60,7 @@ class ControlLoop:
     @property
     def status(self) -> RobotStatus:
         """The newest Status; the first access waits for it."""
-        if self._status is None:
-            self.step()
-        return self._status
+        return self._status or self.step()
 
     @property
     def now_s(self) -> float:
@@ -74,7 +72,7 @@ class ControlLoop:
         """Locks of the Car as of the newest Status."""
         return self._car_link
 
-    def change(self, **changes) -> None:
+    def change(self, **changes: Any) -> None:
         """Change the desired state; it leaves with the next answer."""
         self.desired = replace(self.desired, **changes)
 

@@ -29,6 +29,15 @@ class Distance:
     robot_time_s: float
 
 
+def recorded_values(distance: Distance | None) -> tuple[float | None, float | None, float | None]:
+    """Distance, uncertainty and robot time as they are recorded; None for what is not known."""
+    if distance is None:
+        return None, None, None
+    known = not math.isnan(distance.uncertainty_m)
+    return (round(distance.distance_m, 6), round(distance.uncertainty_m, 6) if known else None,
+            round(distance.robot_time_s, 6))
+
+
 def measure(ray: Ray, sample: PoseSample, time_sigma_s: float, origin_sigma_m: float = 0.0) -> Distance:
     """Distance on a ray when base_link is at the sample."""
     key_in_base = (sample.key_x, sample.key_y)

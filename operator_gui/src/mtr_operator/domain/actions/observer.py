@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import Any, Mapping
-
 from ..ports import RobotStatus
+from ..results.line_result import LineResult
 
 
 class RunObserver:
@@ -19,7 +18,7 @@ class RunObserver:
     def on_action(self, text: str) -> None:
         """The robot begins to do this."""
 
-    def on_result(self, result: Mapping[str, Any], done: int, total: int) -> None:
+    def on_result(self, result: LineResult, done: int, total: int) -> None:
         """A line was measured, or measured again."""
 
     def on_link_silent(self, silent_s: float) -> None:

@@ -151,7 +151,7 @@ class Robot:
         except PoseUnknown as error:
             raise LineInvalid(str(error)) from None
 
-    def watched(self) -> AbstractContextManager:
+    def watched(self) -> AbstractContextManager[None]:
         """Within the context anything that makes a measurement doubtful raises LineInvalid."""
         return self._loop.watched()
 

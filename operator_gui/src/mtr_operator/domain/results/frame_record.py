@@ -12,10 +12,56 @@ from dataclasses import dataclass, field
 from typing import Any, Iterator
 
 from ..ports import CarCheck
+from .document import OptionalFloat, OptionalInt, read_record
 from .frame_history import KnownFrame
 
 _CM_PER_M = 100.0
-_FRAME_KEYS = ("revision", "since_s", "correction_x_m", "correction_y_m", "correction_heading_rad")
+
+
+@dataclass(frozen=True)
+class FrameEntry:
+    """A frame, and where it lies in the one before. robot: hexadecimal id of the run of the robot's software."""
+
+    robot: str
+    revision: int
+    since_s: float
+    correction_x_m: float
+    correction_y_m: float
+    correction_heading_rad: float
+
+    @property
+    def correction(self) -> str:
+        """The correction for a person; empty when there is none."""
+        if not (self.correction_x_m or self.correction_y_m or self.correction_heading_rad):
+            return ""
+        return (f", corrected by {_CM_PER_M * self.correction_x_m:.1f} cm ahead, "
+                f"{_CM_PER_M * self.correction_y_m:.1f} cm to the left, "
+                f"{math.degrees(self.correction_heading_rad):.2f} deg")
+
+
+@dataclass(frozen=True)
+class CheckEntry:
+    """A self-check; None where the robot had no figure. frame: index of the frame in which the robot was."""
+
+    robot_time_s: float
+    state: str
+    difference_m: OptionalFloat
+    difference_rad: OptionalFloat
+    limit_m: OptionalFloat = None
+    limit_rad: OptionalFloat = None
+    frame: OptionalInt = None
+    message: str = ""
+
+    @property
+    def figures(self) -> str:
+        """Difference and limits for a person."""
+        if self.difference_m is None or self.difference_rad is None:
+            return ", the Car was not seen"
+        limits = ""
+        if self.limit_m is not None and self.limit_rad is not None:
+            limits = f" (limits {_CM_PER_M * self.limit_m:.1f} cm, {math.degrees(self.limit_rad):.2f} deg)"
+        return (f", difference {_CM_PER_M * self.difference_m:.1f} cm, {math.degrees(self.difference_rad):.2f} deg"
+                f"{limits}")
 
 
 @dataclass
@@ -23,14 +69,14 @@ class FrameRecord:
     """Grows with the test.
 
     Attributes:
-        frames: one per frame; robot is the hexadecimal id of the run of the robot's software.
+        frames: one per frame.
         lines: index in frames by number of the line, as a text.
-        checks: one per self-check; None where the robot had no figure.
+        checks: one per self-check.
     """
 
-    frames: list[dict[str, Any]] = field(default_factory=list)
+    frames: list[FrameEntry] = field(default_factory=list)
     lines: dict[str, int] = field(default_factory=dict)
-    checks: list[dict[str, Any]] = field(default_factory=list)
+    checks: list[CheckEntry] = field(default_factory=list)
 
     def note_line(self, number: int, known: KnownFrame | None) -> None:
         """A line was measured in this frame."""
@@ -39,71 +85,40 @@ class FrameRecord:
 
     def note_check(self, check: CarCheck, known: KnownFrame | None, time_s: float) -> None:
         """A self-check has ended."""
-        figures = {name: _known(getattr(check, name)) for name in ("difference_m", "difference_rad", "limit_m",
-                                                                    "limit_rad")}
-        self.checks.append({"robot_time_s": round(time_s, 3), "state": check.state.name.lower(), **figures,
-                            "frame": None if known is None else self._index_of(known), "message": check.message})
+        self.checks.append(CheckEntry(
+            round(time_s, 3), check.state.name.lower(), _known(check.difference_m), _known(check.difference_rad),
+            _known(check.limit_m), _known(check.limit_rad), None if known is None else self._index_of(known),
+            check.message))
 
     def sentences(self) -> Iterator[str]:
         """One line of text per frame and check."""
         for index, frame in enumerate(self.frames):
             lines = ", ".join(number for number, mine in self.lines.items() if mine == index)
-            yield (f"Car frame {index + 1}: revision {frame['revision']} since {frame['since_s']:.1f} s of robot "
-                   f"{frame['robot']}{_correction(frame)}; measured in it: {lines or 'nothing'}")
+            yield (f"Car frame {index + 1}: revision {frame.revision} since {frame.since_s:.1f} s of robot "
+                   f"{frame.robot}{frame.correction}; measured in it: {lines or 'nothing'}")
         for check in self.checks:
-            yield f"self-check at {check['robot_time_s']:.1f} s: {check['state']}{_figures(check)}"
+            yield f"self-check at {check.robot_time_s:.1f} s: {check.state}{check.figures}"
 
     def _index_of(self, known: KnownFrame) -> int:
         frame = known.frame
-        entry = {"robot": f"{known.robot_session_id:x}", "revision": frame.revision,
-                 "since_s": round(known.since_s, 3), "correction_x_m": round(frame.correction_x, 6),
-                 "correction_y_m": round(frame.correction_y, 6),
-                 "correction_heading_rad": round(frame.correction_heading, 6)}
+        entry = FrameEntry(f"{known.robot_session_id:x}", frame.revision, round(known.since_s, 3),
+                           round(frame.correction_x, 6), round(frame.correction_y, 6),
+                           round(frame.correction_heading, 6))
         if entry not in self.frames:
             self.frames.append(entry)
         return self.frames.index(entry)
 
 
 def record_from(document: Any) -> FrameRecord:
-    """Record in a progress file, empty for a file that has none; raises TypeError or ValueError when it is damaged."""
+    """Record in a progress file, empty for a file that has none; KeyError, TypeError or ValueError: it is damaged."""
     if document is None:
         return FrameRecord()
-    record = FrameRecord([dict(frame) for frame in document["frames"]], dict(document["lines"]),
-                         [dict(check) for check in document["checks"]])
-    for frame in record.frames:
-        if not isinstance(frame["robot"], str) or not all(_is_number(frame[key]) for key in _FRAME_KEYS):
-            raise TypeError("frame")
-    for check in record.checks:
-        if not _is_number(check["robot_time_s"]) or not isinstance(check["state"], str):
-            raise TypeError("check")
-        if not all(check[key] is None or _is_number(check[key]) for key in ("difference_m", "difference_rad")):
-            raise TypeError("check")
+    record = FrameRecord([read_record(FrameEntry, frame) for frame in document["frames"]], dict(document["lines"]),
+                         [read_record(CheckEntry, check) for check in document["checks"]])
     if not all(isinstance(index, int) and 0 <= index < len(record.frames) for index in record.lines.values()):
         raise ValueError("frame of a line")
     return record
 
 
-def _correction(frame: dict[str, Any]) -> str:
-    x, y, heading = (frame[f"correction_{name}"] for name in ("x_m", "y_m", "heading_rad"))
-    if not (x or y or heading):
-        return ""
-    return (f", corrected by {_CM_PER_M * x:.1f} cm ahead, {_CM_PER_M * y:.1f} cm to the left, "
-            f"{math.degrees(heading):.2f} deg")
-
-
-def _figures(check: dict[str, Any]) -> str:
-    if check["difference_m"] is None:
-        return ", the Car was not seen"
-    limits = ""
-    if check.get("limit_m") is not None and check.get("limit_rad") is not None:
-        limits = f" (limits {_CM_PER_M * check['limit_m']:.1f} cm, {math.degrees(check['limit_rad']):.2f} deg)"
-    return (f", difference {_CM_PER_M * check['difference_m']:.1f} cm, {math.degrees(check['difference_rad']):.2f} deg"
-            f"{limits}")
-
-
 def _known(value: float) -> float | None:
     return round(value, 6) if math.isfinite(value) else None
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)

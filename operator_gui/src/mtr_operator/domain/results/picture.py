@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import enum
 from dataclasses import dataclass
-from typing import Any, Iterator, Mapping, Sequence
+from typing import Iterator, Sequence
 
 from ..geometry.pose import Point
 from ..geometry.ray import Ray
+from .line_result import MeasuredDistance
 
 
 class PointRole(enum.Enum):
@@ -51,9 +52,9 @@ class PointSet:
 
     def pieces(self) -> Iterator[tuple[Point, Point, bool]]:
         """Pieces of the closed outline, and whether no unknown point lies between their ends."""
-        places = [index for index, point in enumerate(self.points) if point is not None]
-        for index, after in zip(places, places[1:] + places[:1]):
-            yield self.points[index], self.points[after], (after - index) % len(self.points) == 1
+        places = [(index, point) for index, point in enumerate(self.points) if point is not None]
+        for (index, point), (after, next_point) in zip(places, places[1:] + places[:1]):
+            yield point, next_point, (after - index) % len(self.points) == 1
 
 
 @dataclass(frozen=True)
@@ -64,9 +65,8 @@ class Picture:
     point_sets: tuple[PointSet, ...]
 
 
-def bars_along(measured: Sequence[tuple[Mapping[str, Any], Ray]], distance: str,
-               uncertainty: str) -> tuple[tuple[Point, Point], ...]:
-    """Ends of 1 sigma to both sides of each point along its ray; distance, uncertainty: columns of the results."""
-    known = [(ray, result[distance], result[uncertainty]) for result, ray in measured
-             if result[distance] is not None and result[uncertainty] is not None]
-    return tuple((ray.point(middle_m - sigma_m), ray.point(middle_m + sigma_m)) for ray, middle_m, sigma_m in known)
+def bars_along(measured: Sequence[tuple[Ray, MeasuredDistance]]) -> tuple[tuple[Point, Point], ...]:
+    """Ends of 1 sigma to both sides of each measured point along its ray."""
+    known = [(ray, distance.distance_m, distance.uncertainty_m) for ray, distance in measured]
+    return tuple((ray.point(middle_m - sigma_m), ray.point(middle_m + sigma_m)) for ray, middle_m, sigma_m in known
+                 if middle_m is not None and sigma_m is not None)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from ..scenario import Scenario
+from ..scenario import AnyScenario
 from . import autolock, key_press
 
-SCENARIOS: dict[str, Scenario] = {module.SCENARIO.name: module.SCENARIO for module in (autolock, key_press)}
+SCENARIOS: dict[str, AnyScenario] = {module.SCENARIO.name: module.SCENARIO for module in (autolock, key_press)}

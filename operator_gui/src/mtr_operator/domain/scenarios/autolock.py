@@ -6,18 +6,17 @@ from dataclasses import dataclass
 from typing import Sequence
 
 from ..actions.car import Car
-from ..actions.distance import Distance, outline_sigma
+from ..actions.distance import Distance, outline_sigma, recorded_values
 from ..actions.robot import Robot
 from ..actions.trouble import LineInvalid
 from ..geometry.axes import Axis, axes_around
-from ..geometry.pose import Point
 from ..geometry.ray import Ray
 from ..ports import KEY_BUTTON, CarDimensions, CarEvent, Direction, LockState
+from ..results.line_result import LineStatus, MeasuredDistance
 from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along
-from ..scenario import REASON, Column, LineStatus, Measurement, Result, Scenario, distance_values
+from ..scenario import Scenario
 from .autolock_parameters import AutolockParameters
-
-_MEASURED = {"unlock": "the Car unlocked", "lock": "the Car locked"}
+from .autolock_result import LOCK, UNLOCK, AutolockResult
 
 
 @dataclass
@@ -28,33 +27,21 @@ class _Measured:
     distance: Distance | None = None
 
 
-class Autolock(Scenario[AutolockParameters, Axis]):
+class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
     """Approach until the Car unlocks, retreat backwards until it locks, on every axis."""
 
     name = "autolock"
     title = "Autolock"
     line_word = "axis"
     parameters_type = AutolockParameters
-    measurements = tuple(Measurement(name, f"{name}_status", f"{name}_distance_m", f"{name}_uncertainty_m")
-                         for name in _MEASURED)
-    columns = (
-        Column("axis", "", "number of the axis, clockwise around the Car"),
-        Column("side", "", "side or corner of the Car that the axis belongs to"),
-        Column("origin_x_m", "m", "origin of the axis, Car coordinate system"),
-        Column("origin_y_m", "m", "origin of the axis, Car coordinate system"),
-        Column("direction_x", "", "unit vector of the axis away from the Car", digits=6),
-        Column("direction_y", "", "unit vector of the axis away from the Car", digits=6),
-        *(column for name, event in _MEASURED.items() for column in (
-            Column(f"{name}_status", "", "ok, not_reached or invalid"),
-            Column(f"{name}_distance_m", "m", f"Remote key from the Car's side or corner when {event}"),
-            Column(f"{name}_uncertainty_m", "m", "1 sigma of the distance"),
-            Column(f"{name}_robot_time_s", "s", f"robot's clock when {event}", digits=3))))
+    result_type = AutolockResult
+    distance_words = (UNLOCK, LOCK)
 
     def lines(self, parameters: AutolockParameters, car: CarDimensions) -> list[Axis]:
         """All axes of all sides and corners."""
         return axes_around(car, parameters.measurements_distance_m)
 
-    def measure(self, line: Axis, parameters: AutolockParameters, robot: Robot, car: Car) -> Result:
+    def measure(self, line: Axis, parameters: AutolockParameters, robot: Robot, car: Car) -> AutolockResult:
         """The thesis' algorithm 2 for one axis."""
         unlock, lock, reason = _Measured(), _Measured(), ""
         axis, origin_sigma_m = line.ray, outline_sigma(line.ray, car.dimensions())
@@ -70,35 +57,25 @@ class Autolock(Scenario[AutolockParameters, Axis]):
             reason = str(error)
         return _result(line, unlock, lock, reason)
 
-    def picture(self, parameters: AutolockParameters, car: CarDimensions, results: Sequence[Result]) -> Picture:
+    def picture(self, parameters: AutolockParameters, car: CarDimensions, results: Sequence[AutolockResult]) -> Picture:
         """Axes, and the two areas that the points enclose."""
-        rays = [(result, Ray(result["origin_x_m"], result["origin_y_m"], result["direction_x"], result["direction_y"]))
-                for result in results]
-        stretches = [Stretch(ray.point(parameters.minimum_distance_m), ray.point(parameters.maximum_distance_m),
-                             str(result["axis"])) for result, ray in rays]
-        ends = (("unlock", PointRole.FIRST, PointRole.FIRST_FAILED, parameters.minimum_distance_m),
-                ("lock", PointRole.SECOND, PointRole.SECOND_FAILED, parameters.straightened_distance_m))
-        sets = [PointSet(f"{name.capitalize()}ed", role, _outline(rays, name), is_outline=True,
-                         bars=bars_along(rays, f"{name}_distance_m", f"{name}_uncertainty_m"))
-                for name, role, _, _ in ends]
-        for name, _, role, distance_m in ends:
-            points = tuple(ray.point(distance_m) for result, ray in rays
-                           if result[f"{name}_status"] == LineStatus.NOT_REACHED.value)
-            sets.append(PointSet(f"{name.capitalize()} not reached", role, points))
-        invalid = tuple(ray.point(parameters.straightened_distance_m) for result, ray in rays
-                        if self.invalid_count(result))
-        sets.append(PointSet("Invalid", PointRole.INVALID, invalid))
-        return Picture(tuple(stretches), tuple(sets))
+        stretches = [Stretch(result.ray.point(parameters.minimum_distance_m),
+                             result.ray.point(parameters.maximum_distance_m), str(result.axis)) for result in results]
+        unlocks, locks = ([(result.ray, result.distances[index]) for result in results] for index in (0, 1))
+        invalid = tuple(result.ray.point(parameters.straightened_distance_m) for result in results
+                        if result.invalid_count)
+        return Picture(tuple(stretches), (
+            _area("Unlocked", PointRole.FIRST, unlocks),
+            _area("Locked", PointRole.SECOND, locks),
+            _not_reached("Unlock not reached", PointRole.FIRST_FAILED, unlocks, parameters.minimum_distance_m),
+            _not_reached("Lock not reached", PointRole.SECOND_FAILED, locks, parameters.straightened_distance_m),
+            PointSet("Invalid", PointRole.INVALID, invalid)))
 
     def expected_line_s(self, parameters: AutolockParameters) -> float:
         """See Scenario: the Car is taken to unlock half way between the straightening's end and the minimum."""
         straight_m = parameters.straightened_distance_m - parameters.minimum_distance_m
         return (parameters.straightening_distance_m / parameters.maximum_speed_mps
                 + straight_m / parameters.speed_on_axis_mps)
-
-    def place_of(self, result: Result) -> str:
-        """See Scenario."""
-        return str(result["side"]).replace("_", " ")
 
 
 def _go_to_start(line: Axis, parameters: AutolockParameters, robot: Robot, car: Car) -> None:
@@ -151,20 +128,23 @@ def _record(measured: _Measured, event: CarEvent | None, axis: Ray, robot: Robot
     measured.status = LineStatus.OK
 
 
-def _result(line: Axis, unlock: _Measured, lock: _Measured, reason: str) -> Result:
+def _result(line: Axis, unlock: _Measured, lock: _Measured, reason: str) -> AutolockResult:
     axis = line.ray
-    result = {"axis": line.number, "side": line.side, "origin_x_m": axis.origin_x, "origin_y_m": axis.origin_y,
-              "direction_x": axis.direction_x, "direction_y": axis.direction_y, REASON: reason}
-    for name, measured in (("unlock", unlock), ("lock", lock)):
-        values = (None, None, None) if measured.distance is None else distance_values(measured.distance)
-        result.update(zip((f"{name}_distance_m", f"{name}_uncertainty_m", f"{name}_robot_time_s"), values))
-        result[f"{name}_status"] = measured.status.value
-    return result
+    return AutolockResult(line.number, line.side, axis.origin_x, axis.origin_y, axis.direction_x, axis.direction_y,
+                          unlock.status, *recorded_values(unlock.distance),
+                          lock.status, *recorded_values(lock.distance), reason)
 
 
-def _outline(rays: Sequence[tuple[Result, Ray]], name: str) -> tuple[Point | None, ...]:
-    return tuple(ray.point(result[f"{name}_distance_m"]) if result[f"{name}_status"] == LineStatus.OK.value else None
-                 for result, ray in rays)
+def _area(label: str, role: PointRole, measured: Sequence[tuple[Ray, MeasuredDistance]]) -> PointSet:
+    points = tuple(None if distance.distance_m is None or distance.status is not LineStatus.OK
+                   else ray.point(distance.distance_m) for ray, distance in measured)
+    return PointSet(label, role, points, is_outline=True, bars=bars_along(measured))
+
+
+def _not_reached(label: str, role: PointRole, measured: Sequence[tuple[Ray, MeasuredDistance]],
+                 distance_m: float) -> PointSet:
+    return PointSet(label, role, tuple(ray.point(distance_m) for ray, distance in measured
+                                       if distance.status is LineStatus.NOT_REACHED))
 
 
 SCENARIO = Autolock()

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..errors import InvalidParameter
-from ..parameters import CENTIMETRES, KILOMETRES_PER_HOUR, ParameterSet, parameter
+from ..parameters import CENTIMETRES, KILOMETRES_PER_HOUR, parameter
+from ..scenario import ScenarioParameters
 
 
 @dataclass(frozen=True)
-class AutolockParameters(ParameterSet):
+class AutolockParameters(ScenarioParameters):
     """Distances are those of the Remote key from the Car's side or corner, along the axis."""
 
     minimum_distance_m: float = parameter(0.5, 0.0, 20.0, "m", "Where the approach ends if the Car stays locked.")

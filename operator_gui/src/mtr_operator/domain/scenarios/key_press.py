@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Sequence
 
 from ..actions.car import Car
-from ..actions.distance import Distance, distance_to_outline
+from ..actions.distance import Distance, distance_to_outline, recorded_values
 from ..actions.robot import Robot
 from ..actions.trouble import LineInvalid
 from ..errors import InvalidParameter
@@ -14,9 +14,11 @@ from ..geometry.pose import Point
 from ..geometry.radials import Radial, radials_around
 from ..geometry.ray import Ray
 from ..ports import PASSIVE_ENTRY, CarDimensions, CarEvent, Direction, LockState
+from ..results.line_result import LineStatus
 from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along
-from ..scenario import REASON, Column, LineStatus, Measurement, Result, Scenario, distance_values
+from ..scenario import Scenario
 from .key_press_parameters import KeyPressParameters
+from .key_press_result import PRESS, KeyPressResult
 
 LOCK_BUTTON, UNLOCK_BUTTON = 1, 2
 # The press that changes the Car's present state: button and state that it should lead to.
@@ -35,7 +37,7 @@ class _Measured:
     reason: str = ""
 
 
-class KeyPress(Scenario[KeyPressParameters, Radial]):
+class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
     """Press a button from far to near until the Car obeys, on every radial."""
 
     name = "key_press"
@@ -43,17 +45,8 @@ class KeyPress(Scenario[KeyPressParameters, Radial]):
     line_word = "radial"
     lines_stay = True
     parameters_type = KeyPressParameters
-    measurements = (Measurement("press", "status", "distance_m", "uncertainty_m"),)
-    columns = (
-        Column("radial", "", "number of the radial, clockwise from the Car's front"),
-        Column("angle_deg", "deg", "angle of the radial, clockwise from the Car's front", digits=3),
-        Column("status", "", "ok, not_reached or invalid"),
-        Column("distance_m", "m", "Remote key from the Car's centre at the farthest press that worked"),
-        Column("failed_distance_m", "m", "the next farther place that failed, empty if none; with not_reached the "
-                                         "nearest place that failed"),
-        Column("uncertainty_m", "m", "1 sigma of the distance"),
-        Column("attempts", "", "presses on this radial"),
-        Column("robot_time_s", "s", "robot's clock when the button of the press that worked went down", digits=3))
+    result_type = KeyPressResult
+    distance_words = (PRESS,)
 
     def lines(self, parameters: KeyPressParameters, car: CarDimensions) -> list[Radial]:
         """Radials around the Car; the nearest place on each has to lie outside the Car."""
@@ -67,7 +60,7 @@ class KeyPress(Scenario[KeyPressParameters, Radial]):
                     f"clearance_m, {parameters.clearance_m:g} m, has to remain.")
         return radials
 
-    def measure(self, line: Radial, parameters: KeyPressParameters, robot: Robot, car: Car) -> Result:
+    def measure(self, line: Radial, parameters: KeyPressParameters, robot: Robot, car: Car) -> KeyPressResult:
         """The thesis' algorithm 1 for one radial."""
         measured = _Measured()
         robot.say(f"radial {line.number} ({line.clockwise_deg:g}\N{DEGREE SIGN}): go to the start")
@@ -87,18 +80,20 @@ class KeyPress(Scenario[KeyPressParameters, Radial]):
             measured.reason = str(error)
         return _result(line, measured)
 
-    def picture(self, parameters: KeyPressParameters, car: CarDimensions, results: Sequence[Result]) -> Picture:
+    def picture(self, parameters: KeyPressParameters, car: CarDimensions, results: Sequence[KeyPressResult]) -> Picture:
         """Radials, the outline of the places that worked, and the next ones that did not."""
         rays = {radial.number: radial.ray for radial in radials_around(parameters.angle_between_radials_rad)}
-        measured = [(result, rays[result["radial"]]) for result in results]
+        measured = [(rays[result.radial], result) for result in results]
         stretches = tuple(Stretch(ray.point(parameters.minimum_distance_m), ray.point(parameters.maximum_distance_m),
-                                  self.place_of(result)) for result, ray in measured)
-        invalid = tuple(ray.point(parameters.press_distances_m[0]) for result, ray in measured
-                        if result["status"] == LineStatus.INVALID.value)
+                                  result.place) for ray, result in measured)
+        worked = tuple(_place(ray, result.distance_m) for ray, result in measured)
+        failed = tuple(_place(ray, result.failed_distance_m) for ray, result in measured)
+        invalid = tuple(ray.point(parameters.press_distances_m[0]) for ray, result in measured
+                        if result.status is LineStatus.INVALID)
         return Picture(stretches, (
-            PointSet("Press worked", PointRole.FIRST, _places(measured, "distance_m"), is_outline=True,
-                     bars=bars_along(measured, "distance_m", "uncertainty_m")),
-            PointSet("Press failed", PointRole.FAILED, _places(measured, "failed_distance_m")),
+            PointSet("Press worked", PointRole.FIRST, worked, is_outline=True,
+                     bars=bars_along([(ray, result.distances[0]) for ray, result in measured])),
+            PointSet("Press failed", PointRole.FAILED, failed),
             PointSet("Invalid", PointRole.INVALID, invalid)))
 
     def expected_line_s(self, parameters: KeyPressParameters) -> float:
@@ -109,10 +104,6 @@ class KeyPress(Scenario[KeyPressParameters, Radial]):
         press_s = parameters.settle_time_s + parameters.press_duration_s
         waited_s = failed * parameters.attempts * (press_s + parameters.response_timeout_s) + press_s
         return way_m / parameters.maximum_speed_mps + waited_s
-
-    def place_of(self, result: Result) -> str:
-        """See Scenario."""
-        return f"{result['angle_deg']:g}\N{DEGREE SIGN}"
 
 
 def _press_here(radial: Ray, measured: _Measured, parameters: KeyPressParameters, robot: Robot, car: Car) -> bool:
@@ -140,17 +131,15 @@ def _press_here(radial: Ray, measured: _Measured, parameters: KeyPressParameters
     return False
 
 
-def _result(line: Radial, measured: _Measured) -> Result:
-    distance_m, uncertainty_m, robot_time_s = (None, None, None) if measured.success is None else \
-        distance_values(measured.success)
-    return {"radial": line.number, "angle_deg": line.clockwise_deg, "status": measured.status.value,
-            "distance_m": distance_m, "uncertainty_m": uncertainty_m, "robot_time_s": robot_time_s,
-            "failed_distance_m": None if measured.failure is None else distance_values(measured.failure)[0],
-            "attempts": measured.attempts, REASON: measured.reason}
+def _result(line: Radial, measured: _Measured) -> KeyPressResult:
+    distance_m, uncertainty_m, robot_time_s = recorded_values(measured.success)
+    return KeyPressResult(line.number, line.clockwise_deg, measured.status, distance_m,
+                          recorded_values(measured.failure)[0], uncertainty_m, measured.attempts, robot_time_s,
+                          measured.reason)
 
 
-def _places(measured: Sequence[tuple[Result, Ray]], column: str) -> tuple[Point | None, ...]:
-    return tuple(None if result[column] is None else ray.point(result[column]) for result, ray in measured)
+def _place(ray: Ray, distance_m: float | None) -> Point | None:
+    return None if distance_m is None else ray.point(distance_m)
 
 
 SCENARIO = KeyPress()

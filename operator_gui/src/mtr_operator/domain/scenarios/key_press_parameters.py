@@ -6,14 +6,15 @@ import math
 from dataclasses import dataclass
 
 from ..errors import InvalidParameter
-from ..parameters import CENTIMETRES, DEGREE, KILOMETRES_PER_HOUR, ParameterSet, parameter
+from ..parameters import CENTIMETRES, DEGREE, KILOMETRES_PER_HOUR, parameter
+from ..scenario import ScenarioParameters
 
 # Rounding of repeated steps must not skip a press at exactly the minimum distance.
 _ROUNDING_M = 1e-9
 
 
 @dataclass(frozen=True)
-class KeyPressParameters(ParameterSet):
+class KeyPressParameters(ScenarioParameters):
     """Distances are those of the Remote key from the Car's centre."""
 
     minimum_distance_m: float = parameter(3.0, 0.0, 20.0, "m", "Nearest place at which the button is pressed.")

@@ -8,7 +8,8 @@ from PyQt5.QtCore import Qt, pyqtSignal
 from PyQt5.QtWidgets import QCheckBox, QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.errors import InvalidParameter
-from mtr_operator.domain.parameters import Flag, ParameterSet
+from mtr_operator.domain.parameters import Flag
+from mtr_operator.domain.scenario import ScenarioParameters
 
 from ..names import flag_title, parameter_doc
 from ..sentences import parameter_sentence
@@ -30,7 +31,7 @@ class ParameterForm(QWidget):
 
     changed = pyqtSignal()
 
-    def __init__(self, parameters_type: type[ParameterSet], parent: QWidget | None = None):
+    def __init__(self, parameters_type: type[ScenarioParameters], parent: QWidget | None = None):
         super().__init__(parent)
         self._type = parameters_type
         self._is_filling = False
@@ -90,7 +91,7 @@ class ParameterForm(QWidget):
         self.more.setText(f"{sign} {words}")
 
     @property
-    def parameters(self) -> ParameterSet | None:
+    def parameters(self) -> ScenarioParameters | None:
         """What was typed; None while it is not valid."""
         try:
             return None if self._faulty_fields() else self._typed()
@@ -116,7 +117,7 @@ class ParameterForm(QWidget):
         self.fault.setText(sentence)
         self.fault.setVisible(bool(sentence))
 
-    def _typed(self) -> ParameterSet:
+    def _typed(self) -> ScenarioParameters:
         numbers = {name: field.reading.value for name, field in self.fields.items()}
         return self._type(**numbers, **{name: box.isChecked() for name, box in self.flags.items()})
 

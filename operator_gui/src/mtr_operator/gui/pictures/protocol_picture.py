@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Sequence
 
-from mtr_operator.domain.parameters import ParameterSet
 from mtr_operator.domain.results.picture import Picture, Stretch
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.scenario import Scenario
+from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
 from ..names import domain_word
 from .layers.car_layer import CarLayer
@@ -22,8 +21,8 @@ from .layers.surroundings import GridLayer, ScaleLayer
 class Protocol:
     """What a finished test has measured."""
 
-    scenario: Scenario
-    parameters: ParameterSet
+    scenario: AnyScenario
+    parameters: ScenarioParameters
     progress: Progress
 
     @property
@@ -42,7 +41,7 @@ class ProtocolPicture:
     def __init__(self, protocol: Protocol):
         picture = protocol.picture
         stretches = [Stretch(stretch.start, stretch.end, domain_word(stretch.label)) for stretch in picture.stretches]
-        self.points = PointsLayer(picture.point_sets, shows_distances=len(protocol.scenario.measurements) == 1)
+        self.points = PointsLayer(picture.point_sets, shows_distances=len(protocol.scenario.distance_words) == 1)
         self.layers: Sequence[Layer] = (
             GridLayer(), LinesLayer(stretches), AreasLayer(picture.point_sets), CarLayer(protocol.progress.car, True),
             self.points, ScaleLayer())

@@ -5,7 +5,6 @@ from __future__ import annotations
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QPainter
 
-from mtr_operator.domain.scenario import REASON
 from mtr_operator.report.protocol_rows import Row, date_text, session_rows, summary_rows
 
 from ..i18n import decimal_sign, translate
@@ -96,12 +95,11 @@ class ProtocolSheet:
         return _in_words([(car, size.replace(".", decimal_sign())), *rows])
 
     def _paint_reasons(self, canvas: Canvas, left: float, top: float) -> None:
-        scenario = self._protocol.scenario
         canvas.painter.setFont(canvas.font(10.5))
         canvas.painter.setPen(QColor(LIGHT.invalid))
         for result in self._protocol.progress.results:
-            if result[REASON] and top + 2 * _ROW < HEIGHT - _MARGIN:
-                text = f"{scenario.number_of(result)}: {translated(result[REASON])}"
+            if result.reason and top + 2 * _ROW < HEIGHT - _MARGIN:
+                text = f"{result.number}: {translated(result.reason)}"
                 if len(text) > _MAX_REASON:
                     text = text[:_MAX_REASON - 1] + "\N{HORIZONTAL ELLIPSIS}"
                 canvas.painter.drawText(QRectF(left, top, _PANEL, 2 * _ROW), Qt.TextWordWrap | Qt.AlignLeft, text)

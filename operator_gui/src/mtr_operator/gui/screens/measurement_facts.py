@@ -7,6 +7,7 @@ import math
 from PyQt5.QtWidgets import QFormLayout, QFrame, QLabel, QProgressBar, QVBoxLayout, QWidget
 
 from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.results.line_result import LineStatus, MeasuredDistance
 from mtr_operator.station.events import RobotSnapshot
 from mtr_operator.station.readiness import Phase
 from mtr_operator.station.view_model import ViewModel
@@ -98,13 +99,15 @@ def newest_text(model: ViewModel) -> str:
     """The newest result: place and distances."""
     if not model.results or model.newest is None:
         return _UNKNOWN
-    scenario, result = model.test.scenario, model.newest
-    notice = []
-    for measurement in scenario.measurements:
-        distance, status = result[measurement.distance], result[measurement.status]
-        value = f"{number(distance * _CM_PER_M, 0)} cm" if status == "ok" else domain_word(status.replace("_", " "))
-        notice.append(f"{domain_word(measurement.word)} {value}")
-    return f"{scenario.number_of(result)} ({domain_word(scenario.place_of(result))}): {', '.join(notice)}"
+    result = model.newest
+    distances = [f"{domain_word(distance.word)} {_distance_text(distance)}" for distance in result.distances]
+    return f"{result.number} ({domain_word(result.place)}): {', '.join(distances)}"
+
+
+def _distance_text(distance: MeasuredDistance) -> str:
+    if distance.distance_m is None or distance.status is not LineStatus.OK:
+        return domain_word(distance.status.value.replace("_", " "))
+    return f"{number(distance.distance_m * _CM_PER_M, 0)} cm"
 
 
 def _measure(value: float, per_si: float, digits: int, unit: str) -> str:

@@ -7,7 +7,7 @@ from typing import Mapping
 from PyQt5.QtCore import pyqtSignal
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from mtr_operator.domain.scenario import Scenario
+from mtr_operator.domain.scenario import AnyScenario
 
 from ..names import scenario_doc, scenario_title
 from ..theme.scale import XL, L, M, S
@@ -22,7 +22,7 @@ class MeasurementTypeScreen(QWidget):
     chosen = pyqtSignal(str)
     back = pyqtSignal()
 
-    def __init__(self, scenarios: Mapping[str, Scenario], parent: QWidget | None = None):
+    def __init__(self, scenarios: Mapping[str, AnyScenario], parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("page")
         title = QLabel(self.tr("What is to be measured?"))

@@ -111,7 +111,7 @@ class ProtocolScreen(QWidget):
         """Show the test at hand."""
         model = self._flow.model
         test = model.test
-        progress: Progress = dataclasses.replace(test.progress, results=[dict(result) for result in model.results])
+        progress: Progress = dataclasses.replace(test.progress, results=list(model.results))
         self.protocol = Protocol(test.scenario, test.parameters, progress)
         self._picture = ProtocolPicture(self.protocol)
         self._saved.clear()
@@ -128,8 +128,8 @@ class ProtocolScreen(QWidget):
         self.save.setFocus()
 
     def _summary(self) -> str:
-        scenario, results = self.protocol.scenario, self.protocol.progress.results
-        invalid = sum(1 for result in results if scenario.invalid_count(result))
+        results = self.protocol.progress.results
+        invalid = sum(1 for result in results if result.invalid_count)
         if invalid:
             return self.tr("{count} lines, {invalid} of them invalid. Not saved as CSV and PNG yet.").format(
                 count=len(results), invalid=invalid)

@@ -6,7 +6,7 @@ from typing import Any
 
 from PyQt5.QtCore import QAbstractTableModel, QModelIndex, Qt
 
-from mtr_operator.domain.scenario import REASON, LineStatus, Measurement, Result
+from mtr_operator.domain.results.line_result import LineResult, LineStatus
 
 from ..i18n import number
 from ..names import domain_word
@@ -32,7 +32,7 @@ class ResultsModel(QAbstractTableModel):
 
     def columnCount(self, parent: QModelIndex = QModelIndex()) -> int:  # noqa: B008
         """See QAbstractItemModel."""
-        return 0 if parent.isValid() else _FIXED_COLUMNS + 2 * len(self._scenario.measurements)
+        return 0 if parent.isValid() else _FIXED_COLUMNS + 2 * len(self._scenario.distance_words)
 
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.DisplayRole) -> Any:
         """See QAbstractItemModel."""
@@ -40,8 +40,7 @@ class ResultsModel(QAbstractTableModel):
             return None
         if section < _FIXED_COLUMNS:
             return ("#", domain_word(self._scenario.line_word).capitalize())[section]
-        measurement = self._measurement(section)
-        word = domain_word(measurement.word).capitalize()
+        word = domain_word(self._scenario.distance_words[self._index(section)]).capitalize()
         return f"{word} [cm]" if self._is_distance(section) else "\N{PLUS-MINUS SIGN}"
 
     def data(self, index: QModelIndex, role: int = Qt.DisplayRole) -> Any:
@@ -52,21 +51,22 @@ class ResultsModel(QAbstractTableModel):
         if role == Qt.TextAlignmentRole and index.column() >= _FIXED_COLUMNS:
             return int(Qt.AlignRight | Qt.AlignVCenter)
         if role == Qt.ToolTipRole:
-            return translated(result[REASON]) or None
+            return translated(result.reason) or None
         return None
 
-    def _text(self, result: Result, column: int) -> str:
+    def _text(self, result: LineResult, column: int) -> str:
         if column < _FIXED_COLUMNS:
-            return (str(self._scenario.number_of(result)), domain_word(self._scenario.place_of(result)))[column]
-        measurement = self._measurement(column)
-        status = result[measurement.status]
-        value = result[measurement.distance if self._is_distance(column) else measurement.uncertainty]
-        if self._is_distance(column) and status != LineStatus.OK.value:
-            return domain_word(status.replace("_", " "))
+            return (str(result.number), domain_word(result.place))[column]
+        distance = result.distances[self._index(column)]
+        if self._is_distance(column) and distance.status is not LineStatus.OK:
+            return domain_word(distance.status.value.replace("_", " "))
+        value = distance.distance_m if self._is_distance(column) else distance.uncertainty_m
         return "" if value is None else number(value * _CM_PER_M, 1)
 
-    def _measurement(self, column: int) -> Measurement:
-        return self._scenario.measurements[(column - _FIXED_COLUMNS) // 2]
+    @staticmethod
+    def _index(column: int) -> int:
+        """Index of the distance that a column belongs to."""
+        return (column - _FIXED_COLUMNS) // 2
 
     @staticmethod
     def _is_distance(column: int) -> bool:

@@ -6,7 +6,7 @@ from PyQt5.QtCore import Qt, pyqtSignal
 from PyQt5.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
 
 from mtr_operator.domain.errors import InvalidParameter
-from mtr_operator.domain.scenario import Scenario
+from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.station.estimate import USUAL_CAR, Plan, plan_of
 from mtr_operator.station.view_model import ViewModel
 
@@ -32,7 +32,7 @@ class SettingsScreen(QWidget):
     started = pyqtSignal(object)
     back = pyqtSignal()
 
-    def __init__(self, scenario: Scenario, model: ViewModel, appearance: Appearance, parent: QWidget | None = None):
+    def __init__(self, scenario: AnyScenario, model: ViewModel, appearance: Appearance, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("page")
         self._scenario = scenario

@@ -107,12 +107,12 @@ class VirtualRobot:
         before, heading = self._here, self._heading
         if not self._desired.stop:
             self._check.step(dt_s)
-        is_wanted = self._waypoint is not None and not self._desired.stop and self._desired.waypoint is not None
-        if is_wanted and self._time_s >= _START_TIME_S + self._world.starting_s:
+        waypoint = None if self._desired.stop or self._desired.waypoint is None else self._waypoint
+        if waypoint is not None and self._time_s >= _START_TIME_S + self._world.starting_s:
             if self._mapping_left_s > 0:
                 self._mapping_left_s -= dt_s
             elif self._result == WaypointResult.PENDING and not self._check.is_running:
-                self._drive(dt_s)
+                self._drive(waypoint, dt_s)
         dx, dy = self._here[0] - before[0], self._here[1] - before[1]
         ahead = math.cos(heading) * dx + math.sin(heading) * dy
         self._speed_mps = math.copysign(math.hypot(dx, dy), ahead) / dt_s
@@ -158,10 +158,10 @@ class VirtualRobot:
         else:
             self._way = route(self._here, point, self._box)
 
-    def _drive(self, dt_s: float) -> None:
+    def _drive(self, waypoint: Waypoint, dt_s: float) -> None:
         limit_mps = self._desired.max_speed_mps or _DEFAULT_SPEED_MPS
         self._here, self._way = advance(self._here, self._way, min(limit_mps, _MAX_SPEED_MPS) * dt_s)
-        turn = math.remainder(self._waypoint.heading - self._heading, 2 * math.pi)
+        turn = math.remainder(waypoint.heading - self._heading, 2 * math.pi)
         turn_step = _TURN_RATE_RADPS * dt_s
         self._heading = math.remainder(self._heading + min(max(turn, -turn_step), turn_step), 2 * math.pi)
         if not self._way and abs(turn) <= turn_step:

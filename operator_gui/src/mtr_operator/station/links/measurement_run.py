@@ -15,7 +15,7 @@ from mtr_operator.domain.runner import Runner
 from ..events import Outcome, RunEnded
 from ..mailbox import Mailbox
 from ..test import Test
-from .reporter import Reporter, copied
+from .reporter import Reporter
 from .watched_link import WatchedRobotLink
 
 
@@ -33,7 +33,7 @@ class MeasurementRun:
         test = self._test
         outcome, text = self._outcome(is_cancelled, after_status)
         test.discard_if_empty()
-        return RunEnded(outcome, text, copied(test.progress.results))
+        return RunEnded(outcome, text, tuple(test.progress.results))
 
     def _outcome(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> tuple[Outcome, str]:
         try:

@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import Any, Callable, Iterable, Mapping
+from typing import Callable
 
 from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.ports import CarLink, RobotStatus
+from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.results.progress import Progress
 
 from ..events import ActionBegun, LineMeasured, LinesPlanned, RobotSilent, RobotSnapshot
@@ -38,15 +39,10 @@ class Reporter(RunObserver):
         """See RunObserver."""
         self._mailbox.put(ActionBegun(text))
 
-    def on_result(self, result: Mapping[str, Any], done: int, total: int) -> None:
+    def on_result(self, result: LineResult, done: int, total: int) -> None:
         """See RunObserver."""
-        self._mailbox.put(LineMeasured(copied(self._progress.results), dict(result), done, total))
+        self._mailbox.put(LineMeasured(tuple(self._progress.results), result, done, total))
 
     def on_link_silent(self, silent_s: float) -> None:
         """See RunObserver."""
         self._mailbox.put(RobotSilent(silent_s))
-
-
-def copied(results: Iterable[Mapping[str, Any]]) -> tuple[Mapping[str, Any], ...]:
-    """Results that the thread of the links does not change any more."""
-    return tuple(dict(result) for result in results)

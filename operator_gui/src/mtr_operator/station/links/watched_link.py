@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from mtr_operator.domain.ports import DesiredState, LinkStatistics, RobotLink, RobotStatus, Waypoint
+from mtr_operator.domain.ports import DesiredState, RobotLink, RobotStatus, Waypoint
 
 
 class WatchedRobotLink(RobotLink):
@@ -14,17 +14,13 @@ class WatchedRobotLink(RobotLink):
 
     def __init__(self, link: RobotLink):
         self._link = link
+        self.statistics = link.statistics
         self.waypoint: Waypoint | None = None
-
-    @property
-    def statistics(self) -> LinkStatistics:
-        """See RobotLink."""
-        return self._link.statistics
 
     @property
     def is_secret(self) -> bool:
         """True when the link is encrypted."""
-        return bool(getattr(self._link, "is_secret", False))
+        return self._link.is_secret
 
     def connect(self) -> None:
         """See RobotLink."""

@@ -8,6 +8,7 @@ import queue
 import threading
 from typing import Callable
 
+from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.errors import InvalidParameter, OperatorError, OutputError
 from mtr_operator.domain.ports import CarLink
 
@@ -39,7 +40,7 @@ class Worker:
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._run, name="links", daemon=True)
         self._robot: WatchedRobotLink | None = None
-        self._car: CarLink | None = None
+        self._car: CarLink = AbsentCarLink()
         self._idle: IdleLoop | None = None
 
     def start(self) -> None:
@@ -105,14 +106,15 @@ class Worker:
         with contextlib.suppress(queue.Empty):
             self._requests.get_nowait()()
             return
-        if self._robot is None and not self._open_robot():
+        idle = self._idle or self._open_robot()
+        if idle is None:
             self._closing.wait(RETRY_S)
             return
-        snapshot = self._idle.step()
+        snapshot = idle.step()
         if snapshot is not None:
             self._mailbox.put_robot(snapshot)
-        elif self._idle.silent_s >= SILENCE_SHOWN_S:
-            self._mailbox.put(RobotSilent(self._idle.silent_s))
+        elif idle.silent_s >= SILENCE_SHOWN_S:
+            self._mailbox.put(RobotSilent(idle.silent_s))
 
     def _open(self) -> bool:
         part = "car"
@@ -135,16 +137,16 @@ class Worker:
     def _new_robot(self) -> WatchedRobotLink:
         return WatchedRobotLink(self._opener.robot(self._connection.robot))
 
-    def _open_robot(self) -> bool:
+    def _open_robot(self) -> IdleLoop | None:
         """A session of its own for each purpose: ids of requests begin anew."""
         robot = self._new_robot()
         try:
             robot.connect()
         except OperatorError:
             self._mailbox.put(RobotSilent(SILENCE_SHOWN_S))
-            return False
+            return None
         self._robot, self._idle = robot, IdleLoop(robot, self._car)
-        return True
+        return self._idle
 
     def _change_car(self, choice: CanChoice | None) -> None:
         # The new one may be the same adapter.
@@ -181,5 +183,4 @@ class Worker:
 
     def _close_links(self) -> None:
         self._close_robot()
-        if self._car is not None:
-            self._car.close()
+        self._car.close()

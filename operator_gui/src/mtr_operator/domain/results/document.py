@@ -1,0 +1,44 @@
+"""Records from the plain values of a file, each value of the kind that its field declares."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import dataclasses
+import enum
+from typing import Any, Mapping, Optional, TypeVar, Union, get_args, get_origin, get_type_hints
+
+Record = TypeVar("Record")
+# Python 3.9 cannot evaluate "float | None", and read_record has to.
+OptionalFloat = Optional[float]
+OptionalInt = Optional[int]
+
+
+def read_record(record_type: type[Record], document: Mapping[str, Any]) -> Record:
+    """Record of a dataclass whose fields are numbers, texts and enumerations, or None where they are optional.
+
+    A field with a default may be missing. What does not fit raises KeyError, TypeError or ValueError.
+    """
+    kinds = get_type_hints(record_type)
+    values = {}
+    for field in dataclasses.fields(record_type):  # type: ignore[arg-type]  # typeshed knows no type[dataclass]
+        if field.name in document or field.default is dataclasses.MISSING:
+            values[field.name] = _value(kinds[field.name], document[field.name])
+    return record_type(**values)
+
+
+def plain(value: Any) -> Any:
+    """Value for a file."""
+    return value.value if isinstance(value, enum.Enum) else value
+
+
+def _value(kind: Any, value: Any) -> Any:
+    kinds = get_args(kind) if get_origin(kind) is Union else (kind,)
+    if value is None and type(None) in kinds:
+        return None
+    kind = kinds[0]
+    if issubclass(kind, enum.Enum):
+        return kind(value)
+    # JSON writes 2.0 as it is, but another program may have written 2.
+    accepted = (int, float) if kind is float else kind
+    if not isinstance(value, accepted) or (isinstance(value, bool) and kind is not bool):
+        raise TypeError(f"{value!r} is no {kind.__name__}")
+    return value

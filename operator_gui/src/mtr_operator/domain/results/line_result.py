@@ -1,0 +1,110 @@
+"""The result of one measured line: a record whose fields are the columns of results.csv and the keys of files."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import dataclasses
+import enum
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any, ClassVar, TypeVar
+
+from .document import OptionalFloat, plain, read_record
+
+Result = TypeVar("Result", bound="LineResult")
+
+
+class LineStatus(enum.Enum):
+    """What became of a measurement."""
+
+    OK = "ok"
+    NOT_REACHED = "not_reached"
+    INVALID = "invalid"
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column of results.csv. digits: decimals of a float."""
+
+    name: str
+    unit: str
+    doc: str
+    digits: int = 4
+
+
+@dataclass(frozen=True)
+class MeasuredDistance:
+    """One distance of a line, in m with 1 sigma; None where nothing was measured.
+
+    word: what it is called beside the line, "unlock".
+    """
+
+    word: str
+    status: LineStatus
+    distance_m: OptionalFloat
+    uncertainty_m: OptionalFloat
+
+
+def column(doc: str, unit: str = "", digits: int = 4) -> Any:
+    """Field of a LineResult that is a column of results.csv."""
+    return dataclasses.field(metadata={"column": (unit, doc, digits)})
+
+
+def stored() -> Any:
+    """Field of a LineResult that is in the progress file only."""
+    return dataclasses.field()
+
+
+class LineResult(ABC):
+    """Base of the scenarios' results; a scenario derives a frozen dataclass.
+
+    Attributes:
+        reason: why the line is invalid; empty when it is not. It stands above the table of results.csv.
+        FILE_ORDER: keys of a progress file where their order is not that of the fields.
+    """
+
+    FILE_ORDER: ClassVar[tuple[str, ...]] = ()
+    reason: str
+
+    @property
+    @abstractmethod
+    def number(self) -> int:
+        """Number of the line, from 1."""
+
+    @property
+    @abstractmethod
+    def place(self) -> str:
+        """Where the line lies, for a person: "front right", "45°"."""
+
+    @property
+    @abstractmethod
+    def distances(self) -> tuple[MeasuredDistance, ...]:
+        """Distances of the line, in the order of the scenario's distance_words."""
+
+    @property
+    def invalid_count(self) -> int:
+        """How many of the distances are invalid."""
+        return sum(distance.status is LineStatus.INVALID for distance in self.distances)
+
+    @classmethod
+    def columns(cls) -> tuple[Column, ...]:
+        """Columns of results.csv, in the order of the fields."""
+        declared = [(item.name, item.metadata["column"]) for item in _fields(cls) if "column" in item.metadata]
+        return tuple(Column(name, *rest) for name, rest in declared)
+
+    def to_document(self) -> dict[str, Any]:
+        """Plain values for a progress file."""
+        names = self.FILE_ORDER or tuple(item.name for item in _fields(type(self)))
+        return {name: plain(getattr(self, name)) for name in names}
+
+
+def result_from_document(result_type: type[Result], document: Any) -> Result:
+    """Result in a progress file; KeyError, TypeError or ValueError when it is damaged."""
+    result = read_record(result_type, document)
+    for distance in result.distances:
+        if distance.status is LineStatus.OK and distance.distance_m is None:
+            raise ValueError(f"{distance.word} without a distance")
+    return result
+
+
+def _fields(result_type: type[LineResult]) -> tuple[dataclasses.Field[Any], ...]:
+    return dataclasses.fields(result_type)  # type: ignore[arg-type]  # the derived classes are dataclasses
