@@ -15,8 +15,9 @@ from operator_link import OperatorLink
 from scripted_time import NS, STEP_NS, Listener, ScriptedTime, Speaker, wait_for
 
 from mtr_core import names, schedule
+from mtr_core.conversions import goal_report_from
+from mtr_core.requests import NO_GOAL_ID, RVIZ
 from mtr_core.se2 import Pose2
-from mtr_motion_planner.nav_goal import FIRST_ID as FIRST_NAV_ID
 from mtr_msgs.msg import (
     CarCheck,
     CarEstimate,
@@ -110,13 +111,13 @@ class Waypoints(unittest.TestCase):
     def nav_goal_at(self, x, y):
         """A person sets a goal in rviz, by its place in the Car's frame, while the Operator wants nothing."""
         self.operator.order()
-        self.time.advance_until(lambda: not 0 < self.motion_now().goal_id < FIRST_NAV_ID, within_s=5.0)
-        before, pose = self.motion_now().goal_id, MAP_FROM_CAR @ Pose2(x, y, 0.0)
+        self.time.advance_until(lambda: not self.goal_now().requester.startswith("application"), within_s=5.0)
+        before, pose = self.goal_now(), MAP_FROM_CAR @ Pose2(x, y, 0.0)
         goal = PoseStamped()
         goal.header.frame_id, goal.pose.position.x, goal.pose.position.y = names.MAP, pose.x, pose.y
         goal.pose.orientation.w = 1.0
         self.nav_goal.publish(goal)
-        self.time.advance_until(lambda: self.motion_now().goal_id not in (0, before), within_s=20.0)
+        self.time.advance_until(lambda: self.goal_now() not in (NO_GOAL_ID, before), within_s=20.0)
 
     def seen(self, waypoint_id, result):
         """True when the Operator has heard this of the waypoint."""
@@ -131,6 +132,10 @@ class Waypoints(unittest.TestCase):
         """The planner's word on the present tick."""
         return self.motion.at(schedule.MOTION_PLANNER.last_at(self.time.tick_ns))
 
+    def goal_now(self):
+        """The goal that it speaks of."""
+        return goal_report_from(self.motion_now()).goal_id
+
     def await_motion(self):
         """Let time pass until the robot drives."""
         self.time.advance_until(lambda: abs(self.operator.status.state.speed) > 0.2, within_s=10.0)
@@ -144,7 +149,7 @@ class Waypoints(unittest.TestCase):
     def test_new_waypoint_replaces_the_old_one_in_mid_motion(self):
         old = self.go_to(-4.0, 2.5)
         self.await_motion()
-        goal_id = self.motion_now().goal_id
+        attempt = self.goal_now().attempt
         new = self.go_to(4.5, 2.5)
         results = []
 
@@ -153,16 +158,16 @@ class Waypoints(unittest.TestCase):
             return self.seen(new, link.WAYPOINT_RESULT_REACHED)
         self.time.advance_until(is_reached, REACH_WITHIN_S)
         self.assertNotIn((old, link.WAYPOINT_RESULT_REACHED), results)
-        self.assertGreater(self.motion_now().goal_id, goal_id)
+        self.assertGreater(self.goal_now().attempt, attempt)
         state = self.operator.status.state
         self.assertLess(math.hypot(state.x - 4.5, state.y - 2.5), TOLERANCE_M)
 
     def test_new_waypoint_is_taken_up_within_one_round_of_the_nodes(self):
         self.go_to(-4.0, 2.5)
         self.await_motion()
-        goal_id = self.motion_now().goal_id
+        attempt = self.goal_now().attempt
         self.go_to(4.0, 1.5)
-        taken_s = self.time.advance_until(lambda: self.motion_now().goal_id > goal_id, within_s=1.0)
+        taken_s = self.time.advance_until(lambda: self.goal_now().attempt > attempt, within_s=1.0)
         self.assertLessEqual(taken_s, 0.25)
 
     def test_waypoint_inside_the_car_is_refused_with_a_sentence_and_nothing_moves(self):
@@ -200,7 +205,7 @@ class Waypoints(unittest.TestCase):
         self.nav_goal_at(-4.0, 2.5)
         self.await_motion()
         self.await_result(self.go_to(4.5, 2.0), link.WAYPOINT_RESULT_REACHED)
-        self.assertLess(self.motion_now().goal_id, FIRST_NAV_ID)
+        self.assertNotEqual(self.goal_now().requester, RVIZ)
 
     def test_refused_waypoint_in_mid_motion_stops_the_robot(self):
         self.go_to(-4.0, -2.5)

@@ -6,14 +6,14 @@ from typing import Any, List, Optional
 
 from mtr_core import names
 from mtr_core.crc import is_sound
+from mtr_core.requests import NO_PRESS, DesiredState, Press, PressReport
 from mtr_core.states import State
 from mtr_emulator import Emulator
 from mtr_msgs.msg import FirmwareState
 from mtr_peripherals.conversions import command_message, firmware_report, press_message
-from mtr_peripherals.core import Orders, Outcome, Peripherals
+from mtr_peripherals.core import Inputs, Outcome, Peripherals
 from mtr_peripherals.firmware_clock import FirmwareClock
 from mtr_peripherals.parameters import Parameters
-from mtr_peripherals.presses import PressOrder, PressResult
 from mtr_serial_link.connections import md5_of
 from mtr_simulation.firmware.emulated import EmulatedFirmware
 
@@ -24,11 +24,10 @@ NS = 1e-9
 START_NS = 1_000_000_000
 SESSION = 5
 RELEASED_US = 1000
-NO_PRESS = PressOrder()
 
 
 class EmulatedBoard:
-    """Everything between the dispatcher's wish and the servo, without the wires of ROS.
+    """Everything between the desired state and the servo, without the wires of ROS.
 
     Attributes:
         board: the emulator, for faults and probes.
@@ -50,7 +49,7 @@ class EmulatedBoard:
         self.outcome: Optional[Outcome] = None
         self.pulses: List[tuple] = []
         self.heights: List[tuple] = []
-        self.results: List[PressResult] = []
+        self.results: List[PressReport] = []
 
     def __enter__(self) -> "EmulatedBoard":
         self._firmware.start(START_NS)
@@ -59,13 +58,13 @@ class EmulatedBoard:
     def __exit__(self, *_: object) -> None:
         self._firmware.close()
 
-    def run(self, duration_s: float, key_height_m: float, press: PressOrder = NO_PRESS) -> None:
-        """Let time pass with these wishes."""
-        orders = Orders(session_id=SESSION, link_alive=True, stop=False, key_height_m=key_height_m, press=press,
-                        mode=State.FOLLOWING_WAYPOINT)
+    def run(self, duration_s: float, key_height_m: float, press: Press = NO_PRESS) -> None:
+        """Let time pass with these requests."""
+        desired = DesiredState(session_id=SESSION, link_alive=True, stop=False, key_height_m=key_height_m, press=press)
+        inputs = Inputs(desired, State.FOLLOWING_WAYPOINT)
         for _ in range(round(duration_s / (TICK_NS * NS))):
             if self._ticks % DECISION_TICKS == 0:
-                self._decide(orders)
+                self._decide(inputs)
             self._ticks += 1
             self.now_ns += TICK_NS
             self._firmware.step(self.now_ns)
@@ -78,8 +77,8 @@ class EmulatedBoard:
         pressed = [pulse > RELEASED_US + 500 for _, pulse in self.pulses]
         return sum(now and not before for before, now in zip([False, *pressed], pressed))
 
-    def _decide(self, orders: Orders) -> None:
-        self.outcome = self._core.step(orders, self._report, self.now_ns)
+    def _decide(self, inputs: Inputs) -> None:
+        self.outcome = self._core.step(inputs, self._report, self.now_ns)
         for result in self.outcome.results:
             if result not in self.results:
                 self.results.append(result)

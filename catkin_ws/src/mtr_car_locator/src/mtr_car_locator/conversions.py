@@ -11,13 +11,14 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from mtr_core import names
 from mtr_core.arrays import FloatArray
+from mtr_core.conversions import goal_from, waypoint_message
 from mtr_core.se2 import Pose2
-from mtr_core.states import Result, State
-from mtr_msgs.msg import CarCheck, CarEstimate, LocalizedPose, MappingOrder, MotionStatus, RobotMode, Waypoint
+from mtr_core.states import State
+from mtr_msgs.msg import CarCheck, CarEstimate, LocalizedPose, MappingOrder, RobotMode
 from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 
 from .drawing import Kind, Shape
-from .estimate import Drive, Estimate, Order
+from .estimate import Estimate, Order
 from .offline import FilesUnusable
 from .parameters import LocatorParameters, RefinementParameters
 from .poses import PoseMode, RobotPose
@@ -34,14 +35,8 @@ def order_from(message: Optional[RobotMode]) -> Optional[Order]:
     """Order of the state machine."""
     if message is None:
         return None
-    goal = message.goal
-    return Order(message.mapping, message.map_car_id, goal.id if goal.frame_id == names.MAP else 0, goal.x, goal.y,
-                 message.mode == State.CHECKING_CAR, message.check_car_id)
-
-
-def drive_from(message: Optional[MotionStatus]) -> Optional[Drive]:
-    """Word of the motion planner."""
-    return None if message is None else Drive(message.goal_id, Result(message.result))
+    return Order(message.mapping, message.map_car_id, goal_from(message), message.mode == State.CHECKING_CAR,
+                 message.check_car_id)
 
 
 def robot_pose_from(message: LocalizedPose) -> RobotPose:
@@ -98,10 +93,8 @@ def estimate_message(estimate: Estimate, stamp: Any) -> CarEstimate:
     message.outline_y = [y for _, y in estimate.outline]
     message.correction_x, message.correction_y = correction.x, correction.y
     message.correction_heading = correction.heading
-    if estimate.place:
-        pose = estimate.place.pose
-        message.next_waypoint = Waypoint(estimate.place.place_id, names.MAP, pose.x, pose.y, pose.heading,
-                                         Waypoint.DIRECTION_FORWARD)
+    if estimate.waypoint:
+        message.next_waypoint = waypoint_message(estimate.waypoint)
     return message
 
 

@@ -3,13 +3,14 @@
 from dataclasses import dataclass
 from typing import Optional, Sequence, Tuple
 
+from mtr_core.requests import NO_GOAL, Goal, GoalReport, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Result
 
 from .measure.car_fit import CarFit
 from .rectangle import Rectangle
 from .scan import Scan
-from .survey.survey import MapPhase, Place, SurfaceMap
+from .survey.survey import MapPhase, SurfaceMap
 from .watch.self_check import CheckReport
 
 NO_MOTION = Pose2(0.0, 0.0, 0.0)
@@ -21,19 +22,9 @@ class Order:
 
     mapping: bool
     map_car_id: int
-    goal_id: int = 0
-    goal_x: float = 0.0
-    goal_y: float = 0.0
+    goal: Goal = NO_GOAL
     checking: bool = False
     check_car_id: int = 0
-
-
-@dataclass(frozen=True)
-class Drive:
-    """What the motion planner says of a goal."""
-
-    goal_id: int
-    result: Result
 
 
 @dataclass(frozen=True)
@@ -42,7 +33,7 @@ class Inputs:
 
     now_s: float
     order: Optional[Order] = None
-    drive: Optional[Drive] = None
+    motion: GoalReport = GoalReport()
     scans: Sequence[Scan] = ()
     surfaces: Optional[SurfaceMap] = None
 
@@ -67,7 +58,7 @@ class Estimate:
     sigmas: Tuple[float, float, float]
     length_sigma: float
     width_sigma: float
-    place: Optional[Place]
+    waypoint: Optional[Waypoint]
     map_car_id: int
     message: str
     revision: int = 0
@@ -79,9 +70,9 @@ class Estimate:
     fit: Optional[CarFit] = None
 
 
-def result_at(place: Optional[Place], order: Optional[Order], drive: Optional[Drive]) -> Result:
-    """The motion planner's word on a place, which the state machine gives a goal id of its own."""
-    if place is None or drive is None or order is None or order.goal_id == 0 or drive.goal_id != order.goal_id:
+def result_at(waypoint: Optional[Waypoint], order: Optional[Order], motion: GoalReport) -> Result:
+    """What the motion planner says of a waypoint; IDLE while another is its goal."""
+    if waypoint is None or order is None or not motion.is_about(order.goal):
         return Result.IDLE
-    is_here = abs(order.goal_x - place.pose.x) < 1e-6 and abs(order.goal_y - place.pose.y) < 1e-6
-    return drive.result if is_here else Result.IDLE
+    goal = order.goal.waypoint
+    return motion.result if (goal.requester, goal.id) == (waypoint.requester, waypoint.id) else Result.IDLE

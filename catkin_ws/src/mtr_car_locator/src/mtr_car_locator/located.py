@@ -4,14 +4,16 @@ import math
 from dataclasses import replace
 from typing import Optional, Tuple
 
+from mtr_core import names
+from mtr_core.requests import CAR_LOCATOR, Waypoint
 from mtr_core.se2 import Pose2
+from mtr_core.states import Direction
 
 from .estimate import NO_MOTION, Inputs, Order, result_at
 from .find.errors import NotLocated
 from .measure.car_fit import CarFit
 from .parameters import RefinementParameters
 from .poses import PoseHistory
-from .survey.survey import Place
 from .watch.refinement import Change, Refinement
 from .watch.self_check import CheckReport, SelfCheck
 
@@ -33,14 +35,14 @@ class LocatedCar:
         self._map_revision, self._parameters = map_revision, parameters
         self._refinement = Refinement(fit, parameters)
         self._check: Optional[SelfCheck] = None
-        self._place: Optional[Place] = None
+        self._waypoint: Optional[Waypoint] = None
         self.fit, self.revision, self.correction = fit, revision, NO_MOTION
         self.message = found_sentence(fit)
 
     @property
-    def place(self) -> Optional[Place]:
+    def waypoint(self) -> Optional[Waypoint]:
         """Where the self-check wants the robot now."""
-        return self._place
+        return self._waypoint
 
     @property
     def places_ahead(self) -> Tuple[Pose2, ...]:
@@ -55,33 +57,33 @@ class LocatedCar:
     def wants_scans(self, inputs: Inputs, poses: PoseHistory) -> bool:
         """True while something looks."""
         if inputs.order is not None and inputs.order.checking:
-            return self._place is not None
+            return self._waypoint is not None
         return self._refinement.wants_scans(inputs.now_s, poses)
 
-    def step(self, inputs: Inputs, poses: PoseHistory, next_place_id: int) -> None:
+    def step(self, inputs: Inputs, poses: PoseHistory, next_id: int) -> None:
         """One tick; NotLocated when the Car's frame holds no longer."""
         if poses.newest.map_revision != self._map_revision:
             raise NotLocated("Localization has another map than the one in which the Car was found.")
         if inputs.order is not None and inputs.order.checking:
-            self._run_check(inputs, inputs.order, poses, next_place_id)
+            self._run_check(inputs, inputs.order, poses, next_id)
             return
-        self._place = None
+        self._waypoint = None
         change = self._refinement.step(inputs.now_s, inputs.scans, poses)
         if change:
             self._apply(change)
 
-    def _run_check(self, inputs: Inputs, order: Order, poses: PoseHistory, next_place_id: int) -> None:
+    def _run_check(self, inputs: Inputs, order: Order, poses: PoseHistory, next_id: int) -> None:
         if self._check is None or self._check.report.check_id != order.check_car_id:
             self._check = SelfCheck(order.check_car_id, inputs.now_s, poses.newest.pose, self.fit, self._parameters)
-            self._place = None
-        result = result_at(self._place, order, inputs.drive)
+            self._waypoint = None
+        result = result_at(self._waypoint, order, inputs.motion)
         self._check.step(inputs.now_s, result, inputs.scans, poses)
-        self._place = self._placed(self._check.place, next_place_id)
+        self._waypoint = self._placed(self._check.place, next_id)
 
-    def _placed(self, pose: Optional[Pose2], next_place_id: int) -> Optional[Place]:
-        if pose is None or (self._place and self._place.pose == pose):
-            return self._place if pose else None
-        return Place(next_place_id, pose)
+    def _placed(self, pose: Optional[Pose2], next_id: int) -> Optional[Waypoint]:
+        if pose is None or (self._waypoint and self._waypoint.pose == pose):
+            return self._waypoint if pose else None
+        return Waypoint(next_id, CAR_LOCATOR, names.MAP, pose, Direction.FORWARD)
 
     def _apply(self, change: Change) -> None:
         if change.motion is None:

@@ -33,7 +33,7 @@ class CarLocator:
         self._state = CarState.UNKNOWN
         self._was_mapping = False
         self._map_car_id = 0
-        self._next_place_id = 1
+        self._next_waypoint_id = 1
         self._revision = 0
         self._message = ""
 
@@ -70,9 +70,9 @@ class CarLocator:
         if survey:
             self._collect(survey, inputs, poses)
         elif self._located:
-            self._located.step(inputs, poses, self._next_place_id)
-            if self._located.place:
-                self._next_place_id = self._located.place.place_id + 1
+            self._located.step(inputs, poses, self._next_waypoint_id)
+            if self._located.waypoint:
+                self._next_waypoint_id = self._located.waypoint.id + 1
             self._revision, self._message = self._located.revision, self._located.message
 
     def _survey_for(self, order: Order, now_s: float, robot: Pose2) -> Optional[Survey]:
@@ -81,7 +81,7 @@ class CarLocator:
             prior = (prior_at(self._located.fit.rectangle) if self._located
                      else prior_from_start(robot, self._parameters))
             # The time at which it begins is a number that no survey has had, not even before this node was restarted.
-            self._survey = Survey(prior, round(now_s * 1000.0), self._next_place_id, self._parameters)
+            self._survey = Survey(prior, round(now_s * 1000.0), self._next_waypoint_id, self._parameters)
             self._located = None
             self._state, self._map_car_id = CarState.COLLECTING, order.map_car_id
         return self._survey if self._state == CarState.COLLECTING else None
@@ -94,8 +94,8 @@ class CarLocator:
     def _collect(self, survey: Survey, inputs: Inputs, poses: PoseHistory) -> None:
         robot = poses.newest
         survey.collect(inputs.scans, poses)
-        survey.advance(inputs.now_s, robot, result_at(survey.place, inputs.order, inputs.drive))
-        self._next_place_id = survey.next_place_id
+        survey.advance(inputs.now_s, robot, result_at(survey.waypoint, inputs.order, inputs.motion))
+        self._next_waypoint_id = survey.next_waypoint_id
         self._message = survey.progress
         survey.conclude(inputs.now_s, robot, inputs.surfaces)
         if survey.fit:
@@ -126,11 +126,11 @@ class CarLocator:
         survey = self._survey if self._state == CarState.COLLECTING else None
         if survey is None:
             return estimate
-        return replace(estimate, place=survey.place, phase=survey.phase, map_id=survey.map_id,
+        return replace(estimate, waypoint=survey.waypoint, phase=survey.phase, map_id=survey.map_id,
                        places=survey.places_ahead)
 
     def _found(self, located: LocatedCar) -> Estimate:
         fit = located.fit
         return Estimate(self._state, fit.rectangle, fit.outline, fit.sigmas, fit.length_sigma, fit.width_sigma,
-                        located.place, self._map_car_id, self._message, located.revision, located.correction,
+                        located.waypoint, self._map_car_id, self._message, located.revision, located.correction,
                         check=located.report, places=located.places_ahead, fit=fit)

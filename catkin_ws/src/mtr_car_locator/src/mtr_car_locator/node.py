@@ -7,6 +7,7 @@ import tf2_ros
 from visualization_msgs.msg import MarkerArray
 
 from mtr_core import names, schedule
+from mtr_core.conversions import goal_report_from
 from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
 from mtr_core.lockstep.clock import stamp_of
 from mtr_core.se2 import Pose2
@@ -15,7 +16,6 @@ from mtr_msgs.msg import CarCheck, CarEstimate, MappingOrder, MotionStatus, Robo
 
 from .conversions import (
     check_message,
-    drive_from,
     estimate_message,
     mapping_message,
     markers_message,
@@ -56,10 +56,10 @@ class CarLocatorNode:
     def tick(self, tick_ns: int) -> None:
         """One step of the locator."""
         self._poses.feed(tick_ns)
-        heard = Inputs(tick_ns * 1e-9, order_from(self._mode.at(tick_ns)), drive_from(self._drive.at(tick_ns)))
+        heard = Inputs(tick_ns * 1e-9, order_from(self._mode.at(tick_ns)), goal_report_from(self._drive.at(tick_ns)))
         scans = self._scans.take(tick_ns, self._locator.wants_scans(heard))
         surfaces = self._maps.at(tick_ns, self._poses.map_revision)
-        self._publish(self._locator.step(Inputs(heard.now_s, heard.order, heard.drive, scans, surfaces)), tick_ns)
+        self._publish(self._locator.step(Inputs(heard.now_s, heard.order, heard.motion, scans, surfaces)), tick_ns)
 
     def _publish(self, estimate: Estimate, tick_ns: int) -> None:
         stamp = stamp_of(tick_ns)

@@ -6,13 +6,14 @@ from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
 
-from mtr_car_locator.estimate import Drive, Estimate, Inputs, Order
+from mtr_car_locator.estimate import Estimate, Inputs, Order
 from mtr_car_locator.locator import CarLocator
 from mtr_car_locator.parameters import LocatorParameters
 from mtr_car_locator.poses import PoseHistory, PoseMode, RobotPose
 from mtr_car_locator.scan import Scan, returns_in_map
 from mtr_car_locator.survey.surfel_grid import SurfelGrid
-from mtr_car_locator.survey.survey import MapPhase, Place, SurfaceMap
+from mtr_car_locator.survey.survey import MapPhase, SurfaceMap
+from mtr_core.requests import NO_GOAL, Goal, GoalReport, Waypoint
 from mtr_core.se2 import Pose2, wrap_angle
 from mtr_core.states import CarState, Check, Result
 
@@ -187,8 +188,8 @@ class World:
         """20 ms: the robot moves; each 160 ms, or 320 ms on the way, a scan, each 100 ms a tick of the locator."""
         self.steps += 1
         before = self.pose
-        place = self.newest.place if self.estimates else None
-        if place and drives and (mapping or self.checking) and place.place_id not in self._unreachable():
+        place = self.newest.waypoint if self.estimates else None
+        if place and drives and (mapping or self.checking) and place.id not in self._unreachable():
             self._drive_to(place.pose)
         self.pose = self.pose @ Pose2(self.pushed_mps * PERIOD_S, 0.0, 0.0)
         self._drift()
@@ -211,22 +212,22 @@ class World:
         return (*self.scene.refused, *self.scene.blocked)
 
     def _tick(self, mapping: bool, map_car_id: int) -> None:
-        place = self.newest.place if self.estimates else None
-        goal = (100 + place.place_id, place.pose.x, place.pose.y) if place else (0, 0.0, 0.0)
+        place = self.newest.waypoint if self.estimates else None
+        goal = Goal(place, 100 + place.id) if place else NO_GOAL
         due = [scan for time_s, scan in self._scans if time_s <= self.now - 0.06]
         self._scans = [entry for entry in self._scans if entry[0] > self.now - 0.06]
-        order = Order(mapping, map_car_id, *goal, checking=self.checking != 0, check_car_id=self.checking)
-        inputs = Inputs(self.now, order, Drive(goal[0], self._result(place)), due, self.mapper.map)
+        order = Order(mapping, map_car_id, goal, checking=self.checking != 0, check_car_id=self.checking)
+        inputs = Inputs(self.now, order, GoalReport(goal.id, self._result(place)), due, self.mapper.map)
         self.estimates.append(self.locator.step(inputs))
         if self.scene.maps:
             self.mapper.follow(self.now, self.newest, due)
 
-    def _result(self, place: Optional[Place]) -> Result:
+    def _result(self, place: Optional[Waypoint]) -> Result:
         if place is None:
             return Result.IDLE
-        if place.place_id in self.scene.refused:
+        if place.id in self.scene.refused:
             return Result.REFUSED
-        if place.place_id in self.scene.blocked:
+        if place.id in self.scene.blocked:
             return Result.BLOCKED
         return Result.REACHED if self.pose == place.pose else Result.PENDING
 

@@ -38,9 +38,9 @@ def test_car_that_stands_passes_from_two_places(world):
     report = world.check(3).check
     assert (report.check_id, report.state) == (3, Check.PASSED)
     assert report.difference_m < 0.005 and report.difference_rad < math.radians(0.1)
-    places = {estimate.place.place_id for estimate in world.estimates if estimate.place and estimate.fit}
+    places = {estimate.waypoint.id for estimate in world.estimates if estimate.waypoint and estimate.fit}
     assert len(places) == 2
-    assert world.newest.place is None
+    assert world.newest.waypoint is None
 
 
 @pytest.mark.parametrize("motion, difference_m", [((0.03, 0.0, 0.0), 0.03), ((0.0, 0.025, 0.0), 0.025),
@@ -107,7 +107,7 @@ def test_car_that_has_gone_fails_without_a_figure(world):
 
 def test_place_that_cannot_be_reached_is_replaced_by_another_corner(world):
     first = world.newest
-    next_id = max(estimate.place.place_id for estimate in world.estimates if estimate.place) + 1
+    next_id = max(estimate.waypoint.id for estimate in world.estimates if estimate.waypoint) + 1
     world.scene.refused = (next_id,)
     assert world.check(5).check.state is Check.PASSED
     assert world.newest.revision == first.revision

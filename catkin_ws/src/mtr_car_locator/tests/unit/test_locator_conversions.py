@@ -13,7 +13,6 @@ from visualization_msgs.msg import Marker
 
 from mtr_car_locator.conversions import (
     check_message,
-    drive_from,
     estimate_message,
     mapping_message,
     markers_message,
@@ -23,25 +22,25 @@ from mtr_car_locator.conversions import (
     surface_map_from,
 )
 from mtr_car_locator.drawing import shapes_of
-from mtr_car_locator.estimate import Estimate
+from mtr_car_locator.estimate import Estimate, Order, result_at
 from mtr_car_locator.find.fit import fit_car
 from mtr_car_locator.offline import FilesUnusable
 from mtr_car_locator.poses import PoseMode
-from mtr_car_locator.survey.survey import MapPhase, Place
+from mtr_car_locator.survey.survey import MapPhase
 from mtr_car_locator.watch.self_check import CheckReport
 from mtr_core import names
+from mtr_core.conversions import waypoint_message
+from mtr_core.requests import CAR_LOCATOR, Goal, GoalId, GoalReport, Waypoint
 from mtr_core.se2 import Pose2
-from mtr_core.states import CarState, Check, Result
+from mtr_core.states import CarState, Check, Direction, Result
 from mtr_msgs.msg import (
     CarCheck,
     CarEstimate,
     KeyFrame,
     LocalizedPose,
     MappingOrder,
-    MotionStatus,
     RobotMode,
     SurfaceMap,
-    Waypoint,
 )
 
 STAMP = genpy.Time(9, 60_000_000)
@@ -50,20 +49,32 @@ STAMP = genpy.Time(9, 60_000_000)
 @pytest.fixture(scope="module")
 def estimate():
     fit = fit_car(surfels(box()), prior(), PARAMETERS)
-    place = Place(4, Pose2(1.0, 2.0, 0.5))
+    place = Waypoint(4, CAR_LOCATOR, "map", Pose2(1.0, 2.0, 0.5), Direction.FORWARD)
     return Estimate(CarState.LOCATED, replace(fit.rectangle, pose=Pose2(3.0, 1.0, math.pi / 2.0)), fit.outline,
                     (0.1, 0.2, 0.01), 0.03, 0.02, place, 5, "Found.", 2, Pose2(0.01, 0.02, 0.003), MapPhase.FREEZE, 77,
                     CheckReport(6, Check.FAILED, 0.03, 0.002, "Moved."), (place.pose,), fit)
 
 
-def test_order_names_mapping_checking_and_the_goal_in_map():
-    order = order_from(RobotMode(mode=RobotMode.CHECKING_CAR, goal=Waypoint(3, "map", 1.0, 2.0, 0.0, 0), map_car_id=5,
-                                 check_car_id=8))
+def test_order_names_mapping_checking_and_the_goal():
+    waypoint = Waypoint(3, CAR_LOCATOR, "map", Pose2(1.0, 2.0, 0.0))
+    order = order_from(RobotMode(mode=RobotMode.CHECKING_CAR, goal=waypoint_message(waypoint), goal_attempt=9,
+                                 map_car_id=5, check_car_id=8))
     assert (order.mapping, order.checking, order.check_car_id, order.map_car_id) == (False, True, 8, 5)
-    assert (order.goal_id, order.goal_x, order.goal_y) == (3, 1.0, 2.0)
-    assert order_from(RobotMode(mapping=True, goal=Waypoint(id=3, frame_id="car"))).goal_id == 0
-    assert order_from(None) is drive_from(None) is None
-    assert drive_from(MotionStatus(goal_id=3, result=4)).result is Result.BLOCKED
+    assert order.goal == Goal(waypoint, 9)
+    assert order_from(None) is None
+
+
+def test_motion_counts_for_the_waypoint_that_is_the_goal_and_for_no_other():
+    waypoint = Waypoint(3, CAR_LOCATOR, "map", Pose2(1.0, 2.0, 0.0))
+    order, motion = Order(True, 0, Goal(waypoint, 9)), GoalReport(GoalId(CAR_LOCATOR, 3, 9), Result.BLOCKED)
+    assert result_at(waypoint, order, motion) is Result.BLOCKED
+    assert result_at(replace(waypoint, id=4), order, motion) is Result.IDLE
+    assert result_at(None, order, motion) is result_at(waypoint, None, motion) is Result.IDLE
+    assert result_at(waypoint, order, replace(motion, goal_id=GoalId(CAR_LOCATOR, 3, 8))) is Result.IDLE
+    operators = replace(waypoint, requester="application/5")
+    assert result_at(waypoint, Order(True, 0, Goal(operators, 9)),
+                     replace(motion, goal_id=GoalId("application/5", 3, 9))) is Result.IDLE
+    assert result_at(waypoint, Order(True, 0), GoalReport()) is Result.IDLE
 
 
 def test_pose_carries_mode_map_and_motion():
@@ -95,7 +106,8 @@ def test_estimate_survives_as_a_message(estimate):
     message = estimate_message(estimate, STAMP)
     assert (message.state, message.map_car_id, message.revision) == (CarEstimate.LOCATED, 5, 2)
     assert (message.correction_x, message.correction_y, message.correction_heading) == (0.01, 0.02, 0.003)
-    assert (message.next_waypoint.id, message.next_waypoint.frame_id) == (4, "map")
+    assert (message.next_waypoint.id, message.next_waypoint.requester) == (4, "car_locator")
+    assert (message.next_waypoint.frame_id, message.next_waypoint.direction) == ("map", 1)
     # The Car's x axis points to map's y: 0.1 m along the Car is along y.
     assert message.covariance[[0, 4, 8]] == pytest.approx([0.04, 0.01, 0.0001])
     assert len(message.outline_x) == len(message.outline_y) == len(estimate.outline)

@@ -162,7 +162,7 @@ def test_mapping_that_pauses_goes_on_where_it_was():
     for paused in (False, True, False):
         for _ in range(500):
             world.step(mapping=not paused, map_car_id=7)
-    assert world.newest.state == CarState.COLLECTING and world.newest.place.place_id > 1
+    assert world.newest.state == CarState.COLLECTING and world.newest.waypoint.id > 1
     map_id = world.newest.map_id
     world.run()
     assert world.newest.state == CarState.LOCATED

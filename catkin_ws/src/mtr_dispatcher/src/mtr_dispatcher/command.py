@@ -3,9 +3,10 @@
 import functools
 import math
 from dataclasses import dataclass
-from typing import Callable, Optional, Tuple
+from typing import Callable, Optional
 
 from mtr_core.problems import NO_PROBLEM, Problem, Sentence
+from mtr_core.requests import Press, Waypoint
 from mtr_core.states import Direction
 
 from . import problems
@@ -18,27 +19,6 @@ MAX_HEADING_RAD = 4.0 * math.pi
 MAX_KEY_HEIGHT_M = 3.0
 MAX_PRESS_DURATION_S = 10.0
 MAX_BUTTONS = 8
-
-
-@dataclass(frozen=True)
-class Waypoint:
-    """A pose of base_link in the Car coordinate system, m and rad."""
-
-    id: int
-    x: float
-    y: float
-    heading: float
-    direction: int = 0
-
-
-@dataclass(frozen=True)
-class Press:
-    """One press of buttons; strength 0 to 1, duration in s (0: the key's default)."""
-
-    id: int
-    buttons: Tuple[int, ...]
-    strength: float = 1.0
-    duration_s: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -74,11 +54,12 @@ def _waypoint_problem(waypoint: Optional[Waypoint]) -> Problem:
         return problems.WAYPOINT_WITHOUT_ID()
     if waypoint.direction not in tuple(Direction):
         return problems.WAYPOINT_DIRECTION(id=waypoint.id, value=waypoint.direction)
+    pose = waypoint.pose
     x, y, heading = (functools.partial(sentence, id=waypoint.id) for sentence in (
         problems.WAYPOINT_X, problems.WAYPOINT_Y, problems.WAYPOINT_HEADING))
-    return (_range_problem(x, waypoint.x, -MAX_COORDINATE_M, MAX_COORDINATE_M)
-            or _range_problem(y, waypoint.y, -MAX_COORDINATE_M, MAX_COORDINATE_M)
-            or _range_problem(heading, waypoint.heading, -MAX_HEADING_RAD, MAX_HEADING_RAD))
+    return (_range_problem(x, pose.x, -MAX_COORDINATE_M, MAX_COORDINATE_M)
+            or _range_problem(y, pose.y, -MAX_COORDINATE_M, MAX_COORDINATE_M)
+            or _range_problem(heading, pose.heading, -MAX_HEADING_RAD, MAX_HEADING_RAD))
 
 
 def _press_problem(press: Optional[Press]) -> Problem:

@@ -5,11 +5,14 @@ from typing import Any, Optional
 
 from google.protobuf.message import DecodeError
 
+from mtr_core import names
 from mtr_core.problems import ProblemError
+from mtr_core.requests import Press, Waypoint, application
+from mtr_core.se2 import Pose2
 from mtr_proto import robot_link_pb2 as link
 
 from . import problems
-from .command import Command, Press, Waypoint
+from .command import Command
 
 # A Command takes some 200 bytes.
 MAX_MESSAGE_BYTES = 64 * 1024
@@ -50,12 +53,12 @@ def _waypoint(message: link.Command) -> Optional[Waypoint]:
     if not message.HasField("waypoint"):
         return None
     sent = message.waypoint
-    return Waypoint(sent.id, _float(sent, "x", math.nan), _float(sent, "y", math.nan),
-                    _float(sent, "heading", math.nan), sent.direction)
+    pose = Pose2(_float(sent, "x", math.nan), _float(sent, "y", math.nan), _float(sent, "heading", math.nan))
+    return Waypoint(sent.id, application(message.session_id), names.CAR, pose, sent.direction)
 
 
 def _press(message: link.Command) -> Optional[Press]:
     if not message.HasField("press"):
         return None
     sent = message.press
-    return Press(sent.id, tuple(sent.buttons), _float(sent, "strength", 1.0), sent.duration_s)
+    return Press(sent.id, message.session_id, tuple(sent.buttons), _float(sent, "strength", 1.0), sent.duration_s)

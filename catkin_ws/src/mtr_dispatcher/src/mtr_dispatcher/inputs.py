@@ -14,7 +14,7 @@ class Stamped(Protocol):
     header: Any
 
 
-class PoseReport(Stamped, Protocol):
+class PoseFields(Stamped, Protocol):
     """Of LocalizedPose: base_link in map, m and rad, and its motion."""
 
     valid: bool
@@ -28,7 +28,7 @@ class PoseReport(Stamped, Protocol):
     problems: Sequence[ProblemFields]
 
 
-class CarReport(Stamped, Protocol):
+class CarFields(Stamped, Protocol):
     """Of CarEstimate: the Car in map and its size, m and rad."""
 
     state: int
@@ -48,7 +48,7 @@ class CarReport(Stamped, Protocol):
     correction_heading: float
 
 
-class ModeReport(Stamped, Protocol):
+class ModeFields(Stamped, Protocol):
     """Of RobotMode: the state, and what became of the Operator's waypoint."""
 
     mode: int
@@ -61,7 +61,7 @@ class ModeReport(Stamped, Protocol):
     problems: Sequence[ProblemFields]
 
 
-class PressReport(Protocol):
+class PressFields(Protocol):
     """Of PressReport: one press as it went; times of the robot's clock."""
 
     session_id: int
@@ -72,19 +72,19 @@ class PressReport(Protocol):
     problems: Sequence[ProblemFields]
 
 
-class PeripheralsReport(Stamped, Protocol):
+class PeripheralsFields(Stamped, Protocol):
     """Of PeripheralsState: key, buttons and battery."""
 
     alive: bool
     key_height_m: float
     pressed_buttons: Sequence[int]
-    presses: Sequence[PressReport]
+    presses: Sequence[PressFields]
     battery: float
     message: str
     problems: Sequence[ProblemFields]
 
 
-class CheckReport(Stamped, Protocol):
+class CheckFields(Stamped, Protocol):
     """Of CarCheck: the self-check of the Car's frame."""
 
     id: int
@@ -104,11 +104,11 @@ class Inputs(NamedTuple):
     """The messages of their topics that hold at now_s, None before the first."""
 
     now_s: float
-    pose: Optional[PoseReport] = None
-    car: Optional[CarReport] = None
-    mode: Optional[ModeReport] = None
-    peripherals: Optional[PeripheralsReport] = None
-    check: Optional[CheckReport] = None
+    pose: Optional[PoseFields] = None
+    car: Optional[CarFields] = None
+    mode: Optional[ModeFields] = None
+    peripherals: Optional[PeripheralsFields] = None
+    check: Optional[CheckFields] = None
 
     def fresh(self) -> "Inputs":
         """The same without stale messages: None stands for one that is too old."""

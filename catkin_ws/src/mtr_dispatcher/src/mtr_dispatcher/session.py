@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Dict, Optional
 
 from mtr_core.problems import NO_PROBLEM, Problem
+from mtr_core.requests import NO_PRESS, NO_WAYPOINT, DesiredState
 
 from . import problems
 from .command import Command, problem_of
@@ -158,6 +159,17 @@ class Session:
             self._former[session_id] = newest_id
             while len(self._former) > REMEMBERED_SESSIONS:
                 del self._former[next(iter(self._former))]
+
+
+def desired_state(desired: Desired, default_speed_mps: float) -> DesiredState:
+    """The same for the other nodes; where the Command leaves a choice it is made here."""
+    command = desired.command
+    return DesiredState(
+        session_id=desired.session_id, command_id=command.id, link_alive=desired.link_alive,
+        stop=bool(desired.stop_reason), waypoint=command.waypoint or NO_WAYPOINT,
+        max_speed_mps=default_speed_mps if command.max_speed_mps is None else command.max_speed_mps,
+        key_height_m=math.nan if command.key_height_m is None else command.key_height_m,
+        press=command.press or NO_PRESS, map_car_id=desired.map_order, check_car_id=desired.check_order)
 
 
 def is_same(one: Optional[Desired], other: Desired) -> bool:

@@ -9,7 +9,7 @@ from mtr_core.states import CarState, Result
 from mtr_proto import robot_link_pb2 as link
 
 from .car_pose import CarPose, UncertainPose, base_in_car
-from .inputs import CarReport, CheckReport, Inputs, ModeReport, PeripheralsReport, PoseReport
+from .inputs import CarFields, CheckFields, Inputs, ModeFields, PeripheralsFields, PoseFields
 from .log_buffer import Entry
 from .notices import Notice
 
@@ -67,7 +67,7 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
     return status.SerializeToString()
 
 
-def _add_mode(status: link.Status, mode: Optional[ModeReport], session_id: int) -> None:
+def _add_mode(status: link.Status, mode: Optional[ModeFields], session_id: int) -> None:
     if mode is None:
         return
     status.mode = mode.mode
@@ -100,12 +100,12 @@ def _add_pose(state: link.RobotState, fresh: Inputs) -> None:
     state.pose_valid = pose.valid and fresh.car.state == CarState.LOCATED
 
 
-def _in_car(pose: PoseReport, car: CarReport) -> CarPose:
+def _in_car(pose: PoseFields, car: CarFields) -> CarPose:
     return base_in_car(UncertainPose(Pose2(pose.x, pose.y, pose.heading), pose.covariance),
                        UncertainPose(Pose2(car.x, car.y, car.heading), car.covariance))
 
 
-def _add_car(dimensions: link.CarDimensions, car: Optional[CarReport]) -> None:
+def _add_car(dimensions: link.CarDimensions, car: Optional[CarFields]) -> None:
     dimensions.mapped = False
     if car is None:
         return
@@ -120,7 +120,7 @@ def _add_car(dimensions: link.CarDimensions, car: Optional[CarReport]) -> None:
         dimensions.correction_heading = car.correction_heading
 
 
-def _add_check(message: link.CarCheck, check: Optional[CheckReport], check_car_id: int) -> None:
+def _add_check(message: link.CarCheck, check: Optional[CheckFields], check_car_id: int) -> None:
     """The answer to an order of the session in control; what the limits are is told always."""
     if check is None:
         return
@@ -133,7 +133,7 @@ def _add_check(message: link.CarCheck, check: Optional[CheckReport], check_car_i
         message.difference_m, message.difference_rad = check.difference_m, check.difference_rad
 
 
-def _add_peripherals(status: link.Status, peripherals: Optional[PeripheralsReport], session_id: int) -> None:
+def _add_peripherals(status: link.Status, peripherals: Optional[PeripheralsFields], session_id: int) -> None:
     if peripherals is None:
         return
     status.state.device_height = peripherals.key_height_m

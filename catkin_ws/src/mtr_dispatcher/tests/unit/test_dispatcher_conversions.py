@@ -5,7 +5,9 @@ import math
 import rospy
 
 from mtr_core.problems import NO_PROBLEM, Problem
-from mtr_dispatcher.command import Command, Press, Waypoint
+from mtr_core.requests import Press, Waypoint
+from mtr_core.se2 import Pose2
+from mtr_dispatcher.command import Command
 from mtr_dispatcher.conversions import desired_message, lock_message
 from mtr_dispatcher.session import Desired
 
@@ -14,13 +16,14 @@ STAMP = rospy.Time(12, 34)
 
 
 def test_whole_command_arrives_in_the_message():
-    command = Command(5, 6, waypoint=Waypoint(1, 2.0, 3.0, 0.5, 2), max_speed_mps=0.7, key_height_m=1.2,
-                      press=Press(4, (1, 2), 0.5, 0.25), map_car_id=9, check_car_id=2)
+    sent = Waypoint(1, "application/5", "car", Pose2(2.0, 3.0, 0.5), 2)
+    command = Command(5, 6, waypoint=sent, max_speed_mps=0.7, key_height_m=1.2, press=Press(4, 5, (1, 2), 0.5, 0.25),
+                      map_car_id=9, check_car_id=2)
     message = desired_message(Desired(5, command, 3, 7, True, NO_PROBLEM), STAMP, 0.5)
     waypoint, press = message.waypoint, message.press
     assert (message.session_id, message.command_id, message.link_alive, message.stop) == (5, 6, True, False)
     assert (waypoint.id, waypoint.frame_id, waypoint.x, waypoint.y) == (1, "car", 2.0, 3.0)
-    assert (waypoint.heading, waypoint.direction) == (0.5, 2)
+    assert (waypoint.heading, waypoint.direction, waypoint.requester) == (0.5, 2, "application/5")
     assert (press.id, press.buttons, press.strength, press.duration_s) == (4, [1, 2], 0.5, 0.25)
     assert (message.max_speed_mps, message.key_height_m, message.map_car_id) == (0.7, 1.2, 3)
     assert message.check_car_id == 7

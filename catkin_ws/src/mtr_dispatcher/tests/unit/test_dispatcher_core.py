@@ -5,6 +5,8 @@ import math
 import genpy
 import pytest
 
+from mtr_core.requests import Press, Waypoint
+from mtr_core.se2 import Pose2
 from mtr_dispatcher.command_codec import MAX_MESSAGE_BYTES, UndecodableError, decode
 from mtr_dispatcher.core import Dispatcher
 from mtr_dispatcher.inputs import Inputs
@@ -53,8 +55,8 @@ def test_command_survives_the_round_trip():
     assert (command.stop, command.max_speed_mps, command.key_height_m, command.map_car_id) == (True, 0.5, 1.0, 2)
     assert command.check_car_id == 4
     waypoint, press = command.waypoint, command.press
-    assert (waypoint.id, waypoint.x, waypoint.y, waypoint.heading, waypoint.direction) == (9, 1.0, 2.0, 3.0, 2)
-    assert (press.id, press.buttons, press.strength, press.duration_s) == (3, (1, 2), 0.5, 0.25)
+    assert waypoint == Waypoint(9, "application/5", "car", Pose2(1.0, 2.0, 3.0), 2)
+    assert press == Press(3, 5, (1, 2), 0.5, 0.25)
 
 
 def test_absent_fields_are_the_robots_choice():
@@ -64,7 +66,7 @@ def test_absent_fields_are_the_robots_choice():
 
 
 def test_waypoint_without_coordinates_is_not_a_place():
-    assert math.isnan(decode(command_bytes(waypoint=link.Waypoint(id=1, x=1.0))).waypoint.y)
+    assert math.isnan(decode(command_bytes(waypoint=link.Waypoint(id=1, x=1.0))).waypoint.pose.y)
 
 
 @pytest.mark.parametrize("data", [b"\xff\xff\xff", b"", b"hello", bytes(MAX_MESSAGE_BYTES + 1)],

@@ -6,7 +6,9 @@ from dataclasses import replace
 import pytest
 
 from mtr_core.problems import NO_PROBLEM
-from mtr_dispatcher.command import Command, Press, Waypoint
+from mtr_core.requests import Press, Waypoint
+from mtr_core.se2 import Pose2
+from mtr_dispatcher.command import Command
 from mtr_dispatcher.parameters import Parameters
 from mtr_dispatcher.session import Session, Verdict, is_same
 
@@ -15,6 +17,10 @@ NEWEST_STATUS = 10
 
 def command(session_id=1, number=1, seen_s=100.0, **content):
     return Command(session_id=session_id, id=number, seen_status_id=NEWEST_STATUS, seen_robot_time_s=seen_s, **content)
+
+
+def waypoint(x, y, heading, number=1, direction=0):
+    return Waypoint(number, "application/1", "car", Pose2(x, y, heading), direction)
 
 
 @pytest.fixture
@@ -33,10 +39,10 @@ def test_without_application_the_robot_stops(session):
 
 
 def test_first_command_takes_control(session):
-    assert take(session, command(waypoint=Waypoint(1, 2.0, 3.0, 0.5))) is Verdict.TAKEN
+    assert take(session, command(waypoint=waypoint(2.0, 3.0, 0.5))) is Verdict.TAKEN
     desired = session.desired(100.0)
     assert (desired.session_id, desired.link_alive, desired.stop_reason) == (1, True, NO_PROBLEM)
-    assert desired.command.waypoint == Waypoint(1, 2.0, 3.0, 0.5)
+    assert desired.command.waypoint == waypoint(2.0, 3.0, 0.5)
 
 
 def test_repetition_keeps_the_link_alive(session):
@@ -90,7 +96,7 @@ def test_second_application_takes_over_after_silence(session):
 
 
 def test_goodbye_stops_the_robot_and_frees_control(session):
-    take(session, command(1, waypoint=Waypoint(1, 1.0, 1.0, 0.0)))
+    take(session, command(1, waypoint=waypoint(1.0, 1.0, 0.0)))
     assert take(session, command(1, 2, end_session=True)) is Verdict.ENDED
     assert session.desired(100.0).session_id == 0 and session.desired(100.0).command.waypoint is None
     assert take(session, command(2)) is Verdict.TAKEN
@@ -115,20 +121,20 @@ def test_message_from_before_the_goodbye_does_not_take_control_again(session):
 
 
 REFUSED = {
-    "nan": {"waypoint": Waypoint(1, math.nan, 0.0, 0.0)},
-    "infinite": {"waypoint": Waypoint(1, 0.0, math.inf, 0.0)},
-    "heading": {"waypoint": Waypoint(1, 0.0, 0.0, math.nan)},
-    "far": {"waypoint": Waypoint(1, 0.0, 101.0, 0.0)},
-    "no-id": {"waypoint": Waypoint(0, 0.0, 1.0, 0.0)},
-    "direction": {"waypoint": Waypoint(1, 0.0, 1.0, 0.0, 3)},
+    "nan": {"waypoint": waypoint(math.nan, 0.0, 0.0)},
+    "infinite": {"waypoint": waypoint(0.0, math.inf, 0.0)},
+    "heading": {"waypoint": waypoint(0.0, 0.0, math.nan)},
+    "far": {"waypoint": waypoint(0.0, 101.0, 0.0)},
+    "no-id": {"waypoint": waypoint(0.0, 1.0, 0.0, number=0)},
+    "direction": {"waypoint": waypoint(0.0, 1.0, 0.0, direction=3)},
     "speed-zero": {"max_speed_mps": 0.0},
     "speed-high": {"max_speed_mps": 2.1},
     "speed-nan": {"max_speed_mps": math.nan},
     "height": {"key_height_m": -0.1},
-    "press-without-buttons": {"press": Press(1, ())},
-    "press-strength": {"press": Press(1, (1,), 1.1)},
-    "press-duration": {"press": Press(1, (1,), 1.0, math.inf)},
-    "press-no-id": {"press": Press(0, (1,))},
+    "press-without-buttons": {"press": Press(1, 1)},
+    "press-strength": {"press": Press(1, 1, (1,), 1.1)},
+    "press-duration": {"press": Press(1, 1, (1,), 1.0, math.inf)},
+    "press-no-id": {"press": Press(0, 1, (1,))},
 }
 
 

@@ -9,11 +9,11 @@ from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 from mtr_core import names
+from mtr_core.conversions import goal_from
 from mtr_core.se2 import Pose2
-from mtr_core.states import Direction
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
-from .inputs import Car, Drive, Goal, Order, RobotState, Zone
+from .inputs import Car, Drive, Order, RobotState, Zone
 from .outputs import Output
 from .outputs import Path as PlannedPath
 from .picture import Picture
@@ -28,13 +28,8 @@ def order_from(message: Optional[RobotMode]) -> Optional[Order]:
     """Order of the state machine."""
     if message is None:
         return None
-    goal = message.goal
-    direction = Direction(goal.direction) if goal.direction in tuple(Direction) else Direction.ANY
-    unknown_frame = "" if goal.id == 0 or goal.frame_id in (names.CAR, names.MAP) else repr(goal.frame_id)
-    pose = Pose2(goal.x, goal.y, goal.heading)
-    return Order(message.header.stamp.to_sec(),
-                 Goal(goal.id, goal.frame_id == names.CAR, pose, direction, unknown_frame),
-                 message.max_speed_mps, message.mode == RobotMode.FOLLOWING_WAYPOINT)
+    return Order(message.header.stamp.to_sec(), goal_from(message), message.max_speed_mps,
+                 message.mode == RobotMode.FOLLOWING_WAYPOINT)
 
 
 def nav_goal_from(message: PoseStamped) -> Optional[Tuple[Pose2, bool]]:
@@ -77,7 +72,10 @@ def velocity_message(output: Output, header: Header) -> VelocityCommand:
 
 def status_message(output: Output, header: Header) -> MotionStatus:
     """Status for the state machine."""
-    return MotionStatus(header, output.goal_id, int(output.result), output.remaining_m, output.message, [])
+    goal_id = output.goal_id
+    return MotionStatus(header=header, requester=goal_id.requester, goal_id=goal_id.waypoint_id,
+                        goal_attempt=goal_id.attempt, result=int(output.result), remaining_m=output.remaining_m,
+                        message=output.message)
 
 
 def path_message(planned: PlannedPath, stamp: Any) -> Path:

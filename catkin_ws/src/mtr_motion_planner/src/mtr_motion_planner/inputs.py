@@ -6,31 +6,13 @@ from dataclasses import dataclass
 from typing import Optional, Tuple, TypeVar
 
 from mtr_core.errors import RobotError
+from mtr_core.requests import Goal
 from mtr_core.se2 import Pose2
-from mtr_core.states import Direction
 
 Point = Tuple[float, float]
 
 # Of the platform, by its data sheet.
 MAX_SPEED_MPS = 2.0
-
-
-@dataclass(frozen=True)
-class Goal:
-    """Pose of base_link to reach, in the Car's frame or in map; id 0: none.
-
-    Attributes:
-        unknown_frame: name of another frame, in which the pose means nothing.
-    """
-
-    goal_id: int
-    in_car_frame: bool
-    pose: Pose2
-    direction: Direction
-    unknown_frame: str = ""
-
-
-NO_GOAL = Goal(0, False, Pose2(0.0, 0.0, 0.0), Direction.ANY)
 
 
 @dataclass(frozen=True)

@@ -4,13 +4,11 @@ import threading
 from dataclasses import replace
 from typing import Optional
 
+from mtr_core import names
+from mtr_core.requests import RVIZ, Goal, Waypoint
 from mtr_core.se2 import Pose2
-from mtr_core.states import Direction
 
-from .inputs import Goal, Order
-
-# Ids of the state machine's goals count from 1; these never meet them.
-FIRST_ID = 1 << 63
+from .inputs import Order
 
 
 class NavGoals:
@@ -26,17 +24,18 @@ class NavGoals:
     def take(self, pose: Pose2, in_car_frame: bool) -> None:
         """A goal has been set; from any thread."""
         with self._lock:
-            self._goal = Goal(FIRST_ID + self._count, in_car_frame, pose, Direction.ANY)
             self._count += 1
+            self._goal = Goal(Waypoint(self._count, RVIZ, names.CAR if in_car_frame else names.MAP, pose))
 
     def joined(self, order: Optional[Order]) -> Optional[Order]:
         """The order, with the goal from rviz if nobody else wants one; an Operator's goal ends that."""
         with self._lock:
             if order is None or self._goal is None:
                 return order
-            if order.goal.goal_id or not order.follows_waypoints:
+            has_goal = order.goal.waypoint.id != 0
+            if has_goal or not order.follows_waypoints:
                 self._goal = None
-                why = "the Operator's goes before it" if order.goal.goal_id else "the robot is not ready for waypoints"
+                why = "the Operator's goes before it" if has_goal else "the robot is not ready for waypoints"
                 self._refusal = f"The goal from rviz is dropped: {why}."
                 return order
             return replace(order, goal=self._goal, max_speed_mps=self._speed_mps)

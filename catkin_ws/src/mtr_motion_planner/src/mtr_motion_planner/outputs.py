@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
+from mtr_core.requests import GoalId
 from mtr_core.states import Result
 
 from .inputs import Point
@@ -23,7 +24,7 @@ class Output:
     linear_mps: float
     angular_radps: float
     active: bool
-    goal_id: int
+    goal_id: GoalId
     result: Result
     remaining_m: float
     message: str

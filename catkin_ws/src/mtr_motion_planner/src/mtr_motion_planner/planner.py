@@ -4,15 +4,16 @@ from concurrent.futures import Executor
 from typing import Optional
 
 from mtr_core.errors import RobotError
+from mtr_core.requests import NO_GOAL
 from mtr_core.se2 import Pose2
-from mtr_core.states import Result
+from mtr_core.states import Direction, Result
 
 from .following.follower import Follower, FollowerOutput
 from .following.ramp import Ramp
 from .following.tolerance import miss_of, sentence_about, was_displaced
 from .following.watch import StallWatch, is_heading_into
 from .following.watch import sentence_about as sentence_about_drive
-from .inputs import NO_GOAL, Car, Inputs, InputsUnusable, Situation, Zone, situation_of
+from .inputs import Car, Inputs, InputsUnusable, Situation, Zone, situation_of
 from .outputs import Output
 from .parameters import MotionParameters
 from .replanning import Replanning
@@ -54,15 +55,15 @@ class MotionPlanner:
     def step(self, inputs: Inputs) -> Output:
         """Velocity and status at a tick."""
         order = inputs.order
-        if order and order.goal.goal_id != self._goal.goal_id:
+        if order and order.goal.id != self._goal.id:
             self._goal, self.site = order.goal, None
-            self._begin(Result.PENDING if order.goal.goal_id else Result.IDLE)
+            self._begin(Result.PENDING if order.goal.waypoint.id else Result.IDLE)
         try:
             now = situation_of(inputs, self._parameters.input_age_limit_s)
         except InputsUnusable as fault:
             return self._stop_at_once(str(fault))
         self._ramp.begin(now.tick_s, now.robot)
-        if self._goal.goal_id == 0:
+        if not self._goal.waypoint.id:
             self._ramp.brake()
             self._replanning.stop()
             return self._output(Result.IDLE)
@@ -81,7 +82,7 @@ class MotionPlanner:
         self._ramp.drop()
         self._stall.reset()
         self._replanning.stop()
-        if self._goal.goal_id == 0:
+        if not self._goal.waypoint.id:
             return self._output(Result.IDLE)
         return self._output(self._result if self._result in SETTLED else Result.PENDING, message=fault)
 
@@ -110,7 +111,7 @@ class MotionPlanner:
 
     def _arranged(self, car: Car) -> Optional[Site]:
         try:
-            self.site = Site(self._goal, car, self._parameters)
+            self.site = Site(self._goal.waypoint, car, self._parameters)
         except RobotError as refusal:
             self._settle(Result.REFUSED, str(refusal), None)
         return self.site
@@ -125,7 +126,7 @@ class MotionPlanner:
 
     def _keep_planned(self, site: Site, pose: Pose2, now: Situation, speed: float) -> None:
         """Have a plan made where one is needed, and change over to the one that is due."""
-        target = Target(site.goal, self._goal.direction, is_correction=self._corrections > 0)
+        target = Target(site.goal, self._direction(), is_correction=self._corrections > 0)
         robot = Moving(pose, now.robot.speed_mps, now.robot.yaw_rate_radps)
         try:
             if self._replanning.is_needed:
@@ -133,6 +134,10 @@ class MotionPlanner:
             self._replanning.change_over(site, now.tick_s, speed)
         except RobotError as refusal:
             self._settle(Result.REFUSED, str(refusal), pose)
+
+    def _direction(self) -> Direction:
+        number = self._goal.waypoint.direction
+        return Direction(number) if number in tuple(Direction) else Direction.ANY
 
     def _follow(self, site: Site, follower: Follower, pose: Pose2, now: Situation, speed: float) -> Output:
         if not follower.set_speed(speed):
@@ -179,6 +184,6 @@ class MotionPlanner:
         self._replanning.follower = None
 
     def _output(self, result: Result, remaining_m: float = 0.0, message: str = "") -> Output:
-        active = self._goal.goal_id != 0 or not self._ramp.is_still
-        return Output(self._ramp.linear_mps, self._ramp.angular_radps, active, self._goal.goal_id, result, remaining_m,
+        active = self._goal.waypoint.id != 0 or not self._ramp.is_still
+        return Output(self._ramp.linear_mps, self._ramp.angular_radps, active, self._goal.id, result, remaining_m,
                       message, self._replanning.take_path())

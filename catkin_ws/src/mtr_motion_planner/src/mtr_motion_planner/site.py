@@ -7,11 +7,13 @@ and plan stay as they are, and only the robot is seen elsewhere.
 import math
 from typing import Optional
 
+from mtr_core import names
+from mtr_core.requests import Waypoint
 from mtr_core.se2 import Pose2
 
 from .geometry.fence import Fence, corners_of
 from .geometry.keep_out import KeepOut
-from .inputs import Car, Goal
+from .inputs import Car
 from .parameters import MotionParameters
 from .timing.plan import PlanRefused
 
@@ -29,17 +31,18 @@ class Site:
         fence: the test area in the frame, None when there is no bound.
     """
 
-    def __init__(self, goal: Goal, car: Car, parameters: MotionParameters):
+    def __init__(self, goal: Waypoint, car: Car, parameters: MotionParameters):
         """OutlineUnusable or PlanRefused when one cannot plan here."""
         self._car = car
-        if goal.unknown_frame:
-            raise PlanRefused(f"The goal's frame is {goal.unknown_frame}; allowed are car and map.")
+        if goal.frame not in (names.CAR, names.MAP):
+            raise PlanRefused(f"The goal's frame is {goal.frame!r}; allowed are car and map.")
         if not goal.pose.is_finite():
             raise PlanRefused("The goal is not a number.")
-        if goal.in_car_frame and not car.located:
+        self.in_car_frame = goal.frame == names.CAR
+        if self.in_car_frame and not car.located:
             raise PlanRefused("The Car has not been located, so a goal relative to it means nothing yet.")
-        self.in_car_frame, self.goal = goal.in_car_frame, goal.pose @ parameters.footprint.slip.base_from_centre
-        frame_from_car = MAP_FROM_MAP if goal.in_car_frame else car.pose
+        self.goal = goal.pose @ parameters.footprint.slip.base_from_centre
+        frame_from_car = MAP_FROM_MAP if self.in_car_frame else car.pose
         self.keep_out = KeepOut([frame_from_car.apply(x, y) for x, y in car.outline], parameters.footprint)
         self.fence = self._fence(parameters, frame_from_car)
 

@@ -6,9 +6,10 @@ from typing import List, Optional
 
 from shapely.geometry import Polygon
 
+from mtr_core.requests import NO_GOAL, Goal, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
-from mtr_motion_planner.inputs import Car, Drive, Goal, Inputs, Order, RobotState
+from mtr_motion_planner.inputs import Car, Drive, Inputs, Order, RobotState
 from mtr_motion_planner.outputs import Output
 from mtr_motion_planner.parameters import MotionParameters, Slip
 from mtr_motion_planner.planner import MotionPlanner
@@ -39,7 +40,7 @@ class SimulatedRobot:
         self.drive: Optional[Drive] = None
         self.speed_cap, self.is_degenerate = math.inf, False
         self.ticks = 0
-        self.goal = Goal(0, True, Pose2(0, 0, 0), Direction.ANY)
+        self.goal = NO_GOAL
         self.max_speed = 0.5
         self.least_clearance = math.inf
         self.outputs: List[Output] = []
@@ -54,7 +55,8 @@ class SimulatedRobot:
     def go(self, goal_id: int, x: float, y: float, heading_deg: float, direction=Direction.ANY, *,
            in_car=True) -> None:
         """Order a goal."""
-        self.goal = Goal(goal_id, in_car, Pose2(x, y, math.radians(heading_deg)), direction)
+        pose = Pose2(x, y, math.radians(heading_deg))
+        self.goal = Goal(Waypoint(goal_id, "test", "car" if in_car else "map", pose, direction))
 
     def tick(self) -> Output:
         """One period."""
@@ -87,7 +89,8 @@ class SimulatedRobot:
 
     def goal_in_map(self) -> Pose2:
         """Where the robot should stand."""
-        return self.car.pose @ self.goal.pose if self.goal.in_car_frame else self.goal.pose
+        waypoint = self.goal.waypoint
+        return self.car.pose @ waypoint.pose if waypoint.frame == "car" else waypoint.pose
 
     def miss(self) -> Pose2:
         """The robot's pose seen from the goal."""

@@ -7,9 +7,10 @@ import pytest
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import parameters_from
+from mtr_core.requests import NO_GOAL_ID, Goal, Waypoint
 from mtr_core.se2 import Pose2
-from mtr_core.states import Direction, Result
-from mtr_motion_planner.inputs import Car, Goal, Inputs, Order, RobotState
+from mtr_core.states import Result
+from mtr_motion_planner.inputs import Car, Inputs, Order, RobotState
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.planner import MotionPlanner
 from mtr_motion_planner.replanning import InlineExecutor
@@ -17,12 +18,17 @@ from mtr_motion_planner.replanning import InlineExecutor
 NAN = math.nan
 CAR = Car(1.0, True, Pose2(0, 0, 0), ((2.2, .9), (-2.2, .9), (-2.2, -.9), (2.2, -.9)))
 ROBOT = RobotState(1.0, True, Pose2(4.0, 0.0, 0.0), 0.0, 0.0)
-ORDER = Order(1.0, Goal(1, True, Pose2(6.0, 0.0, 0.0), Direction.ANY), 0.5)
+WAYPOINT = Waypoint(1, "application/5", "car", Pose2(6.0, 0.0, 0.0))
+ORDER = Order(1.0, Goal(WAYPOINT, 1), 0.5)
 GOOD = Inputs(1.0, ORDER, ROBOT, CAR)
 
 
 def with_goal(pose):
-    return dataclasses.replace(ORDER, goal=dataclasses.replace(ORDER.goal, pose=pose))
+    return with_waypoint(pose=pose)
+
+
+def with_waypoint(**changes):
+    return dataclasses.replace(ORDER, goal=Goal(dataclasses.replace(WAYPOINT, **changes), 1))
 
 
 BAD = {
@@ -45,8 +51,7 @@ BAD = {
     "pose in the future": dataclasses.replace(GOOD, robot=dataclasses.replace(ROBOT, stamp_s=1.35)),
     "order in the future": dataclasses.replace(GOOD, order=dataclasses.replace(ORDER, stamp_s=1.35)),
     "car in the future": dataclasses.replace(GOOD, car=dataclasses.replace(CAR, stamp_s=1.35)),
-    "goal in a frame nobody knows": dataclasses.replace(GOOD, order=dataclasses.replace(
-        ORDER, goal=dataclasses.replace(ORDER.goal, unknown_frame="'odom'"))),
+    "goal in a frame nobody knows": dataclasses.replace(GOOD, order=with_waypoint(frame="odom")),
     "outline of zero size": dataclasses.replace(GOOD, car=dataclasses.replace(CAR, outline=((0.0, 0.0),) * 4)),
     "speed limit beyond the platform's": dataclasses.replace(GOOD, order=dataclasses.replace(ORDER, max_speed_mps=2.1)),
     "speed limit zero": dataclasses.replace(GOOD, order=dataclasses.replace(ORDER, max_speed_mps=0.0)),
@@ -58,7 +63,7 @@ def test_bad_input_gives_zero_velocity(case):
     output = MotionPlanner(MotionParameters(), InlineExecutor()).step(BAD[case])
     assert (output.linear_mps, output.angular_radps) == (0.0, 0.0)
     assert output.result in (Result.IDLE, Result.PENDING, Result.REFUSED)
-    assert output.message.endswith(".") or output.goal_id == 0
+    assert output.message.endswith(".") or output.goal_id == NO_GOAL_ID
 
 
 @pytest.mark.parametrize("case", BAD)
@@ -67,7 +72,7 @@ def test_robot_sets_out_when_the_input_is_good_again(case):
     planner.step(BAD[case])
     for tick in range(1, 20):
         now = 1.0 + 0.04 * tick
-        goal = dataclasses.replace(ORDER.goal, goal_id=2)
+        goal = Goal(WAYPOINT, 2)
         output = planner.step(Inputs(now, dataclasses.replace(ORDER, stamp_s=now, goal=goal),
                                      dataclasses.replace(ROBOT, stamp_s=now), dataclasses.replace(CAR, stamp_s=now)))
     assert abs(output.linear_mps) + abs(output.angular_radps) > 0.1

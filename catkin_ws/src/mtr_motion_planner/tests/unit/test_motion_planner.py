@@ -72,7 +72,7 @@ def test_unlock_in_mid_approach_reverses_without_a_jump():
     robot.run_for(5.0)
     assert robot.speed > 0.45
     robot.go(2, 0.0, -5.0, 90.0, Direction.BACKWARD)
-    assert robot.tick().goal_id == 2
+    assert robot.tick().goal_id.waypoint_id == 2
     assert robot.run().result == Result.REACHED
     assert_stands_at_goal(robot)
     assert robot.largest_step() <= MAX_STEP_MPS

@@ -71,7 +71,7 @@ def test_moving_robot_goes_on_without_braking_while_the_plan_for_a_new_goal_is_m
 
 def test_new_goal_is_in_the_status_at_once(robot):
     robot.go(2, -4.5, -2.5, 30.0)
-    assert robot.tick().goal_id == 2
+    assert robot.tick().goal_id.waypoint_id == 2
 
 
 def test_newest_goal_wins_whichever_plan_is_made_first(robot, later):

@@ -6,14 +6,18 @@ import pytest
 from geometry_msgs.msg import PoseStamped
 from motion_simulation import OUTLINE, PARAMETERS, SimulatedRobot
 from shapely.geometry import Polygon
+from std_msgs.msg import Header
 
+from mtr_core.conversions import goal_report_from, waypoint_message
+from mtr_core.requests import NO_GOAL, NO_GOAL_ID, Goal, Waypoint
 from mtr_core.se2 import Pose2
-from mtr_core.states import Direction
-from mtr_motion_planner.conversions import markers_message, nav_goal_from, order_from, path_message
-from mtr_motion_planner.inputs import NO_GOAL, Goal, Order
+from mtr_core.states import Result
+from mtr_motion_planner.conversions import markers_message, nav_goal_from, order_from, path_message, status_message
+from mtr_motion_planner.inputs import Order
 from mtr_motion_planner.nav_goal import NavGoals
+from mtr_motion_planner.outputs import Output
 from mtr_motion_planner.picture import picture_of
-from mtr_msgs.msg import RobotMode, Waypoint
+from mtr_msgs.msg import MotionStatus, RobotMode
 
 PLACE = Pose2(3.0, -2.0, 1.0)
 FREE = Order(1.0, NO_GOAL, 0.8, follows_waypoints=True)
@@ -23,16 +27,16 @@ def test_goal_from_rviz_is_taken_at_its_own_speed_while_nobody_wants_anything():
     goals = NavGoals(0.4)
     goals.take(PLACE, in_car_frame=False)
     order = goals.joined(FREE)
-    assert (order.goal.pose, order.goal.in_car_frame, order.max_speed_mps) == (PLACE, False, 0.4)
-    assert goals.joined(FREE).goal.goal_id == order.goal.goal_id
+    assert (order.goal.waypoint.pose, order.goal.waypoint.frame, order.max_speed_mps) == (PLACE, "map", 0.4)
+    assert goals.joined(FREE).goal.id == order.goal.id
     goals.take(PLACE, in_car_frame=False)
-    assert goals.joined(FREE).goal.goal_id == order.goal.goal_id + 1
+    assert goals.joined(FREE).goal.id not in (order.goal.id, NO_GOAL_ID)
 
 
 def test_operators_goal_goes_first_and_ends_the_one_from_rviz():
     goals = NavGoals(0.4)
     goals.take(PLACE, in_car_frame=True)
-    operators = Order(1.0, Goal(7, True, PLACE, Direction.ANY), 0.8, follows_waypoints=True)
+    operators = Order(1.0, Goal(Waypoint(7, "application/5", "car", PLACE), 1), 0.8, follows_waypoints=True)
     assert goals.joined(operators) == operators
     assert "Operator" in goals.refusal()
     assert goals.joined(FREE) == FREE
@@ -73,11 +77,14 @@ def test_picture_shows_zone_way_and_goal_in_the_frame_of_the_plan():
     assert Polygon(picture.keep_out).exterior.distance(Polygon(OUTLINE)) == pytest.approx(0.10, abs=1e-3)
     path = next(each.path for each in robot.outputs if each.path)
     assert path_message(path, None).header.frame_id == "car"
-    assert output.goal_id == 1
+    assert output.goal_id.waypoint_id == 1
 
 
-def test_goal_of_the_state_machine_in_an_unknown_frame_names_it():
-    message = RobotMode(goal=Waypoint(id=3, frame_id="odom"))
-    assert order_from(message).goal.unknown_frame == "'odom'"
-    message.goal.frame_id = "map"
-    assert order_from(message).goal.unknown_frame == ""
+def test_goal_of_the_state_machine_is_echoed_in_the_status():
+    waypoint = Waypoint(3, "car_locator", "map", Pose2(1.0, 2.0, 0.5), 1)
+    goal = order_from(RobotMode(goal=waypoint_message(waypoint), goal_attempt=6)).goal
+    assert goal == Goal(waypoint, 6)
+    status = status_message(Output(0.1, 0.2, True, goal.id, Result.BLOCKED, 1.5, "Why."), Header())
+    assert (status.requester, status.goal_id, status.goal_attempt) == ("car_locator", 3, 6)
+    assert (status.result, status.remaining_m, status.message) == (MotionStatus.BLOCKED, 1.5, "Why.")
+    assert goal_report_from(status).is_about(goal)

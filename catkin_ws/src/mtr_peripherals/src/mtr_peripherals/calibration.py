@@ -16,7 +16,7 @@ MAX_BUTTON = 255
 HEIGHT_ROUNDING_M = 1e-3
 
 
-class OrderRefused(ProblemError):
+class RequestRefused(ProblemError):
     """The lift or a servo cannot do what is asked."""
 
 
@@ -59,36 +59,37 @@ class Calibration(ParameterSet):
         return self.key_height_at_lower_stop_m + lift_height_m
 
     def lift_height_m(self, key_height_m: float) -> float:
-        """Height of the lift for a height of the key; NaN asks to hold still. Raises OrderRefused."""
+        """Height of the lift for a height of the key; NaN asks to hold still. Raises RequestRefused."""
         if math.isnan(key_height_m):
             return math.nan
         low, high = self.key_height_at_lower_stop_m, self.highest_key_m
         if not low - HEIGHT_ROUNDING_M <= key_height_m <= high + HEIGHT_ROUNDING_M:
-            raise OrderRefused(problems.KEY_HEIGHT(value=key_height_m, low=low, high=high))
+            raise RequestRefused(problems.KEY_HEIGHT(value=key_height_m, low=low, high=high))
         return min(max(key_height_m - low, 0.0), self.lift_stroke_m)
 
     def servos(self, buttons: Iterable[int]) -> int:
-        """Bits of the servos that press the buttons. Raises OrderRefused."""
+        """Bits of the servos that press the buttons. Raises RequestRefused."""
         bits = 0
         for button in buttons:
             if button not in self.button_of_servo:
                 known = ", ".join(map(str, self.button_of_servo))
-                raise OrderRefused(problems.UNKNOWN_BUTTON(button=button, known=known))
+                raise RequestRefused(problems.UNKNOWN_BUTTON(button=button, known=known))
             bits |= 1 << self.button_of_servo.index(button)
         if not bits:
-            raise OrderRefused(problems.NO_BUTTON())
+            raise RequestRefused(problems.NO_BUTTON())
         return bits
 
     def strength(self, strength: float) -> float:
-        """The strength when it is allowed. Raises OrderRefused."""
+        """The strength when it is allowed. Raises RequestRefused."""
         if not self.minimum_strength <= strength <= self.maximum_strength:
-            raise OrderRefused(problems.STRENGTH(value=strength, low=self.minimum_strength, high=self.maximum_strength))
+            raise RequestRefused(problems.STRENGTH(value=strength, low=self.minimum_strength,
+                                                   high=self.maximum_strength))
         return strength
 
     def hold_ms(self, duration_s: float) -> int:
-        """Time to hold in whole ms; 0 asks for the default. Raises OrderRefused."""
+        """Time to hold in whole ms; 0 asks for the default. Raises RequestRefused."""
         if duration_s == 0.0:
             duration_s = self.default_hold_s
         if not 0.0 < duration_s <= self.maximum_hold_s:
-            raise OrderRefused(problems.DURATION(value=duration_s, high=self.maximum_hold_s))
+            raise RequestRefused(problems.DURATION(value=duration_s, high=self.maximum_hold_s))
         return max(1, round(1000.0 * duration_s))

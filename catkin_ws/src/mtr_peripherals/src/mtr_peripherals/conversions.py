@@ -6,9 +6,11 @@ from typing import Optional, Union
 import rospy
 from sensor_msgs.msg import JointState
 
+from mtr_core.conversions import desired_state_from
 from mtr_core.crc import seal
 from mtr_core.lockstep import clock
 from mtr_core.problems import messages_of
+from mtr_core.requests import PressReport
 from mtr_msgs.msg import (
     DesiredState,
     FirmwareCommand,
@@ -16,16 +18,15 @@ from mtr_msgs.msg import (
     FirmwarePress,
     FirmwareState,
     PeripheralsState,
-    PressReport,
     Problem,
     RobotMode,
 )
+from mtr_msgs.msg import PressReport as PressReportMessage
 
-from .core import Orders, Outcome
-from .firmware import CALIBRATING, FirmwareOrder, FirmwareReport, PressState
+from .core import Inputs, Outcome
+from .firmware import CALIBRATING, FirmwareReport, PressState, ServoPress
 from .firmware_clock import FirmwareClock, SharedClock
 from .health_watch import Health
-from .presses import PressOrder, PressResult
 
 JOINTS = ("lift", "front_left_wheel", "front_right_wheel", "rear_left_wheel", "rear_right_wheel")
 
@@ -36,16 +37,12 @@ def health_of(message: FirmwareHealth) -> Health:
                   message.calibration_copies)
 
 
-def orders(desired: Optional[DesiredState], mode: Optional[RobotMode]) -> Orders:
-    """What the other nodes want; None for one that is silent."""
+def inputs_from(desired: Optional[DesiredState], mode: Optional[RobotMode]) -> Inputs:
+    """What the other nodes say; None for one that is silent."""
     if desired is None:
-        return Orders(mode=mode.mode) if mode else Orders()
-    press = desired.press
-    return Orders(
-        session_id=desired.session_id, link_alive=desired.link_alive, stop=desired.stop,
-        key_height_m=desired.key_height_m,
-        press=PressOrder(desired.session_id, press.id, tuple(press.buttons), press.strength, press.duration_s),
-        **({"mode": mode.mode, "has_goal": bool(mode.goal.id)} if mode else {}))
+        return Inputs(mode=mode.mode) if mode else Inputs()
+    wanted = desired_state_from(desired)
+    return Inputs(wanted, mode.mode, bool(mode.goal.id)) if mode else Inputs(wanted)
 
 
 def firmware_report(state: FirmwareState, stamp_ns: int, times: Union[FirmwareClock, SharedClock]) -> FirmwareReport:
@@ -64,16 +61,16 @@ def command_message(outcome: Outcome, seq: int) -> FirmwareCommand:
     return seal(FirmwareCommand(seq=seq % 2 ** 32, lift_height_m=outcome.lift_height_m, led_pattern=outcome.led.value))
 
 
-def press_message(order: FirmwareOrder) -> FirmwarePress:
+def press_message(press: ServoPress) -> FirmwarePress:
     """One press, for the firmware."""
-    return seal(FirmwarePress(id=order.id, servos=order.servos, strength=order.strength, hold_ms=order.hold_ms))
+    return seal(FirmwarePress(id=press.id, servos=press.servos, strength=press.strength, hold_ms=press.hold_ms))
 
 
 def state_message(outcome: Outcome, battery: float, stamp: rospy.Time) -> PeripheralsState:
     """State in the terms of the domain."""
     message = PeripheralsState(
         alive=outcome.alive, key_height_m=outcome.key_height_m, pressed_buttons=list(outcome.pressed_buttons),
-        presses=[_press_report(result) for result in outcome.results], battery=battery, led=outcome.led_shown,
+        presses=[_report_message(report) for report in outcome.results], battery=battery, led=outcome.led_shown,
         message=outcome.message.text, problems=messages_of(outcome.message, Problem))
     message.header.stamp = stamp
     return message
@@ -91,6 +88,6 @@ def battery_charge(percentage: Optional[float]) -> float:
     return percentage if percentage is not None and 0.0 <= percentage <= 1.0 else math.nan
 
 
-def _press_report(result: PressResult) -> PressReport:
-    return PressReport(result.session_id, result.id, clock.stamp_of(result.start_ns), clock.stamp_of(result.end_ns),
-                       result.error.text, messages_of(result.error, Problem))
+def _report_message(report: PressReport) -> PressReportMessage:
+    return PressReportMessage(report.session_id, report.id, clock.stamp_of(report.start_ns),
+                              clock.stamp_of(report.end_ns), report.error.text, messages_of(report.error, Problem))

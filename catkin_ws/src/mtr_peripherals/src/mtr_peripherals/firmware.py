@@ -54,8 +54,8 @@ class FirmwareReport:
 
 
 @dataclass(frozen=True)
-class FirmwareOrder:
-    """One press for the firmware; servos are bits."""
+class ServoPress:
+    """One press for the firmware: servos are bits."""
 
     id: int
     servos: int

@@ -10,6 +10,7 @@ from mtr_core import names, schedule
 from mtr_core.crc import is_sound
 from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_core.lockstep.samples import Samples
+from mtr_core.requests import PressReport
 from mtr_msgs.msg import (
     DesiredState,
     DriveStatus,
@@ -28,8 +29,8 @@ from .conversions import (
     command_message,
     firmware_report,
     health_of,
+    inputs_from,
     joint_message,
-    orders,
     press_message,
     state_message,
 )
@@ -38,7 +39,6 @@ from .firmware import FirmwareReport
 from .firmware_clock import FirmwareClock, SharedClock
 from .health_watch import HealthWatch
 from .parameters import Parameters
-from .presses import PressResult
 
 NS = 1e-9
 # Each report of emulated firmware is there by then: it reports every 40 ms, needs 10 ms on the line, and the simulator
@@ -66,7 +66,7 @@ class PeripheralsNode:
         self._calibrate_ns: Optional[int] = None
         self._health = HealthWatch()
         self._seq = 0
-        self._logged: Optional[Tuple[str, Optional[PressResult]]] = None
+        self._logged: Optional[Tuple[str, Optional[PressReport]]] = None
         self._desired = TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER)
         # Lock-step waits for each input, so only for what is needed.
         self._drive = None if parameters.rear_lidar else TickInput(names.DRIVE_STATUS, DriveStatus,
@@ -90,10 +90,10 @@ class PeripheralsNode:
             self._step(self._ticker.sleep())
 
     def _step(self, tick: int) -> None:
-        wanted = orders(self._fresh(self._desired.at(tick), tick), self._fresh(self._mode.at(tick), tick))
-        wanted = replace(wanted, manual_lift_mps=self._manual_lift_mps(tick), backs_unseen=self._backs_unseen(tick),
+        inputs = inputs_from(self._fresh(self._desired.at(tick), tick), self._fresh(self._mode.at(tick), tick))
+        inputs = replace(inputs, manual_lift_mps=self._manual_lift_mps(tick), backs_unseen=self._backs_unseen(tick),
                          calibrates=self._calibrates(tick))
-        outcome = self._core.step(wanted, self._reports.at(tick), tick)
+        outcome = self._core.step(inputs, self._reports.at(tick), tick)
         self._seq += 1
         self._send(self._command, command_message(outcome, self._seq))
         if outcome.press:

@@ -1,14 +1,15 @@
-"""Carries out each ordered press once and keeps the reports."""
+"""Carries out each press once and keeps the reports."""
 # SPDX-License-Identifier: Apache-2.0
 from collections import deque
 from dataclasses import dataclass
 from typing import Deque, Optional, Tuple
 
 from mtr_core.problems import NO_PROBLEM, Problem
+from mtr_core.requests import Press, PressReport
 
 from . import problems
-from .calibration import Calibration, OrderRefused
-from .firmware import FirmwareOrder, FirmwareReport, PressState
+from .calibration import Calibration, RequestRefused
+from .firmware import FirmwareReport, PressState, ServoPress
 
 KEPT_REPORTS = 8
 # Travel of the servo, transport and repetition; a press that is not done after its hold and this has failed.
@@ -17,32 +18,10 @@ MILLISECOND_NS = 1_000_000
 MAX_FIRMWARE_ID = 2 ** 32 - 1
 
 
-@dataclass(frozen=True)
-class PressOrder:
-    """One press as the Operator wants it; id 0: none."""
-
-    session_id: int = 0
-    id: int = 0
-    buttons: Tuple[int, ...] = ()
-    strength: float = 1.0
-    duration_s: float = 0.0
-
-
-@dataclass(frozen=True)
-class PressResult:
-    """One press as it went; error is no problem when it was carried out. Times on the robot's clock."""
-
-    session_id: int
-    id: int
-    start_ns: int
-    end_ns: int
-    error: Problem = NO_PROBLEM
-
-
 @dataclass
 class _Running:
-    order: PressOrder
-    firmware: FirmwareOrder
+    press: Press
+    firmware: ServoPress
     deadline_ns: int
     seen: bool = False
 
@@ -56,7 +35,7 @@ class Presses:
 
     def __init__(self, calibration: Calibration):
         self._calibration = calibration
-        self.results: Deque[PressResult] = deque(maxlen=KEPT_REPORTS)
+        self.results: Deque[PressReport] = deque(maxlen=KEPT_REPORTS)
         self._running: Optional[_Running] = None
         self._newest = (0, 0)
         self._firmware_id: Optional[int] = None
@@ -64,9 +43,9 @@ class Presses:
     @property
     def pressed_buttons(self) -> Tuple[int, ...]:
         """Buttons held down now."""
-        return self._running.order.buttons if self._running and self._running.seen else ()
+        return self._running.press.buttons if self._running and self._running.seen else ()
 
-    def step(self, order: PressOrder, report: Optional[FirmwareReport], now_ns: int) -> Optional[FirmwareOrder]:
+    def step(self, press: Press, report: Optional[FirmwareReport], now_ns: int) -> Optional[ServoPress]:
         """Take the wanted press and the firmware's newest report; returns what to send the firmware now."""
         if report is None:
             return None
@@ -75,36 +54,36 @@ class Presses:
             self._firmware_id = report.press_id
         if self._running:
             self._follow(self._running, report, now_ns)
-        if self._running is None and order.id and (order.session_id, order.id) != self._newest:
-            self._begin(order, self._firmware_id % MAX_FIRMWARE_ID + 1, now_ns)
+        if self._running is None and press.id and (press.session_id, press.id) != self._newest:
+            self._begin(press, self._firmware_id % MAX_FIRMWARE_ID + 1, now_ns)
         return self._running.firmware if self._running and not self._running.seen else None
 
-    def _begin(self, order: PressOrder, firmware_id: int, now_ns: int) -> None:
-        self._newest, self._firmware_id = (order.session_id, order.id), firmware_id
+    def _begin(self, press: Press, firmware_id: int, now_ns: int) -> None:
+        self._newest, self._firmware_id = (press.session_id, press.id), firmware_id
         try:
-            firmware = FirmwareOrder(firmware_id, self._calibration.servos(order.buttons),
-                                     self._calibration.strength(order.strength),
-                                     self._calibration.hold_ms(order.duration_s))
-        except OrderRefused as refused:
-            self._finish(order, now_ns, now_ns, refused.problem)
+            firmware = ServoPress(firmware_id, self._calibration.servos(press.buttons),
+                                  self._calibration.strength(press.strength),
+                                  self._calibration.hold_ms(press.duration_s))
+        except RequestRefused as refused:
+            self._finish(press, now_ns, now_ns, refused.problem)
             return
-        self._running = _Running(order, firmware, now_ns + firmware.hold_ms * MILLISECOND_NS + PRESS_MARGIN_NS)
+        self._running = _Running(press, firmware, now_ns + firmware.hold_ms * MILLISECOND_NS + PRESS_MARGIN_NS)
 
     def _follow(self, running: _Running, report: FirmwareReport, now_ns: int) -> None:
         if report.press_id == running.firmware.id:
             running.seen = True
             if report.press_state is PressState.DONE:
-                self._finish(running.order, report.press_start_ns, report.press_end_ns)
+                self._finish(running.press, report.press_start_ns, report.press_end_ns)
             elif report.press_state is PressState.REFUSED:
-                self._finish(running.order, now_ns, now_ns, problems.PRESS_REFUSED())
+                self._finish(running.press, now_ns, now_ns, problems.PRESS_REFUSED())
             elif report.press_state is PressState.CUT_SHORT:
-                self._finish(running.order, now_ns, now_ns, problems.PRESS_CUT_SHORT())
+                self._finish(running.press, now_ns, now_ns, problems.PRESS_CUT_SHORT())
         elif running.seen:
-            self._finish(running.order, now_ns, now_ns, problems.PRESS_RESTARTED())
+            self._finish(running.press, now_ns, now_ns, problems.PRESS_RESTARTED())
         if self._running and now_ns > running.deadline_ns:
-            self._finish(running.order, now_ns, now_ns, problems.PRESS_LATE())
+            self._finish(running.press, now_ns, now_ns, problems.PRESS_LATE())
 
-    def _finish(self, order: PressOrder, start_ns: int, end_ns: int,
+    def _finish(self, press: Press, start_ns: int, end_ns: int,
                 error: Problem = NO_PROBLEM) -> None:
-        self.results.append(PressResult(order.session_id, order.id, start_ns, end_ns, error))
+        self.results.append(PressReport(press.id, press.session_id, start_ns, end_ns, error))
         self._running = None

@@ -8,7 +8,7 @@ import yaml
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import parameters_from
-from mtr_peripherals.calibration import Calibration, OrderRefused
+from mtr_peripherals.calibration import Calibration, RequestRefused
 from mtr_peripherals.parameters import Parameters
 
 SHIPPED = pathlib.Path(__file__).resolve().parents[2] / "config" / "calibration.yaml"
@@ -33,7 +33,7 @@ def test_no_height_holds_the_lift():
 
 @pytest.mark.parametrize("key_m", [0.34, 1.56, -1.0, math.inf, -math.inf])
 def test_height_out_of_range_is_refused_with_the_range(key_m):
-    with pytest.raises(OrderRefused, match="0.35 to 1.55 m"):
+    with pytest.raises(RequestRefused, match="0.35 to 1.55 m"):
         CALIBRATION.lift_height_m(key_m)
 
 
@@ -44,13 +44,13 @@ def test_buttons_become_servos(buttons, bits):
 
 @pytest.mark.parametrize("buttons", [[], [3], [1, 0]])
 def test_unknown_button_is_refused(buttons):
-    with pytest.raises(OrderRefused):
+    with pytest.raises(RequestRefused):
         CALIBRATION.servos(buttons)
 
 
 @pytest.mark.parametrize("strength", [-0.1, 1.1, math.nan])
 def test_strength_out_of_range_is_refused(strength):
-    with pytest.raises(OrderRefused, match="0 to 1"):
+    with pytest.raises(RequestRefused, match="0 to 1"):
         CALIBRATION.strength(strength)
 
 
@@ -61,7 +61,7 @@ def test_duration_becomes_milliseconds(duration_s, hold_ms):
 
 @pytest.mark.parametrize("duration_s", [-1.0, 10.1, math.nan, math.inf])
 def test_duration_out_of_range_is_refused(duration_s):
-    with pytest.raises(OrderRefused):
+    with pytest.raises(RequestRefused):
         CALIBRATION.hold_ms(duration_s)
 
 

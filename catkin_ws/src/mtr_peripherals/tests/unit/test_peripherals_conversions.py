@@ -6,27 +6,27 @@ import rospy
 
 from mtr_core.crc import is_sound
 from mtr_core.problems import NO_PROBLEM, Problem
+from mtr_core.requests import Press, PressReport
 from mtr_msgs.msg import ButtonPress, DesiredState, FirmwareState, RobotMode, Waypoint
 from mtr_peripherals.conversions import (
     battery_charge,
     command_message,
     firmware_report,
+    inputs_from,
     joint_message,
-    orders,
     press_message,
     state_message,
 )
 from mtr_peripherals.core import Outcome
-from mtr_peripherals.firmware import FirmwareOrder, Led, PressState
+from mtr_peripherals.firmware import Led, PressState, ServoPress
 from mtr_peripherals.firmware_clock import SharedClock
-from mtr_peripherals.presses import PressResult
 
 SECOND_NS = 1_000_000_000
 REFUSED = Problem("peripherals.refused", "A sentence.")
 STAMP = rospy.Time(5)
-OUTCOME = Outcome(0.5, Led.MOVING, FirmwareOrder(3, 2, 0.5, 250), True, 0.4, 0.75, (2,),
-                  [PressResult(7, 8, 4 * SECOND_NS, 4 * SECOND_NS + 1, NO_PROBLEM),
-                   PressResult(7, 9, 5 * SECOND_NS, 5 * SECOND_NS, REFUSED)], "moving", REFUSED)
+OUTCOME = Outcome(0.5, Led.MOVING, ServoPress(3, 2, 0.5, 250), True, 0.4, 0.75, (2,),
+                  [PressReport(8, 7, 4 * SECOND_NS, 4 * SECOND_NS + 1, NO_PROBLEM),
+                   PressReport(9, 7, 5 * SECOND_NS, 5 * SECOND_NS, REFUSED)], "moving", REFUSED)
 
 
 def test_leds_are_those_of_the_message():
@@ -36,16 +36,17 @@ def test_leds_are_those_of_the_message():
     assert is_sound(command) and is_sound(press_message(OUTCOME.press))
 
 
-def test_orders_take_session_height_and_press():
+def test_inputs_take_session_height_and_press():
     desired = DesiredState(session_id=7, link_alive=True, key_height_m=1.0, press=ButtonPress(8, [1], 0.5, 0.25))
-    found = orders(desired, RobotMode(mode=4, goal=Waypoint(id=1)))
-    assert (found.session_id, found.link_alive, found.stop, found.key_height_m) == (7, True, False, 1.0)
-    assert (found.press.session_id, found.press.id, found.press.buttons) == (7, 8, (1,))
+    found = inputs_from(desired, RobotMode(mode=4, goal=Waypoint(id=1)))
+    wanted = found.desired
+    assert (wanted.session_id, wanted.link_alive, wanted.stop, wanted.key_height_m) == (7, True, False, 1.0)
+    assert wanted.press == Press(8, 7, (1,), 0.5, 0.25)
     assert (found.mode, found.has_goal) == (4, True)
 
 
 def test_silent_nodes_want_nothing():
-    found = orders(None, None)
+    found = inputs_from(None, None).desired
     assert found.stop and not found.link_alive and math.isnan(found.key_height_m) and not found.press.id
 
 

@@ -6,18 +6,24 @@ from dataclasses import replace
 import pytest
 
 from mtr_core.problems import NO_PROBLEM
-from mtr_peripherals.core import Orders, Peripherals
+from mtr_core.requests import NO_PRESS, DesiredState, Press
+from mtr_peripherals.core import Inputs, Peripherals
 from mtr_peripherals.firmware import FirmwareReport, Led, PressState
 from mtr_peripherals.parameters import Parameters
-from mtr_peripherals.presses import PressOrder
 
 MS = 1_000_000
 TICK = 100 * MS
 START = 1_000 * MS
 READY, FOLLOWING, FAULT = 2, 4, 5
-LIVE = Orders(session_id=3, link_alive=True, stop=False, mode=FOLLOWING)
-PRESS = PressOrder(3, 1, (2,), 0.8, 0.25)
-PRESSING_LIVE = replace(LIVE, press=PRESS)
+LIVE = Inputs(DesiredState(session_id=3, link_alive=True, stop=False), FOLLOWING)
+PRESS = Press(1, 3, (2,), 0.8, 0.25)
+
+
+def desired(inputs=LIVE, **changes):
+    return replace(inputs, desired=replace(inputs.desired, **changes))
+
+
+PRESSING_LIVE = desired(press=PRESS)
 
 
 class FakeFirmware:
@@ -53,9 +59,9 @@ def core():
     return Peripherals(Parameters())
 
 
-def run(core, orders, firmware, ticks, first=0):
+def run(core, inputs, firmware, ticks, first=0):
     for i in range(first, first + ticks):
-        outcome = core.step(orders, firmware.report, START + i * TICK)
+        outcome = core.step(inputs, firmware.report, START + i * TICK)
         firmware.step(outcome.press, START + i * TICK)
     return outcome
 
@@ -78,8 +84,8 @@ def test_lost_press_message_is_repeated(core):
 def test_next_id_and_next_session_press_again(core):
     firmware = FakeFirmware()
     run(core, PRESSING_LIVE, firmware, 10)
-    run(core, replace(LIVE, press=replace(PRESS, id=2)), firmware, 10, 10)
-    outcome = run(core, replace(LIVE, session_id=4, press=replace(PRESS, session_id=4)), firmware, 10, 20)
+    run(core, desired(press=replace(PRESS, id=2)), firmware, 10, 10)
+    outcome = run(core, desired(session_id=4, press=replace(PRESS, session_id=4)), firmware, 10, 20)
     assert len({order.id for order in firmware.pressed}) == 3
     assert [(result.session_id, result.id) for result in outcome.results] == [(3, 1), (3, 2), (4, 1)]
 
@@ -87,7 +93,7 @@ def test_next_id_and_next_session_press_again(core):
 def test_new_press_during_another_waits_for_it(core):
     firmware = FakeFirmware()
     run(core, PRESSING_LIVE, firmware, 2)
-    outcome = run(core, replace(LIVE, press=replace(PRESS, id=2)), firmware, 20, 2)
+    outcome = run(core, desired(press=replace(PRESS, id=2)), firmware, 20, 2)
     assert [result.id for result in outcome.results] == [1, 2]
     assert outcome.results[0].end_ns <= outcome.results[1].start_ns
 
@@ -110,7 +116,7 @@ def test_held_buttons_are_shown(core):
                                          (replace(PRESS, duration_s=60.0), "Duration 60 s")])
 def test_impossible_press_is_reported_with_the_reason_and_not_sent(core, press, word):
     firmware = FakeFirmware()
-    outcome = run(core, replace(LIVE, press=press), firmware, 5)
+    outcome = run(core, desired(press=press), firmware, 5)
     assert not firmware.pressed and [result.id for result in outcome.results] == [1]
     assert word in outcome.results[0].error.text
 
@@ -137,23 +143,23 @@ def test_firmware_that_starts_again_during_a_press_is_an_error_and_presses_no_se
     assert len(firmware.pressed) == 1 and "started again" in outcome.results[0].error.text
 
 
-@pytest.mark.parametrize("orders", [replace(PRESSING_LIVE, link_alive=False), replace(LIVE, press=PressOrder())])
-def test_nothing_is_pressed_without_a_live_order(core, orders):
+@pytest.mark.parametrize("inputs", [desired(PRESSING_LIVE, link_alive=False), desired(press=NO_PRESS)])
+def test_nothing_is_pressed_without_a_live_order(core, inputs):
     firmware = FakeFirmware()
-    run(core, orders, firmware, 5)
+    run(core, inputs, firmware, 5)
     assert not firmware.pressed
 
 
 def test_lift_follows_the_live_order_even_while_the_robot_is_stopped(core):
     firmware = FakeFirmware()
-    outcome = run(core, replace(LIVE, stop=True, key_height_m=1.0), firmware, 1)
+    outcome = run(core, desired(stop=True, key_height_m=1.0), firmware, 1)
     assert outcome.lift_height_m == pytest.approx(0.65)
-    dead = run(core, replace(LIVE, link_alive=False, key_height_m=1.0), firmware, 1)
+    dead = run(core, desired(link_alive=False, key_height_m=1.0), firmware, 1)
     assert math.isnan(dead.lift_height_m)
 
 
 def test_height_out_of_range_holds_the_lift_and_says_why(core):
-    outcome = run(core, replace(LIVE, key_height_m=2.0), FakeFirmware(), 1)
+    outcome = run(core, desired(key_height_m=2.0), FakeFirmware(), 1)
     assert math.isnan(outcome.lift_height_m) and "2 m" in outcome.message.text and outcome.alive
 
 
@@ -178,34 +184,34 @@ def test_fault_of_the_firmware_is_a_sentence(core):
     assert core.step(LIVE, FirmwareReport(START, fault=1), START).message.text == "The lift is jammed."
 
 
-@pytest.mark.parametrize("orders, led", [
-    (Orders(), Led.STARTING),
-    (Orders(mode=READY), Led.READY),
+@pytest.mark.parametrize("inputs, led", [
+    (Inputs(), Led.STARTING),
+    (Inputs(mode=READY), Led.READY),
     (replace(LIVE, mode=3), Led.MAPPING),
     (replace(LIVE, has_goal=True), Led.MOVING),
     (replace(LIVE, has_goal=True, backs_unseen=True), Led.WARNING),
     (replace(LIVE, mode=FAULT, backs_unseen=True), Led.ERROR),
     (LIVE, Led.READY),
-    (replace(LIVE, stop=True), Led.PAUSED),
-    (replace(LIVE, link_alive=False, stop=True), Led.LINK_LOST),
+    (desired(stop=True), Led.PAUSED),
+    (desired(link_alive=False, stop=True), Led.LINK_LOST),
     (replace(LIVE, mode=FAULT), Led.ERROR),
 ])
-def test_leds_show_what_the_robot_does(core, orders, led):
-    assert core.step(orders, FirmwareReport(START), START).led is led
+def test_leds_show_what_the_robot_does(core, inputs, led):
+    assert core.step(inputs, FirmwareReport(START), START).led is led
 
 
 @pytest.mark.parametrize("rate_mps, wanted_m", [(0.1, 0.43), (-0.1, 0.37)])
 def test_manual_controller_moves_the_lift_from_where_it_is_though_the_operator_wants_another_height(
         core, rate_mps, wanted_m):
     report = FirmwareReport(START, lift_height_m=0.4)
-    orders = replace(LIVE, key_height_m=1.5, manual_lift_mps=rate_mps)
-    assert core.step(orders, report, START).lift_height_m == pytest.approx(wanted_m)
+    inputs = replace(desired(key_height_m=1.5), manual_lift_mps=rate_mps)
+    assert core.step(inputs, report, START).lift_height_m == pytest.approx(wanted_m)
 
 
 def test_manual_controller_does_not_move_the_lift_beyond_its_stops(core):
-    orders = Orders(manual_lift_mps=0.5)
-    assert core.step(orders, FirmwareReport(START, lift_height_m=1.19), START).lift_height_m == pytest.approx(1.2)
-    assert core.step(replace(orders, manual_lift_mps=-0.5), FirmwareReport(START), START).lift_height_m == 0.0
+    inputs = Inputs(manual_lift_mps=0.5)
+    assert core.step(inputs, FirmwareReport(START, lift_height_m=1.19), START).lift_height_m == pytest.approx(1.2)
+    assert core.step(replace(inputs, manual_lift_mps=-0.5), FirmwareReport(START), START).lift_height_m == 0.0
 
 
 CALIBRATING = FirmwareReport(START, lift_height_m=0.3, is_calibrating=True)
@@ -213,15 +219,15 @@ CALIBRATING = FirmwareReport(START, lift_height_m=0.3, is_calibrating=True)
 
 @pytest.mark.parametrize("is_under_way", [False, True])
 def test_calibration_goes_on_while_its_person_is_heard_and_nobody_else_is_in_control(core, is_under_way):
-    outcome = core.step(Orders(calibrates=True), replace(CALIBRATING, is_calibrating=is_under_way), START)
+    outcome = core.step(Inputs(calibrates=True), replace(CALIBRATING, is_calibrating=is_under_way), START)
     assert outcome.lift_height_m == 0.3
 
 
-@pytest.mark.parametrize("orders, word", [
-    (Orders(), "calibrate_lift is silent"),
-    (replace(LIVE, calibrates=True, key_height_m=0.8), "in control"),
-    (Orders(calibrates=True, manual_lift_mps=0.1), "in control")])
-def test_calibration_is_ended_when_its_person_is_silent_or_another_is_in_control(core, orders, word):
-    outcome = core.step(orders, CALIBRATING, START)
+@pytest.mark.parametrize("inputs, word", [
+    (Inputs(), "calibrate_lift is silent"),
+    (replace(desired(key_height_m=0.8), calibrates=True), "in control"),
+    (Inputs(calibrates=True, manual_lift_mps=0.1), "in control")])
+def test_calibration_is_ended_when_its_person_is_silent_or_another_is_in_control(core, inputs, word):
+    outcome = core.step(inputs, CALIBRATING, START)
     assert math.isnan(outcome.lift_height_m)
     assert word in outcome.message.text

@@ -4,14 +4,16 @@ from typing import Any, Dict, Optional
 
 import rospy
 
+from mtr_core.conversions import desired_state_from, goal_report_from, waypoint_from, waypoint_message
 from mtr_core.problems import NO_PROBLEM, Problem, messages_of, problem_of
-from mtr_core.states import CarState, Check, Result
-from mtr_msgs.msg import CarCheck, CarEstimate, DesiredState, MotionLock, MotionStatus, RobotMode, Waypoint
+from mtr_core.requests import DesiredState
+from mtr_core.states import CarState, Check
+from mtr_msgs.msg import CarCheck, CarEstimate, MotionLock, RobotMode
 from mtr_msgs.msg import Problem as ProblemMessage
 
 from . import problems
 from .core import Decision
-from .observation import Car, CheckReport, Desired, Motion, Observation, Part, Place
+from .observation import Car, CheckReport, Observation, Part
 
 OWNER = "state_machine"
 NS = 1e-9
@@ -23,23 +25,17 @@ def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], 
     age_s = {part: (tick_ns - message.header.stamp.to_nsec()) * NS for part, message in arrived.items()}
     complaint = {part: complaint_of(arrived[part]) for part, complaint_of in COMPLAINTS.items() if part in arrived}
     return Observation(
-        desired=desired(arrived.get(Part.DISPATCHER, DesiredState(stop=True))),
+        desired=desired_state_from(arrived[Part.DISPATCHER]) if Part.DISPATCHER in arrived else DesiredState(),
         car=car(arrived.get(Part.CAR_LOCATOR, CarEstimate())),
         check=check_report(check or CarCheck()),
         map_revision=arrived[Part.LOCALIZATION].map_revision if Part.LOCALIZATION in arrived else 0,
-        motion=motion(arrived.get(Part.MOTION_PLANNER, MotionStatus())),
+        motion=goal_report_from(arrived.get(Part.MOTION_PLANNER)),
         age_s=age_s, complaint=complaint)
-
-
-def desired(message: DesiredState) -> Desired:
-    """What the Operator wants."""
-    return Desired(message.session_id, message.link_alive, message.stop, place(message.waypoint),
-                   message.max_speed_mps, message.map_car_id, message.check_car_id)
 
 
 def car(message: CarEstimate) -> Car:
     """The Car locator's state."""
-    return Car(CarState(message.state), place(message.next_waypoint), message.map_car_id, _problem(message))
+    return Car(CarState(message.state), waypoint_from(message.next_waypoint), message.map_car_id, _problem(message))
 
 
 def check_report(message: CarCheck) -> CheckReport:
@@ -47,22 +43,12 @@ def check_report(message: CarCheck) -> CheckReport:
     return CheckReport(message.id, Check(message.state), _problem(message))
 
 
-def motion(message: MotionStatus) -> Motion:
-    """The planner's report."""
-    return Motion(message.goal_id, Result(message.result), _problem(message))
-
-
-def place(message: Waypoint) -> Place:
-    """A waypoint as plain data."""
-    return Place(message.id, message.frame_id, message.x, message.y, message.heading, message.direction)
-
-
 def mode_message(decision: Decision, stamp: rospy.Time) -> RobotMode:
     """Mode and goal, for the other nodes."""
     goal = decision.goal
     message = RobotMode(
         mode=decision.state.value, max_speed_mps=decision.max_speed_mps, mapping=decision.mapping,
-        goal=Waypoint(goal.id, goal.frame_id, goal.x, goal.y, goal.heading, goal.direction),
+        goal=waypoint_message(goal.waypoint), goal_attempt=goal.attempt,
         map_car_id=decision.map_car_id, session_id=decision.session_id, waypoint_id=decision.waypoint_id,
         waypoint_result=decision.waypoint_result.value, message=decision.message.text,
         problems=messages_of(decision.message, ProblemMessage),

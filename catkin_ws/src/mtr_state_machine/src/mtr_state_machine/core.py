@@ -4,11 +4,12 @@ from dataclasses import dataclass
 from typing import Hashable, Optional, Tuple
 
 from mtr_core.problems import NO_PROBLEM, Problem
+from mtr_core.requests import NO_GOAL, Goal, Waypoint
 from mtr_core.states import CarState, Check, Result, State
 
 from . import problems
-from .goals import NO_GOAL, Goals, WaypointResult
-from .observation import Observation, Part, Place
+from .goals import Goals, WaypointResult
+from .observation import Observation, Part
 from .parameters import Parameters
 from .table import AGAIN, Event, StateTable
 
@@ -25,7 +26,7 @@ class Decision:
     """What follows from an observation; lock_reason is no problem when the robot may move."""
 
     state: State
-    goal: Place
+    goal: Goal
     max_speed_mps: float
     mapping: bool
     map_car_id: int
@@ -170,18 +171,18 @@ class StateMachine:
         following = self.state is State.FOLLOWING_WAYPOINT
         self._waypoint.update(self._goals.goal if following else NO_GOAL, seen.motion)
 
-    def _wanted(self, seen: Observation) -> Optional[Tuple[Hashable, Place]]:
-        """Where the robot shall go, under a key that tells one order from another."""
-        desired, place = seen.desired, seen.car.next_waypoint
+    def _wanted(self, seen: Observation) -> Optional[Tuple[Waypoint, Hashable]]:
+        """Where the robot shall go, and what for; None to stand still."""
+        desired, of_locator = seen.desired, seen.car.next_waypoint
         if self.state is State.FOLLOWING_WAYPOINT and desired.waypoint.id:
-            return _waypoint_key(seen), desired.waypoint
-        if not place.id:
+            return desired.waypoint, desired.session_id
+        if not of_locator.id:
             return None
         if self.state is State.MAPPING_CAR and seen.car.state is CarState.COLLECTING:
             ordered = desired.waypoint.id or desired.map_car_id
-            return (("mapping", self._map_car_id, place.id), place) if ordered else None
+            return (of_locator, ("mapping", self._map_car_id)) if ordered else None
         if self.state is State.CHECKING_CAR and desired.check_car_id == self._check_car_id:
-            return ("checking", self._check_car_id, place.id), place
+            return of_locator, ("checking", self._check_car_id)
         return None
 
     def _decision(self, seen: Observation, problem: Problem) -> Decision:
@@ -196,8 +197,7 @@ class StateMachine:
             return problems.WAITS_FOR_WAYPOINT()
         if self.state is State.FOLLOWING_WAYPOINT:
             return self._waypoint.message if self._waypoint.result in UNWELCOME else NO_PROBLEM
-        goal_id = self._goals.goal.id
-        if goal_id and seen.motion.goal_id == goal_id and seen.motion.result in UNWELCOME:
+        if seen.motion.is_about(self._goals.goal) and seen.motion.result in UNWELCOME:
             return seen.motion.message
         if self.state is State.CHECKING_CAR:
             return seen.check.message if seen.check.id == self._check_car_id else problems.CHECKS_CAR()

@@ -1,37 +1,34 @@
-"""Goals for the motion planner, and what came of the Operator's waypoint."""
+"""Goals for the motion planner, and what became of the Operator's waypoint."""
 # SPDX-License-Identifier: Apache-2.0
-from dataclasses import replace
 from typing import Hashable, Optional
 
 from mtr_core.problems import NO_PROBLEM
+from mtr_core.requests import NO_GOAL, Goal, GoalReport, Waypoint
 from mtr_core.states import Result
-
-from .observation import Motion, Place
-
-NO_GOAL = Place()
 
 
 class Goals:
-    """Gives each order to move a goal id of its own, whatever session or mapping it comes from.
+    """Makes goals of waypoints: each time that one is taken up it is a new goal.
 
     Attributes:
-        goal: the present goal, id 0 for none.
+        goal: the present goal, NO_GOAL to stand still.
     """
 
     def __init__(self) -> None:
         self.goal = NO_GOAL
-        self._count = 0
-        self._key: Optional[Hashable] = None
+        self._attempts = 0
+        self._wanted: Optional[Hashable] = None
 
-    def pursue(self, key: Hashable, place: Place) -> None:
-        """Make place the goal; a key that differs from the one pursued before is a new goal."""
-        if key != self._key:
-            self._count += 1
-            self._key, self.goal = key, replace(place, id=self._count)
+    def pursue(self, waypoint: Waypoint, purpose: Hashable) -> None:
+        """Make the waypoint the goal; the same one for another purpose is taken up anew."""
+        wanted = (waypoint.requester, waypoint.id, purpose)
+        if wanted != self._wanted:
+            self._attempts += 1
+            self._wanted, self.goal = wanted, Goal(waypoint, self._attempts)
 
     def pause(self) -> None:
-        """Stand still; what is pursued next is a new goal, even at the same place."""
-        self._key, self.goal = None, NO_GOAL
+        """Stand still; what is pursued next is a new goal, even at the same waypoint."""
+        self._wanted, self.goal = None, NO_GOAL
 
 
 class WaypointResult:
@@ -61,11 +58,11 @@ class WaypointResult:
         if self.waypoint_id:
             self.result, self.message = Result.PENDING, NO_PROBLEM
 
-    def update(self, goal: Place, motion: Motion) -> None:
+    def update(self, goal: Goal, motion: GoalReport) -> None:
         """Take the planner's report on the goal that stands for the waypoint."""
         if self.result in (Result.IDLE, Result.REACHED):
             return
-        if goal.id and motion.goal_id == goal.id and motion.result is not Result.IDLE:
+        if motion.is_about(goal) and motion.result is not Result.IDLE:
             self.result, self.message = motion.result, motion.message
         else:
             self.result, self.message = Result.PENDING, NO_PROBLEM

@@ -6,6 +6,7 @@ import rospy
 
 from mtr_core import names, schedule
 from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
+from mtr_core.requests import NO_GOAL_ID, Goal, GoalId
 from mtr_core.states import State
 from mtr_msgs.msg import (
     CarCheck,
@@ -30,7 +31,7 @@ class StateMachineNode:
 
     def __init__(self, parameters: Parameters):
         self._core = StateMachine(parameters)
-        self._logged: Tuple[Optional[State], str, int] = (None, "", 0)
+        self._logged: Tuple[Optional[State], str, GoalId] = (None, "", NO_GOAL_ID)
         self._inputs = {
             Part.DISPATCHER: TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER),
             Part.LOCALIZATION: TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0),
@@ -64,9 +65,14 @@ class StateMachineNode:
             log = rospy.logwarn if decision.state is State.FAULT else rospy.loginfo
             log("%s. %s", decision.state.name, decision.message)
         elif now != self._logged:
-            goal = decision.goal
-            rospy.loginfo("Goal %d: %.2f %.2f %.2f in %s", goal.id, goal.x, goal.y, goal.heading, goal.frame_id)
+            self._log_goal(decision.goal)
         self._logged = now
+
+    @staticmethod
+    def _log_goal(goal: Goal) -> None:
+        waypoint, pose = goal.waypoint, goal.waypoint.pose
+        rospy.loginfo("Goal %d of %s: %.2f %.2f %.2f in %s", waypoint.id, waypoint.requester or "nobody", pose.x,
+                      pose.y, pose.heading, waypoint.frame)
 
 
 def main() -> int:

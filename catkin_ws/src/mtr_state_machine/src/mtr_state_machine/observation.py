@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 from typing import Dict
 
 from mtr_core.problems import NO_PROBLEM, Problem
-from mtr_core.states import CarState, Check, Result
+from mtr_core.requests import NO_WAYPOINT, DesiredState, GoalReport, Waypoint
+from mtr_core.states import CarState, Check
 
 from . import problems
 
@@ -22,31 +23,6 @@ class Part(enum.Enum):
 
 
 @dataclass(frozen=True)
-class Place:
-    """A pose of base_link to reach; id 0: none. m and rad; direction as in the message Waypoint."""
-
-    id: int = 0
-    frame_id: str = "car"
-    x: float = 0.0
-    y: float = 0.0
-    heading: float = 0.0
-    direction: int = 0
-
-
-@dataclass(frozen=True)
-class Desired:
-    """What the Operator wants."""
-
-    session_id: int = 0
-    link_alive: bool = False
-    stop: bool = True
-    waypoint: Place = Place()
-    max_speed_mps: float = 0.0
-    map_car_id: int = 0
-    check_car_id: int = 0
-
-
-@dataclass(frozen=True)
 class CheckReport:
     """How the Car locator's self-check stands; id 0: none yet."""
 
@@ -60,17 +36,8 @@ class Car:
     """The Car locator's estimate, as far as it matters here."""
 
     state: CarState = CarState.UNKNOWN
-    next_waypoint: Place = Place(frame_id="map")
+    next_waypoint: Waypoint = NO_WAYPOINT
     map_car_id: int = 0
-    message: Problem = NO_PROBLEM
-
-
-@dataclass(frozen=True)
-class Motion:
-    """The motion planner's report."""
-
-    goal_id: int = 0
-    result: Result = Result.IDLE
     message: Problem = NO_PROBLEM
 
 
@@ -84,11 +51,11 @@ class Observation:
         complaint: of a part that reports but is not well, e.g. a localization that is lost.
     """
 
-    desired: Desired = Desired()
+    desired: DesiredState = DesiredState()
     car: Car = Car()
     check: CheckReport = CheckReport()
     map_revision: int = 0
-    motion: Motion = Motion()
+    motion: GoalReport = GoalReport()
     age_s: Dict[Part, float] = field(default_factory=dict)
     complaint: Dict[Part, Problem] = field(default_factory=dict)
 

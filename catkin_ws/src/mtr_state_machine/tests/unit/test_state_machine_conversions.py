@@ -3,16 +3,21 @@
 import genpy
 import pytest
 
+from mtr_core.conversions import waypoint_message
 from mtr_core.problems import Problem
+from mtr_core.requests import CAR_LOCATOR, Goal, GoalId, GoalReport, Waypoint
+from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Check, Result, State
-from mtr_msgs.msg import CarCheck, CarEstimate, DesiredState, LocalizedPose, MotionStatus, PeripheralsState, Waypoint
+from mtr_msgs.msg import CarCheck, CarEstimate, DesiredState, LocalizedPose, MotionStatus, PeripheralsState
 from mtr_msgs.msg import Problem as ProblemMessage
 from mtr_state_machine.conversions import lock_message, mode_message, observation
 from mtr_state_machine.core import Decision
-from mtr_state_machine.observation import Part, Place
+from mtr_state_machine.observation import Part
 
 LOST = Problem("state_machine.lost", "Lost.")
 TICK_NS = 10_020_000_000
+OPERATORS = Waypoint(4, "application/3", "car", Pose2(1.0, 2.0, 3.0), 1)
+LOCATORS = Waypoint(2, CAR_LOCATOR, "map", Pose2(5.0, 6.0, 0.0))
 
 
 def stamped(message, time_ns=TICK_NS - 20_000_000):
@@ -22,18 +27,19 @@ def stamped(message, time_ns=TICK_NS - 20_000_000):
 
 def test_messages_become_an_observation():
     seen = observation({
-        Part.DISPATCHER: stamped(DesiredState(session_id=3, link_alive=True, waypoint=Waypoint(4, "car", 1, 2, 3, 1),
+        Part.DISPATCHER: stamped(DesiredState(session_id=3, link_alive=True, waypoint=waypoint_message(OPERATORS),
                                               max_speed_mps=0.6, map_car_id=7, check_car_id=6)),
-        Part.CAR_LOCATOR: stamped(CarEstimate(state=1, next_waypoint=Waypoint(2, "map", 5, 6, 0, 0), map_car_id=7)),
-        Part.MOTION_PLANNER: stamped(MotionStatus(goal_id=8, result=4, message="Blocked.")),
+        Part.CAR_LOCATOR: stamped(CarEstimate(state=1, next_waypoint=waypoint_message(LOCATORS), map_car_id=7)),
+        Part.MOTION_PLANNER: stamped(MotionStatus(requester=CAR_LOCATOR, goal_id=2, goal_attempt=8, result=4,
+                                                  message="Blocked.")),
         Part.LOCALIZATION: stamped(LocalizedPose(valid=True, map_revision=3)),
         Part.PERIPHERALS: None}, CarCheck(id=6, state=CarCheck.FAILED, message="Moved."), TICK_NS)
     assert (seen.check.id, seen.check.state, seen.check.message.text) == (6, Check.FAILED, "Moved.")
     assert (seen.map_revision, seen.desired.check_car_id) == (3, 6)
     assert (seen.desired.session_id, seen.desired.link_alive, seen.desired.stop) == (3, True, False)
-    assert seen.desired.waypoint == Place(4, "car", 1, 2, 3, 1) and seen.desired.map_car_id == 7
-    assert seen.car.state is CarState.COLLECTING and seen.car.next_waypoint.frame_id == "map"
-    assert (seen.motion.goal_id, seen.motion.result) == (8, Result.BLOCKED)
+    assert seen.desired.waypoint == OPERATORS and seen.desired.map_car_id == 7
+    assert seen.car.state is CarState.COLLECTING and seen.car.next_waypoint == LOCATORS
+    assert seen.motion == GoalReport(GoalId(CAR_LOCATOR, 2, 8), Result.BLOCKED, Problem(text="Blocked."))
     assert seen.age_s[Part.DISPATCHER] == pytest.approx(0.02) and Part.PERIPHERALS not in seen.age_s
     assert not seen.part_problem(Part.LOCALIZATION, 0.5)
 
@@ -58,10 +64,10 @@ def test_localization_that_says_nothing_is_lost_without_a_cause():
 
 
 def test_decision_becomes_mode_and_lock():
-    decision = Decision(State.FAULT, Place(3, "map", 1.0, 2.0, 0.5, 1), 0.7, False, 4, 5, 6, Result.REFUSED,
+    decision = Decision(State.FAULT, Goal(LOCATORS, 3), 0.7, False, 4, 5, 6, Result.REFUSED,
                         LOST, LOST, 8)
     mode, lock = mode_message(decision, genpy.Time(9)), lock_message(decision, genpy.Time(9))
-    assert (mode.mode, mode.goal.id, mode.goal.frame_id, mode.goal.direction) == (mode.FAULT, 3, "map", 1)
+    assert (mode.mode, mode.goal, mode.goal_attempt) == (mode.FAULT, waypoint_message(LOCATORS), 3)
     assert (mode.max_speed_mps, mode.mapping, mode.map_car_id, mode.session_id) == (0.7, False, 4, 5)
     assert (mode.waypoint_id, mode.waypoint_result, mode.message, mode.check_car_id) == (6, 3, "Lost.", 8)
     assert (lock.owner, lock.engaged, lock.reason) == ("state_machine", True, "Lost.")

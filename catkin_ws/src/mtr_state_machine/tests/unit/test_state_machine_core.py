@@ -5,18 +5,20 @@ from dataclasses import replace
 import pytest
 
 from mtr_core.problems import NO_PROBLEM, Problem
+from mtr_core.requests import CAR_LOCATOR, NO_GOAL, NO_WAYPOINT, DesiredState, GoalReport, Waypoint
+from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Check, Result, State
 from mtr_state_machine.core import StateMachine
-from mtr_state_machine.observation import Car, CheckReport, Desired, Motion, Observation, Part, Place
+from mtr_state_machine.observation import Car, CheckReport, Observation, Part
 from mtr_state_machine.parameters import Parameters
 
 ALL_WELL = {part: 0.1 for part in Part}
-WAYPOINT = Place(7, "car", 3.0, 1.0, 0.5, 2)
-MAP_PLACE = Place(1, "map", 5.0, 5.0, 0.0)
-WANTS = Desired(session_id=9, link_alive=True, stop=False, waypoint=WAYPOINT, max_speed_mps=0.8)
+WAYPOINT = Waypoint(7, "application/9", "car", Pose2(3.0, 1.0, 0.5), 2)
+MAP_PLACE = Waypoint(1, CAR_LOCATOR, "map", Pose2(5.0, 5.0, 0.0))
+WANTS = DesiredState(session_id=9, link_alive=True, stop=False, waypoint=WAYPOINT, max_speed_mps=0.8)
 COLLECTING = Car(CarState.COLLECTING, MAP_PLACE)
 LOCATED = Car(CarState.LOCATED)
-CHECK_PLACE = Place(5, "map", 6.0, 1.0, 2.0)
+CHECK_PLACE = Waypoint(5, CAR_LOCATOR, "map", Pose2(6.0, 1.0, 2.0))
 LOOKING = replace(LOCATED, next_waypoint=CHECK_PLACE)
 ORDERS_CHECK = replace(WANTS, check_car_id=4)
 PASSED = CheckReport(4, Check.PASSED, Problem(text="Passed."))
@@ -55,18 +57,18 @@ def checking(following):
 
 
 def reported(decision, result, message=NO_PROBLEM):
-    return Motion(decision.goal.id, result, message)
+    return GoalReport(decision.goal.id, result, message)
 
 
 @pytest.mark.parametrize("part", Part)
 def test_starting_waits_for_each_part(machine, part):
     decision = machine.step(seen(age_s={other: 0.1 for other in Part if other is not part}))
-    assert decision.state is State.STARTING and decision.goal.id == 0
+    assert decision.state is State.STARTING and decision.goal == NO_GOAL
     assert part.value in decision.message.text and decision.lock_reason == decision.message
 
 
 def test_ready_waits_for_a_waypoint(machine):
-    decision = machine.step(seen(desired=replace(WANTS, waypoint=Place())))
+    decision = machine.step(seen(desired=replace(WANTS, waypoint=NO_WAYPOINT)))
     assert decision.state is State.READY_TO_MAP_CAR and not decision.mapping and not decision.lock_reason
 
 
@@ -78,7 +80,7 @@ def test_stopped_robot_does_not_begin_to_map(machine, change):
 def test_first_waypoint_starts_mapping_and_stays_pending(machine):
     decision = machine.step(seen(car=COLLECTING))
     assert decision.state is State.MAPPING_CAR and decision.mapping
-    assert (decision.goal.frame_id, decision.goal.x, decision.max_speed_mps) == ("map", 5.0, 0.8)
+    assert (decision.goal.waypoint, decision.max_speed_mps) == (MAP_PLACE, 0.8)
     assert (decision.session_id, decision.waypoint_id, decision.waypoint_result) == (9, 7, Result.PENDING)
 
 
@@ -91,21 +93,21 @@ def test_result_of_a_mapping_goal_is_not_the_waypoints(mapping):
 def test_each_place_of_the_locator_is_a_new_goal(mapping):
     first = mapping.step(seen(car=COLLECTING)).goal
     assert mapping.step(seen(car=COLLECTING)).goal == first
-    second = mapping.step(seen(car=replace(COLLECTING, next_waypoint=replace(MAP_PLACE, id=2, x=6.0)))).goal
-    assert second.id not in (0, first.id) and second.x == 6.0
+    second = mapping.step(seen(car=replace(COLLECTING, next_waypoint=replace(MAP_PLACE, id=2)))).goal
+    assert second.id not in (NO_GOAL.id, first.id) and second.waypoint.id == 2
 
 
 def test_stop_pauses_mapping_and_resuming_is_a_new_goal(mapping):
     first = mapping.step(seen(car=COLLECTING)).goal
     paused = mapping.step(seen(car=COLLECTING, desired=replace(WANTS, stop=True)))
-    assert paused.state is State.MAPPING_CAR and paused.goal.id == 0 and not paused.lock_reason
+    assert paused.state is State.MAPPING_CAR and paused.goal == NO_GOAL and not paused.lock_reason
     resumed = mapping.step(seen(car=COLLECTING)).goal
-    assert resumed.id not in (0, first.id) and resumed.x == first.x
+    assert resumed.id not in (NO_GOAL.id, first.id) and resumed.waypoint == first.waypoint
 
 
 def test_located_car_leads_to_the_waypoint(mapping):
     goal = mapping.step(seen(car=LOCATED)).goal
-    assert (goal.frame_id, goal.x, goal.y, goal.heading, goal.direction) == ("car", 3.0, 1.0, 0.5, 2)
+    assert goal.waypoint == WAYPOINT
 
 
 @pytest.mark.parametrize("result", [Result.PENDING, Result.REFUSED, Result.BLOCKED])
@@ -120,7 +122,7 @@ def test_result_follows_the_planner(following, result):
 
 def test_report_on_another_goal_counts_for_nothing(following):
     decision = following.step(seen(car=LOCATED))
-    old = Motion(decision.goal.id - 1, Result.REACHED)
+    old = GoalReport(replace(decision.goal, attempt=decision.goal.attempt - 1).id, Result.REACHED)
     assert following.step(seen(car=LOCATED, motion=old)).waypoint_result is Result.PENDING
 
 
@@ -138,16 +140,16 @@ def test_reached_stays_until_the_next_waypoint(following):
 def test_same_waypoint_id_of_another_session_is_another_goal(following):
     first = following.step(seen(car=LOCATED))
     second = following.step(seen(car=LOCATED, desired=replace(WANTS, session_id=10)))
-    assert second.goal.id not in (0, first.goal.id) and second.session_id == 10
+    assert second.goal.id not in (NO_GOAL.id, first.goal.id) and second.session_id == 10
 
 
-@pytest.mark.parametrize("change", [{"stop": True}, {"link_alive": False, "stop": True}, {"waypoint": Place()}])
+@pytest.mark.parametrize("change", [{"stop": True}, {"link_alive": False, "stop": True}, {"waypoint": NO_WAYPOINT}])
 def test_without_a_live_order_there_is_no_goal(following, change):
-    assert following.step(seen(car=LOCATED, desired=replace(WANTS, **change))).goal.id == 0
+    assert following.step(seen(car=LOCATED, desired=replace(WANTS, **change))).goal == NO_GOAL
 
 
 def test_waypoint_withdrawn_by_a_live_session_has_no_result(following):
-    decision = following.step(seen(car=LOCATED, desired=replace(WANTS, waypoint=Place())))
+    decision = following.step(seen(car=LOCATED, desired=replace(WANTS, waypoint=NO_WAYPOINT)))
     assert (decision.waypoint_id, decision.waypoint_result) == (0, Result.IDLE)
 
 
@@ -163,15 +165,16 @@ def test_mapping_order_maps_again_until_its_own_answer(following, order_stopped)
 
 
 def test_mapping_order_maps_without_a_waypoint(machine):
-    order = replace(WANTS, waypoint=Place(), map_car_id=1)
+    order = replace(WANTS, waypoint=NO_WAYPOINT, map_car_id=1)
     decision = machine.step(seen(desired=order, car=replace(COLLECTING)))
-    assert decision.state is State.MAPPING_CAR and decision.goal.frame_id == "map"
+    assert decision.state is State.MAPPING_CAR and decision.goal.waypoint.frame == "map"
 
 
 def test_failed_mapping_is_a_fault_until_the_next_order(mapping):
-    failed = Car(CarState.FAILED, message=Problem(text="No Car was found."))
+    not_found = Problem(text="No Car was found.")
+    failed = Car(CarState.FAILED, message=not_found)
     decision = mapping.step(seen(car=failed))
-    assert (decision.state, decision.message, decision.goal.id) == (State.FAULT, Problem(text="No Car was found."), 0)
+    assert (decision.state, decision.message, decision.goal) == (State.FAULT, not_found, NO_GOAL)
     assert mapping.step(seen(car=failed)).state is State.FAULT
     decision = mapping.step(seen(car=failed, desired=replace(WANTS, map_car_id=2)))
     assert decision.state is State.MAPPING_CAR and not decision.lock_reason
@@ -193,7 +196,7 @@ def test_new_waypoint_tries_a_failed_mapping_again(mapping, change):
 @pytest.mark.parametrize("before, car", [(State.READY_TO_MAP_CAR, Car()), (State.MAPPING_CAR, COLLECTING),
                                          (State.FOLLOWING_WAYPOINT, LOCATED), (State.CHECKING_CAR, LOOKING)])
 def test_failed_part_is_a_fault_with_its_sentence_and_ends_where_it_began(machine, part, trouble, before, car):
-    desired = replace(WANTS, waypoint=Place()) if before is State.READY_TO_MAP_CAR else WANTS
+    desired = replace(WANTS, waypoint=NO_WAYPOINT) if before is State.READY_TO_MAP_CAR else WANTS
     desired = ORDERS_CHECK if before is State.CHECKING_CAR else desired
     machine.step(seen(desired=desired, car=Car() if before is State.READY_TO_MAP_CAR else COLLECTING))
     well = seen(desired=desired, car=car)
@@ -201,7 +204,7 @@ def test_failed_part_is_a_fault_with_its_sentence_and_ends_where_it_began(machin
     silent, unwell = {**ALL_WELL, part: 0.51}, {part: Problem(text=f"The {part.value} is unwell.")}
     ill = replace(well, age_s=silent) if trouble == "silent" else replace(well, complaint=unwell)
     decision = machine.step(ill)
-    assert decision.state is State.FAULT and decision.goal.id == 0 and not decision.mapping
+    assert decision.state is State.FAULT and decision.goal == NO_GOAL and not decision.mapping
     assert part.value in decision.message.text and decision.lock_reason == decision.message
     assert machine.step(ill).state is State.FAULT
     assert machine.step(well).state is before
@@ -223,29 +226,29 @@ def test_mapping_order_does_not_end_a_fault_of_a_part(following):
 def test_check_order_leads_to_the_places_of_the_locator(following):
     decision = following.step(seen(car=LOOKING, desired=ORDERS_CHECK))
     assert (decision.state, decision.check_car_id, decision.mapping) == (State.CHECKING_CAR, 4, False)
-    assert (decision.goal.frame_id, decision.goal.x, decision.goal.heading) == ("map", 6.0, 2.0)
+    assert decision.goal.waypoint == CHECK_PLACE
     second = following.step(seen(car=replace(LOOKING, next_waypoint=replace(CHECK_PLACE, id=6)), desired=ORDERS_CHECK))
-    assert second.goal.id not in (0, decision.goal.id)
+    assert second.goal.id not in (NO_GOAL.id, decision.goal.id)
 
 
 def test_check_needs_no_waypoint(following):
-    order = replace(ORDERS_CHECK, waypoint=Place())
-    assert following.step(seen(car=LOOKING, desired=order)).goal.frame_id == "map"
+    order = replace(ORDERS_CHECK, waypoint=NO_WAYPOINT)
+    assert following.step(seen(car=LOOKING, desired=order)).goal.waypoint.frame == "map"
 
 
 def test_check_can_be_stopped_and_resumed(checking):
     first = checking.step(seen(car=LOOKING, desired=ORDERS_CHECK)).goal
     stopped = checking.step(seen(car=LOOKING, desired=replace(ORDERS_CHECK, stop=True)))
-    assert stopped.state is State.CHECKING_CAR and stopped.goal.id == 0
+    assert stopped.state is State.CHECKING_CAR and stopped.goal == NO_GOAL
     resumed = checking.step(seen(car=LOOKING, desired=ORDERS_CHECK)).goal
-    assert resumed.id not in (0, first.id) and resumed.x == first.x
+    assert resumed.id not in (NO_GOAL.id, first.id) and resumed.waypoint == first.waypoint
 
 
 def test_passed_check_leads_back_to_the_waypoint(checking):
     running = CheckReport(4, Check.RUNNING, Problem(text="Looks."))
     assert checking.step(seen(car=LOOKING, desired=ORDERS_CHECK, check=running)).state is State.CHECKING_CAR
     decision = checking.step(seen(car=LOCATED, desired=ORDERS_CHECK, check=PASSED))
-    assert decision.state is State.FOLLOWING_WAYPOINT and decision.goal.frame_id == "car"
+    assert decision.state is State.FOLLOWING_WAYPOINT and decision.goal.waypoint.frame == "car"
     assert checking.step(seen(car=LOCATED, desired=ORDERS_CHECK, check=PASSED)).state is State.FOLLOWING_WAYPOINT
 
 

@@ -4,9 +4,11 @@ import math
 from dataclasses import dataclass
 from typing import List, Optional, Set, Tuple
 
+from mtr_core import names
+from mtr_core.requests import Goal, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
-from mtr_motion_planner.inputs import Car, Goal, Inputs, Order, RobotState
+from mtr_motion_planner.inputs import Car, Inputs, Order, RobotState
 from mtr_motion_planner.outputs import Output
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.planner import MotionPlanner
@@ -59,7 +61,7 @@ class Trial:
     def go(self, goal: Pose2, direction: Direction, speed: float) -> DrivenLeg:
         """Drive to a goal in the Car's frame; ends when the planner has settled and the robot has come to rest."""
         self._goals += 1
-        order_goal = Goal(self._goals, True, goal, direction)
+        order_goal = Goal(Waypoint(self._goals, "benchmark", names.CAR, goal, direction))
         output, poses, time_s = self._drive(order_goal, speed)
         clearance_m = math.inf
         if self._planner.site:

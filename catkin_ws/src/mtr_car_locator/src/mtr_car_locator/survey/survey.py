@@ -5,9 +5,11 @@ import enum
 from dataclasses import dataclass
 from typing import Optional, Sequence, Tuple
 
+from mtr_core import names
 from mtr_core.arrays import FloatArray
+from mtr_core.requests import CAR_LOCATOR, Waypoint
 from mtr_core.se2 import Pose2
-from mtr_core.states import Result
+from mtr_core.states import Direction, Result
 
 from ..find.errors import NotLocated
 from ..find.fit import fit_car, rough_car
@@ -51,14 +53,6 @@ class SurfaceMap:
     range_bias_m: float = 0.0
 
 
-@dataclass(frozen=True)
-class Place:
-    """Where the robot shall go; place_id grows with each new place."""
-
-    place_id: int
-    pose: Pose2
-
-
 class Survey:
     """Leads the robot round the Car, has the map adjusted, and fits the Car.
 
@@ -71,12 +65,12 @@ class Survey:
         surfels: what it was found among.
     """
 
-    def __init__(self, prior: Prior, map_id: int, first_place_id: int, parameters: LocatorParameters):
+    def __init__(self, prior: Prior, map_id: int, first_waypoint_id: int, parameters: LocatorParameters):
         self._parameters = parameters
         self._grid = SurfelGrid(prior.car.pose.x, prior.car.pose.y)
         self._way = WayRound(prior.car.pose.x, prior.car.pose.y)
         self._ring: Optional[Ring] = None
-        self._place_id = first_place_id
+        self._waypoint_id = first_waypoint_id
         self._begun_s: Optional[float] = None
         self._blocked_since_s: Optional[float] = None
         self._frozen_since_s: Optional[float] = None
@@ -93,11 +87,11 @@ class Survey:
         return MapPhase.COLLECT if self._frozen_since_s is None else MapPhase.FREEZE
 
     @property
-    def place(self) -> Optional[Place]:
+    def waypoint(self) -> Optional[Waypoint]:
         """Where the robot shall go now."""
         if self._ring is None or self._ring.is_finished:
             return None
-        return Place(self._place_id, self._ring.place(self.car))
+        return Waypoint(self._waypoint_id, CAR_LOCATOR, names.MAP, self._ring.place(self.car), Direction.FORWARD)
 
     @property
     def places_ahead(self) -> Tuple[Pose2, ...]:
@@ -105,9 +99,9 @@ class Survey:
         return self._ring.places_ahead(self.car) if self._ring else ()
 
     @property
-    def next_place_id(self) -> int:
-        """Id that no place of this survey has had."""
-        return self._place_id + 1
+    def next_waypoint_id(self) -> int:
+        """Id that no waypoint of this survey has had."""
+        return self._waypoint_id + 1
 
     @property
     def progress(self) -> str:
@@ -172,7 +166,7 @@ class Survey:
             self._begin_leg()
 
     def _begin_leg(self) -> None:
-        self._place_id += 1
+        self._waypoint_id += 1
         self._blocked_since_s = None
 
     def _fit(self, surfels: Surfels, close_up: Optional[CloseUp] = None) -> None:
