@@ -25,7 +25,7 @@ PLACEHOLDER = re.compile(r"\{[^}]*\}")
 LAYERS = ("domain", "storage", "station", "car_link")
 LINK_FILES = ("address.py", "client.py", "probe.py", "sockets.py")
 # Raised within a layer, and caught there.
-INTERNAL = ("ValueError", "TypeError")
+INTERNAL = ("LookupError", "ValueError", "TypeError")
 # Told on the command line alone, or of the substitutes.
 NOT_SHOWN = ("--continue", "of another test; choose another folder.", "parameter file", "Parameter file",
              "stands twice in the file", "'parameter: value'", "Parameter threshold", "Parameter period_s",

@@ -71,8 +71,8 @@ def _filled_in(connection: Connection, robot: Mapping[str, Any], can: Mapping[st
 
 def make_qt() -> QApplication:
     """The Qt application; there is one per process."""
-    QGuiApplication.setAttribute(Qt.AA_EnableHighDpiScaling)
-    QGuiApplication.setAttribute(Qt.AA_UseHighDpiPixmaps)
+    QGuiApplication.setAttribute(Qt.ApplicationAttribute.AA_EnableHighDpiScaling)
+    QGuiApplication.setAttribute(Qt.ApplicationAttribute.AA_UseHighDpiPixmaps)
     app = QApplication([NAME])
     app.setApplicationName(NAME)
     app.setStyle("Fusion")

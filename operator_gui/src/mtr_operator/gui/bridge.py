@@ -37,8 +37,11 @@ class Bridge(QObject):
         self.model = model
         self.mailbox = Mailbox(self._woken.emit)
         self.frames = 0
-        self._frame = QTimer(self, interval=FRAME_MS, singleShot=True)
-        self._heartbeat = QTimer(self, interval=HEARTBEAT_MS)
+        self._frame = QTimer(self)
+        self._frame.setInterval(FRAME_MS)
+        self._frame.setSingleShot(True)
+        self._heartbeat = QTimer(self)
+        self._heartbeat.setInterval(HEARTBEAT_MS)
         self._frame.timeout.connect(self.deliver)
         self._heartbeat.timeout.connect(self.deliver)
         # Emitted in another thread: queued, and handled in this one.

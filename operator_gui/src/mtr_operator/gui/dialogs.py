@@ -21,14 +21,14 @@ def ask_progress_file(parent: QWidget, title: str, start: pathlib.Path) -> pathl
 
 def show_message(parent: QWidget, title: str, sentence: str) -> None:
     """Show a sentence until the Operator has read it."""
-    QMessageBox(QMessageBox.Warning, title, sentence, QMessageBox.Ok, parent).exec_()
+    QMessageBox(QMessageBox.Icon.Warning, title, sentence, QMessageBox.StandardButton.Ok, parent).exec_()
 
 
 def confirm(parent: QWidget, title: str, question: str, answers: tuple[str, str]) -> bool:
     """True when the Operator chooses the first answer; the second one is the safe one."""
-    box = QMessageBox(QMessageBox.Question, title, question, QMessageBox.NoButton, parent)
-    yes = box.addButton(answers[0], QMessageBox.AcceptRole)
-    no = box.addButton(answers[1], QMessageBox.RejectRole)
+    box = QMessageBox(QMessageBox.Icon.Question, title, question, QMessageBox.StandardButton.NoButton, parent)
+    yes = box.addButton(answers[0], QMessageBox.ButtonRole.AcceptRole)
+    no = box.addButton(answers[1], QMessageBox.ButtonRole.RejectRole)
     box.setDefaultButton(no)
     box.setEscapeButton(no)
     box.exec_()

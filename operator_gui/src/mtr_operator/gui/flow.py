@@ -88,7 +88,7 @@ class Flow(QObject):
     def use_can(self, choice: CanChoice | None) -> None:
         """Change the CAN adapter; can_opened or can_refused follows."""
         self._wanted_can = choice
-        self._worker.use_can(choice)
+        self._links.use_can(choice)
 
     def close(self) -> bool:
         """Stop the robot and disconnect; True when that has succeeded in time."""
@@ -118,25 +118,25 @@ class Flow(QObject):
 
     def resume(self) -> None:
         """Measure what is left of the test at hand."""
-        test = self.model.test
+        test = self.model.current_test
         if self.model.results:
             note_continued(test)
         self.model.begin()
-        self._worker.run_test(test)
+        self._links.run_test(test)
 
     def stop(self) -> None:
         """Stop the robot; the line that is being measured is measured anew later."""
         self.model.phase = Phase.STOPPING
-        self._worker.stop_test()
+        self._links.stop_test()
 
     def save_progress(self) -> None:
         """Write the progress now; saved or folder_wanted follows."""
-        self._worker.save(self.model.test)
+        self._links.save(self.model.current_test)
 
     def use_progress_folder(self, folder: pathlib.Path) -> None:
         """Write the progress of this and later tests there."""
         self.store.change(dataclasses.replace(self.store.settings, progress_folder=folder))
-        test = self.model.test
+        test = self.model.current_test
         test.path = folder / test.path.name
         self.save_progress()
 
@@ -163,17 +163,29 @@ class Flow(QObject):
         except OperatorError:
             return None
 
+    def open_unfinished(self) -> None:
+        """Take it up."""
+        path = self.store.settings.unfinished
+        if path is not None:
+            self.open(path)
+
     def dismiss_unfinished(self) -> None:
         """Offer it no more; its file stays."""
         self._forget_unfinished()
 
     def calibrate(self, request: CalibrationRequest) -> None:
         """Have the robot try something."""
-        self._worker.calibrate(request)
+        self._links.calibrate(request)
 
     def request_car(self, request: CarRequest) -> None:
         """Have the robot check or map the Car, or stop doing so."""
-        self._worker.request_car(request)
+        self._links.request_car(request)
+
+    @property
+    def _links(self) -> Worker:
+        if self._worker is None:
+            raise LookupError("nothing is connected yet")
+        return self._worker
 
     # Events
 
@@ -187,8 +199,8 @@ class Flow(QObject):
         elif isinstance(event, CarLinkOpened):
             self._use_connection(dataclasses.replace(self.connection, can=self._wanted_can))
             self.can_opened.emit()
-        elif isinstance(event, LineMeasured) and self.store.settings.unfinished != self.model.test.path:
-            self.store.change(dataclasses.replace(self.store.settings, unfinished=self.model.test.path))
+        elif isinstance(event, LineMeasured) and self.store.settings.unfinished != self.model.current_test.path:
+            self.store.change(dataclasses.replace(self.store.settings, unfinished=self.model.current_test.path))
         elif isinstance(event, RunEnded):
             self._learn_end(event)
         elif isinstance(event, ProgressSaved):

@@ -28,12 +28,13 @@ class Language:
         app = QCoreApplication.instance()
         for translator in (self._translator, self._qt_translator):
             app.removeTranslator(translator)
-        system = CZECH if QLocale.system().language() == QLocale.Czech else ENGLISH
+        system = CZECH if QLocale.system().language() == QLocale.Language.Czech else ENGLISH
         self.code = system if wanted == "system" else wanted
         if self.code != ENGLISH and self._translator.load(str(FOLDER / f"mtr_operator_{self.code}.qm")):
             app.installTranslator(self._translator)
             # Names in the system's dialogs, where the installation of Qt has them.
-            if self._qt_translator.load(f"qtbase_{self.code}", QLibraryInfo.location(QLibraryInfo.TranslationsPath)):
+            folder = QLibraryInfo.location(QLibraryInfo.LibraryLocation.TranslationsPath)
+            if self._qt_translator.load(f"qtbase_{self.code}", folder):
                 app.installTranslator(self._qt_translator)
         QLocale.setDefault(QLocale(self.code))
 

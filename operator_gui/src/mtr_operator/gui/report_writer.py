@@ -5,7 +5,7 @@ from __future__ import annotations
 import pathlib
 from typing import Sequence
 
-from PyQt5.QtCore import QThread, pyqtSignal
+from PyQt5.QtCore import QObject, QThread, pyqtSignal
 
 from mtr_operator.domain.errors import OutputError
 from mtr_operator.report import results_csv
@@ -26,7 +26,7 @@ class ReportWriter(QThread):
     written = pyqtSignal(list)
     refused = pyqtSignal(str)
 
-    def __init__(self, protocol: Protocol, folder: pathlib.Path, kinds: Sequence[str], parent=None):
+    def __init__(self, protocol: Protocol, folder: pathlib.Path, kinds: Sequence[str], parent: QObject | None = None):
         super().__init__(parent)
         self._protocol = protocol
         self._folder = folder

@@ -51,7 +51,7 @@ def parameter_sentence(error: InvalidParameter, parameters_type: type[ParameterS
     return sentence
 
 
-def _in_kilometres_per_hour(match: re.Match) -> str:
+def _in_kilometres_per_hour(match: re.Match[str]) -> str:
     unit, per_si = KILOMETRES_PER_HOUR
     return with_unit(round(float(match[1]) * per_si, 3), unit)
 
@@ -65,7 +65,7 @@ def _value(text: str) -> str:
 
 
 @functools.lru_cache(maxsize=1)
-def _patterns() -> list[tuple[str, re.Pattern]]:
+def _patterns() -> list[tuple[str, re.Pattern[str]]]:
     # The one with the most fixed text says most.
     templates = sorted(application.SENTENCES, key=lambda text: -len(text.replace("{}", "")))
     return [(template, re.compile("(.+?)".join(map(re.escape, template.split("{}"))), re.DOTALL))

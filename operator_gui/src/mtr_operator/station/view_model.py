@@ -52,6 +52,13 @@ class ViewModel:
         self.outcome: Outcome | None = None
 
     @property
+    def current_test(self) -> Test:
+        """The test at hand, for what is done only while there is one."""
+        if self.test is None:
+            raise LookupError("no test is at hand")
+        return self.test
+
+    @property
     def silent_s(self) -> float:
         """Wall time since the last Status."""
         return self._clock() - self._received_s

@@ -9,6 +9,7 @@ from mtr_operator.car_link.profile import profile_names
 from mtr_operator.station.connection import DEFAULT_BITRATE_BPS, SIMULATED, CanChoice
 
 from ..theme.scale import XS, M
+from .buddy_label import BuddyLabel
 from .field import Field
 
 # The usual ones; any other interface of python-can can be typed in.
@@ -26,7 +27,7 @@ class CanForm(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.interface = QComboBox()
-        self.interface.setSizeAdjustPolicy(QComboBox.AdjustToMinimumContentsLengthWithIcon)
+        self.interface.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.interface.setMinimumContentsLength(12)
         self.interface.addItem(self.tr("None yet"), None)
         for name in _INTERFACES:
@@ -59,9 +60,7 @@ class CanForm(QWidget):
 
     @staticmethod
     def _add(layout: QVBoxLayout, title: str, box: QComboBox, hint: QLabel | None = None) -> None:
-        label = QLabel(title)
-        label.setBuddy(box)
-        label.mousePressEvent = lambda _event: box.setFocus()
+        label = BuddyLabel(title, box)
         box.setAccessibleName(title)
         group = QVBoxLayout()
         group.setSpacing(XS)
@@ -91,7 +90,7 @@ class CanForm(QWidget):
 
     def _index_of(self, interface: str | None) -> int:
         index = self.interface.findData(interface)
-        if index < 0:
+        if index < 0 and interface is not None:
             self.interface.insertItem(1, interface, interface)
             index = 1
         return index

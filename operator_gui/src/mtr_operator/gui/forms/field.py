@@ -6,6 +6,7 @@ from PyQt5.QtCore import pyqtSignal
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
 
 from ..theme.scale import XS, S
+from .buddy_label import BuddyLabel
 
 _UNIT_WIDTH = 56
 
@@ -25,15 +26,13 @@ class Field(QWidget):
         super().__init__(parent)
         self._hint = hint
         self.edit = QLineEdit()
-        self.label = QLabel(title)
-        self.label.setBuddy(self.edit)
+        self.label = BuddyLabel(title, self.edit)
         self.note = QLabel(hint)
         self.note.setWordWrap(True)
         self.note.setProperty("role", "hint")
         self.edit.setAccessibleName(f"{title}, {unit}" if unit else title)
         self.edit.setAccessibleDescription(hint)
         self.edit.textChanged.connect(self.changed)
-        self.label.mousePressEvent = lambda _event: self.edit.setFocus()
         row = QHBoxLayout()
         row.setSpacing(S)
         row.addWidget(self.edit, 1)

@@ -73,7 +73,7 @@ class ParameterForm(QWidget):
             grid.setHorizontalSpacing(L)
             grid.setVerticalSpacing(M)
             for index, name in enumerate(part):
-                grid.addWidget(self.fields[name], index // _COLUMNS, index % _COLUMNS, Qt.AlignTop)
+                grid.addWidget(self.fields[name], index // _COLUMNS, index % _COLUMNS, Qt.AlignmentFlag.AlignTop)
             for column in range(_COLUMNS):
                 grid.setColumnStretch(column, 1)
         self.more.setVisible(split < len(names))
@@ -81,7 +81,8 @@ class ParameterForm(QWidget):
         layout.setContentsMargins(0, 0, M, 0)
         layout.setSpacing(M)
         for widget in (main, *self.flags.values(), self.fault, self.more, self._rest, self.usual):
-            layout.addWidget(widget, 0, Qt.AlignLeft if isinstance(widget, QPushButton) else Qt.Alignment())
+            is_button = isinstance(widget, QPushButton)
+            layout.addWidget(widget, 0, Qt.AlignmentFlag.AlignLeft if is_button else Qt.Alignment())
         layout.addStretch(1)
 
     def _show_rest(self, is_shown: bool) -> None:
@@ -118,8 +119,9 @@ class ParameterForm(QWidget):
         self.fault.setVisible(bool(sentence))
 
     def _typed(self) -> ScenarioParameters:
-        numbers = {name: field.reading.value for name, field in self.fields.items()}
-        return self._type(**numbers, **{name: box.isChecked() for name, box in self.flags.items()})
+        values: dict[str, Any] = {name: field.reading.value for name, field in self.fields.items()}
+        values.update({name: box.isChecked() for name, box in self.flags.items()})
+        return self._type(**values)
 
     def _faulty_fields(self) -> list[ParameterField]:
         return [field for field in self.fields.values() if field.reading.fault is not None]

@@ -23,7 +23,7 @@ class HeaderBar(QWidget):
     def __init__(self, appearance: Appearance, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("header")
-        self.setAttribute(Qt.WA_StyledBackground)
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.steps = StepBar([self.tr("Welcome"), self.tr("Measurement type"), self.tr("Measurement"),
                               self.tr("Protocol")], appearance)
         self.warning = WarningSymbol(appearance)

@@ -14,7 +14,7 @@ class Popup(QFrame):
     """Closed by a click elsewhere or Escape."""
 
     def __init__(self, parent: QWidget):
-        super().__init__(parent, Qt.Popup)
+        super().__init__(parent, Qt.WindowType.Popup)
         self.setObjectName("popup")
         self._layout = QVBoxLayout(self)
         self._layout.setContentsMargins(M, M, M, M)
@@ -47,6 +47,6 @@ class Popup(QFrame):
     def _add(self, text: str, role: str) -> None:
         label = QLabel(text)
         label.setWordWrap(True)
-        label.setTextFormat(Qt.PlainText)
+        label.setTextFormat(Qt.TextFormat.PlainText)
         label.setProperty("role", role)
         self._layout.addWidget(label)

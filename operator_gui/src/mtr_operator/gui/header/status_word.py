@@ -54,5 +54,7 @@ class StatusWord(QPushButton):
 
     def _fill(self) -> None:
         readiness = self._readiness
+        if readiness is None:
+            return
         entries = [(reason_text(reason), advice_text(reason)) for reason in readiness.reasons]
         self.popup.fill(word_text(readiness.word), entries or [(self.tr("Nothing stands against it."), "")])

@@ -27,7 +27,7 @@ class StepBar(QWidget):
         font.setPointSizeF(LARGE_PT - 2)
         font.setBold(True)
         self.setFont(font)
-        self.setSizePolicy(QSizePolicy.Expanding, QSizePolicy.Fixed)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         appearance.changed.connect(self.update)
         self._describe()
 
@@ -55,7 +55,7 @@ class StepBar(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:
         """See QWidget."""
         painter = QPainter(self)
-        painter.setRenderHint(QPainter.Antialiasing)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         widths = self._widths()
         left = 0.0
         for index, (title, width) in enumerate(zip(self._titles, widths)):
@@ -81,14 +81,14 @@ class StepBar(QWidget):
             fill, ink = palette.tint, palette.on_tint
         else:
             fill, ink = palette.raised, palette.ink_soft
-        painter.setPen(Qt.NoPen)
+        painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(QColor(fill))
         painter.drawPolygon(shape)
         painter.setPen(QPen(QColor(ink)))
         text = (_TICK if index < self._selected else "") + title
         room = int(right - left - tail)
-        text = painter.fontMetrics().elidedText(text, Qt.ElideRight, room - S)
-        painter.drawText(int(left + tail), int(top), room + S, int(height), Qt.AlignCenter, text)
+        text = painter.fontMetrics().elidedText(text, Qt.TextElideMode.ElideRight, room - S)
+        painter.drawText(int(left + tail), int(top), room + S, int(height), Qt.AlignmentFlag.AlignCenter, text)
 
     def _describe(self) -> None:
         self.setAccessibleName(self.tr("Step {number} of {count}: {title}").format(

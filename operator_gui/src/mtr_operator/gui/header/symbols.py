@@ -39,7 +39,7 @@ class BatterySymbol(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:
         """See QWidget."""
         painter = QPainter(self)
-        painter.setRenderHint(QPainter.Antialiasing)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         palette, percent = self._appearance.palette, self._percent
         body = QRectF(2, 8, 34, 18)
         painter.setPen(QPen(QColor(palette.ink), 2))
@@ -50,7 +50,7 @@ class BatterySymbol(QWidget):
                 palette.warning if percent < LOW_BATTERY_PERCENT else palette.ok
             painter.fillRect(QRectF(5, 11, 28 * min(percent, 100) / 100.0, 12), QColor(colour))
         text = "\N{EN DASH}" if percent is None else f"{percent} %"
-        painter.drawText(QRectF(44, 0, 48, _SIZE), Qt.AlignVCenter | Qt.AlignLeft, text)
+        painter.drawText(QRectF(44, 0, 48, _SIZE), Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
 
 
 class LockSymbol(QWidget):
@@ -78,7 +78,7 @@ class LockSymbol(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:
         """See QWidget."""
         painter = QPainter(self)
-        painter.setRenderHint(QPainter.Antialiasing)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         colour = QColor(self._appearance.palette.ok if self._is_closed else self._appearance.palette.ink_soft)
         painter.setPen(QPen(colour, 3))
         shackle = QRectF(11, 6, 12, 18)
@@ -87,7 +87,7 @@ class LockSymbol(QWidget):
         painter.drawArc(shackle, 0, 180 * 16)
         painter.drawLine(shackle.topLeft() + QPointF(0, 9), shackle.topLeft() + QPointF(0, 11))
         painter.setBrush(colour)
-        painter.setPen(Qt.NoPen)
+        painter.setPen(Qt.PenStyle.NoPen)
         painter.drawRoundedRect(QRectF(7, 15, 20, 14), 3, 3)
 
 
@@ -110,7 +110,7 @@ class CogwheelButton(QToolButton):
         """See QWidget."""
         super().paintEvent(event)
         painter = QPainter(self)
-        painter.setRenderHint(QPainter.Antialiasing)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.translate(self.width() / 2.0, self.height() / 2.0)
         painter.fillPath(_cogwheel(), QColor(self._appearance.palette.ink))
 

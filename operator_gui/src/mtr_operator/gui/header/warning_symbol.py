@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from typing import Sequence
 
-from PyQt5.QtCore import QEasingCurve, QPointF, QPropertyAnimation, QRectF, Qt, pyqtProperty
+# The stubs of PyQt5 lack pyqtProperty.
+from PyQt5.QtCore import (  # type: ignore[attr-defined]
+    QEasingCurve,
+    QPointF,
+    QPropertyAnimation,
+    QRectF,
+    Qt,
+    pyqtProperty,
+)
 from PyQt5.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PyQt5.QtWidgets import QAbstractButton, QWidget
 
@@ -40,11 +48,11 @@ class WarningSymbol(QAbstractButton):
         self.pulse.setDuration(PULSE_MS)
         self.pulse.setStartValue(1.0)
         self.pulse.setEndValue(PULSE_SCALE)
-        self.pulse.setEasingCurve(QEasingCurve.Linear)
+        self.pulse.setEasingCurve(QEasingCurve.Type.Linear)
         self.pulse.finished.connect(lambda: self._set_scale(1.0))
         self.setAccessibleName(self.tr("Notifications of the robot"))
         self.setFixedSize(_SIZE, _SIZE)
-        self.setFocusPolicy(Qt.StrongFocus)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.clicked.connect(self._open)
         appearance.changed.connect(self.update)
         self.hide()
@@ -73,7 +81,7 @@ class WarningSymbol(QAbstractButton):
         worst = max((notification.severity for notification in self._notifications), default=WARNING)
         colour = palette.danger if worst >= ERROR else palette.warning if worst >= WARNING else palette.accent
         painter = QPainter(self)
-        painter.setRenderHint(QPainter.Antialiasing)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.translate(_SIZE / 2.0, _SIZE / 2.0)
         part = self._scale * _SIZE / _BOX / PULSE_SCALE
         painter.scale(part, part)
@@ -81,7 +89,8 @@ class WarningSymbol(QAbstractButton):
         if self.hasFocus():
             painter.setPen(QPen(QColor(palette.accent), 2))
             painter.drawRoundedRect(QRectF(-3, -3, _BOX + 6, _BOX + 6), 6, 6)
-        painter.setPen(QPen(QColor(colour), 3, Qt.SolidLine, Qt.RoundCap, Qt.RoundJoin))
+        painter.setPen(QPen(QColor(colour), 3, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap,
+                            Qt.PenJoinStyle.RoundJoin))
         painter.setBrush(QColor(colour))
         painter.drawPolygon(QPolygonF([QPointF(x, y) for x, y in _TRIANGLE]))
         font = painter.font()
@@ -89,7 +98,7 @@ class WarningSymbol(QAbstractButton):
         font.setBold(True)
         painter.setFont(font)
         painter.setPen(QColor(palette.on_signal))
-        painter.drawText(QRectF(0, 13, _BOX, 32), Qt.AlignCenter, "!")
+        painter.drawText(QRectF(0, 13, _BOX, 32), Qt.AlignmentFlag.AlignCenter, "!")
 
     def _open(self) -> None:
         self._fill()

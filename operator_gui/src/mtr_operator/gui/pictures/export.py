@@ -14,7 +14,7 @@ _PDF_DPI = 300
 
 def png(sheet: ProtocolSheet) -> bytes:
     """The sheet as a bitmap."""
-    image = QImage(QSize(round(WIDTH), round(HEIGHT)) * PNG_SCALE, QImage.Format_RGB32)
+    image = QImage(QSize(PNG_SCALE * round(WIDTH), PNG_SCALE * round(HEIGHT)), QImage.Format.Format_RGB32)
     painter = QPainter(image)
     painter.scale(PNG_SCALE, PNG_SCALE)
     sheet.paint(painter)
@@ -29,7 +29,8 @@ def pdf(sheet: ProtocolSheet) -> bytes:
     with _Buffer() as buffer:
         writer = QPdfWriter(buffer)
         writer.setResolution(_PDF_DPI)
-        writer.setPageLayout(QPageLayout(QPageSize(QPageSize.A4), QPageLayout.Landscape, QMarginsF()))
+        page = QPageSize(QPageSize.PageSizeId.A4)
+        writer.setPageLayout(QPageLayout(page, QPageLayout.Orientation.Landscape, QMarginsF()))
         painter = QPainter(writer)
         painter.scale(writer.width() / WIDTH, writer.height() / HEIGHT)
         sheet.paint(painter)
@@ -54,7 +55,7 @@ class _Buffer(QBuffer):
     """A file in memory."""
 
     def __enter__(self) -> _Buffer:
-        self.open(QIODevice.WriteOnly)
+        self.open(QIODevice.OpenModeFlag.WriteOnly)
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -6,7 +6,7 @@ from mtr_operator.domain.geometry.pose import Pose, wrap_angle
 
 # Status comes ten times a second; after a longer gap the robot is where the last one says.
 MAX_GAP_S = 0.3
-LONGEST_STEP_M = 1.0
+MAX_STEP_M = 1.0
 
 
 class Glide:
@@ -23,19 +23,19 @@ class Glide:
             return
         gap_s = now_s - self._to_s
         jumps = pose is None or self._to is None or gap_s > MAX_GAP_S \
-            or abs(pose.x - self._to.x) + abs(pose.y - self._to.y) > LONGEST_STEP_M
+            or abs(pose.x - self._to.x) + abs(pose.y - self._to.y) > MAX_STEP_M
         self._from = pose if jumps else self.at(now_s)
         self._to, self._to_s, self._gap_s = pose, now_s, gap_s
 
     def at(self, now_s: float) -> Pose | None:
         """Where to paint the robot."""
-        if self._to is None or self._from is self._to or self._gap_s <= 0.0:
-            return self._to
+        start, end = self._from, self._to
+        if start is None or end is None or start is end or self._gap_s <= 0.0:
+            return end
         part = min(max((now_s - self._to_s) / self._gap_s, 0.0), 1.0)
-        turn = wrap_angle(self._to.heading - self._from.heading)
-        return Pose(self._from.x + part * (self._to.x - self._from.x),
-                    self._from.y + part * (self._to.y - self._from.y),
-                    wrap_angle(self._from.heading + part * turn))
+        turn = wrap_angle(end.heading - start.heading)
+        return Pose(start.x + part * (end.x - start.x), start.y + part * (end.y - start.y),
+                    wrap_angle(start.heading + part * turn))
 
     def is_moving(self, now_s: float) -> bool:
         """True while the next picture will be another one."""

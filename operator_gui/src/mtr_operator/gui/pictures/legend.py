@@ -35,7 +35,7 @@ def paint_entry(canvas: Canvas, sets: Sequence[PointSet], index: int, corner: QP
     """One row with the painter's font; corner: its upper left."""
     shown = [points for points in sets if points.known]
     unit, painter = canvas.unit, canvas.painter
-    middle = corner + QPointF(10.0, ROW_PX / 2.0) * unit
+    middle = QPointF(corner.x() + 10.0 * unit, corner.y() + ROW_PX / 2.0 * unit)
     if index < len(shown):
         colour = colour_of(shown[index].role, canvas.palette)
         painter.setPen(canvas.pen(colour, 2.2))
@@ -43,12 +43,12 @@ def paint_entry(canvas: Canvas, sets: Sequence[PointSet], index: int, corner: QP
         draw_marker(painter, shown[index].role, middle, 5.5 * unit)
     else:
         bar = canvas.pen(canvas.palette.ink_soft, 7.0, alpha=0.5)
-        bar.setCapStyle(Qt.FlatCap)
+        bar.setCapStyle(Qt.PenCapStyle.FlatCap)
         painter.setPen(bar)
-        painter.drawLine(middle - QPointF(8, 0) * unit, middle + QPointF(8, 0) * unit)
+        painter.drawLine(QPointF(middle.x() - 8.0 * unit, middle.y()), QPointF(middle.x() + 8.0 * unit, middle.y()))
     painter.setPen(QColor(canvas.palette.ink))
     box = QRectF(corner.x() + _TEXT_LEFT_PX * unit, corner.y(), 600 * unit, ROW_PX * unit)
-    painter.drawText(box, Qt.AlignLeft | Qt.AlignVCenter, legend_texts(sets)[index])
+    painter.drawText(box, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, legend_texts(sets)[index])
 
 
 class LegendStrip(QWidget):
@@ -58,7 +58,7 @@ class LegendStrip(QWidget):
         super().__init__(parent)
         self._appearance = appearance
         self._sets: tuple[PointSet, ...] = ()
-        policy = QSizePolicy(QSizePolicy.Expanding, QSizePolicy.Minimum)
+        policy = QSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
         font = self.font()
@@ -89,7 +89,7 @@ class LegendStrip(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:
         """See QWidget."""
         painter = QPainter(self)
-        painter.setRenderHint(QPainter.Antialiasing)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setFont(self.font())
         canvas = Canvas(painter, Viewport(self.width(), self.height()), self._appearance.palette)
         for index, place in enumerate(self._places(self.width())):

@@ -6,6 +6,8 @@ from typing import Any
 
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.geometry.pose import Pose
+from mtr_operator.domain.ports import CarDimensions
+from mtr_operator.domain.results.picture import Stretch
 from mtr_operator.station.estimate import USUAL_CAR, plan_of
 from mtr_operator.station.view_model import ViewModel
 
@@ -65,7 +67,7 @@ class MeasurementPicture:
         self._panel.view.add_news(self.trail)
 
     def _arrange(self) -> None:
-        model, test = self._model, self._model.test
+        model, test = self._model, self._model.current_test
         mapped = model.mapped_car
         car = mapped or USUAL_CAR
         picture = test.scenario.picture(test.parameters, car, model.results)
@@ -77,8 +79,8 @@ class MeasurementPicture:
         self._panel.view.show_layers([GridLayer(), self.lines, self.areas, CarLayer(car, mapped is not None),
                                       self.points, self.trail, self.robot, ScaleLayer()])
 
-    def _stretches(self, car: Any) -> tuple:
-        test = self._model.test
+    def _stretches(self, car: CarDimensions) -> tuple[Stretch, ...]:
+        test = self._model.current_test
         try:
             return plan_of(test.scenario, test.parameters, car, True).stretches
         except InvalidParameter:  # the runner says it

@@ -24,7 +24,7 @@ class PicturePanel(QWidget):
         self.view = PictureView(appearance)
         self.ruler = self._tool(self.tr("Ruler"), self.tr("Ruler: drag from one place to another (R)"))
         self.ruler.setCheckable(True)
-        self.ruler.setShortcut(Qt.Key_R)
+        self.ruler.setShortcut(Qt.Key.Key_R)
         self.ruler.toggled.connect(self.view.measure)
         self.length = QLabel()
         self.length.setProperty("role", "soft")

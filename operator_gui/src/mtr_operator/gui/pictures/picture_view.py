@@ -47,8 +47,8 @@ class PictureView(QWidget):
         self.ruler = RulerLayer()
         self.is_measuring = False
         self.still_paints = 0
-        self.setFocusPolicy(Qt.StrongFocus)
-        self.setSizePolicy(QSizePolicy.Expanding, QSizePolicy.Expanding)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAccessibleName(self.tr("Car and robot from above; plus and minus zoom, arrows move the picture"))
         appearance.changed.connect(self.refresh)
 
@@ -76,7 +76,7 @@ class PictureView(QWidget):
         """Something was added to a layer that does not move; the rest is not painted anew."""
         if self._still is not None:
             painter = QPainter(self._still)
-            painter.setRenderHint(QPainter.Antialiasing)
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             layer.paint_added(Canvas(painter, self.viewport, self._appearance.palette))
             painter.end()
 
@@ -96,7 +96,7 @@ class PictureView(QWidget):
     def measure(self, is_measuring: bool) -> None:
         """Let a drag measure; without it the ruler goes away."""
         self.is_measuring = is_measuring
-        self.setCursor(Qt.CrossCursor if is_measuring else Qt.ArrowCursor)
+        self.setCursor(Qt.CursorShape.CrossCursor if is_measuring else Qt.CursorShape.ArrowCursor)
         if not is_measuring:
             self.ruler.clear()
             self.measured.emit()
@@ -108,11 +108,11 @@ class PictureView(QWidget):
             self._still = self._paint_still()
         painter = QPainter(self)
         painter.drawPixmap(0, 0, self._still)
-        painter.setRenderHint(QPainter.Antialiasing)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         moving = [layer for layer in (*self.layers, self.ruler) if layer.is_moving]
         paint_all(moving, Canvas(painter, self.viewport, self._appearance.palette))
         focus = self._appearance.palette.accent if self.hasFocus() else self._appearance.palette.line
-        painter.setBrush(Qt.NoBrush)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setPen(QPen(QColor(focus), 2))
         painter.drawRect(QRectF(self.rect()).adjusted(1, 1, -1, -1))
 
@@ -156,15 +156,16 @@ class PictureView(QWidget):
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """See QWidget."""
         key = event.key()
-        ways = {Qt.Key_Left: (_PAN_PX, 0.0), Qt.Key_Right: (-_PAN_PX, 0.0), Qt.Key_Up: (0.0, _PAN_PX),
-                Qt.Key_Down: (0.0, -_PAN_PX)}
+        ways: dict[int, tuple[float, float]] = {
+            Qt.Key.Key_Left: (_PAN_PX, 0.0), Qt.Key.Key_Right: (-_PAN_PX, 0.0),
+            Qt.Key.Key_Up: (0.0, _PAN_PX), Qt.Key.Key_Down: (0.0, -_PAN_PX)}
         if key in ways:
             self.pan(*ways[key])
-        elif key in (Qt.Key_Plus, Qt.Key_Equal):
+        elif key in (Qt.Key.Key_Plus, Qt.Key.Key_Equal):
             self.zoom(ZOOM_STEP)
-        elif key == Qt.Key_Minus:
+        elif key == Qt.Key.Key_Minus:
             self.zoom(1.0 / ZOOM_STEP)
-        elif key == Qt.Key_0:
+        elif key == Qt.Key.Key_0:
             self.fit()
         else:
             super().keyPressEvent(event)
@@ -189,7 +190,7 @@ class PictureView(QWidget):
         pixmap.setDevicePixelRatio(ratio)
         pixmap.fill(QColor(self._appearance.palette.surface))
         painter = QPainter(pixmap)
-        painter.setRenderHint(QPainter.Antialiasing)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setFont(self.font())
         still = [layer for layer in self.layers if not layer.is_moving]
         paint_all(still, Canvas(painter, self.viewport, self._appearance.palette))

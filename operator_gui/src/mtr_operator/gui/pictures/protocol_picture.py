@@ -28,20 +28,22 @@ class Protocol:
     @property
     def picture(self) -> Picture:
         """All lines and points."""
-        return self.scenario.picture(self.parameters, self.progress.car, self.progress.results)
+        return self.scenario.picture(self.parameters, self.progress.measured_car, self.progress.results)
 
     def picture_of(self, index: int) -> Picture:
         """Line and points of one result."""
-        return self.scenario.picture(self.parameters, self.progress.car, [self.progress.results[index]])
+        return self.scenario.picture(self.parameters, self.progress.measured_car, [self.progress.results[index]])
 
 
 class ProtocolPicture:
-    """Attributes: layers: from low to high. points: the layer with what was measured."""
+    """Attributes: protocol: what is shown. layers: from low to high. points: the layer with what was measured."""
 
     def __init__(self, protocol: Protocol):
+        self.protocol = protocol
         picture = protocol.picture
         stretches = [Stretch(stretch.start, stretch.end, domain_word(stretch.label)) for stretch in picture.stretches]
         self.points = PointsLayer(picture.point_sets, shows_distances=len(protocol.scenario.distance_words) == 1)
         self.layers: Sequence[Layer] = (
-            GridLayer(), LinesLayer(stretches), AreasLayer(picture.point_sets), CarLayer(protocol.progress.car, True),
+            GridLayer(), LinesLayer(stretches), AreasLayer(picture.point_sets),
+            CarLayer(protocol.progress.measured_car, True),
             self.points, ScaleLayer())

@@ -23,6 +23,9 @@ _PANEL = 380.0
 _ROW = 18.0
 _TEXT_PX = 12.5
 _MAX_REASON = 90
+_LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
+_RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+_WRAPPED = Qt.TextFlag.TextWordWrap | Qt.AlignmentFlag.AlignLeft
 
 
 class ProtocolSheet:
@@ -37,7 +40,7 @@ class ProtocolSheet:
 
     def paint(self, painter: QPainter) -> None:
         """Paint the sheet, always in the light colours."""
-        painter.setRenderHint(QPainter.Antialiasing)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.fillRect(QRectF(0, 0, WIDTH, HEIGHT), QColor(LIGHT.surface))
         width, height = WIDTH - _PANEL - 3 * _MARGIN, HEIGHT - 2 * _MARGIN
         viewport = Viewport(width, height).fitted(
@@ -47,7 +50,7 @@ class ProtocolSheet:
         painter.setClipRect(QRectF(0, 0, width, height))
         paint_all(self.picture.layers, Canvas(painter, viewport, LIGHT))
         painter.restore()
-        painter.setBrush(Qt.NoBrush)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setPen(QColor(LIGHT.border))
         painter.drawRect(QRectF(_MARGIN, _MARGIN, width, height))
         self._paint_panel(Canvas(painter, viewport, LIGHT), WIDTH - _PANEL - _MARGIN)
@@ -61,7 +64,7 @@ class ProtocolSheet:
                                                             False)):
             painter.setFont(canvas.font(pixels, is_bold))
             painter.setPen(QColor(LIGHT.ink))
-            painter.drawText(QRectF(left, top, _PANEL, pixels + 8), Qt.AlignLeft | Qt.AlignVCenter, text)
+            painter.drawText(QRectF(left, top, _PANEL, pixels + 8), _LEFT, text)
             top += pixels + 10
         painter.setFont(canvas.font(14.0))
         sets = protocol.picture.point_sets
@@ -102,7 +105,7 @@ class ProtocolSheet:
                 text = f"{result.number}: {translated(result.reason)}"
                 if len(text) > _MAX_REASON:
                     text = text[:_MAX_REASON - 1] + "\N{HORIZONTAL ELLIPSIS}"
-                canvas.painter.drawText(QRectF(left, top, _PANEL, 2 * _ROW), Qt.TextWordWrap | Qt.AlignLeft, text)
+                canvas.painter.drawText(QRectF(left, top, _PANEL, 2 * _ROW), _WRAPPED, text)
                 top += 2 * _ROW
 
 
@@ -121,13 +124,13 @@ def _paint_table(canvas: Canvas, heading: str, rows: list[Row], corner: tuple[fl
     (left, top), painter = corner, canvas.painter
     painter.setFont(canvas.font(14.0, True))
     painter.setPen(QColor(LIGHT.ink))
-    painter.drawText(QRectF(left, top, _PANEL, _ROW + 2), Qt.AlignLeft | Qt.AlignVCenter, heading)
+    painter.drawText(QRectF(left, top, _PANEL, _ROW + 2), _LEFT, heading)
     top += _ROW + 4
     painter.setFont(canvas.font(_TEXT_PX))
     for name, value in rows:
         painter.setPen(QColor(LIGHT.ink_soft))
-        painter.drawText(QRectF(left, top, _PANEL, _ROW), Qt.AlignLeft | Qt.AlignVCenter, name)
+        painter.drawText(QRectF(left, top, _PANEL, _ROW), _LEFT, name)
         painter.setPen(QColor(LIGHT.ink))
-        painter.drawText(QRectF(left, top, _PANEL, _ROW), Qt.AlignRight | Qt.AlignVCenter, value)
+        painter.drawText(QRectF(left, top, _PANEL, _ROW), _RIGHT, value)
         top += _ROW
     return top

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from PyQt5.QtCore import QTimer, pyqtSignal
+from PyQt5.QtCore import QTimer, pyqtBoundSignal, pyqtSignal
 from PyQt5.QtGui import QHideEvent, QShowEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
@@ -50,12 +50,13 @@ class MeasurementScreen(QWidget):
         self.resume = self._button(self.tr("Resume"), "primary", self.resume_wanted)
         self.save = self._button(self.tr("Save progress"), "", self.save_wanted)
         self.leave = self._button(self.tr("Back to the beginning"), "", self.leave_wanted)
-        self._frames = QTimer(self, interval=FRAME_MS)
+        self._frames = QTimer(self)
+        self._frames.setInterval(FRAME_MS)
         self._frames.timeout.connect(lambda: self.picture.glide(time.monotonic()))
         self._lay_out()
 
     @staticmethod
-    def _button(text: str, role: str, signal: pyqtSignal) -> QPushButton:
+    def _button(text: str, role: str, signal: pyqtBoundSignal) -> QPushButton:
         button = QPushButton(text)
         button.setProperty("role", role)
         button.clicked.connect(signal)

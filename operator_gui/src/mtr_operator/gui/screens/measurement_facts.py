@@ -57,7 +57,7 @@ class MeasurementFacts(QFrame):
 
     def show_model(self, model: ViewModel) -> None:
         """Show the newest."""
-        scenario = model.test.scenario
+        scenario = model.current_test.scenario
         self.title.setText(scenario_title(scenario))
         self.percent.setText(f"{model.percent} %")
         self.bar.setValue(model.percent)

@@ -43,8 +43,7 @@ class ProtocolScreen(QWidget):
         super().__init__(parent)
         self.setObjectName("page")
         self._flow = flow
-        self.protocol: Protocol | None = None
-        self._picture: ProtocolPicture | None = None
+        self._shown: ProtocolPicture | None = None
         self._writer: ReportWriter | None = None
         self._saved: set[str] = set()
         self._folder: pathlib.Path | None = None
@@ -63,6 +62,17 @@ class ProtocolScreen(QWidget):
         self.done = self._button(self.tr("New test"), "", self.closed.emit)
         self._lay_out()
 
+    @property
+    def _picture(self) -> ProtocolPicture:
+        if self._shown is None:
+            raise LookupError("no test is shown yet")
+        return self._shown
+
+    @property
+    def protocol(self) -> Protocol:
+        """What is shown."""
+        return self._picture.protocol
+
     def _make_table(self) -> QTableView:
         table = QTableView()
         table.setAccessibleName(self.tr("Results; choose a row to see its points"))
@@ -71,12 +81,12 @@ class ProtocolScreen(QWidget):
         table.setAlternatingRowColors(True)
         table.setTabKeyNavigation(False)
         table.verticalHeader().hide()
-        table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeToContents)
-        table.setHorizontalScrollBarPolicy(Qt.ScrollBarAlwaysOff)
+        table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        table.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         return table
 
     @staticmethod
-    def _button(text: str, role: str, act: Callable[[], object]) -> QPushButton:
+    def _button(text: str, role: str, act: Callable[[], None]) -> QPushButton:
         button = QPushButton(text)
         button.setProperty("role", role)
         button.clicked.connect(lambda _checked: act())
@@ -110,19 +120,19 @@ class ProtocolScreen(QWidget):
     def show_test(self) -> None:
         """Show the test at hand."""
         model = self._flow.model
-        test = model.test
+        test = model.current_test
         progress: Progress = dataclasses.replace(test.progress, results=list(model.results))
-        self.protocol = Protocol(test.scenario, test.parameters, progress)
-        self._picture = ProtocolPicture(self.protocol)
+        protocol = Protocol(test.scenario, test.parameters, progress)
+        self._shown = ProtocolPicture(protocol)
         self._saved.clear()
         self._folder = None
         self.title.setText(self.tr("{scenario} protocol").format(scenario=scenario_title(test.scenario)))
         self.date.setText(date_text(str(progress.session.get("started", ""))))
-        self.table.setModel(ResultsModel(self.protocol, self))
-        self.table.horizontalHeader().setSectionResizeMode(PLACE_COLUMN, QHeaderView.Stretch)
+        self.table.setModel(ResultsModel(protocol, self))
+        self.table.horizontalHeader().setSectionResizeMode(PLACE_COLUMN, QHeaderView.ResizeMode.Stretch)
         self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
-        self.panel.legend.show_sets(self.protocol.picture.point_sets)
-        self.panel.view.show_layers(self._picture.layers)
+        self.panel.legend.show_sets(protocol.picture.point_sets)
+        self.panel.view.show_layers(self._shown.layers)
         self._show_notice(self._summary())
         self.show_folder.setEnabled(False)
         self.save.setFocus()
@@ -151,7 +161,7 @@ class ProtocolScreen(QWidget):
             self.table.selectRow(row)
 
     def _write(self, kinds: tuple[str, ...]) -> None:
-        folder = self._flow.store.settings.result_folder / self._flow.model.test.name
+        folder = self._flow.store.settings.result_folder / self._flow.model.current_test.name
         self._folder = folder
         self._set_saving(True)
         self._writer = ReportWriter(self.protocol, folder, kinds, self)
@@ -163,7 +173,7 @@ class ProtocolScreen(QWidget):
         for button in (self.save, self.save_pdf, self.save_svg):
             button.setEnabled(not is_saving)
 
-    def _show_written(self, paths: list) -> None:
+    def _show_written(self, paths: list[pathlib.Path]) -> None:
         self._set_saving(False)
         self._saved |= {path.name for path in paths}
         files = ", ".join(sorted(self._saved))
@@ -187,4 +197,4 @@ class ProtocolScreen(QWidget):
 
     def _show_notice(self, sentence: str) -> None:
         self.notice.setText(sentence)
-        self.notice.setTextInteractionFlags(Qt.TextSelectableByMouse)
+        self.notice.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)

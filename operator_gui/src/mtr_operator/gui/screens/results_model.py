@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from PyQt5.QtCore import QAbstractTableModel, QModelIndex, Qt
+from PyQt5.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt
 
 from mtr_operator.domain.results.line_result import LineResult, LineStatus
 
@@ -21,7 +21,7 @@ PLACE_COLUMN = 1
 class ResultsModel(QAbstractTableModel):
     """Number and place of each line, then distance and uncertainty of each measurement in cm."""
 
-    def __init__(self, protocol: Protocol, parent=None):
+    def __init__(self, protocol: Protocol, parent: QObject | None = None):
         super().__init__(parent)
         self._scenario = protocol.scenario
         self._results = protocol.progress.results
@@ -34,23 +34,23 @@ class ResultsModel(QAbstractTableModel):
         """See QAbstractItemModel."""
         return 0 if parent.isValid() else _FIXED_COLUMNS + 2 * len(self._scenario.distance_words)
 
-    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.DisplayRole) -> Any:
+    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """See QAbstractItemModel."""
-        if role != Qt.DisplayRole or orientation != Qt.Horizontal:
+        if role != Qt.ItemDataRole.DisplayRole or orientation != Qt.Orientation.Horizontal:
             return None
         if section < _FIXED_COLUMNS:
             return ("#", domain_word(self._scenario.line_word).capitalize())[section]
         word = domain_word(self._scenario.distance_words[self._index(section)]).capitalize()
         return f"{word} [cm]" if self._is_distance(section) else "\N{PLUS-MINUS SIGN}"
 
-    def data(self, index: QModelIndex, role: int = Qt.DisplayRole) -> Any:
+    def data(self, index: QModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """See QAbstractItemModel."""
         result = self._results[index.row()]
-        if role == Qt.DisplayRole:
+        if role == Qt.ItemDataRole.DisplayRole:
             return self._text(result, index.column())
-        if role == Qt.TextAlignmentRole and index.column() >= _FIXED_COLUMNS:
-            return int(Qt.AlignRight | Qt.AlignVCenter)
-        if role == Qt.ToolTipRole:
+        if role == Qt.ItemDataRole.TextAlignmentRole and index.column() >= _FIXED_COLUMNS:
+            return int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        if role == Qt.ItemDataRole.ToolTipRole:
             return translated(result.reason) or None
         return None
 

@@ -38,7 +38,7 @@ class SettingsScreen(QWidget):
         self._scenario = scenario
         self._model = model
         self._plan: Plan | None = None
-        self._shown: tuple = ()
+        self._shown: tuple[object, ...] = ()
         # Without a valid plan the view stays as it was.
         self._lines = LinesLayer()
         self.form = ParameterForm(scenario.parameters_type)
@@ -60,8 +60,8 @@ class SettingsScreen(QWidget):
         title.setProperty("role", "heading")
         scroll = QScrollArea()
         scroll.setWidgetResizable(True)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarAlwaysOff)
-        scroll.setFrameShape(QFrame.NoFrame)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setFrameShape(QFrame.Shape.NoFrame)
         scroll.setWidget(self.form)
         back = QPushButton(self.tr("Back"))
         back.clicked.connect(self.back)

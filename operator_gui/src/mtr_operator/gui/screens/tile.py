@@ -25,7 +25,7 @@ class Tile(QPushButton):
         self._layout.setContentsMargins(L, M, L, M)
         self._layout.setSpacing(XS)
         for label in (heading, text):
-            label.setAttribute(Qt.WA_TransparentForMouseEvents)
+            label.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
             self._layout.addWidget(label)
 
     def sizeHint(self) -> QSize:

@@ -80,5 +80,5 @@ class WelcomeScreen(QWidget):
         column.setSpacing(S)
         column.addWidget(self._told)
         column.addLayout(row)
-        column.setAlignment(Qt.AlignTop)
+        column.setAlignment(Qt.AlignmentFlag.AlignTop)
         return offer

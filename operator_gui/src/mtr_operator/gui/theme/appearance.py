@@ -30,6 +30,8 @@ class Appearance(QObject):
     def use(self, theme: str) -> None:
         """Apply "light", "dark", or what the system prefers."""
         app = QApplication.instance()
+        if not isinstance(app, QApplication):
+            raise RuntimeError("there is no Qt application yet")
         name = _system_theme(app) if theme == "system" else theme
         self.palette = THEMES[name]
         app.setPalette(_qt_palette(self.palette))
@@ -38,17 +40,17 @@ class Appearance(QObject):
 
 
 def _system_theme(app: QApplication) -> str:
-    window = app.style().standardPalette().color(QPalette.Window)
+    window = app.style().standardPalette().color(QPalette.ColorRole.Window)
     return "dark" if window.lightness() < _MIDDLE_LIGHTNESS else "light"
 
 
 def _qt_palette(palette: Palette) -> QPalette:
     colours = QPalette()
-    for role, colour in ((QPalette.Window, palette.window), (QPalette.WindowText, palette.ink),
-                         (QPalette.Base, palette.surface), (QPalette.AlternateBase, palette.window),
-                         (QPalette.Text, palette.ink), (QPalette.Button, palette.raised),
-                         (QPalette.ButtonText, palette.ink), (QPalette.Highlight, palette.accent),
-                         (QPalette.HighlightedText, palette.on_accent), (QPalette.PlaceholderText, palette.ink_soft),
-                         (QPalette.ToolTipBase, palette.ink), (QPalette.ToolTipText, palette.surface)):
-        colours.setColor(role, QColor(colour))
+    role = QPalette.ColorRole
+    for place, colour in ((role.Window, palette.window), (role.WindowText, palette.ink), (role.Base, palette.surface),
+                          (role.AlternateBase, palette.window), (role.Text, palette.ink), (role.Button, palette.raised),
+                          (role.ButtonText, palette.ink), (role.Highlight, palette.accent),
+                          (role.HighlightedText, palette.on_accent), (role.PlaceholderText, palette.ink_soft),
+                          (role.ToolTipBase, palette.ink), (role.ToolTipText, palette.surface)):
+        colours.setColor(place, QColor(colour))
     return colours

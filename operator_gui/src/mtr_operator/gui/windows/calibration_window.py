@@ -125,13 +125,13 @@ class CalibrationWindow(QDialog):
         names = [self.buttons[button].text() if button in self.buttons else str(button)
                  for button in status.pressed_buttons]
         self.reported["buttons"].setText(", ".join(names) or self.tr("none"))
-        self._tell_press(status.presses)
+        self._show_press(status.presses)
         self.car.show_status(status, self._flow.model.readiness.word is not ReadinessWord.LOST)
         self._check()
 
-    def _tell_press(self, presses: Sequence[PressConfirmation]) -> None:
-        order = self._sent
-        if order is None or not order.buttons or not presses:
+    def _show_press(self, presses: Sequence[PressConfirmation]) -> None:
+        sent = self._sent
+        if sent is None or not sent.buttons or not presses:
             return
         newest = presses[-1]
         self.notice.setText(translated(newest.error) if newest.error else
@@ -144,8 +144,10 @@ class CalibrationWindow(QDialog):
 
     def _send(self) -> None:
         buttons = tuple(number for number, box in self.buttons.items() if box.isChecked())
-        self._sent = CalibrationRequest(self.key_height.reading.value, buttons, self.strength.reading.value,
-                                      self.press_s.reading.value)
+        strength, press_s = self.strength.reading.value, self.press_s.reading.value
+        if strength is None or press_s is None:
+            return
+        self._sent = CalibrationRequest(self.key_height.reading.value, buttons, strength, press_s)
         self._flow.calibrate(self._sent)
-        self.reported["strength"].setText(f"{number(100.0 * self._sent.strength, 0)} %" if buttons else _UNKNOWN)
+        self.reported["strength"].setText(f"{number(100.0 * strength, 0)} %" if buttons else _UNKNOWN)
         self.notice.setText(self.tr("Sent."))

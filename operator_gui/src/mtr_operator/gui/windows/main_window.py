@@ -63,19 +63,25 @@ class MainWindow(QMainWindow):
         """What is shown below the header."""
         return self._screens.currentWidget()
 
+    def _show_settings_window(self) -> None:
+        SettingsWindow(self._flow, self._appearance, self).exec_()
+
+    def _show_calibration(self) -> None:
+        CalibrationWindow(self._flow, self).exec_()
+
     def _connect(self) -> None:
         flow = self._flow
-        flow.bridge.changed.connect(self._show_desk)
+        flow.bridge.changed.connect(self._show_model)
         flow.step_changed.connect(self._show_step)
         # Later: a dialog within the delivery of events would let the later ones pass the earlier ones.
         flow.failed.connect(lambda text: QTimer.singleShot(0, lambda: self._show_notice(text)))
         flow.saved.connect(lambda path: self.measurement.say(self.tr("Saved to {path}").format(path=path)))
         flow.folder_wanted.connect(lambda text: QTimer.singleShot(0, lambda: self._ask_progress_folder(text)))
-        self.header.settings_wanted.connect(lambda: SettingsWindow(flow, self._appearance, self).exec_())
+        self.header.settings_wanted.connect(self._show_settings_window)
         self.welcome.new_test.connect(lambda: flow.show(Step.TYPE))
         self.welcome.continue_test.connect(self._open)
-        self.welcome.calibrate.connect(lambda: CalibrationWindow(flow, self).exec_())
-        self.welcome.go_on.connect(lambda: flow.open(flow.store.settings.unfinished))
+        self.welcome.calibrate.connect(self._show_calibration)
+        self.welcome.go_on.connect(flow.open_unfinished)
         self.welcome.dismiss.connect(self._dismiss)
         self.types.back.connect(flow.to_welcome)
         self.types.chosen.connect(self._show_settings)
@@ -88,7 +94,7 @@ class MainWindow(QMainWindow):
         self.measurement.leave_wanted.connect(flow.to_welcome)
         self.protocol.closed.connect(flow.to_welcome)
 
-    def _show_desk(self) -> None:
+    def _show_model(self) -> None:
         self.header.show_model(self._flow.model)
         if isinstance(self.screen, (MeasurementScreen, SettingsScreen)):
             self.screen.show_model()
@@ -102,7 +108,7 @@ class MainWindow(QMainWindow):
             self.protocol.show_test()
         self._screens.setCurrentWidget({Step.WELCOME: self.welcome, Step.TYPE: self.types,
                                         Step.MEASUREMENT: self.measurement, Step.PROTOCOL: self.protocol}[step])
-        self._show_desk()
+        self._show_model()
 
     def _show_settings(self, name: str) -> None:
         screen = self.settings[name]

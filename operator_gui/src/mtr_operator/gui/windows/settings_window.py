@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import pathlib
-from typing import Callable
+from typing import Any, Callable
 
 from PyQt5.QtCore import Qt
 from PyQt5.QtWidgets import QComboBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
@@ -56,8 +56,8 @@ class SettingsWindow(QDialog):
         self.theme.currentIndexChanged.connect(self._change_theme)
         self.language.currentIndexChanged.connect(self._change_language)
         self.use_can.clicked.connect(self._change_can)
-        flow.can_opened.connect(lambda: self._tell_can(self.tr("The CAN adapter is in use.")))
-        flow.can_refused.connect(lambda text: self._tell_can(translated(text)))
+        flow.can_opened.connect(lambda: self._show_can(self.tr("The CAN adapter is in use.")))
+        flow.can_refused.connect(lambda text: self._show_can(translated(text)))
         self.use_can.setEnabled(flow.model.phase not in (Phase.MEASURING, Phase.STOPPING))
         self.setMinimumWidth(900)
 
@@ -86,7 +86,7 @@ class SettingsWindow(QDialog):
         row.addWidget(close)
         cards = QHBoxLayout()
         cards.setSpacing(M)
-        cards.addWidget(self._own_card(), 1, Qt.AlignTop)
+        cards.addWidget(self._own_card(), 1, Qt.AlignmentFlag.AlignTop)
         cards.addWidget(self._connection_card(), 1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
@@ -163,10 +163,10 @@ class SettingsWindow(QDialog):
         self.use_can.setEnabled(False)
         self._flow.use_can(self.can.choice)
 
-    def _tell_can(self, sentence: str) -> None:
+    def _show_can(self, sentence: str) -> None:
         self.use_can.setEnabled(True)
         self.message.setText(sentence)
 
-    def _change(self, **changes) -> None:
+    def _change(self, **changes: Any) -> None:
         self._flow.store.change(dataclasses.replace(self._flow.store.settings, **changes))
         self.message.setText(self._flow.store.problem)

@@ -46,7 +46,8 @@ class CarLayer(Layer):
         painter, palette, car = canvas.painter, canvas.palette, self.car
         half_length, half_width = car.length / 2.0, car.width / 2.0
         rounding = ROUNDING_PART * car.width * canvas.viewport.px_per_m
-        painter.setPen(canvas.pen(palette.edge, 1.8, Qt.SolidLine if self.is_measured else Qt.DashLine))
+        style = Qt.PenStyle.SolidLine if self.is_measured else Qt.PenStyle.DashLine
+        painter.setPen(canvas.pen(palette.edge, 1.8, style))
         painter.setBrush(QBrush(QColor(palette.body)))
         if car.outline:
             painter.drawPolygon(canvas.polygon(car.outline))
@@ -69,4 +70,5 @@ class CarLayer(Layer):
         canvas.painter.setFont(canvas.font(size, True))
         middle = canvas.at((0.66 * half_length, 0.0))
         room = QPointF(0.5 * self.car.width * canvas.viewport.px_per_m, 12.0 * canvas.unit)
-        canvas.painter.drawText(QRectF(middle - room, middle + room), Qt.AlignCenter, translate("Picture", "FRONT"))
+        box = QRectF(middle - room, middle + room)
+        canvas.painter.drawText(box, Qt.AlignmentFlag.AlignCenter, translate("Picture", "FRONT"))

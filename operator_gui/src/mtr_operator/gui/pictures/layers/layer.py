@@ -32,11 +32,12 @@ class Canvas:
         """Places of points."""
         return QPolygonF([self.at(point) for point in points])
 
-    def pen(self, colour: str, width: float = 1.0, style: Qt.PenStyle = Qt.SolidLine, alpha: float = 1.0) -> QPen:
+    def pen(self, colour: str, width: float = 1.0, style: Qt.PenStyle = Qt.PenStyle.SolidLine,
+            alpha: float = 1.0) -> QPen:
         """Pen of a width in pixels."""
         shade = QColor(colour)
         shade.setAlphaF(alpha)
-        return QPen(shade, width * self.unit, style, Qt.RoundCap, Qt.RoundJoin)
+        return QPen(shade, width * self.unit, style, Qt.PenCapStyle.RoundCap, Qt.PenJoinStyle.RoundJoin)
 
     def font(self, pixels: float, is_bold: bool = False) -> QFont:
         """Font of a height in pixels."""
@@ -52,11 +53,11 @@ class Canvas:
         box.moveCenter(place)
         ground = QColor(self.palette.surface)
         ground.setAlphaF(0.85)
-        self.painter.setPen(Qt.NoPen)
+        self.painter.setPen(Qt.PenStyle.NoPen)
         self.painter.setBrush(ground)
         self.painter.drawRoundedRect(box, 3 * self.unit, 3 * self.unit)
         self.painter.setPen(QColor(colour))
-        self.painter.drawText(box, Qt.AlignCenter, text)
+        self.painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
 
 
 class Layer(ABC):

@@ -29,7 +29,7 @@ class LinesLayer(Layer):
 
     def paint(self, canvas: Canvas) -> None:
         """See Layer."""
-        canvas.painter.setPen(canvas.pen(canvas.palette.trail, 1.2, Qt.DashLine))
+        canvas.painter.setPen(canvas.pen(canvas.palette.trail, 1.2, Qt.PenStyle.DashLine))
         for stretch in self.stretches:
             canvas.painter.drawLine(canvas.at(stretch.start), canvas.at(stretch.end))
         canvas.painter.setFont(canvas.font(14.0))
@@ -47,4 +47,5 @@ def _label_place(canvas: Canvas, stretch: Stretch) -> QPointF:
     start, end = canvas.at(stretch.start), canvas.at(stretch.end)
     way = end - start
     length = max(math.hypot(way.x(), way.y()), 1e-9)
-    return end + way * (_LABEL_GAP_PX * canvas.unit / length)
+    part = _LABEL_GAP_PX * canvas.unit / length
+    return QPointF(end.x() + part * way.x(), end.y() + part * way.y())

@@ -39,7 +39,8 @@ def draw_marker(painter: QPainter, role: PointRole, place: QPointF, radius: floa
                             place + QPointF(0, 1.2 * radius), place + QPointF(-1.2 * radius, 0))
     else:
         for dx, dy in ((1, 1), (1, -1)):
-            painter.drawLine(place - QPointF(dx, dy) * radius, place + QPointF(dx, dy) * radius)
+            painter.drawLine(QPointF(place.x() - dx * radius, place.y() - dy * radius),
+                             QPointF(place.x() + dx * radius, place.y() + dy * radius))
 
 
 class AreasLayer(Layer):
@@ -76,7 +77,7 @@ class PointsLayer(Layer):
         for points in self.sets:
             _paint_points(canvas, points)
         for point in self.chosen:
-            canvas.painter.setBrush(Qt.NoBrush)
+            canvas.painter.setBrush(Qt.BrushStyle.NoBrush)
             canvas.painter.setPen(canvas.pen(canvas.palette.ink, 3.0))
             canvas.painter.drawEllipse(canvas.at(point), 12.0 * canvas.unit, 12.0 * canvas.unit)
         if self.shows_distances:
@@ -98,7 +99,8 @@ def _inward(canvas: Canvas, point: Point, text: str) -> QPointF:
     length = max(math.hypot(way.x(), way.y()), 1e-9)
     box = canvas.painter.fontMetrics().boundingRect(text)
     room = (abs(way.x()) * box.width() + abs(way.y()) * box.height()) / (2.0 * length) + _LABEL_GAP_PX * canvas.unit
-    return place + way * (room / length)
+    part = room / length
+    return QPointF(place.x() + part * way.x(), place.y() + part * way.y())
 
 
 def _paint_outline(canvas: Canvas, points: PointSet, is_complete: bool) -> None:
@@ -106,12 +108,13 @@ def _paint_outline(canvas: Canvas, points: PointSet, is_complete: bool) -> None:
     pieces = list(points.pieces()) if is_complete else list(points.pieces())[:-1]
     for start, end, is_known in pieces:
         # A piece that bridges a line without a point is a guess.
-        canvas.painter.setPen(canvas.pen(colour, 2.0 if is_known else 1.2, Qt.SolidLine if is_known else Qt.DotLine))
+        width, style = (2.0, Qt.PenStyle.SolidLine) if is_known else (1.2, Qt.PenStyle.DotLine)
+        canvas.painter.setPen(canvas.pen(colour, width, style))
         canvas.painter.drawLine(canvas.at(start), canvas.at(end))
     if is_complete and all(is_known for _, _, is_known in pieces):
         fill = QColor(colour)
         fill.setAlphaF(_AREA_ALPHA)
-        canvas.painter.setPen(Qt.NoPen)
+        canvas.painter.setPen(Qt.PenStyle.NoPen)
         canvas.painter.setBrush(fill)
         canvas.painter.drawPolygon(canvas.polygon(points.known))
 
@@ -120,7 +123,7 @@ def _paint_points(canvas: Canvas, points: PointSet) -> None:
     colour = colour_of(points.role, canvas.palette)
     painter = canvas.painter
     bar = canvas.pen(colour, 6.0, alpha=_BAR_ALPHA)
-    bar.setCapStyle(Qt.FlatCap)
+    bar.setCapStyle(Qt.PenCapStyle.FlatCap)
     painter.setPen(bar)
     for start, end in points.bars:
         painter.drawLine(canvas.at(start), canvas.at(end))

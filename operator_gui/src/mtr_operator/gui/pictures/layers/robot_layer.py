@@ -42,8 +42,8 @@ class RobotLayer(Layer):
 
     def _paint_waypoint(self, canvas: Canvas, waypoint: Pose) -> None:
         painter = canvas.painter
-        painter.setBrush(Qt.NoBrush)
-        painter.setPen(canvas.pen(canvas.palette.waypoint, 2.0, Qt.DashLine))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setPen(canvas.pen(canvas.palette.waypoint, 2.0, Qt.PenStyle.DashLine))
         painter.drawPolygon(canvas.polygon(_outline(waypoint)))
         place = canvas.at((waypoint.x, waypoint.y))
         painter.setPen(canvas.pen(canvas.palette.waypoint, 2.0))
@@ -56,14 +56,14 @@ class RobotLayer(Layer):
         if self.sigma_m == self.sigma_m:
             haze = QColor(palette.robot)
             haze.setAlphaF(_SIGMA_ALPHA)
-            painter.setPen(Qt.NoPen)
+            painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(haze)
             radius = 2.0 * self.sigma_m * canvas.viewport.px_per_m
             painter.drawEllipse(place, radius, radius)
         painter.setPen(canvas.pen(palette.ink, 1.8))
         painter.setBrush(QColor(palette.robot))
         painter.drawPolygon(canvas.polygon(_outline(pose)))
-        painter.setPen(Qt.NoPen)
+        painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(QColor(palette.robot_mark))
         tip, back = 0.42 * _LENGTH_M, -0.1 * _LENGTH_M
         painter.drawPolygon(canvas.polygon([pose.apply((tip, 0.0)), pose.apply((back, 0.14)),
@@ -92,8 +92,8 @@ class TrailLayer(Layer):
         self._painted = len(self.places)
         pen = canvas.pen(canvas.palette.trail, 1.5)
         # Round joins of thousands of pieces take a whole frame.
-        pen.setJoinStyle(Qt.BevelJoin)
-        pen.setCapStyle(Qt.FlatCap)
+        pen.setJoinStyle(Qt.PenJoinStyle.BevelJoin)
+        pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         canvas.painter.setPen(pen)
         canvas.painter.drawPolyline(canvas.polygon(added))
 

@@ -30,7 +30,7 @@ class RulerLayer(Layer):
 
     def paint(self, canvas: Canvas) -> None:
         """See Layer."""
-        if self.length_m is None:
+        if self.start is None or self.end is None:
             return
         start, end = canvas.at(self.start), canvas.at(self.end)
         canvas.painter.setPen(canvas.pen(canvas.palette.ink, 2.5))
@@ -39,4 +39,4 @@ class RulerLayer(Layer):
         for place in (start, end):
             canvas.painter.drawEllipse(place, 3.5 * canvas.unit, 3.5 * canvas.unit)
         canvas.painter.setFont(canvas.font(16.0, True))
-        canvas.label((start + end) / 2.0, f"{number(self.length_m, 2)} m", canvas.palette.ink)
+        canvas.label((start + end) / 2.0, f"{number(math.dist(self.start, self.end), 2)} m", canvas.palette.ink)

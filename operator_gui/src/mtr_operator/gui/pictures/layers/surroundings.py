@@ -52,4 +52,4 @@ class ScaleLayer(Layer):
                              QPointF(left + end[0], bottom + end[1] * unit))
         painter.setFont(canvas.font(15.0))
         box = QRectF(left, bottom - 30 * unit, max(length, 80 * unit), 22 * unit)
-        painter.drawText(box, Qt.AlignLeft, f"{step:g} m")
+        painter.drawText(box, Qt.AlignmentFlag.AlignLeft, f"{step:g} m")
