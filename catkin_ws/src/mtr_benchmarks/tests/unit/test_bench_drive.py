@@ -7,9 +7,17 @@ import numpy as np
 import pytest
 import rosbag
 
-from mtr_benchmarks.localization.drives.legs import LegFollower, Polyline, Stand, Straight, Turn
+from mtr_benchmarks.localization.drives.legs import (
+    LegFollower,
+    LiftLeg,
+    PathLeg,
+    StandLeg,
+    StraightLeg,
+    TurnLeg,
+    leg_name,
+)
 from mtr_benchmarks.localization.drives.options import DriveOptions
-from mtr_benchmarks.localization.drives.pattern import Plan, outline_distance, pieces
+from mtr_benchmarks.localization.drives.pattern import DrivePlan, outline_distance, pieces
 from mtr_benchmarks.localization.drives.record import main, record
 from mtr_benchmarks.localization.drives.selection import (
     CAMPAIGN,
@@ -53,7 +61,7 @@ def whole_way(shape, plan):
 @pytest.mark.parametrize("name", ["hatchback", "van"])
 def test_no_place_of_the_pattern_is_nearer_to_the_car_than_its_axes_end(name):
     shape = CAR_SHAPES[name]
-    poses = whole_way(shape, Plan(EIGHTHS, EIGHTHS[:5], 10.0))
+    poses = whole_way(shape, DrivePlan(EIGHTHS, EIGHTHS[:5], 10.0))
     beyond = [math.hypot(max(abs(pose.x) - 0.5 * shape.length_m, 0.0), max(abs(pose.y) - 0.5 * shape.width_m, 0.0))
               for pose in poses]
     assert min(beyond) > 0.6
@@ -62,7 +70,7 @@ def test_no_place_of_the_pattern_is_nearer_to_the_car_than_its_axes_end(name):
 def test_axis_is_driven_facing_the_car_both_ways():
     shape = CAR_SHAPES["hatchback"]
     poses = [START]
-    for piece in pieces(shape, START, Plan((0.0,), (), 10.0)):
+    for piece in pieces(shape, START, DrivePlan((0.0,), (), 10.0)):
         driven = follow(piece.leg, poses[-1])
         if piece.kind == "axis":
             assert all(abs(wrap_angle(pose.heading - math.pi)) < 0.05 for pose in driven)
@@ -72,42 +80,49 @@ def test_axis_is_driven_facing_the_car_both_ways():
 
 def test_radial_reaches_as_far_as_it_is_told():
     shape = CAR_SHAPES["hatchback"]
-    poses = whole_way(shape, Plan((), (math.pi / 2.0,), 10.0))
+    poses = whole_way(shape, DrivePlan((), (math.pi / 2.0,), 10.0))
     farthest = max(poses, key=lambda pose: math.hypot(pose.x, pose.y))
     assert math.hypot(farthest.x, farthest.y) - outline_distance(shape, math.pi / 2.0) == pytest.approx(10.0, abs=0.05)
 
 
 def test_loop_ends_where_it_went_round():
     shape = CAR_SHAPES["hatchback"]
-    way = next(piece.leg for piece in pieces(shape, START, Plan((), (), 1.0)) if isinstance(piece.leg, Polyline))
+    way = next(piece.leg for piece in pieces(shape, START, DrivePlan((), (), 1.0)) if isinstance(piece.leg, PathLeg))
     assert way.points[0] == way.points[-1]
     turns = [wrap_angle(math.atan2(b[1], b[0]) - math.atan2(a[1], a[0])) for a, b in zip(way.points, way.points[1:])]
     assert sum(turns) == pytest.approx(2.0 * math.pi)
 
 
 def test_endless_plan_goes_on():
-    plan = Plan((0.0,), (), 1.0, endless=True)
+    plan = DrivePlan((0.0,), (), 1.0, endless=True)
     kinds = [piece.kind for piece in itertools.islice(pieces(CAR_SHAPES["sedan"], START, plan), 100)]
     assert kinds.count("loop") == 2
     assert kinds.count("axis") > 30
 
 
-@pytest.mark.parametrize("leg", [Straight((2.0, 0.0), 0.5), Straight((-2.0, 0.0), 0.5, True),
-                                 Polyline(((2.0, 1.0),), 0.5)])
+@pytest.mark.parametrize("leg", [StraightLeg((2.0, 0.0), 0.5), StraightLeg((-2.0, 0.0), 0.5, True),
+                                 PathLeg(((2.0, 1.0),), 0.5)])
 def test_leg_ends_at_its_goal(leg):
-    goal = leg.points[-1] if isinstance(leg, Polyline) else leg.to
-    start = Pose2(0.0, 0.0, math.atan2(goal[1], goal[0]) if isinstance(leg, Polyline) else 0.0)
+    goal = leg.points[-1] if isinstance(leg, PathLeg) else leg.to
+    start = Pose2(0.0, 0.0, math.atan2(goal[1], goal[0]) if isinstance(leg, PathLeg) else 0.0)
     end = follow(leg, start)[-1]
     assert math.hypot(end.x - goal[0], end.y - goal[1]) < 0.03
 
 
 @pytest.mark.parametrize("heading", [-3.0, -0.5, 0.02, 3.1])
 def test_turn_ends_at_its_heading(heading):
-    assert abs(wrap_angle(follow(Turn(heading), Pose2(1.0, 1.0, 0.0))[-1].heading - heading)) < 0.02
+    assert abs(wrap_angle(follow(TurnLeg(heading), Pose2(1.0, 1.0, 0.0))[-1].heading - heading)) < 0.02
+
+
+@pytest.mark.parametrize(("leg", "name"), [
+    (StandLeg(1.0), "stand"), (TurnLeg(1.0), "turn"), (StraightLeg((1.0, 0.0), 0.5), "straight"),
+    (PathLeg(((1.0, 0.0),), 0.5), "path"), (LiftLeg(1.0, 0.0), "lift")])
+def test_leg_has_its_name_in_the_files(leg, name):
+    assert leg_name(leg) == name
 
 
 def test_standing_takes_its_time():
-    assert len(follow(Stand(1.0), START)) == 51
+    assert len(follow(StandLeg(1.0), START)) == 51
 
 
 def test_recording_holds_what_the_live_robot_would_hear_and_the_truth(tmp_path):

@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 
+from mtr_benchmarks.localization.drives.pose_track import aligned, at, compose, pose_track
 from mtr_benchmarks.localization.drives.sensor_log import SensorLog, Sweep
-from mtr_benchmarks.localization.drives.trajectory import aligned, at, compose, trajectory
 from mtr_benchmarks.localization.drives.truth import DriveTruth
 from mtr_benchmarks.localization.methods import mrpt
 from mtr_benchmarks.localization.methods.compared import fitted_car
 from mtr_benchmarks.localization.methods.dead_reckoning import dead_reckoned
-from mtr_benchmarks.localization.methods.errors import CarPose, errors_of, joined, normalised_squares, percentile
+from mtr_benchmarks.localization.methods.errors import MeasuredCar, errors_of, joined, normalised_squares, percentile
 from mtr_core.se2 import Pose2
 
 STAMPS = np.arange(0.0, 20.0, 0.02)
@@ -24,7 +24,7 @@ def truth_of(poses_in_car, judged_from_s=0.0):
     count = len(poses_in_car)
     meta = {"map_from_car": {"x_m": -3.0, "y_m": 1.5, "heading_rad": 0.7},
             "segments": [{"kind": "loop", "begin_s": -1.0, "end_s": 10.0}]}
-    return DriveTruth(trajectory(STAMPS, poses_in_car), np.zeros(count, bool), np.zeros(count, bool), np.zeros(count),
+    return DriveTruth(pose_track(STAMPS, poses_in_car), np.zeros(count, bool), np.zeros(count, bool), np.zeros(count),
                       judged_from_s <= STAMPS, meta)
 
 
@@ -35,21 +35,21 @@ def circle():
 
 
 def test_perfect_method_has_no_error():
-    track = trajectory(STAMPS, compose(MAP_FROM_CAR, circle()))
-    errors = errors_of(track, CarPose(MAP_FROM_CAR, NO_COVARIANCE), truth_of(circle()))
+    track = pose_track(STAMPS, compose(MAP_FROM_CAR, circle()))
+    errors = errors_of(track, MeasuredCar(MAP_FROM_CAR, NO_COVARIANCE), truth_of(circle()))
     assert np.max(errors.key_m) < 1e-9
     assert np.max(np.abs(errors.yaw_deg)) < 1e-9
 
 
 def test_car_that_is_found_beside_its_place_moves_every_key():
-    track = trajectory(STAMPS, compose(MAP_FROM_CAR, circle()))
-    beside = CarPose(MAP_FROM_CAR @ Pose2(0.03, -0.04, 0.0), NO_COVARIANCE)
+    track = pose_track(STAMPS, compose(MAP_FROM_CAR, circle()))
+    beside = MeasuredCar(MAP_FROM_CAR @ Pose2(0.03, -0.04, 0.0), NO_COVARIANCE)
     assert errors_of(track, beside, truth_of(circle())).key_m == pytest.approx(0.05)
 
 
 def test_wrong_heading_moves_the_key_by_its_lever():
     poses = circle() + (0.0, 0.0, 0.02)
-    errors = errors_of(trajectory(STAMPS, compose(MAP_FROM_CAR, poses)), CarPose(MAP_FROM_CAR, NO_COVARIANCE),
+    errors = errors_of(pose_track(STAMPS, compose(MAP_FROM_CAR, poses)), MeasuredCar(MAP_FROM_CAR, NO_COVARIANCE),
                        truth_of(circle()))
     assert errors.key_m == pytest.approx(0.25 * 0.02, rel=1e-3)
     assert errors.yaw_deg == pytest.approx(math.degrees(0.02))
@@ -58,14 +58,14 @@ def test_wrong_heading_moves_the_key_by_its_lever():
 def test_pose_that_is_not_valid_is_unknown_and_not_good():
     valid = np.ones(len(STAMPS))
     valid[500:] = 0.0
-    track = trajectory(STAMPS, compose(MAP_FROM_CAR, circle()), valid=valid > 0.5)
-    errors = errors_of(track, CarPose(MAP_FROM_CAR, NO_COVARIANCE), truth_of(circle()))
+    track = pose_track(STAMPS, compose(MAP_FROM_CAR, circle()), valid=valid > 0.5)
+    errors = errors_of(track, MeasuredCar(MAP_FROM_CAR, NO_COVARIANCE), truth_of(circle()))
     assert np.isnan(errors.key_m[500:]).all() and not np.isnan(errors.key_m[:500]).any()
 
 
 def test_only_what_comes_after_the_loop_is_judged():
-    track = trajectory(STAMPS, compose(MAP_FROM_CAR, circle()))
-    errors = errors_of(track, CarPose(MAP_FROM_CAR, NO_COVARIANCE), truth_of(circle(), judged_from_s=15.0))
+    track = pose_track(STAMPS, compose(MAP_FROM_CAR, circle()))
+    errors = errors_of(track, MeasuredCar(MAP_FROM_CAR, NO_COVARIANCE), truth_of(circle(), judged_from_s=15.0))
     assert errors.stamps_s[0] == pytest.approx(15.0)
 
 
@@ -78,7 +78,7 @@ def test_normalised_error_of_honest_covariances_has_its_expectation():
     cars = noise.multivariate_normal(np.zeros(3), car, 20_000)
     measured = np.array([compose((Pose2(MAP_FROM_CAR.x + x, MAP_FROM_CAR.y + y, MAP_FROM_CAR.heading + h)).inverse(),
                                  row[np.newaxis])[0] for (x, y, h), row in zip(cars, robots)])
-    covariances = joined(np.tile(robot, (20_000, 1, 1)), CarPose(MAP_FROM_CAR, car), true_in_car)
+    covariances = joined(np.tile(robot, (20_000, 1, 1)), MeasuredCar(MAP_FROM_CAR, car), true_in_car)
     assert np.mean(normalised_squares(measured, true_in_car, covariances)) == pytest.approx(3.0, rel=0.05)
 
 
@@ -95,12 +95,12 @@ def test_alignment_finds_the_motion_between_two_tracks():
 
 def test_method_without_locator_is_given_the_car_by_its_loop():
     poses = compose(Pose2(7.0, 8.0, -1.0), circle())
-    car = fitted_car(trajectory(STAMPS, poses), truth_of(circle())).pose
+    car = fitted_car(pose_track(STAMPS, poses), truth_of(circle())).pose
     assert (car.x, car.y, car.heading) == pytest.approx((7.0, 8.0, -1.0))
 
 
 def test_headings_are_interpolated_across_the_half_turn():
-    track = trajectory(np.array([0.0, 1.0]), np.array([(0.0, 0.0, 3.1), (0.0, 0.0, -3.1)]))
+    track = pose_track(np.array([0.0, 1.0]), np.array([(0.0, 0.0, 3.1), (0.0, 0.0, -3.1)]))
     assert at(track, np.array([0.5]))[0, 2] == pytest.approx(math.pi)
 
 
@@ -126,7 +126,7 @@ def sweep_of_a_wall(turning_radps):
 
 
 def test_sweep_of_a_turning_robot_is_straightened():
-    odometry = trajectory(np.array([1.0, 1.03]), np.array([(0.0, 0.0, 0.0), (0.0, 0.0, 0.06)]))
+    odometry = pose_track(np.array([1.0, 1.03]), np.array([(0.0, 0.0, 0.0), (0.0, 0.0, 0.06)]))
     end = np.array((0.0, 0.0, 0.06))
     seen = mrpt.points(sweep_of_a_wall(2.0), odometry, end)
     assert compose(Pose2(*end), np.column_stack([seen, np.zeros(len(seen))]))[:, 0] == pytest.approx(3.0, abs=1e-6)

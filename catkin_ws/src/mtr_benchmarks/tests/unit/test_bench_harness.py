@@ -6,7 +6,7 @@ import math
 import pytest
 
 from mtr_benchmarks.harness.lines import line
-from mtr_benchmarks.harness.report import Report, finish
+from mtr_benchmarks.harness.report import BenchmarkReport, finish
 from mtr_benchmarks.harness.rows import Requirement, Row
 
 ERROR = Requirement("error", "m", goal=0.01, must=0.02)
@@ -54,7 +54,7 @@ def test_row_is_one_line(row, shown):
 @pytest.mark.parametrize(("error_m", "status"), [(0.02, 0), (0.03, 1)])
 def test_benchmark_leaves_a_file_and_a_status(tmp_path, capsys, error_m, status):
     path = tmp_path / "new" / "error.json"
-    found = Report([Row(ERROR, error_m), Row(NEWS, 21.0)], {"runs": 3, "worst": math.inf}, ["Nothing else."])
+    found = BenchmarkReport([Row(ERROR, error_m), Row(NEWS, 21.0)], {"runs": 3, "worst": math.inf}, ["Nothing else."])
     assert finish(found, path) == status
     written = json.loads(path.read_text(encoding="utf-8"))
     assert written["runs"] == 3 and written["worst"] is None

@@ -14,7 +14,7 @@ from .line import LineObserver, SerialLine
 from .parameters import SerialParameters
 from .port import SerialPort
 from .session import SerialSession, SessionEvent
-from .status import LINKED, LineStatus, Severity, StatusReports, line_status
+from .status import LINKED, SerialLineStatus, Severity, StatusReports, line_status
 
 LOG = (rospy.logdebug, rospy.loginfo, rospy.logwarn, rospy.logerr, rospy.logfatal)
 LEVELS = (DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR)
@@ -91,7 +91,7 @@ class SerialBridgeNode(LineObserver):
             self._logged = status.sentence
             self._log(status)
 
-    def _log(self, status: LineStatus) -> None:
+    def _log(self, status: SerialLineStatus) -> None:
         if status.sentence == LINKED:
             rospy.loginfo("The port %s is open at %d baud.", self._parameters.port, self._parameters.baud)
         elif status.severity is Severity.WARN:
@@ -99,7 +99,7 @@ class SerialBridgeNode(LineObserver):
         else:
             rospy.logwarn("%s", status.sentence)
 
-    def _diagnostics_message(self, line: LineStatus) -> DiagnosticArray:
+    def _diagnostics_message(self, line: SerialLineStatus) -> DiagnosticArray:
         health = self._line.session.health
         values = {
             "bytes_received": health.bytes_in, "frames": health.frames,

@@ -18,21 +18,21 @@ class Severity(enum.IntEnum):
     ERROR = 2
 
 
-class LineStatus(NamedTuple):
+class SerialLineStatus(NamedTuple):
     """How the line is, in a word or a sentence."""
 
     severity: Severity
     sentence: str
 
 
-def line_status(path: str, trouble: str, problem: LineProblem, has_refused: bool) -> LineStatus:
+def line_status(path: str, trouble: str, problem: LineProblem, has_refused: bool) -> SerialLineStatus:
     """Status of a port: trouble says why it is not open; has_refused: something of the device could not be served."""
     if trouble:
-        return LineStatus(Severity.ERROR, trouble)
+        return SerialLineStatus(Severity.ERROR, trouble)
     if problem is LineProblem.NONE:
-        return LineStatus(Severity.WARN if has_refused else Severity.OK, LINKED)
+        return SerialLineStatus(Severity.WARN if has_refused else Severity.OK, LINKED)
     severity = Severity.WARN if problem is LineProblem.WAITING else Severity.ERROR
-    return LineStatus(severity, f"The port {path} {problem.value}.")
+    return SerialLineStatus(severity, f"The port {path} {problem.value}.")
 
 
 class StatusReports:
@@ -44,10 +44,10 @@ class StatusReports:
 
     def __init__(self, period_s: float = REPORT_PERIOD_S):
         self._period_s = period_s
-        self._reported: Optional[LineStatus] = None
+        self._reported: Optional[SerialLineStatus] = None
         self._reported_s = -math.inf
 
-    def is_due(self, status: LineStatus, now_s: float) -> bool:
+    def is_due(self, status: SerialLineStatus, now_s: float) -> bool:
         """True when the status is to be reported now; it then counts as reported."""
         if status == self._reported and now_s - self._reported_s < self._period_s:
             return False

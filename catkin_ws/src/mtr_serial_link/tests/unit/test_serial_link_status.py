@@ -7,7 +7,7 @@ from mtr_serial_link.health import LineProblem
 from mtr_serial_link.line import TICK_S
 from mtr_serial_link.parameters import SerialParameters
 from mtr_serial_link.session import SerialSession
-from mtr_serial_link.status import LINKED, LineStatus, Severity, StatusReports, line_status
+from mtr_serial_link.status import LINKED, SerialLineStatus, Severity, StatusReports, line_status
 from mtr_serial_link.wire import ReservedId, TopicInfo
 
 PORT = "/dev/board"
@@ -61,7 +61,7 @@ def test_device_that_thaws_at_any_instant_is_called_linked(thaw_s):
 
 def test_each_change_is_reported_in_its_turn_and_nothing_twice_within_a_period():
     reports = StatusReports(1.0)
-    linked, lost = LineStatus(Severity.OK, LINKED), LineStatus(Severity.ERROR, "It is lost.")
+    linked, lost = SerialLineStatus(Severity.OK, LINKED), SerialLineStatus(Severity.ERROR, "It is lost.")
     course = [(0.0, linked), (0.1, linked), (0.9, lost), (0.902, linked), (1.8, linked), (1.903, linked)]
     assert [reports.is_due(status, now_s) for now_s, status in course] == [True, False, True, True, False, True]
 

@@ -11,7 +11,7 @@ from .rows import Row, all_met
 
 
 @dataclass(frozen=True)
-class Report:
+class BenchmarkReport:
     """All that one benchmark found.
 
     Attributes:
@@ -30,13 +30,13 @@ class Report:
                 "table": [row.as_json() for row in self.rows]}
 
 
-def write(report: Report, path: pathlib.Path) -> None:
+def write(report: BenchmarkReport, path: pathlib.Path) -> None:
     """Write the file and, if it is not there, its folder."""
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(report.document(), indent=2, allow_nan=False) + "\n", encoding="utf-8")
 
 
-def finish(report: Report, path: pathlib.Path) -> int:
+def finish(report: BenchmarkReport, path: pathlib.Path) -> int:
     """Write the file and print the table; the exit status is 0 when every row is what it must be."""
     write(report, path)
     print("\n".join([*map(line, report.rows), *report.remarks]), flush=True)

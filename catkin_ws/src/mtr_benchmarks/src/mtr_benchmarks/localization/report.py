@@ -3,7 +3,7 @@
 from dataclasses import asdict
 from typing import Any, Dict, List, Optional, Sequence
 
-from ..harness.report import Report
+from ..harness.report import BenchmarkReport
 from .drives.selection import CAMPAIGN, KIDNAP, PLAIN, SCENES
 from .judging import campaign, kidnapping, position_rows
 from .judging.figures import scene_figures
@@ -15,8 +15,7 @@ ABOUT = {
     "key position": "distance in m of the key (0.25 m ahead of base_link) in the Car's frame as measured from where it "
                     "truly is in the true Car's frame; the error of the Car's pose is in it",
     "online": "each 20 ms from 3.5 s after the end of the loop on; standstill: while the robot stands",
-    "odometry_gyro, mrpt_icp": "are told where the Car is, by the best fit of their loop to the truth; this_system "
-                               "locates the Car itself",
+    "odometry_gyro, mrpt_icp": "are given the Car by the best fit of their loop to the truth; this_system locates it",
     "length_error_m, width_error_m": "95 % of the absolute errors of what was measured against the Car in the LiDAR's "
                                      "plane; _body: of what was published, the data sheet's size where the plane is "
                                      "below the widest line, against the widest parts; only drives in which the plane "
@@ -29,7 +28,7 @@ PER_DRIVE = ("online_rmse_m", "online_p95_m", "online_max_m", "moving_p95_m", "s
              "nees_ratio", "cpu_ms_per_scan", "unknown_share")
 
 
-def report(results: Sequence[DriveResult], real_time: Optional[RealTimeFigures]) -> Report:
+def report(results: Sequence[DriveResult], real_time: Optional[RealTimeFigures]) -> BenchmarkReport:
     """Everything that goes into localization.json; real_time is None if it was not measured."""
     campaigns = [campaign.figures(each.errors) for each in outcomes_in(results, CAMPAIGN)]
     kidnapped = kidnapping.figures([kidnapping.kidnapping(each.outcomes[THIS_SYSTEM].errors, each.segments)
@@ -51,8 +50,9 @@ def report(results: Sequence[DriveResult], real_time: Optional[RealTimeFigures])
         "failures": failed,
         "drives": [drive_figures(each) for each in results],
     }
-    return Report(rows, figures, [f"{name}, {method}: {sentence}" for name, sentences in failed.items()
-                                  for method, sentence in sentences.items()])
+    remarks = [f"{name}, {method}: {sentence}" for name, sentences in failed.items()
+               for method, sentence in sentences.items()]
+    return BenchmarkReport(rows, figures, remarks)
 
 
 def outcomes_in(results: Sequence[DriveResult], variant: str) -> List[MethodOutcome]:

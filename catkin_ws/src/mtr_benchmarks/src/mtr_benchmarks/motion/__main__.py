@@ -10,7 +10,7 @@ import sys
 from dataclasses import asdict
 from typing import Any, Dict, List, Optional
 
-from ..harness.report import Report, finish, write
+from ..harness.report import BenchmarkReport, finish, write
 from .options import MotionOptions
 
 # Modules with a function `measure` that returns figures with rows.
@@ -41,12 +41,12 @@ def main(arguments: Optional[List[str]] = None) -> int:
     return finish(report(parts), path)
 
 
-def report(parts: Dict[str, Any]) -> Report:
+def report(parts: Dict[str, Any]) -> BenchmarkReport:
     """The promised figures on top, everything below the part it comes from in `details`."""
     details = {name: asdict(part) for name, part in parts.items()}
     found = {key: value for part in details.values() for key, value in part.items()}
     promised = {key: found[key] for key in PROMISED if key in found}
-    return Report([row for part in parts.values() for row in part.rows()], {**promised, "details": details})
+    return BenchmarkReport([row for part in parts.values() for row in part.rows()], {**promised, "details": details})
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import sys
 from dataclasses import asdict
 from typing import List, Optional
 
-from ..harness.report import Report, finish
+from ..harness.report import BenchmarkReport, finish
 from ..harness.rows import Requirement, Row
 from .echo import EchoFigures, measure_echo
 
@@ -29,11 +29,11 @@ def main(arguments: Optional[List[str]] = None) -> int:
     return finish(report(measure_echo()), options.out / "serial.json")
 
 
-def report(echo: EchoFigures) -> Report:
+def report(echo: EchoFigures) -> BenchmarkReport:
     """Figures and rows."""
     rows = [Row(MEDIAN, echo.echo_p50_ms), Row(P95, echo.echo_p95_ms), Row(MAXIMUM, echo.echo_max_ms),
             Row(LOST, echo.commands - echo.echoes)]
-    return Report(rows, asdict(echo))
+    return BenchmarkReport(rows, asdict(echo))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import sys
 from dataclasses import asdict
 from typing import List, Optional
 
-from ..harness.report import Report, finish
+from ..harness.report import BenchmarkReport, finish
 from ..harness.rows import Requirement, Row
 from .physics import PhysicsFigures, measure_physics
 from .whole_stack import WholeStackFigures, measure_whole_stack
@@ -30,11 +30,11 @@ def main(arguments: Optional[List[str]] = None) -> int:
     return finish(found, options.out / "simulation.json")
 
 
-def report(physics: PhysicsFigures, stack: WholeStackFigures) -> Report:
+def report(physics: PhysicsFigures, stack: WholeStackFigures) -> BenchmarkReport:
     """Figures and rows of both."""
     rows = [Row(PHYSICS, physics.real_time_factor), Row(TICK_MEDIAN, physics.tick_median_ms),
             Row(TICK_P99, physics.tick_p99_ms), Row(WHOLE_STACK, stack.real_time_factor, not stack.problems)]
-    return Report(rows, {**asdict(physics), "whole_stack": asdict(stack)}, list(stack.problems))
+    return BenchmarkReport(rows, {**asdict(physics), "whole_stack": asdict(stack)}, list(stack.problems))
 
 
 if __name__ == "__main__":

@@ -15,19 +15,19 @@ LOOK_AHEAD_M = 0.5
 CROSS_GAIN_PER_M, HEADING_GAIN_PER_S = 3.0, 2.5
 
 
-class Stand(NamedTuple):
+class StandLeg(NamedTuple):
     """Stand still."""
 
     duration_s: float
 
 
-class Turn(NamedTuple):
+class TurnLeg(NamedTuple):
     """Turn on the spot to a heading in frame car."""
 
     heading: float
 
 
-class Straight(NamedTuple):
+class StraightLeg(NamedTuple):
     """Drive straight to a point in frame car, forwards, or backwards with the heading against the way."""
 
     to: Point
@@ -35,14 +35,14 @@ class Straight(NamedTuple):
     backwards: bool = False
 
 
-class Polyline(NamedTuple):
+class PathLeg(NamedTuple):
     """Drive forwards along a polyline in frame car, cutting its corners."""
 
     points: Tuple[Point, ...]
     speed_mps: float
 
 
-class Lift(NamedTuple):
+class LiftLeg(NamedTuple):
     """Somebody lifts the robot and puts it down beside: to its left, turned."""
 
     aside_m: float
@@ -50,7 +50,12 @@ class Lift(NamedTuple):
 
 
 # One piece of a drive.
-Leg = Union[Stand, Turn, Straight, Polyline, Lift]
+Leg = Union[StandLeg, TurnLeg, StraightLeg, PathLeg, LiftLeg]
+
+
+def leg_name(leg: Leg) -> str:
+    """Its name in a drive's files: stand, turn, straight, path or lift."""
+    return type(leg).__name__[:-len("Leg")].lower()
 
 
 class LegFollower:
@@ -59,18 +64,18 @@ class LegFollower:
     def __init__(self, leg: Leg, start: Pose2, period_s: float):
         self._leg, self._start, self._period_s = leg, start, period_s
         self._elapsed_s = self._speed = self._turning = 0.0
-        self._ahead: List[Point] = [(start.x, start.y), *leg.points] if isinstance(leg, Polyline) else []
+        self._ahead: List[Point] = [(start.x, start.y), *leg.points] if isinstance(leg, PathLeg) else []
 
     def update(self, pose: Pose2) -> Tuple[Velocity, bool]:
         """Command for the true pose, and whether the leg is finished."""
         self._elapsed_s += self._period_s
-        if isinstance(self._leg, Lift):
+        if isinstance(self._leg, LiftLeg):
             return (0.0, 0.0), True
-        if isinstance(self._leg, Stand):
+        if isinstance(self._leg, StandLeg):
             return (0.0, 0.0), self._elapsed_s >= self._leg.duration_s
-        if isinstance(self._leg, Turn):
+        if isinstance(self._leg, TurnLeg):
             return self._turn(wrap_angle(self._leg.heading - pose.heading))
-        if isinstance(self._leg, Straight):
+        if isinstance(self._leg, StraightLeg):
             return self._straight(self._leg, pose)
         return self._along(self._leg, pose)
 
@@ -81,7 +86,7 @@ class LegFollower:
         done = abs(error) < ARRIVAL_RAD
         return (0.0, 0.0 if done else self._turning), done
 
-    def _straight(self, leg: Straight, pose: Pose2) -> Tuple[Velocity, bool]:
+    def _straight(self, leg: StraightLeg, pose: Pose2) -> Tuple[Velocity, bool]:
         sign = -1.0 if leg.backwards else 1.0
         way = math.atan2(leg.to[1] - self._start.y, leg.to[0] - self._start.x)
         ahead, aside = Pose2(leg.to[0], leg.to[1], way).inverse().apply(pose.x, pose.y)
@@ -91,7 +96,7 @@ class LegFollower:
         turning = -HEADING_GAIN_PER_S * heading - CROSS_GAIN_PER_M * speed * aside
         return ((0.0, 0.0) if done else (speed, _clip(turning, MAX_TURN_RADPS))), done
 
-    def _along(self, leg: Polyline, pose: Pose2) -> Tuple[Velocity, bool]:
+    def _along(self, leg: PathLeg, pose: Pose2) -> Tuple[Velocity, bool]:
         goal = self._look_ahead(pose)
         left_m = _length([(pose.x, pose.y), *self._ahead[1:]])
         x, y = pose.inverse().apply(*goal)

@@ -7,7 +7,7 @@ from mtr_core.se2 import Pose2, wrap_angle
 from mtr_simulation import robot
 from mtr_simulation.car_shape import CarShape
 
-from .legs import Leg, Lift, Point, Polyline, Stand, Straight, Turn
+from .legs import Leg, LiftLeg, PathLeg, Point, StandLeg, StraightLeg, TurnLeg
 
 LOOP_DISTANCE_M, LOOP_SPEED_MPS = 1.6, 0.5
 TRANSFER_DISTANCE_M, TRANSFER_SPEED_MPS = 2.2, 0.8
@@ -19,11 +19,11 @@ STAND_FIRST_S, STAND_S, STAND_AFTER_LOOP_S = 2.0, 1.5, 4.0
 START, LOOP, SETTLE, TRANSFER, AXIS, RADIAL, KIDNAP = (
     "start", "loop", "settle", "transfer", "axis", "radial", "kidnap")
 # Lifted away from the Car, which is to the left on the way round it; then it stands as the fail-safes let it.
-LIFTED = Lift(-2.0, math.radians(20.0))
+LIFTED = LiftLeg(-2.0, math.radians(20.0))
 STAND_AFTER_LIFT_S = 20.0
 
 
-class Piece(NamedTuple):
+class DrivePiece(NamedTuple):
     """One leg with what it belongs to; line is the direction of the axis or radial in frame car."""
 
     leg: Leg
@@ -31,7 +31,7 @@ class Piece(NamedTuple):
     line_rad: float = 0.0
 
 
-class Plan(NamedTuple):
+class DrivePlan(NamedTuple):
     """What comes after the loop.
 
     Attributes:
@@ -49,15 +49,15 @@ class Plan(NamedTuple):
     kidnap: bool = False
 
 
-def pieces(shape: CarShape, start: Pose2, plan: Plan) -> Iterator[Piece]:
+def pieces(shape: CarShape, start: Pose2, plan: DrivePlan) -> Iterator[DrivePiece]:
     """Leg by leg from the start, a pose in frame car."""
     here = (start.x, start.y)
-    yield Piece(Stand(STAND_FIRST_S), START)
+    yield DrivePiece(StandLeg(STAND_FIRST_S), START)
     way = _loop_way(shape, here)
-    yield from (Piece(Turn(_bearing(here, way[0])), LOOP), Piece(Polyline(way, LOOP_SPEED_MPS), LOOP),
-                Piece(Stand(STAND_AFTER_LOOP_S), SETTLE))
+    yield from (DrivePiece(TurnLeg(_bearing(here, way[0])), LOOP), DrivePiece(PathLeg(way, LOOP_SPEED_MPS), LOOP),
+                DrivePiece(StandLeg(STAND_AFTER_LOOP_S), SETTLE))
     if plan.kidnap:
-        yield from (Piece(LIFTED, KIDNAP), Piece(Stand(STAND_AFTER_LIFT_S), KIDNAP))
+        yield from (DrivePiece(LIFTED, KIDNAP), DrivePiece(StandLeg(STAND_AFTER_LIFT_S), KIDNAP))
         return
     here, again = way[-1], True
     while again:
@@ -96,34 +96,35 @@ def _loop_way(shape: CarShape, here: Point) -> Tuple[Point, ...]:
     return tuple(places[(first + step) % len(places)] for step in range(len(places) + 1))
 
 
-def _axis(shape: CarShape, here: Point, direction: float) -> Tuple[List[Piece], Point]:
+def _axis(shape: CarShape, here: Point, direction: float) -> Tuple[List[DrivePiece], Point]:
     """Approach, stand, retreat backwards, stand."""
     x, y = edge(shape, direction)
     cos, sin = math.cos(direction), math.sin(direction)
     far, near = ((x + (distance + robot.KEY_X_M) * cos, y + (distance + robot.KEY_X_M) * sin)
                  for distance in (AXIS_FAR_M, AXIS_NEAR_M))
-    legs: List[Leg] = [Straight(near, AXIS_SPEED_MPS), Stand(STAND_S),
-                       Straight(far, AXIS_SPEED_MPS, True), Stand(STAND_S)]
+    legs: List[Leg] = [StraightLeg(near, AXIS_SPEED_MPS), StandLeg(STAND_S),
+                       StraightLeg(far, AXIS_SPEED_MPS, True), StandLeg(STAND_S)]
     return [*_transfer(shape, here, far, wrap_angle(direction + math.pi)),
-            *(Piece(leg, AXIS, direction) for leg in legs)], far
+            *(DrivePiece(leg, AXIS, direction) for leg in legs)], far
 
 
-def _radial(shape: CarShape, here: Point, direction: float, reach_m: float) -> Tuple[List[Piece], Point]:
+def _radial(shape: CarShape, here: Point, direction: float, reach_m: float) -> Tuple[List[DrivePiece], Point]:
     """Retreat backwards facing the Car's centre with a stop at each step, then return."""
     begin = outline_distance(shape, direction)
     cos, sin = math.cos(direction), math.sin(direction)
     steps = math.ceil((reach_m - RADIAL_NEAR_M) / RADIAL_STEP_M)
     distances = [*(begin + RADIAL_NEAR_M + step * RADIAL_STEP_M for step in range(steps)), begin + reach_m]
     stops = [(distance * cos, distance * sin) for distance in distances]
-    legs: List[Leg] = [Stand(STAND_S)]
+    legs: List[Leg] = [StandLeg(STAND_S)]
     for stop in stops[1:]:
-        legs += [Straight(stop, RADIAL_SPEED_MPS, True), Stand(STAND_S)]
+        legs += [StraightLeg(stop, RADIAL_SPEED_MPS, True), StandLeg(STAND_S)]
     back = ((begin + TRANSFER_DISTANCE_M) * cos, (begin + TRANSFER_DISTANCE_M) * sin)
     return [*_transfer(shape, here, stops[0], wrap_angle(direction + math.pi)),
-            *(Piece(leg, RADIAL, direction) for leg in legs), Piece(Straight(back, TRANSFER_SPEED_MPS), TRANSFER)], back
+            *(DrivePiece(leg, RADIAL, direction) for leg in legs),
+            DrivePiece(StraightLeg(back, TRANSFER_SPEED_MPS), TRANSFER)], back
 
 
-def _transfer(shape: CarShape, here: Point, there: Point, heading: float) -> List[Piece]:
+def _transfer(shape: CarShape, here: Point, there: Point, heading: float) -> List[DrivePiece]:
     """Round the Car the shorter way, then turn towards it."""
     places = ring(shape, TRANSFER_DISTANCE_M)
     begin, end = (math.atan2(y, x) for x, y in (here, there))
@@ -131,8 +132,8 @@ def _transfer(shape: CarShape, here: Point, there: Point, heading: float) -> Lis
     turns = [(wrap_angle(math.atan2(y, x) - begin), (x, y)) for x, y in places]
     between = [(abs(angle), place) for angle, place in turns if angle * turn > 0.0 and abs(angle) < abs(turn)]
     way = (*(place for _, place in sorted(between)), there)
-    return [Piece(Turn(_bearing(here, way[0])), TRANSFER), Piece(Polyline(way, TRANSFER_SPEED_MPS), TRANSFER),
-            Piece(Turn(heading), TRANSFER)]
+    legs = (TurnLeg(_bearing(here, way[0])), PathLeg(way, TRANSFER_SPEED_MPS), TurnLeg(heading))
+    return [DrivePiece(leg, TRANSFER) for leg in legs]
 
 
 def _bearing(here: Point, there: Point) -> float:

@@ -18,9 +18,9 @@ from mtr_msgs.msg import MappingOrder
 from mtr_simulation.car_shape import size_at
 from mtr_simulation.sim import TICK_S, Sim
 
-from .legs import LegFollower, Lift
+from .legs import LegFollower, LiftLeg, leg_name
 from .options import DriveOptions
-from .pattern import LOOP, START, Piece, Plan, pieces
+from .pattern import LOOP, START, DrivePiece, DrivePlan, pieces
 from .recording import Recording, pose_values
 
 # Options are the fields of DriveOptions, some without their unit.
@@ -40,13 +40,13 @@ class DriveError(Exception):
     """The robot did not get to the end of the drive."""
 
 
-def plan(options: DriveOptions) -> Plan:
+def plan(options: DriveOptions) -> DrivePlan:
     """Axes and radials of a drive: seeds take turns so that all directions are seen."""
     first = options.seed % 8
     axes = tuple(EIGHTH_RAD * ((first + 3 * step) % 8) for step in range(4))
     # None to the right, where a person may walk.
     radials = tuple(EIGHTH_RAD * ((options.seed + step) % 5) for step in (0, 2))
-    return Plan(axes, radials, REACH_M.get(options.scene, FULL_REACH_M), options.duration_s > 0.0, options.kidnap)
+    return DrivePlan(axes, radials, REACH_M.get(options.scene, FULL_REACH_M), options.duration_s > 0.0, options.kidnap)
 
 
 def record(options: DriveOptions, folder: pathlib.Path) -> Dict[str, Any]:
@@ -84,10 +84,10 @@ class _Driving:
     def __init__(self, sim: Sim, files: Recording, options: DriveOptions):
         self._sim, self._files, self._options = sim, files, options
 
-    def follow(self, index: int, piece: Piece) -> Dict[str, Any]:
+    def follow(self, index: int, piece: DrivePiece) -> Dict[str, Any]:
         """Follow one leg to its end; what it was, for meta.json."""
         sim, begin_ns = self._sim, self._sim.time_ns
-        if isinstance(piece.leg, Lift):
+        if isinstance(piece.leg, LiftLeg):
             sim.kidnap(sim.truth().world_from_base @ Pose2(0.0, piece.leg.aside_m, piece.leg.turn_rad))
         follower = LegFollower(piece.leg, sim.truth().car_from_base, TICK_S)
         done = False
@@ -100,7 +100,7 @@ class _Driving:
                                  f"{sim.truth().car_from_base}.")
             if sim.contacts():
                 raise DriveError(f"The robot touches {', '.join(sorted(sim.contacts()))} on leg {index}, {piece.leg}.")
-        return {"index": index, "kind": piece.kind, "leg": type(piece.leg).__name__.lower(),
+        return {"index": index, "kind": piece.kind, "leg": leg_name(piece.leg),
                 "line_rad": piece.line_rad, "begin_s": begin_ns * 1e-9, "end_s": sim.time_ns * 1e-9}
 
     def _tick(self, index: int, phase: int) -> None:

@@ -10,8 +10,8 @@ from mtr_core.arrays import BoolArray, FloatArray
 from mtr_core.se2 import Pose2
 
 from .pattern import AXIS, AXIS_SPEED_MPS
+from .pose_track import PoseTrack, pose_track, read_columns
 from .recording import META, TRUTH
-from .trajectory import Trajectory, read_columns, trajectory
 
 # The new map takes effect some seconds after the end of the loop; the robot stands until then.
 EFFECT_S = 3.5
@@ -30,7 +30,7 @@ class DriveTruth(NamedTuple):
         meta: the drive's meta.json.
     """
 
-    track: Trajectory
+    track: PoseTrack
     standing: BoolArray
     on_axis: BoolArray
     beyond_m: FloatArray
@@ -57,5 +57,5 @@ def read_truth(folder: pathlib.Path) -> DriveTruth:
     fast = np.abs(columns["linear_mps"]) > MOVING_SHARE * AXIS_SPEED_MPS
     beyond = np.hypot(np.maximum(np.abs(poses[:, 0]) - 0.5 * meta["length_m"], 0.0),
                       np.maximum(np.abs(poses[:, 1]) - 0.5 * meta["width_m"], 0.0))
-    return DriveTruth(trajectory(columns["stamp_s"], poses), columns["standing"] > 0.5, fast & (kinds == AXIS), beyond,
+    return DriveTruth(pose_track(columns["stamp_s"], poses), columns["standing"] > 0.5, fast & (kinds == AXIS), beyond,
                       columns["stamp_s"] > meta["loop_end_s"] + EFFECT_S, meta)

@@ -5,12 +5,12 @@ from typing import Dict
 
 import numpy as np
 
+from ..drives.pose_track import PoseTrack, aligned, at
 from ..drives.recording import BAG
 from ..drives.sensor_log import read_sensors
-from ..drives.trajectory import Trajectory, aligned, at
 from ..drives.truth import DriveTruth
 from .dead_reckoning import dead_reckoned
-from .errors import CarPose, errors_of
+from .errors import MeasuredCar, errors_of
 from .mrpt import run_mrpt
 from .outcome import MRPT_ICP, ODOMETRY_GYRO, MethodOutcome
 
@@ -24,8 +24,8 @@ def compare(folder: pathlib.Path, truth: DriveTruth, mrpt_program: pathlib.Path)
             MRPT_ICP: MethodOutcome(errors_of(slam.track, fitted_car(slam.track, truth), truth), slam.cpu_ms_per_scan)}
 
 
-def fitted_car(track: Trajectory, truth: DriveTruth) -> CarPose:
+def fitted_car(track: PoseTrack, truth: DriveTruth) -> MeasuredCar:
     """The Car where it fits the method's own way round it best: as if its locator made no error."""
     loop = truth.in_loop(track.stamps_s)
     car_from_map = aligned(track.poses[loop], at(truth.track, track.stamps_s[loop]))
-    return CarPose(car_from_map.inverse(), np.zeros((3, 3)))
+    return MeasuredCar(car_from_map.inverse(), np.zeros((3, 3)))

@@ -6,8 +6,8 @@ import numpy as np
 
 from mtr_core.arrays import FloatArray
 
+from ..drives.pose_track import PoseTrack, pose_track
 from ..drives.sensor_log import SensorLog
-from ..drives.trajectory import Trajectory, trajectory
 
 # Standing: the wheels say nothing for this long.
 STILL_S = 0.5
@@ -15,7 +15,7 @@ STILL_S = 0.5
 BIAS_MEMORY_S = 2.0
 
 
-def dead_reckoned(log: SensorLog) -> Trajectory:
+def dead_reckoned(log: SensorLog) -> PoseTrack:
     """Poses from the start, at each message of the wheels."""
     stamps, speeds = log.wheels.T
     rates = np.interp(stamps, *log.gyro.T)
@@ -25,7 +25,7 @@ def dead_reckoned(log: SensorLog) -> Trajectory:
     middles = headings - 0.5 * turns
     steps = speeds * periods
     x, y = np.cumsum(steps * np.cos(middles)), np.cumsum(steps * np.sin(middles))
-    return trajectory(stamps, np.stack([x, y, headings], axis=1))
+    return pose_track(stamps, np.stack([x, y, headings], axis=1))
 
 
 def _bias(stamps: FloatArray, speeds: FloatArray, rates: FloatArray) -> FloatArray:

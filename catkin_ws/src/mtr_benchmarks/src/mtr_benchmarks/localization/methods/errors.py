@@ -9,7 +9,7 @@ from mtr_core.arrays import BoolArray, FloatArray
 from mtr_core.se2 import Pose2
 from mtr_simulation import robot
 
-from ..drives.trajectory import Trajectory, at, compose, wrapped
+from ..drives.pose_track import PoseTrack, at, compose, wrapped
 from ..drives.truth import DriveTruth
 
 NAN = math.nan
@@ -34,14 +34,14 @@ class PoseErrors(NamedTuple):
     beyond_m: FloatArray
 
 
-class CarPose(NamedTuple):
+class MeasuredCar(NamedTuple):
     """The Car in a method's map: pose, and its covariance of x, y and heading in map."""
 
     pose: Pose2
     covariance: FloatArray
 
 
-def errors_of(track: Trajectory, car: CarPose, truth: DriveTruth) -> PoseErrors:
+def errors_of(track: PoseTrack, car: MeasuredCar, truth: DriveTruth) -> PoseErrors:
     """Errors at each judged instant of the truth."""
     judged = truth.judged & (truth.track.stamps_s >= track.stamps_s[0]) & (truth.track.stamps_s <= track.stamps_s[-1])
     stamps = truth.track.stamps_s[judged]
@@ -64,7 +64,7 @@ def keys(poses: FloatArray) -> FloatArray:
     return poses[:, :2] + robot.KEY_X_M * np.stack([np.cos(poses[:, 2]), np.sin(poses[:, 2])], axis=1)
 
 
-def joined(covariances: FloatArray, car: CarPose, poses_in_car: FloatArray) -> FloatArray:
+def joined(covariances: FloatArray, car: MeasuredCar, poses_in_car: FloatArray) -> FloatArray:
     """Covariances (n, 3, 3) of base_link in frame car from those of base_link and of the Car in map."""
     cos, sin = math.cos(car.pose.heading), math.sin(car.pose.heading)
     turn = np.array(((cos, sin, 0.0), (-sin, cos, 0.0), (0.0, 0.0, 1.0)))

@@ -9,8 +9,8 @@ import numpy as np
 
 from mtr_core.arrays import FloatArray
 
+from ..drives.pose_track import PoseTrack, at, pose_track, read_columns
 from ..drives.sensor_log import SensorLog, Sweep
-from ..drives.trajectory import Trajectory, at, read_columns, trajectory
 
 # Beams over the full circle, as dense as the LiDARs' own.
 BEAMS = 960
@@ -25,11 +25,11 @@ class MrptError(Exception):
 class MrptRun(NamedTuple):
     """Poses at the stamps of the scans, and the CPU time of each."""
 
-    track: Trajectory
+    track: PoseTrack
     cpu_ms_per_scan: float
 
 
-def run_mrpt(program: pathlib.Path, log: SensorLog, odometry: Trajectory, folder: pathlib.Path) -> MrptRun:
+def run_mrpt(program: pathlib.Path, log: SensorLog, odometry: PoseTrack, folder: pathlib.Path) -> MrptRun:
     """Let the program work on the drive."""
     source, result = folder / "mrpt_input.bin", folder / "mrpt.csv"
     _write(source, log, odometry)
@@ -39,10 +39,10 @@ def run_mrpt(program: pathlib.Path, log: SensorLog, odometry: Trajectory, folder
         raise MrptError(f"{program.name} ended with {done.returncode}: {done.stderr.strip()}")
     columns = read_columns(result)
     poses = np.stack([columns["x_m"], columns["y_m"], columns["heading_rad"]], axis=1)
-    return MrptRun(trajectory(columns["stamp_s"], poses), float(done.stdout))
+    return MrptRun(pose_track(columns["stamp_s"], poses), float(done.stdout))
 
 
-def _write(path: pathlib.Path, log: SensorLog, odometry: Trajectory) -> None:
+def _write(path: pathlib.Path, log: SensorLog, odometry: PoseTrack) -> None:
     """The program's input, see its head."""
     turns = list(_turns(log.sweeps))[::EVERY]
     with path.open("wb") as file:
@@ -66,7 +66,7 @@ def _turns(sweeps: List[Sweep]) -> Iterator[List[Sweep]]:
         yield together
 
 
-def points(sweep: Sweep, odometry: Trajectory, pose: FloatArray) -> FloatArray:
+def points(sweep: Sweep, odometry: PoseTrack, pose: FloatArray) -> FloatArray:
     """Returns (n, 2) in base_link at a pose, each seen from where the robot was at its beam's time."""
     seen = sweep.ranges_m > 0.0
     x, y, heading = at(odometry, sweep.stamps_s[seen]).T

@@ -19,10 +19,10 @@ from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 from mtr_simulation.car_shape import CAR_SHAPES
 
+from ..drives.pose_track import PoseTrack, aligned, at, compose, pose_track, read_columns
 from ..drives.recording import BAG
-from ..drives.trajectory import Trajectory, aligned, at, compose, read_columns, trajectory
 from ..drives.truth import DriveTruth
-from .errors import CarPose, errors_of
+from .errors import MeasuredCar, errors_of
 from .outcome import CarErrors, MethodOutcome
 
 REPLAY_LIMIT_S = 1800.0
@@ -58,12 +58,12 @@ def replay(bag: pathlib.Path, out: pathlib.Path) -> None:
         raise SystemFailure(f"replay_bag ended with {done.returncode}: {done.stderr.strip()[-500:]}")
 
 
-def read_replayed(path: pathlib.Path) -> Trajectory:
+def read_replayed(path: pathlib.Path) -> PoseTrack:
     """The trajectory that replay wrote."""
     columns = read_columns(path)
     poses = np.stack([columns["x_m"], columns["y_m"], columns["heading_rad"]], axis=1)
     covariances = np.stack([columns[f"c{row}{column}"] for row in "xyh" for column in "xyh"], axis=1)
-    return trajectory(columns["stamp_s"], poses, covariances.reshape(-1, 3, 3), columns["valid"] > 0.5)
+    return pose_track(columns["stamp_s"], poses, covariances.reshape(-1, 3, 3), columns["valid"] > 0.5)
 
 
 def locate(out: pathlib.Path, meta: Dict[str, Any], scans: Iterable[Scan] = ()) -> CarFit:
@@ -91,22 +91,22 @@ def data_sheet(meta: Dict[str, Any]) -> DataSheet:
                       wheelbase_m=CAR_SHAPES[meta["options"]["car"]].wheelbase_m)
 
 
-def car_pose(found: CarFit) -> CarPose:
+def car_pose(found: CarFit) -> MeasuredCar:
     """The Car in map with its covariance; its sigmas are along and across the Car."""
     pose = found.rectangle.pose
     along, across, turn = found.sigmas
     cos, sin = math.cos(pose.heading), math.sin(pose.heading)
     rotation = np.array(((cos, -sin, 0.0), (sin, cos, 0.0), (0.0, 0.0, 1.0)))
-    return CarPose(pose, rotation @ np.diag((along**2, across**2, turn**2)) @ rotation.T)
+    return MeasuredCar(pose, rotation @ np.diag((along**2, across**2, turn**2)) @ rotation.T)
 
 
-def key_frames(out: pathlib.Path) -> Trajectory:
+def key_frames(out: pathlib.Path) -> PoseTrack:
     """The adjusted key frames."""
     columns = read_columns(out / "key_frames.csv")
-    return trajectory(columns["stamp_s"], np.stack([columns["x_m"], columns["y_m"], columns["heading_rad"]], axis=1))
+    return pose_track(columns["stamp_s"], np.stack([columns["x_m"], columns["y_m"], columns["heading_rad"]], axis=1))
 
 
-def car_errors(found: CarFit, frames: Trajectory, truth: DriveTruth) -> CarErrors:
+def car_errors(found: CarFit, frames: PoseTrack, truth: DriveTruth) -> CarErrors:
     """Errors of the Car's pose in the adjusted map, laid on the truth by its key frames, and of its size.
 
     What the key frames are off among themselves is localization's error, the rest is the Car locator's.

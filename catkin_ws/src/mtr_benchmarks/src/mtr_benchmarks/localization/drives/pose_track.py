@@ -11,7 +11,7 @@ from mtr_core.arrays import BoolArray, FloatArray
 from mtr_core.se2 import Pose2
 
 
-class Trajectory(NamedTuple):
+class PoseTrack(NamedTuple):
     """Poses of base_link in map: stamps (n) in s, poses (n, 3) in m and rad with a heading that does not wrap.
 
     covariances (n, 3, 3) and valid (n) are None from a method that gives none.
@@ -23,12 +23,12 @@ class Trajectory(NamedTuple):
     valid: Optional[BoolArray] = None
 
 
-def trajectory(stamps_s: FloatArray, poses: FloatArray, covariances: Optional[FloatArray] = None,
-               valid: Optional[BoolArray] = None) -> Trajectory:
+def pose_track(stamps_s: FloatArray, poses: FloatArray, covariances: Optional[FloatArray] = None,
+               valid: Optional[BoolArray] = None) -> PoseTrack:
     """Trajectory whose headings are unwrapped."""
     unwrapped = np.array(poses, dtype=float)
     unwrapped[:, 2] = np.unwrap(unwrapped[:, 2])
-    return Trajectory(np.asarray(stamps_s, dtype=float), unwrapped, covariances, valid)
+    return PoseTrack(np.asarray(stamps_s, dtype=float), unwrapped, covariances, valid)
 
 
 def read_columns(path: pathlib.Path) -> Dict[str, FloatArray]:
@@ -40,7 +40,7 @@ def read_columns(path: pathlib.Path) -> Dict[str, FloatArray]:
     return dict(zip(header, values.reshape(-1, len(header)).T))
 
 
-def at(track: Trajectory, stamps_s: FloatArray) -> FloatArray:
+def at(track: PoseTrack, stamps_s: FloatArray) -> FloatArray:
     """Poses (n, 3) at the stamps, by linear interpolation."""
     return np.stack([np.interp(stamps_s, track.stamps_s, track.poses[:, column]) for column in range(3)], axis=1)
 
