@@ -1,12 +1,17 @@
 """What the checks of the architecture look at: the checkout's files, its catkin packages, the imports of a file."""
 # SPDX-License-Identifier: Apache-2.0
 import ast
+import functools
+import importlib.util
 import pathlib
 import subprocess
+import sysconfig
 from typing import List, Set
 from xml.etree import ElementTree
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
+# Parts of the Python that every machine has lie here.
+STANDARD_FOLDER = pathlib.Path(sysconfig.get_paths()["stdlib"])
 
 
 def tracked(*patterns: str) -> List[pathlib.Path]:
@@ -48,3 +53,13 @@ def imports(path: pathlib.Path) -> Set[str]:
             found.add(node.module)
             found |= {f"{node.module}.{alias.name}" for alias in node.names}
     return found | {name.split(".")[0] for name in found}
+
+
+@functools.lru_cache(maxsize=None)
+def is_standard(module: str) -> bool:
+    """True for what every Python brings along, and for what lies within another module."""
+    if "." in module:
+        return True
+    found = importlib.util.find_spec(module) if module != "__main__" else None
+    origin = found.origin if found else None
+    return origin in ("built-in", "frozen") or (origin is not None and STANDARD_FOLDER in pathlib.Path(origin).parents)

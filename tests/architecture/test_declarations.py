@@ -1,16 +1,13 @@
 """What code imports, includes, launches or reads as a message is what its package.xml or pyproject.toml declares."""
 # SPDX-License-Identifier: Apache-2.0
 import ast
-import functools
-import importlib.util
 import pathlib
 import re
-import sysconfig
 from typing import Dict, Iterator, Set
 from xml.etree import ElementTree
 
 import pytest
-from project import TOP, imports, package_folders, package_name, tracked
+from project import TOP, imports, is_standard, package_folders, package_name, tracked
 
 OWN = {package_name(folder) for folder in package_folders()}
 
@@ -33,9 +30,6 @@ HEADER_KEYS = {
 }
 # Headers of C, C++ and POSIX have no folder of their own but these.
 SYSTEM_FOLDERS = {"sys", "bits", "netinet", "arpa", "linux"}
-
-# Parts of the Python that every machine has lie here.
-STANDARD_FOLDER = pathlib.Path(sysconfig.get_paths()["stdlib"])
 
 # Declared for another reason than a line of code.
 WITHOUT_CODE = {
@@ -65,16 +59,6 @@ def is_python(path: pathlib.Path) -> bool:
 def is_test(path: pathlib.Path, folder: pathlib.Path) -> bool:
     """Part of the package's tests; all of mtr_tests is."""
     return folder.name == "tests" or "tests" in path.relative_to(folder).parts
-
-
-@functools.lru_cache(maxsize=None)
-def is_standard(module: str) -> bool:
-    """True for what every Python brings along, and for what lies within another module."""
-    if "." in module:
-        return True
-    found = importlib.util.find_spec(module) if module != "__main__" else None
-    origin = found.origin if found else None
-    return origin in ("built-in", "frozen") or (origin is not None and STANDARD_FOLDER in pathlib.Path(origin).parents)
 
 
 def python_keys(path: pathlib.Path, siblings: Set[str]) -> Set[str]:
