@@ -6,7 +6,7 @@ import importlib.util
 import pathlib
 import subprocess
 import sysconfig
-from typing import List, Set
+from typing import FrozenSet, List
 from xml.etree import ElementTree
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
@@ -29,6 +29,7 @@ def package_folders() -> List[pathlib.Path]:
     return [path.parent for path in tracked("*/package.xml")]
 
 
+@functools.lru_cache(maxsize=None)
 def package_name(folder: pathlib.Path) -> str:
     """Name of the catkin package in a folder."""
     return ElementTree.parse(folder / "package.xml").findtext("name") or ""
@@ -43,7 +44,8 @@ def package_folder(name: str) -> pathlib.Path:
     return next(folder for folder in package_folders() if package_name(folder) == name)
 
 
-def imports(path: pathlib.Path) -> Set[str]:
+@functools.lru_cache(maxsize=None)
+def imports(path: pathlib.Path) -> FrozenSet[str]:
     """All absolute imports of a Python file: each dotted name and its top-level name."""
     found = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
@@ -52,7 +54,7 @@ def imports(path: pathlib.Path) -> Set[str]:
         elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
             found.add(node.module)
             found |= {f"{node.module}.{alias.name}" for alias in node.names}
-    return found | {name.split(".")[0] for name in found}
+    return frozenset(found | {name.split(".")[0] for name in found})
 
 
 @functools.lru_cache(maxsize=None)
