@@ -10,7 +10,7 @@ from mtr_core.se2 import Pose2
 
 from ..geometry.keep_out import KeepOut, centres
 from ..geometry.route import Ring, facing, moved
-from ..limits import MotionLimits, rest_to_rest_time
+from ..limits import rest_to_rest_time
 from ..parameters import MotionParameters
 from ..timing.plan import Moving
 from .estimate import time_of
@@ -58,34 +58,33 @@ class Candidates:
         return sorted(found, key=lambda candidate: candidate.time_s)
 
     def _transits(self, start: Moving, goal: Pose2, out: Straight, into: Straight, sign: int) -> Iterator[Candidate]:
-        """Transits in one sense of travel."""
+        """Transits in one sense of travel; straight pieces in the same sense are part of them."""
         speed = start.linear_mps
         moving = abs(speed) > MOVING_MPS
         if moving and speed * (out.sign or sign) < 0.0:
             return
-        limits = self._parameters.limits
-        begin = moved(start.pose, out.sign * out.length)
-        finish = moved(goal, -into.sign * into.length)
+        begin, finish = moved(start.pose, out.sign * out.length), moved(goal, -into.sign * into.length)
         joined_out, joined_in = out.sign == sign, into.sign == sign
         from_speed = abs(speed) if moving and (joined_out or not out.sign) else 0.0
-        extra = 0.0
-        if out.sign and not joined_out:
-            extra += _straight_time(out.length, self._speed, limits)
-        if into.sign and not joined_in:
-            extra += _straight_time(into.length, self._speed, limits)
-        lead = facing(start.pose if joined_out else begin, sign)
-        end = facing(goal if joined_in else finish, sign)
-        firsts = self._signed_radii(on_the_spot=from_speed == 0.0 and not joined_out)
+        apart_s = sum(self._straight_time(piece) for piece in (out, into) if piece.sign and piece.sign != sign)
+        lead, end = facing(start.pose if joined_out else begin, sign), facing(goal if joined_in else finish, sign)
+        way_out, run_in = out.length if joined_out else 0.0, into.length if joined_in else 0.0
+        turns = list(itertools.product(self._first_radii(from_speed, joined_out),
+                                       self._signed_radii(on_the_spot=not joined_in)))
+        for (ring, side), (first, last) in itertools.product(self._ways(begin, finish), turns):
+            shape = Shape(first, last, way_out, run_in, ring, side)
+            time_s = self._time(shape, lead, end, sign, from_speed)
+            if time_s is not None:
+                yield Candidate(time_s + apart_s, out, sign, shape, into)
+
+    def _straight_time(self, piece: Straight) -> float:
+        limits = self._parameters.limits
+        return rest_to_rest_time(piece.length, self._speed, limits.acceleration_mps2, limits.ramp_s)
+
+    def _first_radii(self, from_speed: float, joined_out: bool) -> List[float]:
         if from_speed:
-            firsts = [share * radius for radius in (self._radii[-1], -self._radii[-1]) for share in MOVING_SHARES]
-        lasts = self._signed_radii(on_the_spot=not joined_in)
-        for ring, side in self._ways(begin, finish):
-            for first, last in itertools.product(firsts, lasts):
-                shape = Shape(first, last, out.length if joined_out else 0.0, into.length if joined_in else 0.0, ring,
-                              side)
-                time_s = self._time(shape, lead, end, sign, from_speed)
-                if time_s is not None:
-                    yield Candidate(time_s + extra, out, sign, shape, into)
+            return [share * radius for radius in (self._radii[-1], -self._radii[-1]) for share in MOVING_SHARES]
+        return self._signed_radii(on_the_spot=not joined_out)
 
     def _time(self, shape: Shape, start: Pose2, end: Pose2, sign: int, from_speed: float) -> Optional[float]:
         route = route_of(shape, start, end)
@@ -107,7 +106,3 @@ class Candidates:
 
     def _signed_radii(self, on_the_spot: bool) -> List[float]:
         return [*([0.0] if on_the_spot else []), *self._radii, *(-radius for radius in self._radii)]
-
-
-def _straight_time(length: float, speed: float, limits: MotionLimits) -> float:
-    return rest_to_rest_time(length, speed, limits.acceleration_mps2, limits.ramp_s)

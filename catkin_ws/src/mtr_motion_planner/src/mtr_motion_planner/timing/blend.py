@@ -10,7 +10,7 @@ from typing import Iterator, List, Optional, Tuple
 
 import numpy as np
 
-from mtr_core.arrays import FloatArray
+from mtr_core.arrays import FloatArray, IntArray
 from mtr_core.se2 import Pose2
 
 from ..limits import MotionLimits
@@ -28,6 +28,7 @@ STEP_S = 0.2
 CHOICES = 4
 # Sampled rates differ from the limits by this; drive control allows more than the planner's limits.
 SAMPLING_SHARE = 1.03
+FIRST, DRIVE, LAST = range(3)
 
 
 @dataclass(frozen=True)
@@ -86,35 +87,47 @@ def _times(turn: Optional[Trajectory], max_s: float) -> List[float]:
 def overlapped(turns: Turns, overlap_s: Tuple[float, float], slip: Slip, begin: complex = 0j
                ) -> Tuple[Trajectory, complex]:
     """The three at once, as far as they overlap, from x + iy; and how far the first turn leads aside of the drive."""
-    drive = turns.drive
-    before, after = (max(0.0, turn.duration_s - overlap) if turn else 0.0
-                     for turn, overlap in zip((turns.first, turns.last), overlap_s))
-    starts = np.round(np.array([0.0, before, before + drive.duration_s + after]) / SAMPLE_S).astype(int)
-    lengths = [len(part.ways) if part else 1 for part in (turns.first, drive, turns.last)]
-    starts[2] -= lengths[2] - 1
-    # The turn at the end may take longer than everything before it.
-    starts -= min(0, starts[2])
-    count = int(max(start + length for start, length in zip(starts, lengths)))
-
-    def spread(values: FloatArray, which: int) -> FloatArray:
-        rest = count - starts[which] - len(values)
-        return np.concatenate((np.full(starts[which], values[0]), values, np.full(rest, values[-1])))
-
-    heading = spread(drive.poses[:, 2], 1)
-    linear, angular, ways = spread(drive.linear, 1), spread(drive.angular, 1), spread(drive.ways, 1)
-    for which, turn in ((0, turns.first), (2, turns.last)):
+    drive, timeline = turns.drive, _timeline_of(turns, overlap_s)
+    heading = timeline.spread(drive.poses[:, 2], DRIVE)
+    linear, angular, ways = (timeline.spread(row, DRIVE) for row in (drive.linear, drive.angular, drive.ways))
+    for which, turn in ((FIRST, turns.first), (LAST, turns.last)):
         if turn:
-            turned = spread(turn.poses[:, 2], which)
-            heading = heading + turned - (turned[-1] if which == 0 else turned[0])
-            angular = angular + spread(turn.angular, which)
+            turned = timeline.spread(turn.poses[:, 2], which)
+            heading = heading + turned - (turned[-1] if which == FIRST else turned[0])
+            angular = angular + timeline.spread(turn.angular, which)
     aside = angular * (slip.acceleration_slip_s2 * np.gradient(linear, SAMPLE_S)
                        - slip.curve_slip_s2 * linear * np.abs(angular))
     steps = np.sign(linear.sum()) * np.diff(ways) + 0.5j * SAMPLE_S * (aside[1:] + aside[:-1])
     places = np.concatenate(([0.0], np.cumsum(steps * np.exp(0.5j * (heading[1:] + heading[:-1])))))
     poses = np.column_stack((begin.real + places.real, begin.imag + places.imag, heading))
-    done = starts[0] + lengths[0] - 1 if turns.first else starts[1]
-    alone = drive.poses[np.clip(done - starts[1], 0, lengths[1] - 1), :2] - drive.poses[0, :2]
+    done = timeline.starts[FIRST] + timeline.lengths[FIRST] - 1 if turns.first else timeline.starts[DRIVE]
+    alone = drive.poses[np.clip(done - timeline.starts[DRIVE], 0, len(drive.ways) - 1), :2] - drive.poses[0, :2]
     return Trajectory(ways, poses, linear, angular, drive.length_m), places[done] - complex(*alone)
+
+
+@dataclass(frozen=True)
+class _Timeline:
+    """First sample and number of samples of the first turn, the drive and the last turn on one axis of time."""
+
+    starts: IntArray
+    lengths: List[int]
+
+    def spread(self, values: FloatArray, which: int) -> FloatArray:
+        """Samples of one of them over the whole time; before and after it they stay as they are at its ends."""
+        count = int(max(start + length for start, length in zip(self.starts, self.lengths)))
+        before, after = self.starts[which], count - self.starts[which] - len(values)
+        return np.concatenate((np.full(before, values[0]), values, np.full(after, values[-1])))
+
+
+def _timeline_of(turns: Turns, overlap_s: Tuple[float, float]) -> _Timeline:
+    before_s, after_s = (max(0.0, turn.duration_s - overlap) if turn else 0.0
+                         for turn, overlap in zip((turns.first, turns.last), overlap_s))
+    starts = np.round(np.array([0.0, before_s, before_s + turns.drive.duration_s + after_s]) / SAMPLE_S).astype(int)
+    lengths = [len(part.ways) if part else 1 for part in (turns.first, turns.drive, turns.last)]
+    starts[LAST] -= lengths[LAST] - 1
+    # The turn at the end may take longer than everything before it.
+    starts -= min(0, starts[LAST])
+    return _Timeline(starts, lengths)
 
 
 def keeps(trajectory: Trajectory, limits: MotionLimits) -> bool:
