@@ -55,7 +55,7 @@ def scan_from(message: LaserScan, base_from_lidar: Pose2) -> Scan:
 
 def scans_in(bag: pathlib.Path, parameters: LocatorParameters) -> Iterator[Scan]:
     """Sweeps of both LiDARs in a recorded drive, in the order of their times."""
-    # Not above: the node, which reads no bags, starts without it.
+    # The import is not above, so that the node, which reads no bags, starts without rosbag.
     import rosbag
 
     mounts = {names.FRONT_SCAN: parameters.base_from_front_lidar, names.REAR_SCAN: parameters.base_from_rear_lidar}

@@ -16,7 +16,7 @@ from .poses import PoseHistory, RobotPose
 from .rectangle import Rectangle
 from .survey.survey import Survey
 
-# Sigma of what the starting place alone tells.
+# The starting place alone tells the Car's pose with this 1 sigma.
 PRIOR_POSITION_SIGMA_M, PRIOR_HEADING_SIGMA_RAD = 0.5, 0.2
 NOWHERE = Rectangle(Pose2(0.0, 0.0, 0.0), 0.0, 0.0)
 ADVICE = "Put the robot at the starting place and map again."

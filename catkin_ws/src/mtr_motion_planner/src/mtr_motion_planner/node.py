@@ -31,7 +31,7 @@ from .picture import picture_of
 from .planner import MotionPlanner
 from .replanning import InlineExecutor
 
-# Of rviz' tool "2D Nav Goal".
+# The tool "2D Nav Goal" of rviz publishes here.
 NAV_GOAL = "/move_base_simple/goal"
 # One of so many ticks shows the markers: 2.5 times a second.
 MARKER_TICKS = 10

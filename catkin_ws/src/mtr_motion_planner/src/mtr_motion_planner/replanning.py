@@ -18,7 +18,7 @@ from .search.planning import Planning, moves
 from .site import Site
 from .timing.plan import Moving, Plan
 
-# From the order to a moving robot until it goes on with the new plan, which takes less time to make (planning.py).
+# So long after a new goal a moving robot goes on with the new plan, which takes less time to make (planning.py).
 LEAD_S = 0.4
 ROUNDING_S, ROUNDING_MPS = 0.001, 0.005
 # A reference that is farther from the plan's start when the plan is due has waited for the robot meanwhile.

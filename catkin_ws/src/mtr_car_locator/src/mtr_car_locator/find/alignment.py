@@ -18,7 +18,7 @@ from ..surfels import Surfels
 from .errors import NotLocated
 
 ROUNDS = 4
-# First the rectangle is rough.
+# In the first round the rectangle is rough.
 FIRST_BEYOND_M = 0.12
 
 

@@ -21,7 +21,7 @@ from .prior import Prior
 LINK_M = 0.3
 MIN_WHEEL_M, MAX_WHEEL_M = 0.1, 0.95
 MIN_TRACK_M, MAX_TRACK_M = 1.2, 1.9
-# The middle of what is seen of a wheel is so far from its middle.
+# The middle of what is seen of a wheel is at most so far from the wheel's own middle.
 OFF_M = 0.4
 
 

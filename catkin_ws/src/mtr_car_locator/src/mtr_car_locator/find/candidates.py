@@ -23,7 +23,7 @@ MARGIN_M = 0.8
 HEADING_BIN_RAD, HEADING_SIGMA_BINS = math.radians(0.5), 3.0
 MAX_HEADINGS, MIN_SHARE_OF_BEST_HEADING = 3, 0.4
 LEVEL_BIN_M, LEVEL_SIGMA_BINS = 0.02, 1.5
-# Surface that makes a level: half a sill, or the middle of a bumper.
+# So much surface makes a level: half a sill, or the middle of a bumper.
 MIN_SURFACE_M = {"front": 0.25, "rear": 0.25, "left": 0.4, "right": 0.4}
 MAX_LEVELS = 5
 

@@ -19,8 +19,8 @@ from .errors import NotLocated
 from .prior import Prior
 from .scoring import score_of
 
-# Fit of a whole Car, seen from all sides, is 0.7 and more, of one seen from one side and one end 0.35; a wall, a group
-# of persons or a neighbour's near side stays below 0.2 (tests/unit/test_locator_scenes.py).
+# A whole Car, seen from all sides, has a quality of 0.7 and more, one seen from one side and one end 0.35; a wall,
+# a group of persons or a neighbour's near side stays below 0.2 (tests/unit/test_locator_scenes.py).
 MIN_QUALITY = 0.25
 # The faces of four tyres are 0.2 to 0.3 of a Car's outline; that they stand as a car's do has been checked before.
 MIN_QUALITY_ON_WHEELS = 0.15

@@ -14,13 +14,13 @@ from ..rectangle import Rectangle
 from ..surfels import Surfels
 from .prior import Prior
 
-# It speaks against a Car there when it lies deep inside, where no surface of a Car can be seen, or when it is a
+# A surfel speaks against a Car there when it lies deep inside, where no surface of a Car can be seen, or when it is a
 # continued surface that faces outwards beside the outline.
 DEEP_M, BESIDE_M = 0.55, 0.50
 COVER_BIN_M = 0.25
 # Wheels alone cover a quarter to a third of the outline, two sides half of it.
 LENGTH_SPREAD, WIDTH_SPREAD_M = 1.0, 0.4
-# 1 sigma of the starting place, for the choice between two that look alike.
+# The starting place has this 1 sigma in the choice between two that look alike.
 PLACE_SIGMA_M, PLACE_SIGMA_RAD = 0.8, math.radians(12.0)
 
 

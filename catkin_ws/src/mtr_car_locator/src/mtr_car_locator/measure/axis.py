@@ -13,7 +13,7 @@ from .side import BIN_M, MAP_SHARE, Side
 # The ends of a side bend towards the bumpers; with one side alone they would turn the axis.
 ENDS_M = 0.6
 MIN_BINS = 6
-# Spread of a car's surface about its symmetric shape; bins farther off count less and less.
+# A car's surface spreads so much about its symmetric shape; bins farther off count less and less.
 SHAPE_SIGMA_M = 0.005
 ROUNDS = 8
 

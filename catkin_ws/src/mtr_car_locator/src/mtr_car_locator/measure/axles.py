@@ -9,18 +9,18 @@ import numpy as np
 from ..surfels import SAMPLE_M
 from .side import Side
 
-# Half of what the LiDARs' plane cuts out of a tyre: radii of passenger cars' tyres are 0.29 to 0.36 m, the plane is
-# 0.15 to 0.35 m high; middle of the range and a quarter of its width.
+# The LiDARs' plane cuts twice this out of a tyre: radii of passenger cars' tyres are 0.29 to 0.36 m, the plane is
+# 0.15 to 0.35 m high; these are the middle of the range and a quarter of its width.
 HALF_CHORD_M, HALF_CHORD_SIGMA_M = 0.31, 0.025
-# Middle of an outer face of which the ends may be missing: up to 5 cm off on recorded drives.
+# The middle of an outer face of which the ends may be missing was up to 5 cm off on recorded drives.
 FACE_SIGMA_M = 0.04
-# The same when all returns tell it: 1 mm rms on level ground, 5 mm on slopes of 1 deg (recorded drives).
+# When all returns tell it, it was 1 mm rms off on level ground, 5 mm on slopes of 1 deg (recorded drives).
 EXACT_FACE_SIGMA_M = 0.004
 # So far from where the face puts it a tread is looked for, and so much of its width has to be seen.
 TREAD_GATE_M, MIN_TREAD_M = 0.12, 0.06
-# Rounded shoulders and the smeared edge towards the face: treads of recorded drives lie up to 5 mm inside.
+# Treads of recorded drives lie up to 5 mm inside, by their rounded shoulders and the smeared edge towards the face.
 TREAD_SIGMA_M = 0.005
-# Wheelbase of a data sheet against this Car: tolerance of the wheels' alignment, load.
+# The wheelbase of a data sheet differs from this Car's by the tolerance of the wheels' alignment, and load.
 WHEELBASE_SIGMA_M = 0.005
 
 

@@ -11,7 +11,7 @@ from mtr_core.se2 import Pose2
 from ..scan import Returns
 from ..surfels import rotated_back
 
-# The Car's farthest corner from where it was guessed: half its diagonal and the Operator's error.
+# The Car's farthest corner is so far from where the Car was guessed: half its diagonal and the Operator's error.
 HALF_SIDE_M = 4.5
 # A robot that stands sees the same again; a way round has some 2500 sweeps of two LiDARs.
 MIN_MOTION_M, MIN_TURN_RAD, MAX_SWEEPS = 0.005, 0.005, 10_000

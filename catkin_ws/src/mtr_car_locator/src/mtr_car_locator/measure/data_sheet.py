@@ -7,7 +7,7 @@ from ..parameters import DataSheet
 from .car_fit import CarFit, PlaneSize
 from .wheels import DATA_SHEET_SIGMA_M
 
-# By how much a body may be narrower, or shorter, in the LiDARs' plane than over its widest parts: both sides together.
+# A body may be so much narrower, or shorter, in the LiDARs' plane than over its widest parts, both sides together.
 MAX_INSET_M = 0.12
 # What is measured beyond this is no chance.
 SIGMAS = 3.0

@@ -3,5 +3,5 @@
 
 # At more than 75 degrees from the normal the LiDAR's spot is long, and what it shows is the smeared edge of something.
 MIN_INCIDENCE_COSINE = 0.25
-# The same of a tyre's face, whose ends are where its returns get sparse: 73 degrees.
+# A tyre's face ends where its returns get sparse; of those only what is within 73 degrees counts.
 MIN_TYRE_INCIDENCE_COSINE = 0.3

@@ -24,14 +24,14 @@ from .wheels import Wheels
 
 # What lies on the outline is the Car's.
 BEYOND_M = 0.06
-# What is not known of a passenger car that is 3.6 to 5.1 m long and 1.65 to 2.05 m wide; 1 sigma.
+# A passenger car is 3.6 to 5.1 m long and 1.65 to 2.05 m wide; that leaves this 1 sigma when nothing is seen of it.
 UNSEEN_SIGMA_M = {ENDS: 0.4, LONG_SIDES: 0.1}
 # Tyres stand inside of the body by more than sills and bumpers do; 1 sigma of that on each side.
 TYRE_INSET_SIGMA_M = 0.03
 # Returns so near the level that surfels show are the side's.
 NEAR_M = 0.12
-# Error of a level by what its profile does not show, such as the sway of the robot: with it lengths and widths in 36
-# drives with 2 cm of noise are as far off as their sigmas say.
+# A level is wrong by what its profile does not show too, such as the sway of the robot: with this lengths and widths in
+# 36 drives with 2 cm of noise are as far off as their sigmas say.
 LEVEL_SIGMA_M = 0.0008
 # Surfels need more support than returns do; so far beyond them there is a leg or a mirror.
 BEYOND_ROUGH_M = 0.04

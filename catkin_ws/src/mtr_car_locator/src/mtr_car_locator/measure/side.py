@@ -10,7 +10,7 @@ from mtr_core.arrays import FloatArray, IntArray
 
 from ..surfels import SAMPLE_M, Surfels
 
-# Direction outwards in the Car's frame; along a side counts the other coordinate.
+# These are the directions outwards in the Car's frame; along a side counts the other coordinate.
 OUTWARDS = {"front": (1.0, 0.0), "rear": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
 ENDS, LONG_SIDES = ("front", "rear"), ("left", "right")
 # A surfel belongs to a side when its normal is within 53 degrees of the side's direction: bumpers are round.

@@ -19,10 +19,11 @@ STRAY_M = 0.05
 STRAY_SIGMAS = 3.0
 ROUNDS = 3
 # A piece of a long side is straight as long as the means scatter about its line by no more than their noise and this,
-# 1 sigma; the largest mean square, and the largest of one bin and of the bend, in sigmas.
+# 1 sigma; the mean square, one bin and the bend must not exceed these, in sigmas.
 MIN_STRAIGHT_BINS, STRAIGHT_SIGMA_M, MAX_MEAN_SQUARE, MAX_SIGMAS, MAX_BEND_SIGMAS = 5, 0.0005, 3.0, 4.0, 3.0
 # Where the next bin falls away from the line by so much, a wheel arch begins in it, and its mean is smeared.
-# Where in it is not known: somewhere within half a bin, as the standard deviation of a uniform distribution.
+# Where in it the arch begins is not known: somewhere within half a bin, as the standard deviation of a uniform
+# distribution.
 STEP_M, STEP_SIGMAS, EDGE_SIGMA_BINS = 0.003, 2.0, 0.29
 # A bumper is a parabola as far as it lies within this distance of its top; 1 sigma of its scatter about that.
 TOP_M, SHAPE_SIGMA_M, MIN_BUMPER_BINS = 0.01, 0.001, 8

@@ -17,7 +17,7 @@ NEAR_M = 0.06
 # Sills and bumpers that the LiDARs meet now and then, where the ground is uneven, have a tenth of a face's returns.
 MIN_SHARE_OF_DENSEST, DENSEST_PERCENT = 0.25, 90.0
 MIN_RETURNS = 100
-# A gap that is no end, in bins; bins at both ends that are smeared.
+# A shorter gap, in bins, is no end; so many bins at both ends are smeared.
 GAP_BINS, SMEARED_BINS = 5, 3
 
 

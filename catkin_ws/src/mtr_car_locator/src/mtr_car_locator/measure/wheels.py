@@ -18,15 +18,15 @@ MIN_FACE_M, MAX_FACE_M = 0.25, 0.95
 MIN_WHEELBASE_M, MAX_WHEELBASE_M = 1.8, 4.0
 # The axles of one side must not differ more from those of the other; the ends of the faces may be missing.
 SQUARE_M = 0.20
-# The same of faces that all returns tell.
+# Faces that all returns tell must agree better.
 EXACT_SQUARE_M = 0.05
 # A tread is square to the Car within 18 degrees, which its rounded shoulder is not; it is no broader than this.
 TREAD_COSINE, TYRE_WIDTH_M = 0.95, 0.30
-# Of passenger cars the wheelbase is 0.56 to 0.63 of the length, and the front overhang 0.15 m shorter than the rear one
+# The wheelbase of passenger cars is 0.56 to 0.63 of the length, and the front overhang 0.15 m shorter than the rear one
 # to 0.15 m longer; these are the middles of the ranges and a third of their widths, see the README.
 WHEELBASE_SHARE, WHEELBASE_SHARE_SIGMA = 0.595, 0.02
 OVERHANG_SIGMA_M = 0.08
-# Of a data sheet's length and overhang against this Car: number plates, load and trim levels.
+# A data sheet's length and overhang differ from this Car's by number plates, load and trim levels.
 DATA_SHEET_SIGMA_M = 0.005
 
 

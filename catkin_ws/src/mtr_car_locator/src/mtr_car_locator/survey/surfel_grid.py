@@ -15,7 +15,7 @@ MIN_LENGTH_M = 0.02
 # A surface that runs along the border of two cells leaves the tail of its noise in one of them: such a cell has fewer
 # hits than its neighbour.
 MIN_SHARE_OF_NEIGHBOUR = 0.35
-# What the spread of points does not show: rounding to a straight piece.
+# The spread of points does not show the rounding to a straight piece.
 SIGMA_FLOOR_M = 0.002
 
 
@@ -25,7 +25,7 @@ class SurfelGrid:
     def __init__(self, x: float, y: float):
         self._centre = np.array([x, y])
         self._side = round(2.0 * HALF_SIDE_M / CELL_M)
-        # Hits, then sums of x, y, xx, xy, yy and of the unit vector towards the LiDAR.
+        # The columns are hits, then sums of x, y, xx, xy, yy and of the unit vector towards the LiDAR.
         self._sums = np.zeros((self._side ** 2, 8))
 
     def add(self, points: FloatArray, viewer: FloatArray) -> None:

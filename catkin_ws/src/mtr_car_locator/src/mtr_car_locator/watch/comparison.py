@@ -18,7 +18,7 @@ from ..surfels import Surfels, in_frame, rotated_back
 # Points farther from every known surface are something else: a person, an open door.
 FIRST_GATE_M, LAST_GATE_M = 0.20, 0.05
 ROUNDS = 8
-# 1 sigma of a LiDAR's range, and of what the surfels simplify.
+# A LiDAR's range, and what the surfels simplify, have this 1 sigma together.
 POINT_SIGMA_M = 0.015
 # Without evidence the Car stands where it stood: 1 sigma before the observation, along x, y (m) and heading (rad).
 BEFORE_SIGMAS = (0.10, 0.10, math.radians(2.0))

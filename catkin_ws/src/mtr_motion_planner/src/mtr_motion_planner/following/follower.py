@@ -23,7 +23,7 @@ LOST_ALONG_M, LOST_ACROSS_M, LOST_RAD = 0.40, 0.15, math.radians(25.0)
 STANDING_MPS, STANDING_RADPS = 0.02, 0.03
 # After the end of the last trajectory the controller has so long to take out what is left.
 SETTLE_S = 0.8
-# Said to remain while the robot still turns on the spot.
+# So much way is said to remain while the robot still turns on the spot.
 MIN_REMAINING_M = 0.001
 
 

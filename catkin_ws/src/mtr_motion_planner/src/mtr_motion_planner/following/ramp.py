@@ -6,7 +6,7 @@ from ..inputs import RobotState
 from ..limits import MotionLimits
 from .tracking import Velocity
 
-# A robot that is held (drive control, a wheel block) must not be left with a command that has wound up.
+# A robot that is stopped from outside (drive control, a wheel block) must not be left with a command that has wound up.
 LEAD_MPS, LEAD_RADPS = 0.3, 0.8
 PERIOD_S = 0.04
 # A gap between ticks counts as at most this.

@@ -8,7 +8,7 @@ from mtr_core.se2 import Pose2
 
 from ..parameters import Arrival
 
-# Near enough for a measurement, though not within tolerance, when no correction helped.
+# This is near enough for a measurement, though not within tolerance, when no correction helped.
 NEAR_M = 0.10
 NEAR_RAD = math.radians(5.0)
 # A robot that was moved this far after it had settled is led back.

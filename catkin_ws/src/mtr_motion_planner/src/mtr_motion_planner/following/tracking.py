@@ -12,7 +12,7 @@ from mtr_core.se2 import Pose2
 
 from ..timing.trajectory import Reference
 
-# Time between a pose and the effect of the velocity computed from it: half of the planner's period, one tick of drive
+# So long after a pose the velocity computed from it takes effect: half of the planner's period, one tick of drive
 # control, and the wheels' response.
 DELAY_S = 0.06
 ALONG_GAIN_PER_S = 2.0

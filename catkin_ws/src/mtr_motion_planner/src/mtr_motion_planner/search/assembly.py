@@ -24,7 +24,7 @@ from .shaping import ATTEMPTS, CLOSE_M, Driving, Start, curve_of
 CORNER_SHARE = 0.4
 ENDS_M = 0.6
 NO_TURN_RAD = 0.002
-# Lengths of a stop that are tried, as shares of the shortest; on a tight curve and by rounding it takes longer.
+# These lengths of a stop are tried, as shares of the shortest; on a tight curve and by rounding it takes longer.
 BRAKE_SHARES, BRAKE_M, BRAKE_RAD = (1.05, 1.4, 2.0, 3.0), 0.02, 0.02
 # One of so many samples, 60 ms, is checked for what it comes close to.
 CHECKED = 3

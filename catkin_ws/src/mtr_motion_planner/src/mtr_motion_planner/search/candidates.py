@@ -17,12 +17,14 @@ from .estimate import time_of
 from .options import Straight, Target, arrivals, departures
 from .shaping import Shape, route_of
 
-# Radii of the turns at both ends, in m, beside the one that is driven at full speed: about as tight as linear and
-# angular acceleration build up together from rest. Tighter turns are made while the robot sets out (blend.py).
+# The turns at both ends have these radii, in m, beside the one that is driven at full speed: they are about as tight as
+# linear and angular acceleration build up together from rest. Tighter turns are made while the robot sets out
+# (blend.py).
 TIGHT_RADII_M = (0.45,)
 MAX_RING_M = 1.5
 MOVING_MPS = 0.02
-# A robot that moves has no time to build up a high yaw rate in a short turn: radii, as shares of that at full speed.
+# A robot that moves has no time to build up a high yaw rate in a short turn: these are the radii, as shares of that at
+# full speed.
 MOVING_SHARES = (1.0, 2.0, 5.0)
 
 

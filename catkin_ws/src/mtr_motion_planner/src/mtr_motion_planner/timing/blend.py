@@ -19,7 +19,7 @@ from .motion import CurveMotion, Motion
 from .speeds import SAMPLE_S
 from .trajectory import Trajectory
 
-# Time by which the turns before and after the drive may overlap with it at most. In an overlap of 1.8 s the robot
+# The turns before and after the drive may overlap with it by these times at most. In an overlap of 1.8 s the robot
 # slides 2 cm farther aside than calculated: at the beginning the drive takes that out, at the end a correction of 4.5 s
 # would have to.
 FIRST_S, LAST_S = 2.2, 1.6

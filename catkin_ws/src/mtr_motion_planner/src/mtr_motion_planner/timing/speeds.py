@@ -16,12 +16,12 @@ from ..geometry.curve import Curve
 from ..limits import MotionLimits
 
 SAMPLE_S = 0.02
-# Share of the angular acceleration that the change of curvature alone may take.
+# The change of curvature alone may take this share of the angular acceleration.
 BEND_SHARE = 0.9
-# What is left over by rounding when a stop ends exactly where it must.
+# So much is left over by rounding when a stop ends exactly where it must.
 ROUNDING = 1e-6
 
-# Change of the squared speed by m of way, either sign, at a sample and a squared speed.
+# A gain is the change of the squared speed by m of way, either sign, at a sample and a squared speed.
 Gain = Callable[[int, float], float]
 
 
