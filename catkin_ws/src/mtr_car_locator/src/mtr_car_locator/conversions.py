@@ -17,7 +17,7 @@ from mtr_core.states import State
 from mtr_msgs.msg import CarCheck, CarEstimate, LocalizedPose, MappingOrder, RobotMode
 from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 
-from .drawing import Kind, Shape
+from .drawing import MarkerKind, MarkerShape
 from .estimate import Estimate, Order
 from .offline import FilesUnusable
 from .parameters import LocatorParameters, RefinementParameters
@@ -27,8 +27,8 @@ from .surfels import surfels_from
 from .survey.survey import SurfaceMap
 
 MARKER_HEIGHT_M = 0.05
-MARKER_TYPES = {Kind.LOOP: Marker.LINE_STRIP, Kind.SEGMENTS: Marker.LINE_LIST, Kind.ARROW: Marker.ARROW,
-                Kind.DOTS: Marker.SPHERE_LIST}
+MARKER_TYPES = {MarkerKind.LOOP: Marker.LINE_STRIP, MarkerKind.SEGMENTS: Marker.LINE_LIST,
+                MarkerKind.ARROW: Marker.ARROW, MarkerKind.DOTS: Marker.SPHERE_LIST}
 
 
 def order_from(message: Optional[RobotMode]) -> Optional[Order]:
@@ -134,21 +134,21 @@ def transform_message(estimate: Estimate, stamp: Any) -> TransformStamped:
     return message
 
 
-def markers_message(shapes: List[Shape], stamp: Any) -> MarkerArray:
+def markers_message(shapes: List[MarkerShape], stamp: Any) -> MarkerArray:
     """The shapes, and nothing of what was shown before."""
     clear = Marker(action=Marker.DELETEALL)
     clear.header.stamp, clear.header.frame_id = stamp, names.MAP
     return MarkerArray(markers=[clear, *(_marker(shape, stamp) for shape in shapes if shape.points)])
 
 
-def _marker(shape: Shape, stamp: Any) -> Marker:
+def _marker(shape: MarkerShape, stamp: Any) -> Marker:
     marker = Marker(ns=shape.name, type=MARKER_TYPES[shape.kind], action=Marker.ADD)
     marker.header.stamp, marker.header.frame_id = stamp, names.MAP
     marker.pose.orientation.w = 1.0
     marker.color.r, marker.color.g, marker.color.b, marker.color.a = shape.colour
     marker.scale.x = marker.scale.y = marker.scale.z = shape.size_m
-    if shape.kind is Kind.ARROW:
+    if shape.kind is MarkerKind.ARROW:
         marker.scale.y, marker.scale.z = 3.0 * shape.size_m, 0.0
-    points = [*shape.points, *shape.points[:1]] if shape.kind is Kind.LOOP else shape.points
+    points = [*shape.points, *shape.points[:1]] if shape.kind is MarkerKind.LOOP else shape.points
     marker.points = [Point(x, y, MARKER_HEIGHT_M) for x, y in points]
     return marker

@@ -25,7 +25,7 @@ BAND_SIGMAS = 2.0
 ELLIPSE_CORNERS = 24
 
 
-class Kind(enum.Enum):
+class MarkerKind(enum.Enum):
     """How the points of a shape are drawn."""
 
     LOOP = "loop"            # closed line
@@ -35,41 +35,43 @@ class Kind(enum.Enum):
 
 
 @dataclass(frozen=True)
-class Shape:
+class MarkerShape:
     """One marker; points in map, size_m is the width of a line or of a dot."""
 
     name: str
-    kind: Kind
+    kind: MarkerKind
     colour: Colour
     size_m: float
     points: Tuple[Point, ...]
 
 
-def shapes_of(estimate: Estimate) -> List[Shape]:
+def shapes_of(estimate: Estimate) -> List[MarkerShape]:
     """Outline with its uncertainty, front, surfels and places."""
     shapes = [*_outline(estimate), *_front(estimate)]
     if estimate.places:
-        shapes.append(Shape("places", Kind.DOTS, VIOLET, PLACE_M, tuple((at.x, at.y) for at in estimate.places)))
+        places = tuple((at.x, at.y) for at in estimate.places)
+        shapes.append(MarkerShape("places", MarkerKind.DOTS, VIOLET, PLACE_M, places))
     if estimate.fit:
         shapes += [*_band(estimate), _surfels(estimate.rectangle.pose, estimate.fit.surfels), _ellipse(estimate)]
     return shapes
 
 
-def _outline(estimate: Estimate) -> Iterator[Shape]:
+def _outline(estimate: Estimate) -> Iterator[MarkerShape]:
     if estimate.outline:
         colour = GREEN if estimate.state == CarState.LOCATED else ORANGE
-        yield Shape("outline", Kind.LOOP, colour, LINE_M, _in_map(estimate.rectangle.pose, estimate.outline))
+        points = _in_map(estimate.rectangle.pose, estimate.outline)
+        yield MarkerShape("outline", MarkerKind.LOOP, colour, LINE_M, points)
 
 
-def _front(estimate: Estimate) -> Iterator[Shape]:
+def _front(estimate: Estimate) -> Iterator[MarkerShape]:
     car = estimate.rectangle
     if car.length > 0.0:
         colour = GREEN if estimate.state == CarState.LOCATED else ORANGE
         points = _in_map(car.pose, [(0.0, 0.0), (0.5 * car.length, 0.0)])
-        yield Shape("front", Kind.ARROW, colour, LINE_M, points)
+        yield MarkerShape("front", MarkerKind.ARROW, colour, LINE_M, points)
 
 
-def _band(estimate: Estimate) -> Iterator[Shape]:
+def _band(estimate: Estimate) -> Iterator[MarkerShape]:
     """Outlines of a Car that is larger, and smaller, by 2 sigma of its dimensions and of its centre."""
     car = estimate.rectangle
     x = BAND_SIGMAS * math.hypot(estimate.sigmas[0], 0.5 * estimate.length_sigma)
@@ -77,22 +79,22 @@ def _band(estimate: Estimate) -> Iterator[Shape]:
     for name, sign in (("outer", 1.0), ("inner", -1.0)):
         along, across = 1.0 + sign * x / (0.5 * car.length), 1.0 + sign * y / (0.5 * car.width)
         points = [(along * a, across * b) for a, b in estimate.outline]
-        yield Shape(name, Kind.LOOP, FAINT_GREEN, THIN_M, _in_map(car.pose, points))
+        yield MarkerShape(name, MarkerKind.LOOP, FAINT_GREEN, THIN_M, _in_map(car.pose, points))
 
 
-def _surfels(car: Pose2, surfels: Surfels) -> Shape:
+def _surfels(car: Pose2, surfels: Surfels) -> MarkerShape:
     ends = surfels.ends()
     half = len(ends) // 2
     points = [tuple(point) for pair in zip(ends[:half], ends[half:]) for point in pair]
-    return Shape("surfels", Kind.SEGMENTS, CYAN, THIN_M, _in_map(car, points))
+    return MarkerShape("surfels", MarkerKind.SEGMENTS, CYAN, THIN_M, _in_map(car, points))
 
 
-def _ellipse(estimate: Estimate) -> Shape:
+def _ellipse(estimate: Estimate) -> MarkerShape:
     """95 % of the Car's centre."""
     x, y, _ = (BAND_SIGMAS * sigma for sigma in estimate.sigmas)
     angles = [2.0 * math.pi * corner / ELLIPSE_CORNERS for corner in range(ELLIPSE_CORNERS)]
     points = [(x * math.cos(angle), y * math.sin(angle)) for angle in angles]
-    return Shape("centre", Kind.LOOP, GREEN, THIN_M, _in_map(estimate.rectangle.pose, points))
+    return MarkerShape("centre", MarkerKind.LOOP, GREEN, THIN_M, _in_map(estimate.rectangle.pose, points))
 
 
 def _in_map(car: Pose2, points: Sequence[Point]) -> Tuple[Point, ...]:

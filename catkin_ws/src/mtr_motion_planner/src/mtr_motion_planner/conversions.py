@@ -16,7 +16,7 @@ from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, 
 from .inputs import Car, Drive, Order, RobotState, Zone
 from .outputs import Output
 from .outputs import Path as PlannedPath
-from .picture import Picture
+from .picture import PlanPicture
 
 # Of the markers: lines, their height above ground, and colours by what they show.
 LINE_M, HEIGHT_M, ARROW_M = 0.03, 0.02, 0.5
@@ -88,7 +88,7 @@ def path_message(planned: PlannedPath, stamp: Any) -> Path:
     return path
 
 
-def markers_message(picture: Picture, stamp: Any) -> MarkerArray:
+def markers_message(picture: PlanPicture, stamp: Any) -> MarkerArray:
     """Keep-out zone, trajectory (the faster the brighter), place to be at now, and goal."""
     header = Header(stamp=stamp, frame_id=names.CAR if picture.in_car_frame else names.MAP)
     zone = _marker(header, "keep out", Marker.LINE_STRIP, RED)

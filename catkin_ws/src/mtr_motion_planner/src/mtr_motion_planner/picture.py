@@ -13,7 +13,7 @@ ROUND_STEPS = 8
 
 
 @dataclass(frozen=True)
-class Picture:
+class PlanPicture:
     """Lines in map or in the Car's frame.
 
     Attributes:
@@ -30,7 +30,7 @@ class Picture:
     goal: Pose2
 
 
-def picture_of(planner: MotionPlanner, parameters: MotionParameters) -> Optional[Picture]:
+def picture_of(planner: MotionPlanner, parameters: MotionParameters) -> Optional[PlanPicture]:
     """The present picture; None when the robot goes nowhere."""
     site, follower = planner.site, planner.follower
     if site is None:
@@ -39,6 +39,6 @@ def picture_of(planner: MotionPlanner, parameters: MotionParameters) -> Optional
     parts = follower.plan.parts if follower else ()
     trajectory = tuple((float(x), float(y), abs(float(speed))) for part in parts for (x, y, _), speed in zip(
         part.trajectory.poses[::5], part.trajectory.linear[::5]))
-    return Picture(site.in_car_frame, tuple(zone.exterior.coords), trajectory,
+    return PlanPicture(site.in_car_frame, tuple(zone.exterior.coords), trajectory,
                    follower.reference().pose if follower else None,
                    site.goal @ parameters.footprint.slip.base_from_centre.inverse())

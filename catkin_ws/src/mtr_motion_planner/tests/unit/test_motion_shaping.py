@@ -9,7 +9,7 @@ from mtr_core.se2 import Pose2, wrap_angle
 from mtr_motion_planner.geometry.circles import Circle, circle_through, tangent
 from mtr_motion_planner.limits import MotionLimits
 from mtr_motion_planner.parameters import Slip
-from mtr_motion_planner.search.shaping import Driving, Shape, Start, curve_of
+from mtr_motion_planner.search.shaping import Driving, RouteShape, Start, curve_of
 from mtr_motion_planner.timing.motion import CurveMotion, Pivot
 from mtr_motion_planner.timing.speeds import SAMPLE_S
 
@@ -23,7 +23,7 @@ ENDS = {Pose2(3.0, 0.5, 0.0): (1, -1), Pose2(3.0, 3.0, 1.5): (1, 1), Pose2(2.0, 
 
 def curve_to(end, start=None, slip=NO_SLIP, speed=0.5, radius=0.45):
     first, last = ENDS[end]
-    return curve_of(Shape(radius * first, radius * last), start or Start(Pose2(0.0, 0.0, 0.0)), end,
+    return curve_of(RouteShape(radius * first, radius * last), start or Start(Pose2(0.0, 0.0, 0.0)), end,
                     Driving(LIMITS, slip, speed))
 
 

@@ -5,13 +5,13 @@ from typing import Dict, Optional
 
 from mtr_core.se2 import Pose2
 
-from ..measure.axis import Axis, axis_of
+from ..measure.axis import SymmetryAxis, axis_of
 from ..measure.belonging import belongs
 from ..measure.close_up import CloseUp
-from ..measure.measurement import BEYOND_M, Found, extents_of, sized
-from ..measure.side import ENDS, LONG_SIDES, Extent, sides_of
+from ..measure.measurement import BEYOND_M, AlignedCar, extents_of, sized
+from ..measure.side import ENDS, LONG_SIDES, SideExtent, sides_of
 from ..measure.tyre_faces import faces_in
-from ..measure.wheels import Wheels, wheel_sides, wheels_between, wheels_from
+from ..measure.wheels import CarWheels, wheel_sides, wheels_between, wheels_from
 from ..parameters import DataSheet
 from ..rectangle import Rectangle
 from ..surfels import Surfels
@@ -29,22 +29,22 @@ class Alignment:
         """close_up: all returns near the Car, None when there are none; on_wheels: neither front nor rear was seen."""
         self._seen, self._close_up, self._sheet, self._on_wheels = seen, close_up, sheet, on_wheels
 
-    def aligned(self, car: Rectangle) -> Found:
+    def aligned(self, car: Rectangle) -> AlignedCar:
         """The rectangle where its outline meets the surfels; NotLocated when these do not tell."""
         found = self._moved(car, FIRST_BEYOND_M)
         for _ in range(ROUNDS - 1):
             found = self._moved(found.car, BEYOND_M)
         return found
 
-    def _moved(self, rough: Rectangle, beyond_m: float) -> Found:
+    def _moved(self, rough: Rectangle, beyond_m: float) -> AlignedCar:
         axis = self._axis(rough, beyond_m)
         car = rough.moved_by(Pose2(0.0, axis.offset_m if axis.is_centred else 0.0, math.atan(axis.slope)))
         in_car = self._seen.in_frame(car.pose)
         extents = extents_of(sides_of(in_car.where(belongs(in_car, car, FIRST_BEYOND_M))), car)
         wheels = self._wheels(in_car, car, extents)
-        return Found(sized(car, extents, axis, wheels, self._sheet), axis, wheels)
+        return AlignedCar(sized(car, extents, axis, wheels, self._sheet), axis, wheels)
 
-    def _axis(self, car: Rectangle, beyond_m: float) -> Axis:
+    def _axis(self, car: Rectangle, beyond_m: float) -> SymmetryAxis:
         in_car = self._seen.in_frame(car.pose)
         sides = sides_of(in_car.where(belongs(in_car, car, beyond_m)))
         axis = axis_of(*(sides[name] for name in LONG_SIDES), length=car.length)
@@ -52,7 +52,7 @@ class Alignment:
             raise NotLocated("The Car's long sides were seen too little to tell its heading.")
         return axis
 
-    def _wheels(self, in_car: Surfels, car: Rectangle, extents: Dict[str, Extent]) -> Optional[Wheels]:
+    def _wheels(self, in_car: Surfels, car: Rectangle, extents: Dict[str, SideExtent]) -> Optional[CarWheels]:
         """What tells the Car's place along it when its ends do not; None when they do."""
         lacks_an_end = not all(name in extents for name in ENDS)
         if not self._on_wheels and not (self._sheet.front_overhang_m and lacks_an_end):
@@ -60,14 +60,14 @@ class Alignment:
         wheels = self._exact_wheels(car)
         return self._rough_wheels(in_car, car) if wheels is None and self._on_wheels else wheels
 
-    def _exact_wheels(self, car: Rectangle) -> Optional[Wheels]:
+    def _exact_wheels(self, car: Rectangle) -> Optional[CarWheels]:
         """Wheels tell more of the Car than one end does: how far that stands back in the LiDARs' plane is unknown."""
         if self._close_up is None:
             return None
         in_car = self._close_up.in_frame(car.pose)
         return wheels_from([faces_in(in_car, name, 0.5 * car.width) for name in LONG_SIDES], self._sheet)
 
-    def _rough_wheels(self, in_car: Surfels, car: Rectangle) -> Wheels:
+    def _rough_wheels(self, in_car: Surfels, car: Rectangle) -> CarWheels:
         found = wheels_between(wheel_sides(in_car), 0.0, car.width, self._sheet)
         if found is None:
             raise NotLocated("Only wheels of the Car were seen, and they do not stand as a car's do.")

@@ -11,7 +11,7 @@ from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
 from ..measure.side import ENDS, LONG_SIDES, MIDDLE_SHARE, Side, side_of
-from ..measure.wheels import Wheels, wheel_sides, wheels_between
+from ..measure.wheels import CarWheels, wheel_sides, wheels_between
 from ..parameters import DataSheet, LocatorParameters
 from ..rectangle import Rectangle
 from ..surfels import SAMPLE_M, Surfels
@@ -29,12 +29,12 @@ MAX_LEVELS = 5
 
 
 @dataclass(frozen=True)
-class Candidate:
+class CarCandidate:
     """A rectangle with its evidence; wheels when neither front nor rear was seen."""
 
     car: Rectangle
     score: Score
-    wheels: Optional[Wheels] = None
+    wheels: Optional[CarWheels] = None
 
 
 def near(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> Surfels:
@@ -44,7 +44,7 @@ def near(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> Surfe
     return surfels.where(np.hypot(*(surfels.position - (car.pose.x, car.pose.y)).T) < reach)
 
 
-def candidates(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> List[Candidate]:
+def candidates(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> List[CarCandidate]:
     """Candidates within the tolerance of the prior, best first."""
     sheet = parameters.sheet
     found = []
@@ -53,7 +53,7 @@ def candidates(surfels: Surfels, prior: Prior, parameters: LocatorParameters) ->
         for car, wheels in _rectangles(surfels.in_frame(frame), sheet):
             placed = Rectangle(frame @ car.pose, car.length, car.width)
             if is_allowed(placed, prior, parameters):
-                found.append(Candidate(placed, score_of(surfels, placed, prior, sheet), wheels))
+                found.append(CarCandidate(placed, score_of(surfels, placed, prior, sheet), wheels))
     return sorted(found, key=lambda each: -each.score.total)
 
 
@@ -102,7 +102,7 @@ def peaks(density: FloatArray, minimum: float) -> List[int]:
     return sorted(np.nonzero(top)[0].tolist(), key=lambda index: -density[index])
 
 
-def _rectangles(seen: Surfels, sheet: DataSheet) -> Iterator[Tuple[Rectangle, Optional[Wheels]]]:
+def _rectangles(seen: Surfels, sheet: DataSheet) -> Iterator[Tuple[Rectangle, Optional[CarWheels]]]:
     """Rectangles in the frame of seen, whose x axis is the Car's."""
     left, right = (side_of(name, seen, -math.inf) for name in LONG_SIDES)
     front, rear = (side_of(name, seen, -math.inf) for name in ENDS)

@@ -14,7 +14,7 @@ from ..rectangle import Rectangle
 from ..surfels import Surfels
 from .alignment import Alignment
 from .blobs import guess_from_blobs
-from .candidates import Candidate, candidates, is_allowed, near
+from .candidates import CarCandidate, candidates, is_allowed, near
 from .errors import NotLocated
 from .prior import Prior
 from .scoring import score_of
@@ -57,7 +57,7 @@ def rough_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> 
         return guess
 
 
-def _chosen(found: List[Candidate]) -> Candidate:
+def _chosen(found: List[CarCandidate]) -> CarCandidate:
     if not found:
         raise NotLocated("Not enough of a Car was seen: one long side and one end are needed at least, or all four "
                          "wheels.")

@@ -19,7 +19,7 @@ ROUNDS = 8
 
 
 @dataclass(frozen=True)
-class Axis:
+class SymmetryAxis:
     """Slope and offset of the axis in the frame of the sides, and how well they are known.
 
     is_centred: False when only one side was seen; then the offset is that of the side.
@@ -32,7 +32,7 @@ class Axis:
     is_centred: bool
 
 
-def axis_of(left: Side, right: Side, *, length: float) -> Optional[Axis]:
+def axis_of(left: Side, right: Side, *, length: float) -> Optional[SymmetryAxis]:
     """Middle between both sides where both were seen, else parallel to one; None when they tell nothing."""
     lefts, rights = left.bins(), right.bins()
     both = sorted(set(lefts) & set(rights))
@@ -48,11 +48,11 @@ def axis_of(left: Side, right: Side, *, length: float) -> Optional[Axis]:
     return None
 
 
-def _axis(along: FloatArray, level: FloatArray, common_sigma_m: float, is_centred: bool) -> Axis:
+def _axis(along: FloatArray, level: FloatArray, common_sigma_m: float, is_centred: bool) -> SymmetryAxis:
     slope, offset, slope_sigma, offset_sigma = robust_line(along, level)
     # What the map is wrong by on one side may differ from its one end to the other.
     span = max(float(np.ptp(along)), BIN_M)
-    return Axis(slope, offset, math.hypot(slope_sigma, math.sqrt(2.0) * common_sigma_m / span),
+    return SymmetryAxis(slope, offset, math.hypot(slope_sigma, math.sqrt(2.0) * common_sigma_m / span),
                 math.hypot(offset_sigma, common_sigma_m), is_centred)
 
 

@@ -11,16 +11,16 @@ from mtr_core.se2 import Pose2
 from ..parameters import DataSheet
 from ..rectangle import Rectangle
 from ..surfels import Surfels
-from .axis import Axis
+from .axis import SymmetryAxis
 from .belonging import belongs
 from .car_fit import CarFit, PlaneSize
 from .close_up import CloseUp
 from .data_sheet import with_data_sheet
 from .incidence import MIN_INCIDENCE_COSINE
 from .outline import outline_of
-from .side import ENDS, LONG_SIDES, MAP_SHARE, MIDDLE_SHARE, OUTWARDS, Extent, Side, middle_of, sides_of
+from .side import ENDS, LONG_SIDES, MAP_SHARE, MIDDLE_SHARE, OUTWARDS, Side, SideExtent, middle_of, sides_of
 from .side_profile import outermost, profile_of, summit
-from .wheels import Wheels
+from .wheels import CarWheels
 
 # What lies on the outline is the Car's.
 BEYOND_M = 0.06
@@ -38,15 +38,15 @@ BEYOND_ROUGH_M = 0.04
 
 
 @dataclass(frozen=True)
-class Found:
+class AlignedCar:
     """A Car's rectangle in map, its axis of symmetry, and its wheels if neither front nor rear was seen."""
 
     car: Rectangle
-    axis: Axis
-    wheels: Optional[Wheels]
+    axis: SymmetryAxis
+    wheels: Optional[CarWheels]
 
 
-def measured(seen: Surfels, found: Found, sheet: DataSheet, close_up: Optional[CloseUp]) -> CarFit:
+def measured(seen: Surfels, found: AlignedCar, sheet: DataSheet, close_up: Optional[CloseUp]) -> CarFit:
     """Centre, size, sigmas, outline and the surfels that are the Car's; quality is still 0."""
     car, axis, wheels = found.car, found.axis, found.wheels
     in_car = seen.in_frame(car.pose)
@@ -64,7 +64,7 @@ def measured(seen: Surfels, found: Found, sheet: DataSheet, close_up: Optional[C
     return with_data_sheet(_with_inset(fit, sheet), sheet)
 
 
-def sized(car: Rectangle, extents: Dict[str, Extent], axis: Axis, wheels: Optional[Wheels],
+def sized(car: Rectangle, extents: Dict[str, SideExtent], axis: SymmetryAxis, wheels: Optional[CarWheels],
           sheet: DataSheet) -> Rectangle:
     """Centre and size from the outermost levels."""
     y, width = _span([extents.get(name) for name in LONG_SIDES], sheet.width_m)
@@ -76,7 +76,7 @@ def sized(car: Rectangle, extents: Dict[str, Extent], axis: Axis, wheels: Option
     return Rectangle(car.pose @ Pose2(x, 0.0 if axis.is_centred else y, 0.0), length, width)
 
 
-def extents_of(sides: Dict[str, Side], car: Rectangle) -> Dict[str, Extent]:
+def extents_of(sides: Dict[str, Side], car: Rectangle) -> Dict[str, SideExtent]:
     """Levels of the sides that surfels show."""
     parts = {name: side.within(*middle_of(_reach(name, car), MIDDLE_SHARE)) if name in ENDS else side
              for name, side in sides.items()}
@@ -84,7 +84,8 @@ def extents_of(sides: Dict[str, Side], car: Rectangle) -> Dict[str, Extent]:
     return {name: extent for name, extent in found.items() if extent is not None}
 
 
-def finer(extents: Dict[str, Extent], close_up: CloseUp, car: Rectangle, ends: Sequence[str]) -> Dict[str, Extent]:
+def finer(extents: Dict[str, SideExtent], close_up: CloseUp, car: Rectangle, ends: Sequence[str]
+          ) -> Dict[str, SideExtent]:
     """The same levels from all returns near them, as far as these tell; close_up is in the Car's frame."""
     found = dict(extents)
     for name in (*LONG_SIDES, *ends):
@@ -95,7 +96,7 @@ def finer(extents: Dict[str, Extent], close_up: CloseUp, car: Rectangle, ends: S
     return found
 
 
-def _close_level(name: str, rough: Extent, close_up: CloseUp, car: Rectangle) -> Optional[Extent]:
+def _close_level(name: str, rough: SideExtent, close_up: CloseUp, car: Rectangle) -> Optional[SideExtent]:
     outwards = np.array(OUTWARDS[name])
     along, outward = close_up.points @ np.abs(outwards[::-1]), close_up.points @ outwards
     low, high = middle_of(_reach(name, car), MIDDLE_SHARE if name in ENDS else 1.0)
@@ -113,7 +114,7 @@ def _reach(name: str, car: Rectangle) -> Tuple[float, float]:
     return -half, half
 
 
-def _span(pair: List[Optional[Extent]], expected_m: float) -> Tuple[float, float]:
+def _span(pair: List[Optional[SideExtent]], expected_m: float) -> Tuple[float, float]:
     ahead, behind = pair
     if ahead and behind:
         return 0.5 * (ahead.level - behind.level), ahead.level + behind.level
@@ -122,13 +123,13 @@ def _span(pair: List[Optional[Extent]], expected_m: float) -> Tuple[float, float
     return (0.5 * expected_m - behind.level, expected_m) if behind else (0.0, expected_m)
 
 
-def _plane_size(extents: Dict[str, Extent]) -> PlaneSize:
+def _plane_size(extents: Dict[str, SideExtent]) -> PlaneSize:
     length, width = (_distance_between([extents[name] for name in pair if name in extents])
                      for pair in (ENDS, LONG_SIDES))
     return PlaneSize(*length, *width)
 
 
-def _distance_between(sides: List[Extent]) -> Tuple[Optional[float], float]:
+def _distance_between(sides: List[SideExtent]) -> Tuple[Optional[float], float]:
     """Of two opposite sides, and its 1 sigma; None when fewer were seen."""
     if len(sides) < 2:
         return None, 0.0
@@ -141,7 +142,7 @@ def _with_inset(fit: CarFit, sheet: DataSheet) -> CarFit:
     return replace(fit, rectangle=replace(fit.rectangle, width=fit.rectangle.width + 2.0 * sheet.side_inset_m))
 
 
-def _sigmas(extents: Dict[str, Extent], found: Found,
+def _sigmas(extents: Dict[str, SideExtent], found: AlignedCar,
             sheet: DataSheet) -> Tuple[Tuple[float, float, float], Tuple[float, float]]:
     """1 sigma of the Car's pose, and of its length and width."""
     x_sigma, length_sigma = _pair_sigmas(ENDS, extents, sheet.known_length_m, sheet)
@@ -154,7 +155,7 @@ def _sigmas(extents: Dict[str, Extent], found: Found,
     return (x_sigma, y_sigma, found.axis.slope_sigma), (length_sigma, width_sigma)
 
 
-def _pair_sigmas(pair: Tuple[str, str], extents: Dict[str, Extent], known_m: float,
+def _pair_sigmas(pair: Tuple[str, str], extents: Dict[str, SideExtent], known_m: float,
                  sheet: DataSheet) -> Tuple[float, float]:
     """1 sigma of the middle between two opposite sides and of their distance."""
     found = [extents[name].sigma for name in pair if name in extents]

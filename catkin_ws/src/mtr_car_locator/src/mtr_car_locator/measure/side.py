@@ -40,7 +40,7 @@ MIN_IN_BIN_M = 0.03
 
 
 @dataclass(frozen=True)
-class Extent:
+class SideExtent:
     """Outermost level of a side and its 1 sigma, m from the frame's origin; map_sigma is that of the map's surfaces."""
 
     level: float
@@ -68,7 +68,7 @@ class Side:
         keep = (self.along >= low_m) & (self.along <= high_m)
         return Side(self.name, self.along[keep], self.outward[keep], self.sigma[keep], self.surfel[keep])
 
-    def extent(self) -> Optional[Extent]:
+    def extent(self) -> Optional[SideExtent]:
         """Outermost supported level, roughly; None without support."""
         order = np.argsort(-self.outward)
         levels = self.outward[order]
@@ -95,13 +95,13 @@ class Side:
                 found[int(each)] = float(levels[(levels >= top - LAYER_M / 2.0) & (levels <= top)].mean())
         return found
 
-    def _extent_of(self, index: IntArray) -> Extent:
+    def _extent_of(self, index: IntArray) -> SideExtent:
         levels = self.outward[index]
         surfels = len(np.unique(self.surfel[index]))
         # Neighbouring surfels are wrong together by what the map's sigma says; their own scatter averages out.
         map_sigma = float(np.median(self.sigma[index]))
         sigma = math.hypot(map_sigma, float(levels.std()) / math.sqrt(surfels))
-        return Extent(float(levels.mean()), math.hypot(sigma, EXTENT_SIGMA_FLOOR_M), map_sigma)
+        return SideExtent(float(levels.mean()), math.hypot(sigma, EXTENT_SIGMA_FLOOR_M), map_sigma)
 
 
 def side_of(name: str, in_car: Surfels, min_outward_m: float = 0.0, min_cosine: float = MIN_COSINE) -> Side:

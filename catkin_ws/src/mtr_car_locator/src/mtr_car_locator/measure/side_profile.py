@@ -8,7 +8,7 @@ import numpy as np
 
 from mtr_core.arrays import BoolArray, FloatArray, IntArray
 
-from .side import Extent
+from .side import SideExtent
 
 BIN_M = 0.02
 # A bin with fewer returns is the smeared edge of something; the share is of the median bin.
@@ -67,13 +67,13 @@ def profile_of(along: FloatArray, outward: FloatArray) -> Optional[SideProfile]:
     return SideProfile(good + first, level[good], np.sqrt(variance[good] / returns[good])) if len(good) else None
 
 
-def outermost(side: SideProfile) -> Optional[Extent]:
+def outermost(side: SideProfile) -> Optional[SideExtent]:
     """Where a long side reaches farthest out: at the end of a straight piece, as beside a wheel arch."""
     found = [end for piece in _straight_pieces(side) for end in piece.ends(side)]
     return max(found, key=lambda each: each.level - each.sigma) if found else None
 
 
-def summit(end: SideProfile) -> Optional[Extent]:
+def summit(end: SideProfile) -> Optional[SideExtent]:
     """How far an end reaches out: the top of the parabola through what is near it."""
     if len(end.number) < MIN_BUMPER_BINS:
         return None
@@ -96,7 +96,7 @@ class _Piece:
     rise_m: float
     sigma_m: float
 
-    def ends(self, side: SideProfile) -> Iterator[Extent]:
+    def ends(self, side: SideProfile) -> Iterator[SideExtent]:
         """Levels at both ends; beside a wheel arch the piece goes on into the bin in which that begins."""
         half = 0.5 * (self.last - self.first)
         count = self.last - self.first + 1
@@ -106,7 +106,7 @@ class _Piece:
             reach = half + (1.0 if is_arch else 0.5)
             spread = math.sqrt(1.0 / count + 12.0 * reach ** 2 / (count * (count ** 2 - 1.0)))
             sigma_m = math.hypot(spread * self.sigma_m, EDGE_SIGMA_BINS * self.rise_m if is_arch else 0.0)
-            yield Extent(self.middle_m + sign * self.rise_m * reach, sigma_m)
+            yield SideExtent(self.middle_m + sign * self.rise_m * reach, sigma_m)
 
 
 def _straight_pieces(side: SideProfile) -> Iterator[_Piece]:
@@ -138,11 +138,11 @@ def _straight(side: SideProfile, first: int, last: int) -> Optional[_Piece]:
     return _Piece(first, last, middle, rise, float(sigma.mean()))
 
 
-def _top_of(end: SideProfile, near: BoolArray) -> Extent:
+def _top_of(end: SideProfile, near: BoolArray) -> SideExtent:
     return _top_of_parabola(end.along[near], end.level[near], np.hypot(end.sigma[near], SHAPE_SIGMA_M))
 
 
-def _top_of_parabola(along: FloatArray, level: FloatArray, sigma: FloatArray) -> Extent:
+def _top_of_parabola(along: FloatArray, level: FloatArray, sigma: FloatArray) -> SideExtent:
     scale = max(float(np.abs(along).max()), BIN_M)
     matrix = np.vander(along / scale, 3)
     shape, weights = np.array([0.0, 0.0, float(np.median(level))]), 1.0 / sigma
@@ -153,7 +153,7 @@ def _top_of_parabola(along: FloatArray, level: FloatArray, sigma: FloatArray) ->
     top = float(np.clip(-0.5 * slope / bend, -0.5, 0.5)) if bend < 0.0 else 0.0
     at_top = np.array([top * top, top, 1.0])
     covariance = np.linalg.inv((matrix * robust[:, np.newaxis] ** 2).T @ matrix)
-    return Extent(float(at_top @ shape), math.sqrt(float(at_top @ covariance @ at_top)))
+    return SideExtent(float(at_top @ shape), math.sqrt(float(at_top @ covariance @ at_top)))
 
 
 def _falls_away(side: SideProfile, beside: int, neighbour: int, expected_m: float) -> bool:

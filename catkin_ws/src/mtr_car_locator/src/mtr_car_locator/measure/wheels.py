@@ -31,7 +31,7 @@ DATA_SHEET_SIGMA_M = 0.005
 
 
 @dataclass(frozen=True)
-class Wheels:
+class CarWheels:
     """The Car along its x axis, as its wheels tell, in the frame of the sides; 1 sigma each."""
 
     front_axle_m: float
@@ -48,7 +48,7 @@ def wheel_sides(in_frame: Surfels) -> Dict[str, Side]:
             **{name: side_of(name, in_frame, -math.inf, TREAD_COSINE) for name in ENDS}}
 
 
-def wheels_between(sides: Dict[str, Side], y: float, width: float, sheet: DataSheet) -> Optional[Wheels]:
+def wheels_between(sides: Dict[str, Side], y: float, width: float, sheet: DataSheet) -> Optional[CarWheels]:
     """Both axles, when each long side shows two wheels at its level and nothing between them; else None."""
     levels = {"left": 0.5 * width + y, "right": 0.5 * width - y}
     faces = [wheel_faces(sides[name], levels[name]) for name in LONG_SIDES]
@@ -62,7 +62,7 @@ def wheels_between(sides: Dict[str, Side], y: float, width: float, sheet: DataSh
     return _from_axles(axles_at(front, rear, ahead, behind, sheet.wheelbase_m), sheet)
 
 
-def wheels_from(faces: Sequence[Sequence[float]], sheet: DataSheet) -> Optional[Wheels]:
+def wheels_from(faces: Sequence[Sequence[float]], sheet: DataSheet) -> Optional[CarWheels]:
     """Both axles from exact middles of the outer faces along the left and the right side, m; None when these do not
     stand as a car's do.
 
@@ -93,14 +93,14 @@ def wheel_faces(side: Side, level: float) -> List[float]:
     return [0.5 * (low + high) for low, high in spans]
 
 
-def _from_axles(axles: Axles, sheet: DataSheet) -> Wheels:
+def _from_axles(axles: Axles, sheet: DataSheet) -> CarWheels:
     length, length_sigma = _length_of(axles.wheelbase_m, sheet)
     if sheet.front_overhang_m:
         centre = axles.front_m + sheet.front_overhang_m - 0.5 * length
         centre_sigma = math.hypot(axles.front_sigma_m, DATA_SHEET_SIGMA_M, 0.5 * length_sigma)
     else:
         centre, centre_sigma = axles.middle_m, math.hypot(axles.middle_sigma_m, OVERHANG_SIGMA_M)
-    return Wheels(axles.front_m, axles.rear_m, centre, centre_sigma, length, length_sigma)
+    return CarWheels(axles.front_m, axles.rear_m, centre, centre_sigma, length, length_sigma)
 
 
 def _length_of(wheelbase: float, sheet: DataSheet) -> Tuple[float, float]:

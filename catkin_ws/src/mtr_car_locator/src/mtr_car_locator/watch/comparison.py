@@ -78,7 +78,7 @@ class Evidence:
         return math.sqrt(max(float(vector @ np.linalg.solve(self.covariance, vector)), 0.0))
 
 
-class Reference:
+class CarReference:
     """Surfaces of the Car in its own frame, ready to be compared with."""
 
     def __init__(self, surfels: Surfels):

@@ -8,7 +8,7 @@ import numpy as np
 from ..measure.car_fit import CarFit
 from ..poses import PoseHistory
 from ..scan import Returns, Scan, returns_in_map
-from .comparison import Evidence, Reference
+from .comparison import CarReference, Evidence
 
 # A robot that has just stopped still sways.
 SETTLING_S = 0.3
@@ -16,7 +16,7 @@ SETTLING_S = 0.3
 NEAR_M = 0.4
 
 
-class Observation:
+class CarObservation:
     """Collects scans while the robot stands, and compares them with the Car as it was measured.
 
     A robot that moves meanwhile begins again.
@@ -43,7 +43,7 @@ class Observation:
         """True when it has lasted long enough."""
         return self._first_s is not None and now_s - self._first_s >= self._duration_s
 
-    def result(self, car: CarFit, reference: Reference, poses: PoseHistory) -> Optional[Evidence]:
+    def result(self, car: CarFit, reference: CarReference, poses: PoseHistory) -> Optional[Evidence]:
         """What it tells, None when it has seen too little of the Car."""
         near = [each for each in (_near(seen, car) for seen in self._returns) if len(each.points)]
         return reference.compare(near, car.rectangle.pose, np.array(poses.newest.covariance))

@@ -10,8 +10,8 @@ from ..measure.car_fit import CarFit
 from ..parameters import RefinementParameters
 from ..poses import PoseHistory
 from ..scan import Scan
-from .comparison import Evidence, Reference
-from .observation import SETTLING_S, Observation
+from .comparison import CarReference, Evidence
+from .observation import SETTLING_S, CarObservation
 
 # A change has to stand out of its own uncertainty by this Mahalanobis distance (99.9 % of three degrees of freedom).
 SIGNIFICANT = 4.0
@@ -41,8 +41,8 @@ class Refinement:
 
     def __init__(self, car: CarFit, parameters: RefinementParameters):
         self._car, self._parameters = car, parameters
-        self._reference = Reference(car.surfels)
-        self._observation: Optional[Observation] = None
+        self._reference = CarReference(car.surfels)
+        self._observation: Optional[CarObservation] = None
         self._suspected: Optional[Pose2] = None
         self._satisfied_s: Optional[float] = None
         self._unseen_since_s: Optional[float] = None
@@ -59,7 +59,7 @@ class Refinement:
         if not self.wants_scans(now_s, poses):
             self._observation = None
             return None
-        self._observation = self._observation or Observation(self._parameters.look_s)
+        self._observation = self._observation or CarObservation(self._parameters.look_s)
         self._observation.collect(now_s, scans, poses)
         if not self._observation.is_over(now_s):
             return None

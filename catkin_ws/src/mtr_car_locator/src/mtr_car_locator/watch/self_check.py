@@ -11,9 +11,9 @@ from ..measure.car_fit import CarFit
 from ..parameters import RefinementParameters
 from ..poses import PoseHistory
 from ..scan import Scan
-from .comparison import Evidence, Reference, joined
+from .comparison import CarReference, Evidence, joined
 from .corners import corners, nearest
-from .observation import Observation
+from .observation import CarObservation
 
 PLACES = 2
 # A place that is blocked longer than this is left out; the Car has four corners.
@@ -42,11 +42,11 @@ class SelfCheck:
 
     def __init__(self, check_id: int, now_s: float, robot: Pose2, car: CarFit, parameters: RefinementParameters):
         self._car, self._parameters = car, parameters
-        self._reference = Reference(car.surfels)
+        self._reference = CarReference(car.surfels)
         places = corners(car.rectangle, parameters.check_distance_m)
         self._places = _order(places, nearest(places, robot))
         self._found: List[Evidence] = []
-        self._observation: Optional[Observation] = None
+        self._observation: Optional[CarObservation] = None
         self._since_s = now_s
         self.report = CheckReport(check_id, Check.RUNNING, message="The robot goes to look at the Car again.")
 
@@ -75,7 +75,7 @@ class SelfCheck:
 
     def _observe(self, now_s: float, scans: Sequence[Scan], poses: PoseHistory) -> None:
         if self._observation is None:
-            self._observation = Observation(self._parameters.look_s)
+            self._observation = CarObservation(self._parameters.look_s)
             self._since_s = now_s
         self._observation.collect(now_s, scans, poses)
         if self._observation.is_over(now_s):

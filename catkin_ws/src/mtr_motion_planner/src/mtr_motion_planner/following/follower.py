@@ -9,7 +9,7 @@ from mtr_core.se2 import Pose2
 from ..inputs import RobotState
 from ..limits import MotionLimits
 from ..parameters import MotionParameters
-from ..timing.plan import Moving, Part, Plan
+from ..timing.plan import Moving, Plan, PlanPart
 from ..timing.trajectory import Reference
 from .tolerance import miss_of
 from .tracking import DELAY_S, Velocity, deviation, tracked
@@ -53,7 +53,7 @@ class Follower:
         self.plan = plan
         self._parameters, self._speed = parameters, speed
         self._index, self._time_s = 0, 0.0
-        self._part: Optional[Part] = plan.parts[0] if plan.parts else None
+        self._part: Optional[PlanPart] = plan.parts[0] if plan.parts else None
         self._waited_s = 0.0
         self._cannot_go_on = False
 
@@ -111,7 +111,7 @@ class Follower:
             return FollowerOutput(Velocity(), 0.0, finished=True)
         return FollowerOutput(tracked(now, self.reference(DELAY_S), pose), self._remaining())
 
-    def _advance(self, part: Part, pose: Pose2, robot: RobotState, passed_s: float) -> None:
+    def _advance(self, part: PlanPart, pose: Pose2, robot: RobotState, passed_s: float) -> None:
         now = self.reference()
         lag = part.motion.lag(deviation(now, pose))
         limit = LAG_RAD if part.is_on_the_spot else LAG_M
@@ -132,12 +132,12 @@ class Follower:
             self._index += 1
             self._part = self.plan.parts[self._index]
 
-    def _retime(self, part: Part, way: float, speed: float) -> bool:
+    def _retime(self, part: PlanPart, way: float, speed: float) -> bool:
         rest = part.motion.from_way(max(way, 0.0))
         trajectory = None if rest is None else rest.timed(self._limits, self._speed, speed)
         if rest is None or trajectory is None:
             return False
-        self._part, self._time_s = Part(rest, trajectory), 0.0
+        self._part, self._time_s = PlanPart(rest, trajectory), 0.0
         return True
 
     def _is_over(self) -> bool:

@@ -13,7 +13,7 @@ STEP_M = 0.03
 
 
 @dataclass(frozen=True)
-class Piece:
+class CurvePiece:
     """Arc or straight line: curvature in 1/m, positive to the left of travel, and length in m."""
 
     curvature: float
@@ -61,9 +61,9 @@ class Curve:
                      self.bend)
 
 
-def merged(pieces: Sequence[Piece], gap_m: float) -> List[Piece]:
+def merged(pieces: Sequence[CurvePiece], gap_m: float) -> List[CurvePiece]:
     """Pieces without empty ones; arcs of the same sense with a short straight line between them become one."""
-    kept: List[Piece] = []
+    kept: List[CurvePiece] = []
     for piece in pieces:
         if piece.length < 1e-6:
             continue
@@ -77,12 +77,12 @@ def merged(pieces: Sequence[Piece], gap_m: float) -> List[Piece]:
     return kept
 
 
-def _one_arc(pieces: Sequence[Piece]) -> Piece:
+def _one_arc(pieces: Sequence[CurvePiece]) -> CurvePiece:
     length = sum(piece.length for piece in pieces)
-    return Piece(sum(piece.curvature * piece.length for piece in pieces) / length, length)
+    return CurvePiece(sum(piece.curvature * piece.length for piece in pieces) / length, length)
 
 
-def breakpoints(pieces: Sequence[Piece], widths: Sequence[float], first_curvature: float
+def breakpoints(pieces: Sequence[CurvePiece], widths: Sequence[float], first_curvature: float
                 ) -> Tuple[List[float], List[float]]:
     """Distances and curvatures between which the curvature is linear.
 

@@ -13,7 +13,7 @@ from .circles import Circle, tangent
 MAX_ARC_RAD = math.radians(250.0)
 
 
-class Ring:
+class TurnPolygon:
     """Polygon whose corners a route turns about.
 
     Attributes:
@@ -85,7 +85,7 @@ def route_along(circles: Sequence[Circle], first_heading: float, last_heading: f
     return Route(tuple(legs), tuple(points))
 
 
-def around(first: Circle, last: Circle, ring: Ring, side: int) -> Optional[List[Circle]]:
+def around(first: Circle, last: Circle, ring: TurnPolygon, side: int) -> Optional[List[Circle]]:
     """Circles on which a route with the ring to its left (side 1) or right (-1) turns, first and last included."""
     begin = ring.support(first, side)
     back = ring.support(Circle(last.x, last.y, -last.radius), -side)

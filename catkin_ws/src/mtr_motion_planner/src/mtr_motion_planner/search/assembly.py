@@ -13,11 +13,11 @@ from ..geometry.keep_out import KeepOut
 from ..geometry.route import facing, moved
 from ..parameters import MotionParameters
 from ..timing.blend import Blend, Turns, keeps, overlapped, overlaps_of
-from ..timing.motion import CurveMotion, Motion, Pivot
-from ..timing.plan import Moving, Part
+from ..timing.motion import CurveMotion, Pivot, PlannedMotion
+from ..timing.plan import Moving, PlanPart
 from ..timing.trajectory import Trajectory
-from .candidates import MOVING_MPS, Candidate
-from .options import ROUNDING_M, Straight
+from .candidates import MOVING_MPS, WayCandidate
+from .options import ROUNDING_M, StraightPiece
 from .shaping import ATTEMPTS, CLOSE_M, Driving, Start, curve_of
 
 # Away from start and goal a rounded corner may use up the route's margin to this share of it.
@@ -29,7 +29,7 @@ BRAKE_SHARES, BRAKE_M, BRAKE_RAD = (1.05, 1.4, 2.0, 3.0), 0.02, 0.02
 # One of so many samples, 60 ms, is checked for what it comes close to.
 CHECKED = 3
 
-Begun = Tuple[Motion, float]  # with its first speed
+Begun = Tuple[PlannedMotion, float]  # with its first speed
 
 
 class Assembly:
@@ -44,8 +44,8 @@ class Assembly:
         self.blends_left = 0
         self._driving = Driving(parameters.limits, parameters.footprint.slip, speed)
 
-    def work_out(self, candidate: Candidate, start: Moving, goal: Pose2, best_s: float = math.inf
-                 ) -> Optional[List[Part]]:
+    def work_out(self, candidate: WayCandidate, start: Moving, goal: Pose2, best_s: float = math.inf
+                 ) -> Optional[List[PlanPart]]:
         """Parts of a candidate; None when its curve does not exist or is not free. best_s: nothing longer is of use."""
         out, sign, into = candidate.out, candidate.sign, candidate.into
         before: List[Begun] = []
@@ -67,7 +67,7 @@ class Assembly:
                 return parts
         return self.timed([*before, *transit, *after], start.pose)
 
-    def _blends(self, candidate: Candidate, begin: Moving, end: Pose2, transit: List[Begun], best_s: float
+    def _blends(self, candidate: WayCandidate, begin: Moving, end: Pose2, transit: List[Begun], best_s: float
                 ) -> Iterator[Blend]:
         """The transit with turns that overlap with the drive, the quickest first."""
         turns, slip = self._turns(transit), self._parameters.footprint.slip
@@ -81,7 +81,7 @@ class Assembly:
             if blend:
                 yield blend
 
-    def _blend(self, candidate: Candidate, begin: Moving, end: Pose2, overlap_s: Tuple[float, float]
+    def _blend(self, candidate: WayCandidate, begin: Moving, end: Pose2, overlap_s: Tuple[float, float]
                ) -> Optional[Blend]:
         """What the overlaps add to the way is taken from where the drive begins and ends, until it is as planned."""
         start, aim = begin.pose, end
@@ -111,7 +111,7 @@ class Assembly:
                               for motions in (transit[:middle], transit[middle:middle + 1], transit[middle + 1:]))
         return Turns(first, drive, last) if drive else None
 
-    def _transit(self, candidate: Candidate, begin: Moving, end: Pose2) -> Optional[List[Begun]]:
+    def _transit(self, candidate: WayCandidate, begin: Moving, end: Pose2) -> Optional[List[Begun]]:
         sign, shape = candidate.sign, candidate.shape
         speed = sign * begin.linear_mps if abs(begin.linear_mps) > MOVING_MPS else 0.0
         curvature = begin.angular_radps / speed if speed else 0.0
@@ -127,7 +127,7 @@ class Assembly:
             motions += pivot(Pose2(end.x, end.y, last.heading), end.heading)
         return motions
 
-    def timed(self, motions: Sequence[Begun], start: Pose2) -> Optional[List[Part]]:
+    def timed(self, motions: Sequence[Begun], start: Pose2) -> Optional[List[PlanPart]]:
         """Motions with trajectories; None when one cannot be driven from its first speed or is not free."""
         min_clearance_m = min(self._parameters.margins.keep_out_m, self._keep_out.clearance(start)) - ROUNDING_M
         total, done, parts = sum(motion.length_m for motion, _ in motions), 0.0, []
@@ -136,7 +136,7 @@ class Assembly:
             if trajectory is None or speed < -MOVING_MPS or not self._is_free(trajectory, min_clearance_m, done, total):
                 return None
             done += motion.length_m
-            parts.append(Part(motion, trajectory))
+            parts.append(PlanPart(motion, trajectory))
         return parts
 
     def _is_free(self, trajectory: Trajectory, min_clearance_m: float, done: float, total: float) -> bool:
@@ -149,24 +149,24 @@ class Assembly:
             return False
         return self._fence is None or self._fence.holds(poses, trajectory.linear[::CHECKED])
 
-    def brake(self, start: Moving) -> Part:
+    def brake(self, start: Moving) -> PlanPart:
         """Stop on the present curve, or the turn on the spot; as short as it can be timed."""
         limits, speed, rate = self._parameters.limits, abs(start.linear_mps), abs(start.angular_radps)
         if speed <= MOVING_MPS:
             angle = limits.stopping_angle(rate)
             turns = (Pivot(start.pose, math.copysign(share * angle + BRAKE_RAD, start.angular_radps))
                      for share in BRAKE_SHARES)
-            return next(Part(turn, timed) for turn in turns for timed in [turn.timed(limits, 0.0, rate)] if timed)
+            return next(PlanPart(turn, timed) for turn in turns for timed in [turn.timed(limits, 0.0, rate)] if timed)
         sign = 1 if start.linear_mps > 0.0 else -1
         bend = start.angular_radps / speed
         # Where even the longest stop on the curve is too short, the straight one is not.
         curves = (trace(facing(start.pose, sign), [0.0, share * limits.stopping_distance(speed) + BRAKE_M], ends)
                   for ends in ([bend, 0.0], [0.0, 0.0]) for share in BRAKE_SHARES)
-        drives = (CurveMotion(curve, sign) for curve in curves)
-        return next(Part(drive, timed) for drive in drives for timed in [drive.timed(limits, speed, speed)] if timed)
+        stops = (CurveMotion(curve, sign) for curve in curves)
+        return next(PlanPart(stop, timed) for stop in stops for timed in [stop.timed(limits, speed, speed)] if timed)
 
 
-def line(start: Pose2, straight: Straight) -> CurveMotion:
+def line(start: Pose2, straight: StraightPiece) -> CurveMotion:
     """Straight motion from a pose of the robot."""
     return CurveMotion(trace(facing(start, straight.sign), [0.0, straight.length], [0.0, 0.0]), straight.sign)
 

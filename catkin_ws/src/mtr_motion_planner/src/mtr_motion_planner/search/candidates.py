@@ -9,13 +9,13 @@ from shapely.geometry import Point as ShapelyPoint
 from mtr_core.se2 import Pose2
 
 from ..geometry.keep_out import KeepOut, centres
-from ..geometry.route import Ring, facing, moved
+from ..geometry.route import TurnPolygon, facing, moved
 from ..limits import rest_to_rest_time
 from ..parameters import MotionParameters
 from ..timing.plan import Moving
 from .estimate import time_of
-from .options import Straight, Target, arrivals, departures
-from .shaping import Shape, route_of
+from .options import StraightPiece, Target, arrivals, departures
+from .shaping import RouteShape, route_of
 
 # The turns at both ends have these radii, in m, beside the one that is driven at full speed: they are about as tight as
 # linear and angular acceleration build up together from rest. Tighter turns are made while the robot sets out
@@ -29,17 +29,17 @@ MOVING_SHARES = (1.0, 2.0, 5.0)
 
 
 @dataclass(frozen=True)
-class Candidate:
+class WayCandidate:
     """A way: straight out (0: not needed), a shaped transit, straight in; sign -1: the rear leads in the transit."""
 
     time_s: float
-    out: Straight
+    out: StraightPiece
     sign: int
-    shape: Shape
-    into: Straight
+    shape: RouteShape
+    into: StraightPiece
 
 
-class Candidates:
+class WayCandidates:
     """Makes them for one Car, robot and speed limit."""
 
     def __init__(self, keep_out: KeepOut, parameters: MotionParameters, speed: float):
@@ -48,10 +48,10 @@ class Candidates:
         self._radii = sorted({*(radius for radius in TIGHT_RADII_M if radius < 0.9 * cruise), cruise})
         gap = parameters.route_gap_m
         sizes = {gap, min(MAX_RING_M, max(gap, cruise)), min(MAX_RING_M, max(gap, 0.6 * cruise))}
-        self._rings, self._close_rings = ([Ring(centres(zone, size, gap), size) for size in sorted(sizes)]
+        self._rings, self._close_rings = ([TurnPolygon(centres(zone, size, gap), size) for size in sorted(sizes)]
                                           for zone in (keep_out.plain, keep_out.hull))
 
-    def between(self, start: Moving, goal: Target) -> List[Candidate]:
+    def between(self, start: Moving, goal: Target) -> List[WayCandidate]:
         """Candidates, the quickest first; PlanRefused when start or goal lies too close to the Car."""
         outs = departures(start.pose, self._keep_out, self._parameters)
         ins = arrivals(goal, self._keep_out, self._parameters)
@@ -59,7 +59,8 @@ class Candidates:
                  for candidate in self._transits(start, goal.pose, out, into, sign)]
         return sorted(found, key=lambda candidate: candidate.time_s)
 
-    def _transits(self, start: Moving, goal: Pose2, out: Straight, into: Straight, sign: int) -> Iterator[Candidate]:
+    def _transits(self, start: Moving, goal: Pose2, out: StraightPiece, into: StraightPiece, sign: int
+                  ) -> Iterator[WayCandidate]:
         """Transits in one sense of travel; straight pieces in the same sense are part of them."""
         speed = start.linear_mps
         moving = abs(speed) > MOVING_MPS
@@ -74,12 +75,12 @@ class Candidates:
         turns = list(itertools.product(self._first_radii(from_speed, joined_out),
                                        self._signed_radii(on_the_spot=not joined_in)))
         for (ring, side), (first, last) in itertools.product(self._ways(begin, finish), turns):
-            shape = Shape(first, last, way_out, run_in, ring, side)
+            shape = RouteShape(first, last, way_out, run_in, ring, side)
             time_s = self._time(shape, lead, end, sign, from_speed)
             if time_s is not None:
-                yield Candidate(time_s + apart_s, out, sign, shape, into)
+                yield WayCandidate(time_s + apart_s, out, sign, shape, into)
 
-    def _straight_time(self, piece: Straight) -> float:
+    def _straight_time(self, piece: StraightPiece) -> float:
         limits = self._parameters.limits
         return rest_to_rest_time(piece.length, self._speed, limits.acceleration_mps2, limits.ramp_s)
 
@@ -88,7 +89,7 @@ class Candidates:
             return [share * radius for radius in (self._radii[-1], -self._radii[-1]) for share in MOVING_SHARES]
         return self._signed_radii(on_the_spot=not joined_out)
 
-    def _time(self, shape: Shape, start: Pose2, end: Pose2, sign: int, from_speed: float) -> Optional[float]:
+    def _time(self, shape: RouteShape, start: Pose2, end: Pose2, sign: int, from_speed: float) -> Optional[float]:
         route = route_of(shape, start, end)
         if route is None:
             return None
@@ -97,7 +98,7 @@ class Candidates:
             return None
         return time_of(route, shape, self._parameters.limits, self._speed, from_speed)
 
-    def _ways(self, begin: Pose2, finish: Pose2) -> Sequence[Tuple[Optional[Ring], int]]:
+    def _ways(self, begin: Pose2, finish: Pose2) -> Sequence[Tuple[Optional[TurnPolygon], int]]:
         line = [(begin.x, begin.y), (finish.x, finish.y)]
         gap = min(self._parameters.route_gap_m, self._keep_out.distance(begin), self._keep_out.distance(finish))
         if begin.distance_to(finish) < 1e-6 or not self._keep_out.crosses(line, gap):

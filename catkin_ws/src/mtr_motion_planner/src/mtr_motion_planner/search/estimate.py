@@ -4,13 +4,13 @@ import math
 
 from ..geometry.route import Leg, Route
 from ..limits import MotionLimits
-from .shaping import Shape
+from .shaping import RouteShape
 
 # Most turns on the spot can overlap with the drive by this (blend.py).
 OVERLAP_S = 1.5
 
 
-def time_of(route: Route, shape: Shape, limits: MotionLimits, speed: float, start_speed: float) -> float:
+def time_of(route: Route, shape: RouteShape, limits: MotionLimits, speed: float, start_speed: float) -> float:
     """Time in s from the start speed to rest, turns on the spot included."""
     total = limits.ramp_s
     entry = start_speed

@@ -23,14 +23,14 @@ SIGNS = {Direction.ANY: (1, -1), Direction.FORWARD: (1,), Direction.BACKWARD: (-
 
 
 @dataclass(frozen=True)
-class Straight:
+class StraightPiece:
     """Straight piece at the start or at the goal; sign -1: backwards, 0: none."""
 
     sign: int = 0
     length: float = 0.0
 
 
-NONE = Straight()
+NONE = StraightPiece()
 
 
 @dataclass(frozen=True)
@@ -42,28 +42,28 @@ class Target:
     is_correction: bool = False
 
 
-def departures(start: Pose2, keep_out: KeepOut, parameters: MotionParameters) -> List[Straight]:
+def departures(start: Pose2, keep_out: KeepOut, parameters: MotionParameters) -> List[StraightPiece]:
     """None needed where the robot may turn, else the shortest ways straight out; PlanRefused when there is none."""
     if keep_out.distance(start) >= parameters.pivot_gap_m:
         return [NONE]
     min_clearance_m = min(parameters.margins.keep_out_m, keep_out.clearance(start)) - ROUNDING_M
-    found = [Straight(sign, length) for sign in (-1, 1)
+    found = [StraightPiece(sign, length) for sign in (-1, 1)
              for length in _free_after(start, sign, min_clearance_m, keep_out, parameters)]
     if not found:
         raise PlanRefused("The robot stands so close to the Car that it cannot drive straight out; move it by hand.")
     return found
 
 
-def arrivals(goal: Target, keep_out: KeepOut, parameters: MotionParameters) -> List[Straight]:
+def arrivals(goal: Target, keep_out: KeepOut, parameters: MotionParameters) -> List[StraightPiece]:
     """Straight pieces into the goal, none where the robot may turn at it; PlanRefused when no way leads there."""
     if keep_out.distance(goal.pose) >= parameters.pivot_gap_m:
         if goal.is_correction:
-            return [Straight(sign, max(parameters.run_in_m, CORRECTION_RUN_IN_M)) for sign in (1, -1)]
+            return [StraightPiece(sign, max(parameters.run_in_m, CORRECTION_RUN_IN_M)) for sign in (1, -1)]
         if goal.direction == Direction.ANY:
             return [NONE]
-        return [Straight(sign, parameters.run_in_m) for sign in SIGNS[goal.direction]]
+        return [StraightPiece(sign, parameters.run_in_m) for sign in SIGNS[goal.direction]]
     min_clearance_m = parameters.margins.keep_out_m - ROUNDING_M
-    found = [Straight(sign, length + parameters.run_in_m) for sign in SIGNS[goal.direction]
+    found = [StraightPiece(sign, length + parameters.run_in_m) for sign in SIGNS[goal.direction]
              for length in _free_after(goal.pose, -sign, min_clearance_m, keep_out, parameters)]
     if not found:
         raise PlanRefused("No straight piece leads to the goal past the Car without getting too close to it.")

@@ -10,10 +10,10 @@ from ..geometry.fence import Fence
 from ..geometry.keep_out import KeepOut
 from ..geometry.route import moved
 from ..parameters import MotionParameters
-from ..timing.plan import Moving, Part, Plan, PlanRefused
+from ..timing.plan import Moving, Plan, PlanPart, PlanRefused
 from .assembly import Assembly, line, pivot
-from .candidates import MOVING_MPS, Candidates
-from .options import Straight, Target
+from .candidates import MOVING_MPS, WayCandidates
+from .options import StraightPiece, Target
 
 # A robot this close to the goal's axis drives straight along it; the controller takes the rest out on the way, as early
 # as it can. With the direction of travel given the axis matters more than the time.
@@ -57,7 +57,7 @@ class Planning:
 
     def __init__(self, keep_out: KeepOut, fence: Optional[Fence], parameters: MotionParameters, speed: float):
         self._keep_out, self._fence, self._parameters = keep_out, fence, parameters
-        self._candidates = Candidates(keep_out, parameters, speed)
+        self._candidates = WayCandidates(keep_out, parameters, speed)
         self._assembly = Assembly(keep_out, fence, parameters, speed)
 
     def plan(self, start: Moving, goal: Target) -> Plan:
@@ -87,7 +87,7 @@ class Planning:
             parts = None if rest is None else [brake, *rest]
         return None if parts is None else Plan(goal.pose, tuple(parts))
 
-    def _may_gain_by_a_stop(self, parts: Optional[List[Part]], start: Pose2, goal: Pose2) -> bool:
+    def _may_gain_by_a_stop(self, parts: Optional[List[PlanPart]], start: Pose2, goal: Pose2) -> bool:
         """False for a plan without a stop that is hardly longer than the straight line."""
         return parts is None or sum(part.trajectory.length_m for part in parts) > (
             DETOUR_SHARE * start.distance_to(goal) + DETOUR_M)
@@ -105,11 +105,11 @@ class Planning:
         if self._fence and not self._fence.holds_pose(start):
             raise PlanRefused("The robot stands outside the test area; move it back by hand.")
 
-    def _parts(self, start: Moving, goal: Target, effort: Effort) -> Optional[List[Part]]:
+    def _parts(self, start: Moving, goal: Target, effort: Effort) -> Optional[List[PlanPart]]:
         parts = self._straight(start, goal.pose, goal.direction)
         return self._quickest(start, goal, effort) if parts is None else parts
 
-    def _straight(self, start: Moving, goal: Pose2, direction: Direction) -> Optional[List[Part]]:
+    def _straight(self, start: Moving, goal: Pose2, direction: Direction) -> Optional[List[PlanPart]]:
         """The straight piece when the goal lies ahead or behind on the robot's own axis; no parts when it is there."""
         arrival = self._parameters.arrival
         offset = goal.inverse() @ start.pose
@@ -123,11 +123,11 @@ class Planning:
         wrong = Direction.BACKWARD if sign > 0 else Direction.FORWARD
         if direction == wrong and way > CORRECTION_M:
             return None
-        drive = line(moved(goal, offset.x), Straight(sign, way))
+        drive = line(moved(goal, offset.x), StraightPiece(sign, way))
         return self._assembly.timed([(drive, sign * start.linear_mps)], start.pose)
 
-    def _quickest(self, start: Moving, goal: Target, effort: Effort) -> Optional[List[Part]]:
-        best: Optional[List[Part]] = None
+    def _quickest(self, start: Moving, goal: Target, effort: Effort) -> Optional[List[PlanPart]]:
+        best: Optional[List[PlanPart]] = None
         compared = 0
         for candidate in self._candidates.between(start, goal)[:effort.tried]:
             if compared == effort.compared or best is not None and candidate.time_s >= duration_of(best) + DOUBT_S:
@@ -140,12 +140,12 @@ class Planning:
         return best
 
 
-def duration_of(parts: List[Part]) -> float:
+def duration_of(parts: List[PlanPart]) -> float:
     """Time in s that all parts take."""
     return sum(part.trajectory.duration_s for part in parts)
 
 
-def quicker(first: Optional[List[Part]], second: Optional[List[Part]]) -> Optional[List[Part]]:
+def quicker(first: Optional[List[PlanPart]], second: Optional[List[PlanPart]]) -> Optional[List[PlanPart]]:
     """The one that takes less time; None is no plan."""
     if first is None or second is None:
         return second if first is None else first

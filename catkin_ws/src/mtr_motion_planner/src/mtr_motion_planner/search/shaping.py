@@ -10,8 +10,8 @@ from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2, wrap_angle
 
 from ..geometry.circles import circle_through
-from ..geometry.curve import Curve, Piece, breakpoints, merged, trace
-from ..geometry.route import Ring, Route, around, moved, route_along
+from ..geometry.curve import Curve, CurvePiece, breakpoints, merged, trace
+from ..geometry.route import Route, TurnPolygon, around, moved, route_along
 from ..limits import MotionLimits
 from ..parameters import Slip
 from ..timing.speeds import speeds_on
@@ -38,7 +38,7 @@ class Start:
 
 
 @dataclass(frozen=True)
-class Shape:
+class RouteShape:
     """What a route is to look like.
 
     Attributes:
@@ -53,11 +53,11 @@ class Shape:
     last: float
     way_out: float = 0.0
     run_in: float = 0.0
-    ring: Optional[Ring] = None
+    ring: Optional[TurnPolygon] = None
     side: int = 1
 
 
-def route_of(shape: Shape, start: Pose2, end: Pose2) -> Optional[Route]:
+def route_of(shape: RouteShape, start: Pose2, end: Pose2) -> Optional[Route]:
     """Route between two poses in the direction of travel."""
     begin, finish = moved(start, shape.way_out), moved(end, -shape.run_in)
     first, last = circle_through(begin, shape.first), circle_through(finish, shape.last)
@@ -78,7 +78,7 @@ class Driving:
     speed: float
 
 
-def curve_of(shape: Shape, start: Start, end: Pose2, driving: Driving) -> Optional[Curve]:
+def curve_of(shape: RouteShape, start: Start, end: Pose2, driving: Driving) -> Optional[Curve]:
     """Smooth curve where the base goes, slip included.
 
     With a turn on the spot at either end the curve's heading there is its own.
@@ -112,9 +112,9 @@ def _miss(reached: Pose2, aim: Pose2, turned_on_the_spot: bool) -> Pose2:
     return Pose2(aim.x - reached.x, aim.y - reached.y, heading)
 
 
-def _curve(shape: Shape, start: Start, route: Route, limits: MotionLimits, speed: float) -> Optional[Curve]:
+def _curve(shape: RouteShape, start: Start, route: Route, limits: MotionLimits, speed: float) -> Optional[Curve]:
     turns = stretched(merged(_pieces(route), MERGE_M), limits, speed)
-    pieces = merged([Piece(0.0, shape.way_out), *turns, Piece(0.0, shape.run_in)], gap_m=0.0)
+    pieces = merged([CurvePiece(0.0, shape.way_out), *turns, CurvePiece(0.0, shape.run_in)], gap_m=0.0)
     if not pieces:
         return None
     initial = start.curvature if start.speed > 0.0 else pieces[0].curvature
@@ -126,16 +126,16 @@ def _turned(pose: Pose2, route: Route) -> Pose2:
     return pose if first.radius else Pose2(pose.x, pose.y, wrap_angle(pose.heading + first.turn))
 
 
-def _pieces(route: Route) -> List[Piece]:
+def _pieces(route: Route) -> List[CurvePiece]:
     pieces = []
     for leg in route.legs:
         if leg.radius:
-            pieces.append(Piece(1.0 / leg.radius, leg.arc))
-        pieces.append(Piece(0.0, leg.line))
+            pieces.append(CurvePiece(1.0 / leg.radius, leg.arc))
+        pieces.append(CurvePiece(0.0, leg.line))
     return pieces
 
 
-def _widths(pieces: Sequence[Piece], initial: float, limits: MotionLimits, speed: float) -> Tuple[float, ...]:
+def _widths(pieces: Sequence[CurvePiece], initial: float, limits: MotionLimits, speed: float) -> Tuple[float, ...]:
     """Length over which the curvature changes at the beginning and at each joint, at the speed that is driven there."""
     curvatures = [initial, *(piece.curvature for piece in pieces)]
     widths = []
@@ -145,7 +145,7 @@ def _widths(pieces: Sequence[Piece], initial: float, limits: MotionLimits, speed
     return tuple(widths)
 
 
-def stretched(pieces: Sequence[Piece], limits: MotionLimits, speed: float) -> List[Piece]:
+def stretched(pieces: Sequence[CurvePiece], limits: MotionLimits, speed: float) -> List[CurvePiece]:
     """Small turns between two straight lines made longer at the cost of these.
 
     There is no time to build up a yaw rate and take it back on a short arc; the same turn on a longer one is quicker.
@@ -161,13 +161,13 @@ def stretched(pieces: Sequence[Piece], limits: MotionLimits, speed: float) -> Li
         more = min(radius - piece.length / turn, GIVEN_SHARE * min(before.length, after.length) / tangent)
         if more > 0.0:
             length = piece.length + more * turn
-            longer[i - 1:i + 2] = [Piece(0.0, longer[i - 1].length - more * tangent),
-                                   Piece(math.copysign(turn / length, piece.curvature), length),
-                                   Piece(0.0, longer[i + 1].length - more * tangent)]
+            longer[i - 1:i + 2] = [CurvePiece(0.0, longer[i - 1].length - more * tangent),
+                                   CurvePiece(math.copysign(turn / length, piece.curvature), length),
+                                   CurvePiece(0.0, longer[i + 1].length - more * tangent)]
     return longer
 
 
-def _gentle(shape: Shape, route: Route, limits: MotionLimits, speed: float) -> Shape:
+def _gentle(shape: RouteShape, route: Route, limits: MotionLimits, speed: float) -> RouteShape:
     """The same for the first and the last turn; both are made from or to standstill if the robot stands there."""
     def radius(signed: float, turn: float) -> float:
         size = max(abs(turn), MIN_TURN_RAD)

@@ -15,7 +15,7 @@ from mtr_core.se2 import Pose2
 
 from ..limits import MotionLimits
 from ..parameters import Slip
-from .motion import CurveMotion, Motion
+from .motion import CurveMotion, PlannedMotion
 from .speeds import SAMPLE_S
 from .trajectory import Trajectory
 
@@ -46,7 +46,7 @@ class Turns:
 
 
 @dataclass(frozen=True)
-class Blend(Motion):
+class Blend(PlannedMotion):
     """The motions of some turns, overlapping; it cannot be timed anew in its middle."""
 
     drive: CurveMotion

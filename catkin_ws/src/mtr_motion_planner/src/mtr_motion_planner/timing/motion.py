@@ -20,7 +20,7 @@ PIVOT_STEP_RAD = 0.02
 STANDING_MPS, STANDING_RADPS = 0.02, 0.03
 
 
-class Motion(ABC):
+class PlannedMotion(ABC):
     """What the robot does between two stops."""
 
     @property
@@ -37,12 +37,12 @@ class Motion(ABC):
         """How far the robot is behind on its way, m, or on the spot rad; error is the reference seen from it."""
 
     @abstractmethod
-    def from_way(self, way: float) -> "Optional[Motion]":
+    def from_way(self, way: float) -> "Optional[PlannedMotion]":
         """The rest of it from a way on, m or rad; None when that needs another plan."""
 
 
 @dataclass(frozen=True)
-class CurveMotion(Motion):
+class CurveMotion(PlannedMotion):
     """Drive along a curve; sign -1: the rear leads."""
 
     curve: Curve
@@ -91,7 +91,7 @@ class CurveMotion(Motion):
 
 
 @dataclass(frozen=True)
-class Pivot(Motion):
+class Pivot(PlannedMotion):
     """Turn on the spot by an angle, counterclockwise positive."""
 
     start: Pose2

@@ -7,7 +7,7 @@ from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 
 from ..inputs import Point
-from .motion import Motion
+from .motion import PlannedMotion
 from .trajectory import Trajectory
 
 
@@ -25,10 +25,10 @@ class Moving:
 
 
 @dataclass(frozen=True)
-class Part:
+class PlanPart:
     """One motion and its trajectory."""
 
-    motion: Motion
+    motion: PlannedMotion
     trajectory: Trajectory
 
     @property
@@ -42,7 +42,7 @@ class Plan:
     """Parts that lead to the goal, in the goal's frame."""
 
     goal: Pose2
-    parts: Tuple[Part, ...]
+    parts: Tuple[PlanPart, ...]
 
     @property
     def duration_s(self) -> float:
