@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 import threading
 
-from mtr_operator.domain.ports import LockState, RobotStatus
+from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.gui.bridge import FRAME_MS, Bridge
 from mtr_operator.gui.pictures.layers.layer import Layer
 from mtr_operator.gui.pictures.picture_view import PictureView

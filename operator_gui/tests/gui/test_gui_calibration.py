@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
-from mtr_operator.domain.ports import CarCheck, CarDimensions, CheckState, Mode, PressConfirmation
+from mtr_operator.domain.robot_status import CarCheck, CarDimensions, CheckState, Mode, PressReport
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
 
 
@@ -40,7 +40,7 @@ def test_buttons_held_down_are_shown(window, operator, opener):
 
 
 def test_failed_press_is_told(window, operator, opener):
-    opener.spoil_with(presses=(PressConfirmation(1, 1.0, 1.0, "The servo does not answer."),))
+    opener.spoil_with(presses=(PressReport(1, 1.0, 1.0, "The servo does not answer."),))
     window.buttons[1].setChecked(True)
     operator.click(window.send)
     operator.wait(lambda: window.notice.text() == "The servo does not answer.")

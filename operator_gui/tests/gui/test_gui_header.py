@@ -3,7 +3,7 @@
 import pytest
 from PyQt5.QtCore import QAbstractAnimation
 
-from mtr_operator.domain.ports import Mode, Notification
+from mtr_operator.domain.robot_status import Mode, Notification
 from mtr_operator.gui.header.symbols import BatterySymbol, LockSymbol
 from mtr_operator.gui.header.warning_symbol import PULSE_MS, PULSE_SCALE, WarningSymbol
 from mtr_operator.gui.theme.appearance import Appearance

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import pytest
 
 import mtr_operator
-from mtr_operator.domain.ports import Problem
+from mtr_operator.domain.robot_status import Problem
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.gui.i18n import FOLDER, Language, duration, number
 from mtr_operator.gui.names import domain_word, parameter_title

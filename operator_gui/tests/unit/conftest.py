@@ -7,22 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from mtr_operator.domain.ports import (
-    KEY_BUTTON,
-    PASSIVE_ENTRY,
-    CarDimensions,
-    CarEvent,
-    CarFrame,
-    CarLink,
-    Direction,
-    LinkStatistics,
-    LockState,
-    Mode,
-    PressConfirmation,
-    RobotLink,
-    RobotStatus,
-    WaypointResult,
-)
+from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, CarEvent, CarLink, LinkStatistics, LockState, RobotLink
+from mtr_operator.domain.requests import Direction
+from mtr_operator.domain.robot_status import CarDimensions, CarFrame, Mode, PressReport, RobotStatus, WaypointResult
 
 STATUS_PERIOD_S = 0.1
 STEPS = 10
@@ -62,16 +49,16 @@ class World:
         self.desired = desired
         if desired.key_height_m is not None:
             self.height_m = desired.key_height_m
-        goal = desired.waypoint
-        if goal is not None and (self.waypoint is None or goal.id != self.waypoint.id):
-            self.waypoint, self.message = goal, self.refuses(goal)
+        waypoint = desired.waypoint
+        if waypoint is not None and (self.waypoint is None or waypoint.id != self.waypoint.id):
+            self.waypoint, self.message = waypoint, self.refuses(waypoint)
             self.result = WaypointResult.REFUSED if self.message else WaypointResult.PENDING
         self.checked_id = desired.check_car_id
         press = desired.press
         if press is not None and press.id not in self.pressed:
             self.pressed.add(press.id)
             start_s = self.time_s + 0.03
-            self.presses.append(PressConfirmation(press.id, start_s, start_s + press.duration_s))
+            self.presses.append(PressReport(press.id, start_s, start_s + press.duration_s))
             if math.hypot(*self.key()) <= self.press_range_m:
                 self.toggles.append((start_s + REACTION_S, press.buttons[0] == 1))
 
@@ -86,10 +73,11 @@ class World:
 
     def _drive(self, dt_s):
         self.speed_mps = 0.0
-        goal = self.waypoint
-        if goal is None or self.result is not WaypointResult.PENDING or self.desired.stop:
+        waypoint = self.waypoint
+        if waypoint is None or self.result is not WaypointResult.PENDING or self.desired.stop:
             return
-        if goal.direction is Direction.ANY:  # on the way around the Car; only where it ends matters here
+        goal = waypoint.pose
+        if waypoint.direction is Direction.ANY:  # on the way around the Car; only where it ends matters here
             self.x, self.y, self.heading = goal.x, goal.y, goal.heading
         dx, dy = goal.x - self.x, goal.y - self.y
         left_m, step_m = math.hypot(dx, dy), self.desired.max_speed_mps * dt_s

@@ -11,7 +11,8 @@ import pytest
 
 from mtr_operator.car_link.bus import CanCarLink
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter, OperatorError
-from mtr_operator.domain.ports import LockState, RobotStatus
+from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.robot_status import RobotStatus
 
 LOCK_ID = 0x320
 LOCKED, UNLOCKED = b"\x00\x00\x00\x00", b"\x01\x00\x00\x00"

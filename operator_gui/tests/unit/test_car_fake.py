@@ -4,7 +4,8 @@ import pytest
 
 from mtr_operator.car_link.fake import FakeCarLink
 from mtr_operator.domain.errors import InvalidParameter
-from mtr_operator.domain.ports import LockState, RobotStatus
+from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.robot_status import RobotStatus
 
 
 def observed(link, seconds, start_s=1.0):

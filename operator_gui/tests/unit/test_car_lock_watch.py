@@ -4,7 +4,8 @@ import pytest
 
 from mtr_operator.car_link.lock_watch import CanFrame, LockWatch
 from mtr_operator.car_link.profile import load_profile
-from mtr_operator.domain.ports import LockState, RobotStatus
+from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.robot_status import RobotStatus
 
 LOCK_ID = 0x320
 SPEED_ID = 0x1A0

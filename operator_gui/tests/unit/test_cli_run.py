@@ -13,8 +13,8 @@ import pytest
 from mtr_operator.cli import main
 from mtr_operator.cli.display import Display
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import LogMessage, Mode, Notification, RobotStatus
 from mtr_operator.domain.results.line_result import LineStatus
+from mtr_operator.domain.robot_status import LogMessage, Mode, Notification, RobotStatus
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.autolock_result import AutolockResult
 from mtr_operator.report.files import write_report

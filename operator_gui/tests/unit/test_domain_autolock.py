@@ -7,9 +7,11 @@ import pytest
 from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import LinkLost, RobotFailed
-from mtr_operator.domain.ports import KEY_BUTTON, CarCheck, CarDimensions, CheckState, Direction, Mode
+from mtr_operator.domain.ports import KEY_BUTTON
+from mtr_operator.domain.requests import Direction
 from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.robot_status import CarCheck, CarDimensions, CheckState, Mode
 from mtr_operator.domain.scenarios.autolock import SCENARIO
 from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
 from mtr_operator.domain.scenarios.autolock_result import AutolockResult
@@ -42,7 +44,7 @@ def test_way_on_an_axis_is_that_of_the_algorithm(run_scenario, robot_link):
     for _, desired in robot_link.answers:
         ways.setdefault(desired.waypoint and desired.waypoint.id, desired)
     first = [ways[number] for number in (1, 2, 3, 4, 5)]
-    assert [desired.waypoint.x for desired in first[:4]] == pytest.approx([6.5, 6.0, 3.0, 6.0])
+    assert [desired.waypoint.pose.x for desired in first[:4]] == pytest.approx([6.5, 6.0, 3.0, 6.0])
     assert [desired.waypoint.direction for desired in first] == [
         Direction.ANY, Direction.FORWARD, Direction.FORWARD, Direction.BACKWARD, Direction.ANY]
     assert [desired.max_speed_mps for desired in first] == [1.0, 1.0, 0.4, 0.4, 1.0]
@@ -115,8 +117,12 @@ def test_measured_half_of_a_spoilt_line_is_kept(run_scenario, world):
     assert results[0].lock_distance_m is None
 
 
+def is_right_of_car(pose):
+    return pose.y < -4.5 and abs(pose.x) < 0.01
+
+
 def test_refused_waypoint_makes_its_line_invalid_with_the_robots_reason(run_scenario, world):
-    world.refuses = lambda waypoint: "A wall is in the way." if waypoint.y < -4.5 and abs(waypoint.x) < 0.01 else ""
+    world.refuses = lambda waypoint: "A wall is in the way." if is_right_of_car(waypoint.pose) else ""
     results = run_scenario(SCENARIO, PARAMETERS)
     assert [result.side for result in results if result.unlock_status.value == "invalid"] == ["right"]
     assert "A wall is in the way." in results[2].reason
@@ -210,7 +216,7 @@ def test_better_measurement_of_a_line_wins():
 
 
 def test_picture_shows_points_and_gaps_in_order(run_scenario, world):
-    world.refuses = lambda waypoint: "No." if waypoint.y < -4.5 and abs(waypoint.x) < 0.01 else ""
+    world.refuses = lambda waypoint: "No." if is_right_of_car(waypoint.pose) else ""
     results = run_scenario(SCENARIO, PARAMETERS)
     picture = SCENARIO.picture(PARAMETERS, CAR, results)
     unlocked, locked = picture.point_sets[:2]

@@ -8,7 +8,7 @@ from mtr_operator.domain.actions.distance import distance_to_outline, measure, o
 from mtr_operator.domain.actions.pose_history import PoseHistory, PoseSample, PoseUnknown
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.geometry.ray import Ray
-from mtr_operator.domain.ports import CarDimensions, RobotStatus
+from mtr_operator.domain.robot_status import CarDimensions, RobotStatus
 
 CAR = CarDimensions(4.5, 1.8, 0.04, 0.02)
 LEFT = Ray(0.0, 0.9, 0.0, 1.0)

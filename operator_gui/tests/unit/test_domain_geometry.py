@@ -8,7 +8,7 @@ from mtr_operator.domain.geometry.axes import axes_around
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.geometry.radials import radials_around
 from mtr_operator.domain.geometry.ray import Ray
-from mtr_operator.domain.ports import CarDimensions
+from mtr_operator.domain.robot_status import CarDimensions
 
 CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
 

@@ -5,7 +5,8 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.errors import InvalidParameter
-from mtr_operator.domain.ports import PASSIVE_ENTRY, CarDimensions
+from mtr_operator.domain.ports import PASSIVE_ENTRY
+from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios.key_press import SCENARIO
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 
@@ -118,7 +119,7 @@ def test_places_inside_the_car_are_refused_before_the_robot_moves(run_scenario, 
 def test_last_place_is_exactly_the_minimum_distance(run_scenario, world, robot_link):
     world.press_range_m = 0.0
     run_scenario(SCENARIO, PARAMETERS)
-    nearest = min(desired.waypoint.x for _, desired in robot_link.answers
+    nearest = min(desired.waypoint.pose.x for _, desired in robot_link.answers
                   if desired.waypoint and desired.waypoint.id <= 8)
     assert nearest == pytest.approx(3.25)
 

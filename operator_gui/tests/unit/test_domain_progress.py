@@ -7,9 +7,9 @@ import pathlib
 import pytest
 
 from mtr_operator.domain.errors import OutputError, ProgressFileError
-from mtr_operator.domain.ports import CarDimensions
 from mtr_operator.domain.results.document import read_record
 from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 from mtr_operator.domain.scenarios.key_press_result import KeyPressResult

@@ -11,7 +11,7 @@ from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.actions.robot import CHECK_LIMIT_S, Robot
 from mtr_operator.domain.errors import ProgressFileError, RobotFailed
-from mtr_operator.domain.ports import CarCheck, CarDimensions, CarFrame, CheckState
+from mtr_operator.domain.robot_status import CarCheck, CarDimensions, CarFrame, CheckState
 from mtr_operator.domain.scenarios.autolock import SCENARIO
 from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
 from mtr_operator.report.results_csv import results_csv

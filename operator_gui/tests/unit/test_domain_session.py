@@ -11,7 +11,8 @@ from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.actions.trouble import Cancelled, LineInvalid
 from mtr_operator.domain.errors import ConnectionFailed, LinkLost, RobotFailed
 from mtr_operator.domain.geometry.ray import Ray
-from mtr_operator.domain.ports import Direction, Notification
+from mtr_operator.domain.requests import Direction
+from mtr_operator.domain.robot_status import Notification
 
 AHEAD = Ray(0.0, 0.0, 1.0, 0.0)
 

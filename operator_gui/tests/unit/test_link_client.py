@@ -5,14 +5,16 @@ from dataclasses import replace
 
 import pytest
 
-from mtr_operator.domain.ports import DesiredState, PressConfirmation, RobotStatus, Waypoint, WaypointResult
+from mtr_operator.domain.geometry.pose import Pose
+from mtr_operator.domain.requests import DesiredState, Waypoint
+from mtr_operator.domain.robot_status import PressReport, RobotStatus, WaypointResult
 from mtr_operator.robot_link.client import ZmqRobotLink
 from mtr_operator.robot_link.conversions import decode_command, status_message_from
 from mtr_operator.robot_link.inbox import MAX_BACKLOG
 from mtr_operator.robot_link.server import ConnectionServer
 
 WAIT_S = 5.0
-GO = DesiredState(waypoint=Waypoint(1, 2.0, 0.0, 0.0))
+GO = DesiredState(waypoint=Waypoint(1, Pose(2.0, 0.0, 0.0)))
 
 
 class Robot:
@@ -175,7 +177,7 @@ def test_each_link_has_a_session_of_its_own():
 
 def test_confirmations_of_another_session_are_not_taken_for_ours(robot):
     foreign = RobotStatus(2, 1, 0.2, session_id=robot.link.session_id + 1, command_id=3, waypoint_id=1,
-                          waypoint_result=WaypointResult.REACHED, presses=(PressConfirmation(1, 0.1, 0.15),))
+                          waypoint_result=WaypointResult.REACHED, presses=(PressReport(1, 0.1, 0.15),))
     robot.send_status(foreign)
     status = robot.take()
     assert status.controlled_by_other

@@ -5,7 +5,8 @@ import math
 
 import pytest
 
-from mtr_operator.domain import ports
+from mtr_operator.domain import requests, robot_status
+from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.robot_link import conversions
 from mtr_operator.robot_link.conversions import CommandHeader, UndecodableMessage
 from mtr_proto import robot_link_pb2 as pb
@@ -13,33 +14,33 @@ from mtr_proto import robot_link_pb2 as pb
 HEADER = CommandHeader(2 ** 63 - 1, 5, 12.5, seen_status_id=7, seen_robot_time_s=3.25)
 
 DESIRED = [
-    ports.DesiredState(),
-    ports.DesiredState(stop=True, map_car_id=3),
-    ports.DesiredState(check_car_id=4),
-    ports.DesiredState(max_speed_mps=0.5, key_height_m=1.25,
-                       waypoint=ports.Waypoint(4, 1.5, -2.25, math.pi, ports.Direction.BACKWARD)),
-    ports.DesiredState(press=ports.Press(9, (1, 2), 0.75, 0.5)),
+    requests.DesiredState(),
+    requests.DesiredState(stop=True, map_car_id=3),
+    requests.DesiredState(check_car_id=4),
+    requests.DesiredState(max_speed_mps=0.5, key_height_m=1.25,
+                       waypoint=requests.Waypoint(4, Pose(1.5, -2.25, math.pi), requests.Direction.BACKWARD)),
+    requests.DesiredState(press=requests.Press(9, (1, 2), 0.75, 0.5)),
 ]
 
-LATE = ports.Problem("planner.late", (("age_s", "0.6"),), "It is 0.6 s late.")
-LOST = ports.Problem("planner.lost", (), "Lost. It is 0.6 s late.")
+LATE = robot_status.Problem("planner.late", (("age_s", "0.6"),), "It is 0.6 s late.")
+LOST = robot_status.Problem("planner.lost", (), "Lost. It is 0.6 s late.")
 
-STATUS = ports.RobotStatus(
+STATUS = robot_status.RobotStatus(
     id=11, robot_session_id=2 ** 62, stamp_s=100.02, x=1.5, y=-0.5, heading=0.25, speed_mps=-0.5, yaw_rate_radps=0.125,
     pose_valid=True, position_sigma_m=0.25, variance_x_m2=0.5, variance_y_m2=0.125,
     covariance_xy_m2=-0.25, heading_sigma_rad=0.0625, key_x=0.25, key_y=0.5, key_height_m=1.0,
     pressed_buttons=(1, 2), localization_accuracy_cm=2, battery_percent=80, is_mapping_car=True,
-    mode=ports.Mode.MAPPING_CAR,
-    car=ports.CarDimensions(4.5, 1.75, 0.25, 0.125, ((2.25, 0.5), (-2.25, 0.5), (0.0, -0.875))),
-    car_frame=ports.CarFrame(3, 0.5, -0.25, 0.125),
-    car_check=ports.CarCheck(7, ports.CheckState.FAILED, 0.25, 0.125, 0.5, 0.0625, "Moved.", (LATE,)),
+    mode=robot_status.Mode.MAPPING_CAR,
+    car=robot_status.CarDimensions(4.5, 1.75, 0.25, 0.125, ((2.25, 0.5), (-2.25, 0.5), (0.0, -0.875))),
+    car_frame=robot_status.CarFrame(3, 0.5, -0.25, 0.125),
+    car_check=robot_status.CarCheck(7, robot_status.CheckState.FAILED, 0.25, 0.125, 0.5, 0.0625, "Moved.", (LATE,)),
     session_id=2 ** 63 - 1, command_id=5,
-    waypoint_id=4, waypoint_result=ports.WaypointResult.REFUSED, waypoint_message="Lost. It is 0.6 s late.",
+    waypoint_id=4, waypoint_result=robot_status.WaypointResult.REFUSED, waypoint_message="Lost. It is 0.6 s late.",
     waypoint_problems=(LOST, LATE),
-    presses=(ports.PressConfirmation(1, 2.5, 3.5), ports.PressConfirmation(2, 4.5, 4.5, "Servo jammed.", (LATE,))),
+    presses=(robot_status.PressReport(1, 2.5, 3.5), robot_status.PressReport(2, 4.5, 4.5, "Servo jammed.", (LATE,))),
     map_car_id=3,
-    log=(ports.LogMessage(1, 99.5, 2, "lift", "Slow."),),
-    notifications=(ports.Notification("link_lost", 3, "Lost.", (LOST, LATE)),),
+    log=(robot_status.LogMessage(1, 99.5, 2, "lift", "Slow."),),
+    notifications=(robot_status.Notification("link_lost", 3, "Lost.", (LOST, LATE)),),
     rejected_messages=6, software_version="1.2")
 
 
@@ -56,7 +57,7 @@ def test_header_is_carried_by_the_command():
 
 
 def test_absent_values_are_absent_fields():
-    command = conversions.command_from_desired(ports.DesiredState(), CommandHeader(1, 1, 0.0))
+    command = conversions.command_from_desired(requests.DesiredState(), CommandHeader(1, 1, 0.0))
     absent = ("waypoint", "press", "max_speed_mps", "device_height_m", "seen_status_id", "seen_robot_time_s")
     assert not any(command.HasField(name) for name in absent)
 
@@ -71,16 +72,16 @@ def test_status_without_optional_parts_says_so():
     assert status.stamp_s == 3.5
     assert status.car is None and status.battery_percent is None and not status.pose_valid
     assert all(math.isnan(value) for value in (status.x, status.heading, status.key_height_m, status.position_sigma_m))
-    assert (status.mode, status.waypoint_result) == (ports.Mode.UNKNOWN, ports.WaypointResult.NONE)
+    assert (status.mode, status.waypoint_result) == (robot_status.Mode.UNKNOWN, robot_status.WaypointResult.NONE)
 
 
 def test_robot_that_knows_no_check_has_none_and_one_without_figures_has_no_numbers():
     old = pb.Status(id=1, robot_session_id=2, sent_time_s=3.5)
     assert conversions.robot_status_from(old).car_check is None
-    assert conversions.robot_status_from(old).car_frame == ports.CarFrame()
+    assert conversions.robot_status_from(old).car_frame == robot_status.CarFrame()
     old.car_check.limit_m = 0.5
     check = conversions.robot_status_from(old).car_check
-    assert (check.id, check.state, check.limit_m) == (0, ports.CheckState.NONE, 0.5)
+    assert (check.id, check.state, check.limit_m) == (0, robot_status.CheckState.NONE, 0.5)
     assert math.isnan(check.difference_m)
 
 

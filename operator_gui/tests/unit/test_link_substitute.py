@@ -7,7 +7,9 @@ import sys
 import pytest
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import DesiredState, Mode, Press, Waypoint, WaypointResult
+from mtr_operator.domain.geometry.pose import Pose
+from mtr_operator.domain.requests import DesiredState, Press, Waypoint
+from mtr_operator.domain.robot_status import Mode, WaypointResult
 from mtr_operator.robot_link import substitute
 from mtr_operator.robot_link.checks import HeightCheck, reach_and_hold_height
 from mtr_operator.robot_link.client import ZmqRobotLink
@@ -66,7 +68,7 @@ def test_a_height_out_of_reach_fails_the_check(fake):
 
 
 def test_waypoint_over_the_wire_is_mapped_for_and_reached(link):
-    desired = DesiredState(waypoint=Waypoint(1, -4.0, 0.5, 0.0), max_speed_mps=1.0)
+    desired = DesiredState(waypoint=Waypoint(1, Pose(-4.0, 0.5, 0.0)), max_speed_mps=1.0)
     status = run_until(link, desired, lambda s: s.waypoint_id == 1 and s.waypoint_result is WaypointResult.REACHED)
     assert (status.x, status.y, status.heading) == pytest.approx((-4.0, 0.5, 0.0), abs=1e-6)
     assert status.session_id == link.session_id and status.car is not None and status.pose_valid
@@ -99,7 +101,7 @@ def test_fake_is_the_same_for_the_same_seed():
     def course(seed):
         link = FakeRobotLink(seed)
         link.connect()
-        desired = DesiredState(waypoint=Waypoint(1, 4.0, 3.0, 0.0))
+        desired = DesiredState(waypoint=Waypoint(1, Pose(4.0, 3.0, 0.0)))
         return [run_until(link, desired, lambda s: True) for _ in range(200)]
 
     assert course(3) == course(3)
@@ -107,7 +109,7 @@ def test_fake_is_the_same_for_the_same_seed():
 
 
 def test_fake_passes_through_the_modes_of_the_robot(fake):
-    desired = DesiredState(waypoint=Waypoint(1, 4.0, 0.0, 0.0))
+    desired = DesiredState(waypoint=Waypoint(1, Pose(4.0, 0.0, 0.0)))
     seen = [run_until(fake, DesiredState(), lambda s: s.mode is Mode.READY_TO_MAP_CAR).mode]
     seen += [run_until(fake, desired, lambda s: s.is_mapping_car).mode]
     seen += [run_until(fake, desired, lambda s: s.waypoint_result is WaypointResult.REACHED).mode]

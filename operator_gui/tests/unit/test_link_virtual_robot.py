@@ -4,7 +4,9 @@ import math
 
 import pytest
 
-from mtr_operator.domain.ports import DesiredState, Waypoint, WaypointResult
+from mtr_operator.domain.geometry.pose import Pose
+from mtr_operator.domain.requests import DesiredState, Waypoint
+from mtr_operator.domain.robot_status import WaypointResult
 from mtr_operator.robot_link.virtual.robot import VirtualRobot, VirtualWorld
 from mtr_operator.robot_link.virtual.route import Box, advance, route
 
@@ -41,16 +43,16 @@ def driven(robot, desired, seconds):
 
 def test_robot_keeps_to_the_speed_and_reports_it():
     robot = VirtualRobot(1, QUICK)
-    driven(robot, DesiredState(waypoint=Waypoint(1, 4.0, 0.0, math.pi), max_speed_mps=2.0), 20)
-    status = driven(robot, DesiredState(waypoint=Waypoint(2, 3.0, 0.0, math.pi), max_speed_mps=0.4), 1.0)
+    driven(robot, DesiredState(waypoint=Waypoint(1, Pose(4.0, 0.0, math.pi)), max_speed_mps=2.0), 20)
+    status = driven(robot, DesiredState(waypoint=Waypoint(2, Pose(3.0, 0.0, math.pi)), max_speed_mps=0.4), 1.0)
     assert (status.x, status.speed_mps) == pytest.approx((3.6, 0.4), abs=1e-6)
-    status = driven(robot, DesiredState(waypoint=Waypoint(3, 4.0, 0.0, math.pi), max_speed_mps=0.4), 0.5)
+    status = driven(robot, DesiredState(waypoint=Waypoint(3, Pose(4.0, 0.0, math.pi)), max_speed_mps=0.4), 0.5)
     assert status.speed_mps == pytest.approx(-0.4)
 
 
 def test_stop_stands_still_and_the_waypoint_is_kept():
     robot = VirtualRobot(1, QUICK)
-    goal = Waypoint(1, 4.0, 3.0, 0.0)
+    goal = Waypoint(1, Pose(4.0, 3.0, 0.0))
     here = driven(robot, DesiredState(waypoint=goal), 1.0)
     stopped = driven(robot, DesiredState(waypoint=goal, stop=True), 2.0)
     assert (stopped.x, stopped.y, stopped.speed_mps) == (here.x, here.y, 0.0)
@@ -58,14 +60,14 @@ def test_stop_stands_still_and_the_waypoint_is_kept():
 
 
 def test_waypoint_in_the_car_is_refused_with_a_sentence():
-    status = driven(VirtualRobot(1, QUICK), DesiredState(waypoint=Waypoint(1, 0.5, 0.0, 0.0)), 0.1)
+    status = driven(VirtualRobot(1, QUICK), DesiredState(waypoint=Waypoint(1, Pose(0.5, 0.0, 0.0))), 0.1)
     assert status.waypoint_result is WaypointResult.REFUSED
     assert "too close" in status.waypoint_message
 
 
 def test_new_mapping_order_maps_again():
     robot = VirtualRobot(1)
-    goal = Waypoint(1, 4.0, 3.0, 0.0)
+    goal = Waypoint(1, Pose(4.0, 3.0, 0.0))
     driven(robot, DesiredState(waypoint=goal), 60.0)
     again = driven(robot, DesiredState(waypoint=goal, map_car_id=1), 1.0)
     assert again.is_mapping_car and not again.pose_valid and again.map_car_id == 1

@@ -6,10 +6,10 @@ import struct
 import pytest
 from matplotlib.figure import Figure
 
-from mtr_operator.domain.ports import CarDimensions
 from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.picture import Picture, Stretch
 from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.autolock_result import AutolockResult
 from mtr_operator.report.files import write_report

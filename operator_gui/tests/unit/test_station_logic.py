@@ -9,7 +9,8 @@ import sys
 import pytest
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
-from mtr_operator.domain.ports import LockState, Mode, Notification, RobotStatus
+from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.robot_status import Mode, Notification, RobotStatus
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.connection import CanChoice, Connection, RobotChoice
 from mtr_operator.station.estimate import USUAL_CAR, TimeLeft, plan_of

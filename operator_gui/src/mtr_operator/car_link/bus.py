@@ -8,7 +8,8 @@ import time
 from typing import Any
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import CarEvent, CarLink, LockState, RobotStatus
+from mtr_operator.domain.ports import CarEvent, CarLink, LockState
+from mtr_operator.domain.robot_status import RobotStatus
 
 from .adapter import AdapterSettings, open_adapter
 from .lock_watch import CanFrame, LockWatch

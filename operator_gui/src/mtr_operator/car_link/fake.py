@@ -6,7 +6,8 @@ import math
 import random
 
 from mtr_operator.domain.errors import InvalidParameter
-from mtr_operator.domain.ports import CarEvent, CarLink, LockState, RobotStatus
+from mtr_operator.domain.ports import CarEvent, CarLink, LockState
+from mtr_operator.domain.robot_status import RobotStatus
 
 _TIME_SIGMA_S = 0.005
 _OTHER_STATE = {LockState.LOCKED: LockState.UNLOCKED, LockState.UNLOCKED: LockState.LOCKED}

@@ -6,7 +6,8 @@ import collections
 import math
 from dataclasses import dataclass
 
-from mtr_operator.domain.ports import CarEvent, LockState, RobotStatus
+from mtr_operator.domain.ports import CarEvent, LockState
+from mtr_operator.domain.robot_status import RobotStatus
 
 from .adapter_clock import AdapterClockMap, StampUnwrapper
 from .arrival_clock import ArrivalClockMap

@@ -10,7 +10,7 @@ from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.preparation import check_car, prepare_to_check
 from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.errors import RobotFailed
-from mtr_operator.domain.ports import CheckState
+from mtr_operator.domain.robot_status import CheckState
 
 from .display import Display
 from .interrupt import Interrupt

@@ -8,8 +8,8 @@ from typing import TextIO
 import tqdm
 
 from mtr_operator.domain.actions.observer import RunObserver
-from mtr_operator.domain.ports import Mode, RobotStatus
 from mtr_operator.domain.results.line_result import LineResult
+from mtr_operator.domain.robot_status import Mode, RobotStatus
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.report.table import line_text
 

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from .ports import CarEvent, CarLink, LockState, RobotStatus
+from .ports import CarEvent, CarLink, LockState
+from .robot_status import RobotStatus
 
 NO_ADAPTER = "No CAN adapter is chosen."
 

@@ -9,8 +9,8 @@ from .actions.control_loop import ControlLoop
 from .actions.preparation import check_car, prepare
 from .actions.robot import Robot
 from .errors import ProgressFileError, RobotFailed
-from .ports import CheckState
 from .results.progress import Progress
+from .robot_status import CheckState
 from .scenario import AnyScenario, Line, ScenarioParameters
 
 

@@ -9,9 +9,9 @@ from .actions.car import Car
 from .actions.robot import Robot
 from .geometry.ray import Ray
 from .parameters import ParameterSet
-from .ports import CarDimensions
 from .results.line_result import LineResult
 from .results.picture import Picture
+from .robot_status import CarDimensions
 
 
 class ScenarioParameters(ParameterSet):

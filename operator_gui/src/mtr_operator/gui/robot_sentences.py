@@ -15,7 +15,7 @@ from typing import Iterable, Mapping, Sequence
 
 import yaml
 
-from mtr_operator.domain.ports import Problem
+from mtr_operator.domain.robot_status import Problem
 
 from .i18n import FOLDER, decimal_sign
 

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import FancyBboxPatch, Polygon
 
 from mtr_operator.domain.geometry.pose import Point
-from mtr_operator.domain.ports import CarDimensions
+from mtr_operator.domain.robot_status import CarDimensions
 
 from .car_shape import (
     HEADLAMP,

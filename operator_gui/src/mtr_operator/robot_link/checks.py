@@ -7,7 +7,9 @@ import time
 from dataclasses import dataclass
 from typing import Iterator
 
-from mtr_operator.domain.ports import DesiredState, RobotLink, RobotStatus
+from mtr_operator.domain.ports import RobotLink
+from mtr_operator.domain.requests import DesiredState
+from mtr_operator.domain.robot_status import RobotStatus
 
 _STATUS_TIMEOUT_S = 2.0
 

@@ -12,14 +12,9 @@ from typing import TYPE_CHECKING
 import zmq
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import (
-    CarCheck,
-    DesiredState,
-    LinkStatistics,
-    RobotLink,
-    RobotStatus,
-    WaypointResult,
-)
+from mtr_operator.domain.ports import LinkStatistics, RobotLink
+from mtr_operator.domain.requests import DesiredState
+from mtr_operator.domain.robot_status import CarCheck, RobotStatus, WaypointResult
 
 from .address import PUBLISHER_PORT, SUBSCRIBER_PORT, RobotAddress
 from .conversions import CommandHeader, command_from_desired

@@ -8,7 +8,8 @@ from typing import Any, Iterable
 
 from google.protobuf.message import DecodeError
 
-from mtr_operator.domain import ports
+from mtr_operator.domain import requests, robot_status
+from mtr_operator.domain.geometry.pose import Pose
 from mtr_proto import robot_link_pb2 as pb
 
 MAX_MESSAGE_BYTES = 64 * 1024
@@ -31,7 +32,7 @@ class CommandHeader:
     end_session: bool = False
 
 
-def command_from_desired(desired: ports.DesiredState, header: CommandHeader) -> pb.Command:
+def command_from_desired(desired: requests.DesiredState, header: CommandHeader) -> pb.Command:
     """Command with this header; None is an absent field."""
     command = pb.Command(session_id=header.session_id, id=header.id, sent_time_s=header.sent_time_s,
                          stop=desired.stop, map_car_id=desired.map_car_id, check_car_id=desired.check_car_id)
@@ -42,8 +43,8 @@ def command_from_desired(desired: ports.DesiredState, header: CommandHeader) -> 
     if header.end_session:
         command.end_session = True
     if desired.waypoint is not None:
-        waypoint = desired.waypoint
-        command.waypoint.CopyFrom(pb.Waypoint(id=waypoint.id, x=waypoint.x, y=waypoint.y, heading=waypoint.heading,
+        waypoint, pose = desired.waypoint, desired.waypoint.pose
+        command.waypoint.CopyFrom(pb.Waypoint(id=waypoint.id, x=pose.x, y=pose.y, heading=pose.heading,
                                               direction=waypoint.direction.value))
     if desired.press is not None:
         press = desired.press
@@ -52,16 +53,17 @@ def command_from_desired(desired: ports.DesiredState, header: CommandHeader) -> 
     return command
 
 
-def desired_from_command(command: pb.Command) -> ports.DesiredState:
+def desired_from_command(command: pb.Command) -> requests.DesiredState:
     """Content of a Command; absent fields are None."""
     waypoint = press = None
     if command.HasField("waypoint"):
         sent = command.waypoint
-        waypoint = ports.Waypoint(sent.id, sent.x, sent.y, sent.heading, ports.Direction(sent.direction))
+        waypoint = requests.Waypoint(sent.id, Pose(sent.x, sent.y, sent.heading),
+                                     requests.Direction(sent.direction))
     if command.HasField("press"):
         pressed = command.press
-        press = ports.Press(pressed.id, tuple(pressed.buttons), pressed.strength, pressed.duration_s)
-    return ports.DesiredState(stop=command.stop, waypoint=waypoint, press=press, map_car_id=command.map_car_id,
+        press = requests.Press(pressed.id, tuple(pressed.buttons), pressed.strength, pressed.duration_s)
+    return requests.DesiredState(stop=command.stop, waypoint=waypoint, press=press, map_car_id=command.map_car_id,
                               check_car_id=command.check_car_id,
                               max_speed_mps=_value(command, "max_speed_mps", None),
                               key_height_m=_value(command, "device_height_m", None))
@@ -72,7 +74,7 @@ def decode_command(payload: bytes) -> pb.Command:
     return _decode(payload, pb.Command(), ("session_id", "id"))
 
 
-def decode_status(payload: bytes) -> ports.RobotStatus:
+def decode_status(payload: bytes) -> robot_status.RobotStatus:
     """Status in one ZeroMQ frame, or UndecodableMessage."""
     message = _decode(payload, pb.Status(), ("id", "robot_session_id", "sent_time_s"))
     if not math.isfinite(message.sent_time_s):
@@ -91,7 +93,7 @@ def _decode(payload: bytes, message: Any, required: tuple[str, ...]) -> Any:
     return message
 
 
-def robot_status_from(message: pb.Status) -> ports.RobotStatus:
+def robot_status_from(message: pb.Status) -> robot_status.RobotStatus:
     """Status as the domain knows it.
 
     stamp_s is the time of the pose while the pose is valid, else the time of sending: robot time goes on when the robot
@@ -100,7 +102,7 @@ def robot_status_from(message: pb.Status) -> ports.RobotStatus:
     state = message.state
     pose_time_s = _value(state, "stamp_s", math.nan)
     on_time = state.pose_valid and math.isfinite(pose_time_s)
-    return ports.RobotStatus(
+    return robot_status.RobotStatus(
         id=message.id, robot_session_id=message.robot_session_id,
         stamp_s=pose_time_s if on_time else message.sent_time_s,
         x=_value(state, "x", math.nan), y=_value(state, "y", math.nan), heading=_value(state, "heading", math.nan),
@@ -113,21 +115,21 @@ def robot_status_from(message: pb.Status) -> ports.RobotStatus:
         pressed_buttons=tuple(state.pressed_device_buttons),
         localization_accuracy_cm=_value(state, "localization_accuracy", None),
         battery_percent=_value(state, "battery_level", None), is_mapping_car=state.is_mapping_car,
-        mode=ports.Mode(message.mode), car=_car_from(message.car), car_frame=_frame_from(message.car),
+        mode=robot_status.Mode(message.mode), car=_car_from(message.car), car_frame=_frame_from(message.car),
         car_check=_check_from(message.car_check) if message.HasField("car_check") else None,
         session_id=message.session_id, command_id=message.command_id, waypoint_id=message.waypoint_id,
-        waypoint_result=ports.WaypointResult(message.waypoint_result), waypoint_message=message.waypoint_message,
+        waypoint_result=robot_status.WaypointResult(message.waypoint_result), waypoint_message=message.waypoint_message,
         waypoint_problems=_problems_from(message.waypoint_problems),
-        presses=tuple(ports.PressConfirmation(p.id, p.start_s, p.end_s, p.error, _problems_from(p.problems))
+        presses=tuple(robot_status.PressReport(p.id, p.start_s, p.end_s, p.error, _problems_from(p.problems))
                       for p in message.presses),
         map_car_id=message.map_car_id,
-        log=tuple(ports.LogMessage(m.id, m.stamp_s, m.severity, m.source, m.text) for m in message.log),
-        notifications=tuple(ports.Notification(n.code, n.severity, n.text, _problems_from(n.problems))
+        log=tuple(robot_status.LogMessage(m.id, m.stamp_s, m.severity, m.source, m.text) for m in message.log),
+        notifications=tuple(robot_status.Notification(n.code, n.severity, n.text, _problems_from(n.problems))
                             for n in message.notifications),
         rejected_messages=message.rejected_messages, software_version=message.software_version)
 
 
-def status_message_from(status: ports.RobotStatus) -> pb.Status:
+def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
     """Status message that a robot in this state sends; NaN and None are absent fields."""
     state = pb.RobotState(
         speed=status.speed_mps, yaw_rate_radps=status.yaw_rate_radps, pose_valid=status.pose_valid,
@@ -162,14 +164,14 @@ def status_message_from(status: ports.RobotStatus) -> pb.Status:
     return message
 
 
-def _car_message(car: ports.CarDimensions, frame: ports.CarFrame) -> pb.CarDimensions:
+def _car_message(car: robot_status.CarDimensions, frame: robot_status.CarFrame) -> pb.CarDimensions:
     return pb.CarDimensions(
         length=car.length, width=car.width, length_sigma=car.length_sigma, width_sigma=car.width_sigma, mapped=True,
         outline_x=[x for x, _ in car.outline], outline_y=[y for _, y in car.outline], revision=frame.revision,
         correction_x=frame.correction_x, correction_y=frame.correction_y, correction_heading=frame.correction_heading)
 
 
-def _fill_check(message: pb.CarCheck, check: ports.CarCheck) -> None:
+def _fill_check(message: pb.CarCheck, check: robot_status.CarCheck) -> None:
     message.id, message.state, message.message = check.id, check.state.value, check.message
     message.problems.extend(_problem_messages(check.problems))
     for name in _CHECK_FIGURES:
@@ -178,30 +180,30 @@ def _fill_check(message: pb.CarCheck, check: ports.CarCheck) -> None:
             setattr(message, name, value)
 
 
-def _car_from(car: pb.CarDimensions) -> ports.CarDimensions | None:
+def _car_from(car: pb.CarDimensions) -> robot_status.CarDimensions | None:
     if not car.mapped:
         return None
     outline = tuple(zip(car.outline_x, car.outline_y))
-    return ports.CarDimensions(car.length, car.width, car.length_sigma, car.width_sigma, outline)
+    return robot_status.CarDimensions(car.length, car.width, car.length_sigma, car.width_sigma, outline)
 
 
-def _frame_from(car: pb.CarDimensions) -> ports.CarFrame:
+def _frame_from(car: pb.CarDimensions) -> robot_status.CarFrame:
     if not car.mapped:
-        return ports.CarFrame()
-    return ports.CarFrame(car.revision, car.correction_x, car.correction_y, car.correction_heading)
+        return robot_status.CarFrame()
+    return robot_status.CarFrame(car.revision, car.correction_x, car.correction_y, car.correction_heading)
 
 
-def _check_from(check: pb.CarCheck) -> ports.CarCheck:
+def _check_from(check: pb.CarCheck) -> robot_status.CarCheck:
     figures = {name: _value(check, name, math.nan) for name in _CHECK_FIGURES}
-    return ports.CarCheck(id=check.id, state=ports.CheckState(check.state), message=check.message,
+    return robot_status.CarCheck(id=check.id, state=robot_status.CheckState(check.state), message=check.message,
                           problems=_problems_from(check.problems), **figures)
 
 
-def _problems_from(messages: Iterable[pb.Problem]) -> tuple[ports.Problem, ...]:
-    return tuple(ports.Problem(m.code, tuple(zip(m.names, m.values)), m.text) for m in messages)
+def _problems_from(messages: Iterable[pb.Problem]) -> tuple[robot_status.Problem, ...]:
+    return tuple(robot_status.Problem(m.code, tuple(zip(m.names, m.values)), m.text) for m in messages)
 
 
-def _problem_messages(problems: Iterable[ports.Problem]) -> list[pb.Problem]:
+def _problem_messages(problems: Iterable[robot_status.Problem]) -> list[pb.Problem]:
     return [pb.Problem(code=problem.code, names=[name for name, _ in problem.arguments],
                        values=[value for _, value in problem.arguments], text=problem.text) for problem in problems]
 

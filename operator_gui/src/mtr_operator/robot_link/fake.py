@@ -6,7 +6,9 @@ import time
 from typing import Callable
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import DesiredState, LinkStatistics, RobotLink, RobotStatus
+from mtr_operator.domain.ports import LinkStatistics, RobotLink
+from mtr_operator.domain.requests import DesiredState
+from mtr_operator.domain.robot_status import RobotStatus
 
 from .virtual.robot import DEFAULT_WORLD, STATUS_PERIOD_S, VirtualRobot, VirtualWorld
 

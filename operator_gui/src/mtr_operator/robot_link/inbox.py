@@ -5,7 +5,8 @@ from __future__ import annotations
 import collections
 import dataclasses
 
-from mtr_operator.domain.ports import LinkStatistics, Notification, RobotStatus
+from mtr_operator.domain.ports import LinkStatistics
+from mtr_operator.domain.robot_status import Notification, RobotStatus
 
 from .conversions import MAX_MESSAGE_BYTES, UndecodableMessage, decode_status
 

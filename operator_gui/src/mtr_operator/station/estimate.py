@@ -8,8 +8,8 @@ from typing import Sequence
 
 from mtr_operator.domain.geometry.pose import wrap_angle
 from mtr_operator.domain.geometry.ray import Ray
-from mtr_operator.domain.ports import CarDimensions
 from mtr_operator.domain.results.picture import Stretch
+from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
 # Before the robot has measured the Car: a middle-sized one.

@@ -6,8 +6,10 @@ import enum
 from dataclasses import dataclass
 from typing import Union
 
-from mtr_operator.domain.ports import CarDimensions, LockState, RobotStatus, Waypoint
+from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.requests import Waypoint
 from mtr_operator.domain.results.line_result import LineResult
+from mtr_operator.domain.robot_status import CarDimensions, RobotStatus
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Callable
 
 from mtr_operator.domain.geometry.pose import Point
-from mtr_operator.domain.ports import Problem
+from mtr_operator.domain.robot_status import Problem
 
 from .events import RobotSnapshot, StationEvent
 

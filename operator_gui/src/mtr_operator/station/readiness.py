@@ -6,7 +6,8 @@ import enum
 from dataclasses import dataclass
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
-from mtr_operator.domain.ports import LockState, Mode, RobotStatus
+from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.robot_status import Mode, RobotStatus
 
 from .events import RobotSnapshot
 

@@ -8,8 +8,8 @@ import pathlib
 from dataclasses import dataclass
 
 from mtr_operator import __version__
-from mtr_operator.domain.ports import CarDimensions
 from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.atomic import output_folder

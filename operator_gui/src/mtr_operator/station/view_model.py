@@ -8,8 +8,8 @@ from typing import Callable
 
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.geometry.pose import Point
-from mtr_operator.domain.ports import CarDimensions, Notification
 from mtr_operator.domain.results.line_result import LineResult
+from mtr_operator.domain.robot_status import CarDimensions, Notification
 
 from .estimate import USUAL_CAR, TimeLeft, plan_of
 from .events import ActionBegun, LineMeasured, LinesPlanned, Outcome, RobotSilent, RobotSnapshot, RunEnded, StationEvent

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any, Mapping, Sequence
 
 from mtr_operator.domain.errors import ProgressFileError
-from mtr_operator.domain.ports import CarDimensions
 from mtr_operator.domain.results.frame_record import record_from
 from mtr_operator.domain.results.line_result import LineResult, result_from_document
 from mtr_operator.domain.results.progress import FORMAT, VERSION, Progress
+from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenario import AnyScenario
 
 

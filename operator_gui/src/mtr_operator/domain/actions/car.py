@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from ..errors import ConnectionFailed, LinkLost
-from ..ports import CarDimensions, CarEvent, LockState
+from ..ports import CarEvent, LockState
+from ..robot_status import CarDimensions
 from .control_loop import ControlLoop
 
 # Robot time that the bus may take to be understood before the robot moves, and to recover during a test.

@@ -11,8 +11,10 @@ from dataclasses import replace
 from typing import Any, Callable, Iterator
 
 from ..errors import LinkLost, RobotFailed
-from ..ports import CarDimensions, CarEvent, CarLink, DesiredState, RobotLink, RobotStatus
+from ..ports import CarEvent, CarLink, RobotLink
+from ..requests import DesiredState
 from ..results.frame_history import FrameHistory
+from ..robot_status import CarDimensions, RobotStatus
 from .observer import RunObserver
 from .pose_history import PoseHistory
 from .trouble import Cancelled, LineInvalid, trouble_between

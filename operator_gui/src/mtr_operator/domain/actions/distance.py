@@ -16,7 +16,7 @@ import math
 from dataclasses import dataclass
 
 from ..geometry.ray import Ray
-from ..ports import CarDimensions
+from ..robot_status import CarDimensions
 from .pose_history import PoseSample
 
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from ..ports import RobotStatus
 from ..results.line_result import LineResult
+from ..robot_status import RobotStatus
 
 
 class RunObserver:

@@ -8,7 +8,7 @@ from collections import deque
 from dataclasses import dataclass
 
 from ..geometry.pose import Pose, wrap_angle
-from ..ports import RobotStatus
+from ..robot_status import RobotStatus
 
 # Between two Status messages at 10 Hz a straight line is exact to 1 mm at the robot's acceleration of 0.5 m/s2. Over a
 # longer gap it would be a guess.

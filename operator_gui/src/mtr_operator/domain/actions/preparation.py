@@ -6,7 +6,7 @@ from typing import Callable
 
 from ..errors import RobotFailed
 from ..geometry.ray import Ray
-from ..ports import CarCheck, Mode, RobotStatus
+from ..robot_status import CarCheck, Mode, RobotStatus
 from .car import Car
 from .control_loop import ControlLoop
 from .robot import Robot

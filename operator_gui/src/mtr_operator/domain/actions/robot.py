@@ -8,16 +8,8 @@ from typing import Callable, TypeVar
 from ..errors import RobotFailed
 from ..geometry.pose import Pose
 from ..geometry.ray import Ray
-from ..ports import (
-    CarCheck,
-    CheckState,
-    Direction,
-    Press,
-    PressConfirmation,
-    RobotStatus,
-    Waypoint,
-    WaypointResult,
-)
+from ..requests import Direction, Press, Waypoint
+from ..robot_status import CarCheck, CheckState, PressReport, RobotStatus, WaypointResult
 from .control_loop import ControlLoop
 from .distance import Distance, measure
 from .pose_history import PoseUnknown
@@ -61,7 +53,7 @@ class Robot:
     def drive_to(self, pose: Pose, direction: Direction = Direction.ANY) -> None:
         """Send base_link to a pose. Does not wait."""
         self._waypoint_id += 1
-        self._loop.change(stop=False, waypoint=Waypoint(self._waypoint_id, pose.x, pose.y, pose.heading, direction))
+        self._loop.change(stop=False, waypoint=Waypoint(self._waypoint_id, pose, direction))
 
     def stop(self) -> None:
         """Have the robot stand still. Does not wait."""
@@ -106,7 +98,7 @@ class Robot:
                 raise RobotFailed(f"The Remote key did not reach the height of {100.0 * height_m:g} cm within "
                                   f"{HEIGHT_LIMIT_S:g} s; it is at {100.0 * self._loop.status.key_height_m:.0f} cm.")
 
-    def press(self, button: int, strength: float, duration_s: float) -> PressConfirmation:
+    def press(self, button: int, strength: float, duration_s: float) -> PressReport:
         """Press a button once; returns when the press is over, LineInvalid when it could not be pressed."""
         self._press_id += 1
         order = Press(self._press_id, (button,), strength, duration_s)
@@ -119,7 +111,7 @@ class Robot:
             raise LineInvalid(f"The button could not be pressed: {confirmation.error}")
         return confirmation
 
-    def _confirmation_of(self, order: Press) -> PressConfirmation:
+    def _confirmation_of(self, order: Press) -> PressReport:
         until_s = self.now_s + order.duration_s + PRESS_LIMIT_S
         while self.now_s < until_s:
             for confirmation in self._loop.step().presses:

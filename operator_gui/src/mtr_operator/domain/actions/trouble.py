@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from ..ports import CarLink, LockState, RobotStatus
+from ..ports import CarLink, LockState
+from ..robot_status import RobotStatus
 
 # Robot time between two Status messages beyond which the link counts as interrupted. The robot stops by itself then.
 LINK_GAP_S = 1.0

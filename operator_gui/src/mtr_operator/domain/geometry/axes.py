@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..ports import CarDimensions
+from ..robot_status import CarDimensions
 from .ray import Ray
 
 _DIAGONAL = math.sqrt(0.5)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..ports import CarFrame, RobotStatus
+from ..robot_status import CarFrame, RobotStatus
 
 
 @dataclass(frozen=True)

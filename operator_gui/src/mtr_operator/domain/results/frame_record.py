@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Any, Iterator
 
-from ..ports import CarCheck
+from ..robot_status import CarCheck
 from .document import OptionalFloat, OptionalInt, read_record
 from .frame_history import KnownFrame
 

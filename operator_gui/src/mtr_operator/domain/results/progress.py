@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..errors import ProgressFileError
-from ..ports import CarCheck, CarDimensions
+from ..robot_status import CarCheck, CarDimensions
 from .frame_history import KnownFrame
 from .frame_record import FrameRecord
 from .line_result import LineResult

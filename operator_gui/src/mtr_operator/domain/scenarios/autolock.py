@@ -11,9 +11,11 @@ from ..actions.robot import Robot
 from ..actions.trouble import LineInvalid
 from ..geometry.axes import Axis, axes_around
 from ..geometry.ray import Ray
-from ..ports import KEY_BUTTON, CarDimensions, CarEvent, Direction, LockState
+from ..ports import KEY_BUTTON, CarEvent, LockState
+from ..requests import Direction
 from ..results.line_result import LineStatus, MeasuredDistance
 from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along
+from ..robot_status import CarDimensions
 from ..scenario import Scenario
 from .autolock_parameters import AutolockParameters
 from .autolock_result import LOCK, UNLOCK, AutolockResult

@@ -13,9 +13,11 @@ from ..errors import InvalidParameter
 from ..geometry.pose import Point
 from ..geometry.radials import Radial, radials_around
 from ..geometry.ray import Ray
-from ..ports import PASSIVE_ENTRY, CarDimensions, CarEvent, Direction, LockState
+from ..ports import PASSIVE_ENTRY, CarEvent, LockState
+from ..requests import Direction
 from ..results.line_result import LineStatus
 from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along
+from ..robot_status import CarDimensions
 from ..scenario import Scenario
 from .key_press_parameters import KeyPressParameters
 from .key_press_result import PRESS, KeyPressResult

@@ -16,7 +16,7 @@ from PyQt5.QtCore import (  # type: ignore[attr-defined]
 from PyQt5.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PyQt5.QtWidgets import QAbstractButton, QWidget
 
-from mtr_operator.domain.ports import Notification
+from mtr_operator.domain.robot_status import Notification
 from mtr_operator.station.readiness import ERROR, WARNING
 
 from ..sentences import translated

@@ -6,8 +6,8 @@ from typing import Any
 
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.geometry.pose import Pose
-from mtr_operator.domain.ports import CarDimensions
 from mtr_operator.domain.results.picture import Stretch
+from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.station.estimate import USUAL_CAR, plan_of
 from mtr_operator.station.view_model import ViewModel
 
@@ -60,7 +60,7 @@ class MeasurementPicture:
         robot.pose, robot.key, robot.sigma_m = self._glide.at(now_s), (status.key_x, status.key_y), \
             status.position_sigma_m
         waypoint = snapshot.waypoint
-        robot.waypoint = None if waypoint is None else Pose(waypoint.x, waypoint.y, waypoint.heading)
+        robot.waypoint = None if waypoint is None else waypoint.pose
         if self._model.trail is not self.trail.places:
             self.trail.places = self._model.trail
             self._panel.view.refresh()

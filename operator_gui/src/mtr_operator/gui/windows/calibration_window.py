@@ -8,7 +8,7 @@ from typing import Sequence
 from PyQt5.QtWidgets import QCheckBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.parameters import Declaration
-from mtr_operator.domain.ports import PressConfirmation
+from mtr_operator.domain.robot_status import PressReport
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 from mtr_operator.station.links.idle_loop import CalibrationRequest
 from mtr_operator.station.readiness import ReadinessWord
@@ -129,7 +129,7 @@ class CalibrationWindow(QDialog):
         self.car.show_status(status, self._flow.model.readiness.word is not ReadinessWord.LOST)
         self._check()
 
-    def _show_press(self, presses: Sequence[PressConfirmation]) -> None:
+    def _show_press(self, presses: Sequence[PressReport]) -> None:
         sent = self._sent
         if sent is None or not sent.buttons or not presses:
             return

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
 
-from mtr_operator.domain.ports import CheckState, Mode, RobotStatus
+from mtr_operator.domain.robot_status import CheckState, Mode, RobotStatus
 from mtr_operator.station.links.idle_loop import CarRequest
 
 from ..flow import Flow

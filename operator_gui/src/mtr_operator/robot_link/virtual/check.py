@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from mtr_operator.domain.ports import CarCheck, CheckState
+from mtr_operator.domain.robot_status import CarCheck, CheckState
 
 DURATION_S = 2.0
 LIMIT_M, LIMIT_RAD = 0.02, 0.0087

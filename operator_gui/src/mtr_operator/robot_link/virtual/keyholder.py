@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from mtr_operator.domain.ports import Press, PressConfirmation
+from mtr_operator.domain.requests import Press
+from mtr_operator.domain.robot_status import PressReport
 
 MIN_KEY_M = 0.35
 MAX_KEY_M = 1.55
@@ -19,7 +20,7 @@ class VirtualKeyholder:
 
     def __init__(self) -> None:
         self.height_m = MIN_KEY_M
-        self.confirmations: tuple[PressConfirmation, ...] = ()
+        self.confirmations: tuple[PressReport, ...] = ()
         self._wanted_m = MIN_KEY_M
         self._newest_press_id = 0
         self._press: Press | None = None
@@ -45,7 +46,7 @@ class VirtualKeyholder:
         self.height_m += min(max(self._wanted_m - self.height_m, -step_m), step_m)
         press = self._press
         if press is not None and time_s >= self._start_s + press.duration_s:
-            done = PressConfirmation(press.id, self._start_s, self._start_s + press.duration_s)
+            done = PressReport(press.id, self._start_s, self._start_s + press.duration_s)
             self.confirmations = (*self.confirmations, done)[-_KEPT_CONFIRMATIONS:]
             self._press = None
 

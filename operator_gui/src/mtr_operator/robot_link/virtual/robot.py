@@ -7,15 +7,8 @@ import random
 from dataclasses import dataclass
 
 from mtr_operator import __version__
-from mtr_operator.domain.ports import (
-    CarDimensions,
-    CarFrame,
-    DesiredState,
-    Mode,
-    RobotStatus,
-    Waypoint,
-    WaypointResult,
-)
+from mtr_operator.domain.requests import DesiredState, Waypoint
+from mtr_operator.domain.robot_status import CarDimensions, CarFrame, Mode, RobotStatus, WaypointResult
 
 from .check import VirtualCheck
 from .keyholder import VirtualKeyholder
@@ -148,20 +141,20 @@ class VirtualRobot:
 
     def _set_waypoint(self, waypoint: Waypoint) -> None:
         self._waypoint = waypoint
-        point = (waypoint.x, waypoint.y)
+        point = (waypoint.pose.x, waypoint.pose.y)
         self._result, self._result_text = WaypointResult.PENDING, ""
-        if not all(map(math.isfinite, (waypoint.x, waypoint.y, waypoint.heading))):
+        if not all(map(math.isfinite, (*point, waypoint.pose.heading))):
             self._result, self._result_text = WaypointResult.REFUSED, "The waypoint is not a number."
         elif self._box.contains(point):
             self._result = WaypointResult.REFUSED
-            self._result_text = f"The waypoint ({waypoint.x:.2f} m, {waypoint.y:.2f} m) is too close to the Car."
+            self._result_text = f"The waypoint ({point[0]:.2f} m, {point[1]:.2f} m) is too close to the Car."
         else:
             self._way = route(self._here, point, self._box)
 
     def _drive(self, waypoint: Waypoint, dt_s: float) -> None:
         limit_mps = self._desired.max_speed_mps or _DEFAULT_SPEED_MPS
         self._here, self._way = advance(self._here, self._way, min(limit_mps, _MAX_SPEED_MPS) * dt_s)
-        turn = math.remainder(waypoint.heading - self._heading, 2 * math.pi)
+        turn = math.remainder(waypoint.pose.heading - self._heading, 2 * math.pi)
         turn_step = _TURN_RATE_RADPS * dt_s
         self._heading = math.remainder(self._heading + min(max(turn, -turn_step), turn_step), 2 * math.pi)
         if not self._way and abs(turn) <= turn_step:

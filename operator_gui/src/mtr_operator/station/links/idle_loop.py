@@ -5,7 +5,9 @@ from __future__ import annotations
 import enum
 from dataclasses import dataclass, replace
 
-from mtr_operator.domain.ports import CarLink, DesiredState, Press, RobotStatus
+from mtr_operator.domain.ports import CarLink
+from mtr_operator.domain.requests import DesiredState, Press
+from mtr_operator.domain.robot_status import RobotStatus
 
 from ..events import RobotSnapshot
 from .watched_link import WatchedRobotLink

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Callable
 
 from mtr_operator.domain.actions.observer import RunObserver
-from mtr_operator.domain.ports import CarLink, RobotStatus
+from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.robot_status import RobotStatus
 
 from ..events import ActionBegun, LineMeasured, LinesPlanned, RobotSilent, RobotSnapshot
 from ..mailbox import Mailbox

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from mtr_operator.domain.ports import DesiredState, RobotLink, RobotStatus, Waypoint
+from mtr_operator.domain.ports import RobotLink
+from mtr_operator.domain.requests import DesiredState, Waypoint
+from mtr_operator.domain.robot_status import RobotStatus
 
 
 class WatchedRobotLink(RobotLink):

@@ -8,7 +8,7 @@ from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QBrush, QColor
 
 from mtr_operator.domain.geometry.pose import Point
-from mtr_operator.domain.ports import CarDimensions
+from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.report.car_shape import (
     HEADLAMP,
     REAR_WINDOW,

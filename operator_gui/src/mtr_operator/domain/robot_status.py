@@ -1,0 +1,194 @@
+"""What the robot reports: one Status message with all its parts.
+
+Poses are of base_link in the Car coordinate system, in m and rad; times are seconds of the robot's clock.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import enum
+import math
+from dataclasses import dataclass
+from typing import Iterator
+
+
+class Mode(enum.Enum):
+    """High-level state of the robot."""
+
+    UNKNOWN = 0
+    STARTING = 1
+    READY_TO_MAP_CAR = 2
+    MAPPING_CAR = 3
+    FOLLOWING_WAYPOINT = 4
+    FAULT = 5
+    CHECKING_CAR = 6
+
+
+class WaypointResult(enum.Enum):
+    """What the robot says of the newest waypoint."""
+
+    NONE = 0
+    PENDING = 1
+    REACHED = 2
+    REFUSED = 3
+    BLOCKED = 4
+
+
+class CheckState(enum.Enum):
+    """How a self-check of the Car's frame stands."""
+
+    NONE = 0
+    RUNNING = 1
+    PASSED = 2
+    FAILED = 3
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One sentence of the robot, by which it can be translated. In a list each is followed by its cause, whose text
+    stands within its own.
+
+    Attributes:
+        code: stable word "package.what"; empty when the robot gives only the text.
+        arguments: name and value of each placeholder, as in the text.
+        text: the sentence in English.
+    """
+
+    code: str
+    arguments: tuple[tuple[str, str], ...]
+    text: str
+
+
+@dataclass(frozen=True)
+class PressReport:
+    """One press as executed; error is empty when it was. problems: the error with its causes."""
+
+    id: int
+    start_s: float
+    end_s: float
+    error: str = ""
+    problems: tuple[Problem, ...] = ()
+
+
+@dataclass(frozen=True)
+class CarDimensions:
+    """Length and width of the Car as the robot measured them, with 1 sigma, in m.
+
+    outline: counterclockwise polygon in the Car coordinate system, m; empty when the robot does not say.
+    """
+
+    length: float
+    width: float
+    length_sigma: float
+    width_sigma: float
+    outline: tuple[tuple[float, float], ...] = ()
+
+
+@dataclass(frozen=True)
+class CarFrame:
+    """The Car coordinate system that poses are in.
+
+    revision: counts the frames since the robot's start, 0 when the robot does not say.
+    correction: where this frame lies in the one before, m and rad; zeros for the first after a mapping.
+    """
+
+    revision: int = 0
+    correction_x: float = 0.0
+    correction_y: float = 0.0
+    correction_heading: float = 0.0
+
+
+@dataclass(frozen=True)
+class CarCheck:
+    """The Car seen anew, compared with where it was; NaN while unknown.
+
+    id: the request that it answers, 0 for none. problems: the message with its causes.
+    """
+
+    id: int = 0
+    state: CheckState = CheckState.NONE
+    difference_m: float = math.nan
+    difference_rad: float = math.nan
+    limit_m: float = math.nan
+    limit_rad: float = math.nan
+    message: str = ""
+    problems: tuple[Problem, ...] = ()
+
+
+@dataclass(frozen=True)
+class Notification:
+    """A sentence that concerns the Operator now.
+
+    code: kind of notification. severity: 1 info, 2 warning, 3 error. problems: the text with its causes.
+    """
+
+    code: str
+    severity: int
+    text: str
+    problems: tuple[Problem, ...] = ()
+
+
+@dataclass(frozen=True)
+class LogMessage:
+    """A sentence of the robot's log; id tells repetitions."""
+
+    id: int
+    stamp_s: float
+    severity: int
+    source: str
+    text: str
+
+
+@dataclass(frozen=True)
+class RobotStatus:
+    """One Status message. NaN or None where the robot did not say.
+
+    controlled_by_other: another application has the robot; the confirmations are absent then.
+    car_check: None for a robot that cannot check the Car's frame.
+    """
+
+    id: int
+    robot_session_id: int
+    stamp_s: float
+    x: float = math.nan
+    y: float = math.nan
+    heading: float = math.nan
+    speed_mps: float = 0.0
+    yaw_rate_radps: float = 0.0
+    pose_valid: bool = False
+    position_sigma_m: float = math.nan
+    variance_x_m2: float = math.nan
+    variance_y_m2: float = math.nan
+    covariance_xy_m2: float = math.nan
+    heading_sigma_rad: float = math.nan
+    key_x: float = 0.0
+    key_y: float = 0.0
+    key_height_m: float = math.nan
+    pressed_buttons: tuple[int, ...] = ()
+    localization_accuracy_cm: int | None = None
+    battery_percent: int | None = None
+    is_mapping_car: bool = False
+    mode: Mode = Mode.UNKNOWN
+    car: CarDimensions | None = None
+    car_frame: CarFrame = CarFrame()
+    car_check: CarCheck | None = None
+    session_id: int = 0
+    controlled_by_other: bool = False
+    command_id: int = 0
+    waypoint_id: int = 0
+    waypoint_result: WaypointResult = WaypointResult.NONE
+    waypoint_message: str = ""
+    waypoint_problems: tuple[Problem, ...] = ()
+    presses: tuple[PressReport, ...] = ()
+    map_car_id: int = 0
+    log: tuple[LogMessage, ...] = ()
+    notifications: tuple[Notification, ...] = ()
+    rejected_messages: int = 0
+    software_version: str = ""
+
+    def problems(self) -> Iterator[tuple[Problem, ...]]:
+        """Every sentence of this Status with its causes, as far as the robot gives codes."""
+        yield self.waypoint_problems
+        yield from (notification.problems for notification in self.notifications)
+        yield from (press.problems for press in self.presses)
+        if self.car_check is not None:
+            yield self.car_check.problems
