@@ -79,8 +79,9 @@ def calls_of(package: str, rows: Dict[str, Row]) -> Iterator[ast.Call]:
 def test_calls_give_each_placeholder_its_value(package):
     rows = {row.name: row for row in ROWS if row.package == package}
     for call in calls_of(package, rows):
-        given = sorted(keyword.arg for keyword in call.keywords)
-        assert not call.args and given == placeholders(rows[call.func.attr].template), ast.dump(call)
+        given, wanted = {keyword.arg for keyword in call.keywords}, set(placeholders(rows[call.func.attr].template))
+        # Values that come in a dictionary are left to the unit tests.
+        assert not call.args and (given - {None} <= wanted if None in given else given == wanted), ast.dump(call)
 
 
 @pytest.mark.parametrize("row", [row for row in ROWS if row.name.isupper()], ids=lambda row: row.code)

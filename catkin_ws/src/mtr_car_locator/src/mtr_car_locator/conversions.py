@@ -12,11 +12,13 @@ from visualization_msgs.msg import Marker, MarkerArray
 from mtr_core import names
 from mtr_core.arrays import FloatArray
 from mtr_core.conversions import goal_from, waypoint_message
+from mtr_core.problems import messages_of, problem_of
 from mtr_core.se2 import Pose2
 from mtr_core.states import State
-from mtr_msgs.msg import CarCheck, CarEstimate, LocalizedPose, MappingOrder, RobotMode
+from mtr_msgs.msg import CarCheck, CarEstimate, LocalizedPose, MappingOrder, Problem, RobotMode
 from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 
+from . import problems
 from .drawing import MarkerKind, MarkerShape
 from .estimate import Estimate, Order
 from .offline import FilesUnusable
@@ -74,14 +76,15 @@ def surface_map_from(message: SurfaceMapMessage) -> SurfaceMap:
                        for frame in message.key_frames]).reshape(-1, 4)
     whole = len({len(column) for column in columns}) == 1
     surfels = surfels_from(np.column_stack(columns) if whole else np.empty((0, 6)))
-    sentence = message.message if whole else "Localization's map of surfaces is damaged."
-    return SurfaceMap(message.map_car_id, message.revision, message.valid and whole, surfels, frames, sentence,
+    problem = problem_of(message.problems, message.message) if whole else problems.MAP_DAMAGED()
+    return SurfaceMap(message.map_car_id, message.revision, message.valid and whole, surfels, frames, problem,
                       message.range_bias_m)
 
 
 def estimate_message(estimate: Estimate, stamp: Any) -> CarEstimate:
     """Estimate for the other nodes."""
-    message = CarEstimate(state=int(estimate.state), map_car_id=estimate.map_car_id, message=estimate.message,
+    message = CarEstimate(state=int(estimate.state), map_car_id=estimate.map_car_id, message=estimate.message.text,
+                          problems=messages_of(estimate.message, Problem),
                           revision=estimate.revision)
     message.header.stamp, message.header.frame_id = stamp, names.MAP
     car, correction = estimate.rectangle, estimate.correction
@@ -118,7 +121,8 @@ def check_message(estimate: Estimate, limits: RefinementParameters, stamp: Any) 
     report = estimate.check
     message = CarCheck(id=report.check_id, state=int(report.state), difference_m=report.difference_m,
                        difference_rad=report.difference_rad, limit_m=limits.check_limit_m,
-                       limit_rad=limits.check_limit_rad, message=report.message)
+                       limit_rad=limits.check_limit_rad, message=report.message.text,
+                       problems=messages_of(report.message, Problem))
     message.header.stamp = stamp
     return message
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Optional, Sequence, Tuple
 
+from mtr_core.problems import Problem
 from mtr_core.requests import NO_GOAL, Goal, GoalReport, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Result
@@ -60,7 +61,7 @@ class Estimate:
     width_sigma: float
     waypoint: Optional[Waypoint]
     map_car_id: int
-    message: str
+    message: Problem
     revision: int = 0
     correction: Pose2 = NO_MOTION
     phase: MapPhase = MapPhase.IDLE

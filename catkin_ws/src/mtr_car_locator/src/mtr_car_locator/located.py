@@ -5,10 +5,12 @@ from dataclasses import replace
 from typing import Optional, Tuple
 
 from mtr_core import names
+from mtr_core.problems import Problem
 from mtr_core.requests import CAR_LOCATOR, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction
 
+from . import problems
 from .estimate import NO_MOTION, Inputs, Order, result_at
 from .find.errors import NotLocated
 from .measure.car_fit import CarFit
@@ -28,7 +30,7 @@ class LocatedCar:
         fit: the Car.
         revision: of its frame.
         correction: the frame in that of the revision before.
-        message: one sentence.
+        message: that it was found, or how its frame was corrected.
     """
 
     def __init__(self, fit: CarFit, map_revision: int, revision: int, parameters: RefinementParameters):
@@ -37,7 +39,7 @@ class LocatedCar:
         self._check: Optional[SelfCheck] = None
         self._waypoint: Optional[Waypoint] = None
         self.fit, self.revision, self.correction = fit, revision, NO_MOTION
-        self.message = found_sentence(fit)
+        self.message = found(fit)
 
     @property
     def waypoint(self) -> Optional[Waypoint]:
@@ -63,7 +65,7 @@ class LocatedCar:
     def step(self, inputs: Inputs, poses: PoseHistory, next_id: int) -> None:
         """One tick; NotLocated when the Car's frame holds no longer."""
         if poses.newest.map_revision != self._map_revision:
-            raise NotLocated("Localization has another map than the one in which the Car was found.")
+            raise NotLocated(problems.OTHER_MAP())
         if inputs.order is not None and inputs.order.checking:
             self._run_check(inputs, inputs.order, poses, next_id)
             return
@@ -87,24 +89,22 @@ class LocatedCar:
 
     def _apply(self, change: Change) -> None:
         if change.motion is None:
-            raise NotLocated("The Car is no longer seen where it was measured.")
-        shift = (f"{100.0 * math.hypot(change.motion.x, change.motion.y):.1f} cm and "
-                 f"{math.degrees(abs(change.motion.heading)):.2f} deg")
+            raise NotLocated(problems.GONE())
+        shift_cm = 100.0 * math.hypot(change.motion.x, change.motion.y)
+        turn_deg = math.degrees(abs(change.motion.heading))
         if not change.is_correction:
-            raise NotLocated(f"The Car was moved, by {shift}.")
+            raise NotLocated(problems.MOVED(shift_cm=shift_cm, turn_deg=turn_deg))
         self.fit = replace(self.fit, rectangle=self.fit.rectangle.moved_by(change.motion))
         self.revision, self.correction = self.revision + 1, change.motion
         self._refinement = Refinement(self.fit, self._parameters)
-        self.message = (f"The Car's frame was corrected by {shift}, as it is seen now; it has revision "
-                        f"{self.revision}.")
+        self.message = problems.CORRECTED(shift_cm=shift_cm, turn_deg=turn_deg, revision=self.revision)
 
 
-def found_sentence(fit: CarFit) -> str:
+def found(fit: CarFit) -> Problem:
     """What was found."""
-    car = fit.rectangle
-    size = (f"{car.length:.2f} m long (1 sigma {100.0 * fit.length_sigma:.1f} cm), {car.width:.2f} m wide (1 sigma "
-            f"{100.0 * fit.width_sigma:.1f} cm)")
+    sentence = problems.FOUND
     if fit.by_wheels:
-        hint = "" if fit.length_sigma < KNOWN_SIGMA_M else " Known length and front overhang make it more exact."
-        return f"The Car was found by its wheels, {size}; the LiDARs look under its bumpers.{hint}"
-    return f"The Car was found: {size}."
+        is_known = fit.length_sigma < KNOWN_SIGMA_M
+        sentence = problems.FOUND_BY_WHEELS if is_known else problems.FOUND_BY_WHEELS_ALONE
+    return sentence(length_m=fit.rectangle.length, length_sigma_cm=100.0 * fit.length_sigma,
+                    width_m=fit.rectangle.width, width_sigma_cm=100.0 * fit.width_sigma)

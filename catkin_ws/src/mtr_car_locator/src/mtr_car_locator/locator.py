@@ -3,9 +3,11 @@
 from dataclasses import replace
 from typing import Optional, Tuple
 
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 
+from . import problems
 from .estimate import Estimate, Inputs, Order, result_at
 from .find.errors import NotLocated
 from .find.prior import prior_at, prior_from_start
@@ -19,7 +21,6 @@ from .survey.survey import Survey
 # The starting place alone tells the Car's pose with this 1 sigma.
 PRIOR_POSITION_SIGMA_M, PRIOR_HEADING_SIGMA_RAD = 0.5, 0.2
 NOWHERE = Rectangle(Pose2(0.0, 0.0, 0.0), 0.0, 0.0)
-ADVICE = "Put the robot at the starting place and map again."
 
 
 class CarLocator:
@@ -35,7 +36,7 @@ class CarLocator:
         self._map_car_id = 0
         self._next_waypoint_id = 1
         self._revision = 0
-        self._message = ""
+        self._message = NO_PROBLEM
 
     def wants_scans(self, inputs: Inputs) -> bool:
         """True while scans are collected or about to be."""
@@ -60,7 +61,7 @@ class CarLocator:
             try:
                 self._work(inputs, self._poses)
             except NotLocated as reason:
-                self._fail(str(reason))
+                self._fail(reason.problem)
         self._was_mapping = inputs.order is not None and inputs.order.mapping
         return self._estimate()
 
@@ -103,10 +104,10 @@ class CarLocator:
             self._located = LocatedCar(survey.fit, robot.map_revision, self._revision, self._parameters.refinement)
             self._state, self._message = CarState.LOCATED, self._located.message
 
-    def _fail(self, reason: str) -> None:
-        lost = "The Car was not found." if self._state == CarState.COLLECTING else "The Car's position is lost."
+    def _fail(self, reason: Problem) -> None:
+        sentence = problems.NOT_FOUND if self._state == CarState.COLLECTING else problems.LOST
         self._located, self._state = None, CarState.FAILED
-        self._message = f"{lost} {reason} {ADVICE}"
+        self._message = sentence(cause=reason)
 
     def _estimate(self) -> Estimate:
         if self._located:
@@ -115,11 +116,11 @@ class CarLocator:
             margin_m = self._parameters.seen_margin_m if self._survey.was_seen else self._parameters.prior_margin_m
             return self._rough(self._survey.car, rounded(self._survey.car, margin_m), self._message)
         if self._poses is None:
-            return self._rough(NOWHERE, (), "The robot's pose is not known yet.")
+            return self._rough(NOWHERE, (), problems.POSE_UNKNOWN())
         car = prior_from_start(self._poses.newest.pose, self._parameters).car
         return self._rough(car, rounded(car, self._parameters.prior_margin_m), self._message)
 
-    def _rough(self, car: Rectangle, outline: Tuple[Point, ...], message: str) -> Estimate:
+    def _rough(self, car: Rectangle, outline: Tuple[Point, ...], message: Problem) -> Estimate:
         sigma, size_sigma = PRIOR_POSITION_SIGMA_M, 0.5 * self._parameters.sheet.size_tolerance_m
         estimate = Estimate(self._state, car, outline, (sigma, sigma, PRIOR_HEADING_SIGMA_RAD), size_sigma, size_sigma,
                             None, self._map_car_id, message, self._revision)

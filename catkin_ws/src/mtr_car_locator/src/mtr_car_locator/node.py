@@ -76,7 +76,7 @@ class CarLocatorNode:
 
     def _say(self, estimate: Estimate) -> None:
         """Each new sentence once; what changes the frame, or ends it, is a warning that reaches the Operator."""
-        said = (estimate.message, estimate.revision)
+        said = (estimate.message.text, estimate.revision)
         if said == self._said or not estimate.message:
             return
         was_corrected = estimate.revision > 1 and estimate.state == CarState.LOCATED and estimate.correction.x

@@ -13,6 +13,7 @@ from mtr_car_locator.poses import PoseHistory, PoseMode, RobotPose
 from mtr_car_locator.scan import Scan, returns_in_map
 from mtr_car_locator.survey.surfel_grid import SurfelGrid
 from mtr_car_locator.survey.survey import MapPhase, SurfaceMap
+from mtr_core.problems import Problem
 from mtr_core.requests import NO_GOAL, Goal, GoalReport, Waypoint
 from mtr_core.se2 import Pose2, wrap_angle
 from mtr_core.states import CarState, Check, Result
@@ -118,7 +119,7 @@ class Mapper:
             self.revision = 1 + (self.map.revision if self.map else 0) if valid else 0
             self.mode = PoseMode.LOCALIZED
             self.map = SurfaceMap(self._map_id, self.revision, valid, self._grid.surfels(0.002),
-                                  np.array(self._frames), self._scene.map_problem)
+                                  np.array(self._frames), Problem(text=self._scene.map_problem))
 
 
 class World:

@@ -51,7 +51,7 @@ def test_moved_car_fails_with_the_difference(world, motion, difference_m):
     assert report.state is Check.FAILED
     assert report.difference_m == pytest.approx(difference_m, abs=0.006)
     assert report.difference_rad == pytest.approx(math.radians(motion[2]), abs=math.radians(0.1))
-    assert "allowed is 2.0 cm" in report.message
+    assert "allowed is 2.0 cm" in report.message.text
 
 
 def drifting(world, seed):
@@ -139,7 +139,7 @@ def test_small_motion_of_the_car_becomes_a_new_revision_with_its_correction(worl
     assert (correction.x, correction.y) == pytest.approx((0.04, 0.015), abs=0.004)
     assert math.degrees(correction.heading) == pytest.approx(0.4, abs=0.1)
     assert world.error()[0] < 0.005
-    assert "corrected" in after.message and "revision 2" in after.message
+    assert "corrected" in after.message.text and "revision 2" in after.message.text
 
 
 def test_motion_below_the_limit_does_not_change_the_frame(world):
@@ -158,13 +158,13 @@ def test_frame_does_not_change_while_the_robot_moves(world):
 def test_car_that_was_moved_far_is_lost_with_a_sentence(world):
     moved(world, 0.15, 0.0, 0.0)
     after = world.stand(LOOKED_AGAIN_S)
-    assert after.state == CarState.FAILED and "was moved" in after.message
+    assert after.state == CarState.FAILED and "was moved" in after.message.text
 
 
 def test_car_that_drove_away_is_lost(world):
     world.place_car(Pose2(50.0, 0.0, 0.0), CAR)
     after = world.stand(20.0)
-    assert after.state == CarState.FAILED and "no longer seen" in after.message
+    assert after.state == CarState.FAILED and "no longer seen" in after.message.text
 
 
 def test_unsure_pose_of_the_robot_is_no_evidence_against_the_car():

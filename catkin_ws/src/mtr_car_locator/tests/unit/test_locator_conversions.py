@@ -30,6 +30,7 @@ from mtr_car_locator.survey.survey import MapPhase
 from mtr_car_locator.watch.self_check import CheckReport
 from mtr_core import names
 from mtr_core.conversions import waypoint_message
+from mtr_core.problems import Problem
 from mtr_core.requests import CAR_LOCATOR, Goal, GoalId, GoalReport, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Check, Direction, Result
@@ -43,6 +44,8 @@ from mtr_msgs.msg import (
     SurfaceMap,
 )
 
+FOUND = Problem("car_locator.found", "Found.")
+MOVED = Problem("car_locator.moved", "Moved.", (("shift_cm", "3.0"),))
 STAMP = genpy.Time(9, 60_000_000)
 
 
@@ -51,8 +54,8 @@ def estimate():
     fit = fit_car(surfels(box()), prior(), PARAMETERS)
     place = Waypoint(4, CAR_LOCATOR, "map", Pose2(1.0, 2.0, 0.5), Direction.FORWARD)
     return Estimate(CarState.LOCATED, replace(fit.rectangle, pose=Pose2(3.0, 1.0, math.pi / 2.0)), fit.outline,
-                    (0.1, 0.2, 0.01), 0.03, 0.02, place, 5, "Found.", 2, Pose2(0.01, 0.02, 0.003), MapPhase.FREEZE, 77,
-                    CheckReport(6, Check.FAILED, 0.03, 0.002, "Moved."), (place.pose,), fit)
+                    (0.1, 0.2, 0.01), 0.03, 0.02, place, 5, FOUND, 2, Pose2(0.01, 0.02, 0.003), MapPhase.FREEZE, 77,
+                    CheckReport(6, Check.FAILED, 0.03, 0.002, MOVED), (place.pose,), fit)
 
 
 def test_order_names_mapping_checking_and_the_goal():
@@ -99,12 +102,13 @@ def test_surface_map_becomes_surfels_and_a_damaged_one_is_not_valid():
     assert found.key_frames.tolist() == [[5.25, 1.0, 2.0, 0.3]]
     assert found.range_bias_m == 0.012
     message.hits = [9]
-    assert not surface_map_from(message).valid and "damaged" in surface_map_from(message).message
+    assert not surface_map_from(message).valid and "damaged" in surface_map_from(message).message.text
 
 
 def test_estimate_survives_as_a_message(estimate):
     message = estimate_message(estimate, STAMP)
     assert (message.state, message.map_car_id, message.revision) == (CarEstimate.LOCATED, 5, 2)
+    assert (message.message, [problem.code for problem in message.problems]) == (FOUND.text, [FOUND.code])
     assert (message.correction_x, message.correction_y, message.correction_heading) == (0.01, 0.02, 0.003)
     assert (message.next_waypoint.id, message.next_waypoint.requester) == (4, "car_locator")
     assert (message.next_waypoint.frame_id, message.next_waypoint.direction) == ("map", 1)
@@ -117,7 +121,8 @@ def test_mapper_and_check_are_told(estimate):
     order = mapping_message(estimate, STAMP)
     assert (order.phase, order.map_car_id, order.header.stamp) == (MappingOrder.FREEZE, 77, STAMP)
     check = check_message(estimate, PARAMETERS.refinement, STAMP)
-    assert (check.id, check.state, check.message) == (6, CarCheck.FAILED, "Moved.")
+    assert (check.id, check.state, check.message) == (6, CarCheck.FAILED, MOVED.text)
+    assert [problem.code for problem in check.problems] == [MOVED.code]
     assert (check.difference_m, check.limit_m) == (0.03, PARAMETERS.refinement.check_limit_m)
 
 

@@ -79,7 +79,7 @@ def test_wheels_alone_give_pose_and_width_and_a_length_that_says_how_unsure_it_i
     estimate = world.run()
     assert estimate.state == CarState.LOCATED, estimate.message
     position, heading, length, width = world.error()
-    assert "wheels" in estimate.message
+    assert "wheels" in estimate.message.text
     assert position < 0.02 and abs(math.degrees(heading)) < 0.2
     assert abs(length) < 2.0 * estimate.length_sigma and estimate.length_sigma > 0.1
     assert abs(width) < 2.0 * estimate.width_sigma and estimate.width_sigma > 0.03
@@ -102,14 +102,14 @@ def test_scene_without_a_car_fails_with_a_sentence_before_the_robot_moves(segmen
     world = World(Scene(segments))
     estimate = world.run()
     assert estimate.state == CarState.FAILED
-    assert estimate.message.startswith("The Car was not found.") and "starting place" in estimate.message
+    assert estimate.message.text.startswith("The Car was not found.") and "starting place" in estimate.message.text
     assert world.pose == Pose2(0.0, 0.0, 0.0)
 
 
 def test_map_that_localization_cannot_make_fails_with_its_sentence():
     estimate = World(Scene(CAR, map_problem="The way round was not closed.")).run()
     assert estimate.state == CarState.FAILED
-    assert "The way round was not closed." in estimate.message
+    assert "The way round was not closed." in estimate.message.text
 
 
 def test_localization_without_a_map_leaves_the_locator_its_own_surfels():
@@ -127,7 +127,7 @@ def test_missing_map_fails_after_its_time():
         world.step(mapping=True, map_car_id=7)
     world.mapper.map, world.scene.maps = None, False
     estimate = world.run(limit_s=PARAMETERS.map_limit_s + 1.0)
-    assert estimate.state == CarState.FAILED and "map" in estimate.message
+    assert estimate.state == CarState.FAILED and "map" in estimate.message.text
 
 
 def test_frame_stays_until_a_new_order_maps_again():
@@ -174,4 +174,4 @@ def test_map_that_changes_under_the_car_ends_its_frame():
     world.run()
     world.mapper.revision += 1
     world.stand(0.2)
-    assert world.newest.state == CarState.FAILED and "another map" in world.newest.message
+    assert world.newest.state == CarState.FAILED and "another map" in world.newest.message.text

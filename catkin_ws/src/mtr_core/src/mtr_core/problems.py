@@ -64,13 +64,14 @@ class Sentence:
         """Names of the placeholders in the order of the template."""
         return tuple(name for _, name, _, _ in Formatter().parse(self.template) if name)
 
-    def __call__(self, cause: Optional[Problem] = None, **values: Value) -> Problem:
-        """The problem with these values; KeyError when a placeholder has none."""
-        formats = {name: spec for _, name, spec, _ in Formatter().parse(self.template) if name and name != CAUSE}
-        arguments = tuple((name, _formatted(values[name], spec or "")) for name, spec in formats.items())
-        shown = dict(arguments, cause=cause.text if cause else "")
-        pieces = ((literal, shown[name] if name else "") for literal, name, _, _ in Formatter().parse(self.template))
-        return Problem(self.code, "".join(literal + value for literal, value in pieces), arguments, cause)
+    def __call__(self, **values: Union[Value, Problem]) -> Problem:
+        """The problem with these values, `cause` with a problem; KeyError when a placeholder has none."""
+        parts = list(Formatter().parse(self.template))
+        shown = {name: _formatted(values[name], spec or "") for _, name, spec, _ in parts if name}
+        text = "".join(literal + (shown[name] if name else "") for literal, name, _, _ in parts)
+        cause = values.get(CAUSE)
+        return Problem(self.code, text, tuple((name, value) for name, value in shown.items() if name != CAUSE),
+                       cause if isinstance(cause, Problem) else None)
 
 
 class ProblemError(RobotError):
@@ -81,8 +82,14 @@ class ProblemError(RobotError):
     """
 
     def __init__(self, problem: Problem):
-        super().__init__(problem.text)
+        # The problem itself, so that the error can come from another process.
+        super().__init__(problem)
         self.problem = problem
+
+
+def problem_in(error: RobotError) -> Problem:
+    """The error's problem; its text alone when it has none."""
+    return error.problem if isinstance(error, ProblemError) else Problem(text=str(error))
 
 
 class ProblemFields(Protocol):
@@ -111,7 +118,7 @@ def problem_of(messages: Sequence[ProblemFields], text: str) -> Problem:
     return problem or Problem(text=text)
 
 
-def _formatted(value: Value, spec: str) -> str:
+def _formatted(value: Union[Value, Problem], spec: str) -> str:
     if spec:
         return format(value, spec)
-    return value if isinstance(value, str) else figure(value)
+    return str(value) if isinstance(value, (str, Problem)) else figure(value)

@@ -1,10 +1,12 @@
 """Sentences with code and arguments, and their way through messages."""
 # SPDX-License-Identifier: Apache-2.0
+import pickle
 from types import SimpleNamespace
 
 import pytest
 
-from mtr_core.problems import NO_PROBLEM, Problem, ProblemError, Sentence, messages_of, problem_of
+from mtr_core.errors import RobotError
+from mtr_core.problems import NO_PROBLEM, Problem, ProblemError, Sentence, messages_of, problem_in, problem_of
 
 TOO_CLOSE = Sentence("planner.too_close", "{left_m:.2f} m are left on the {side}; at least {needed_m} m are needed.")
 SILENT = Sentence("planner.silent", "Localization is silent.")
@@ -42,7 +44,13 @@ def test_missing_value_is_an_error():
 
 def test_error_carries_its_problem():
     error = ProblemError(SILENT())
-    assert str(error) == "Localization is silent." and error.problem == SILENT()
+    assert str(error) == "Localization is silent." and error.problem == problem_in(error) == SILENT()
+    assert problem_in(RobotError("Something.")) == Problem(text="Something.")
+
+
+def test_error_comes_from_another_process_with_its_problem():
+    error = pickle.loads(pickle.dumps(ProblemError(LOST(cause=SILENT()))))
+    assert error.problem == LOST(cause=SILENT()) and str(error) == LOST(cause=SILENT()).text
 
 
 @pytest.mark.parametrize("problem", [NO_PROBLEM, SILENT(), TOO_CLOSE(left_m=0.1, side="left", needed_m=1.0),

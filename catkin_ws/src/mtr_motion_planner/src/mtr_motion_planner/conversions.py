@@ -10,8 +10,9 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from mtr_core import names
 from mtr_core.conversions import goal_from
+from mtr_core.problems import messages_of, problem_of
 from mtr_core.se2 import Pose2
-from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
+from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, Problem, RobotMode, VelocityCommand
 
 from .inputs import Car, Drive, Order, RobotState, Zone
 from .outputs import Output
@@ -45,7 +46,8 @@ def robot_from(message: Optional[LocalizedPose]) -> Optional[RobotState]:
     if message is None:
         return None
     return RobotState(message.header.stamp.to_sec(), message.valid, Pose2(message.x, message.y, message.heading),
-                      message.speed_mps, message.yaw_rate_radps, message.message, message.degenerate)
+                      message.speed_mps, message.yaw_rate_radps, problem_of(message.problems, message.message),
+                      message.degenerate)
 
 
 def car_from(message: Optional[CarEstimate]) -> Optional[Car]:
@@ -61,7 +63,8 @@ def drive_from(message: Optional[DriveStatus]) -> Optional[Drive]:
     if message is None:
         return None
     zone = Zone(message.zone) if message.zone in tuple(Zone) else Zone.BLOCKED
-    return Drive(message.header.stamp.to_sec(), zone, message.obstacle_m, message.obstacle_bearing, message.message)
+    return Drive(message.header.stamp.to_sec(), zone, message.obstacle_m, message.obstacle_bearing,
+                 problem_of(message.problems, message.message))
 
 
 def velocity_message(output: Output, header: Header) -> VelocityCommand:
@@ -75,7 +78,8 @@ def status_message(output: Output, header: Header) -> MotionStatus:
     goal_id = output.goal_id
     return MotionStatus(header=header, requester=goal_id.requester, goal_id=goal_id.waypoint_id,
                         goal_attempt=goal_id.attempt, result=int(output.result), remaining_m=output.remaining_m,
-                        message=output.message)
+                        message=output.message.text,
+                        problems=messages_of(output.message, Problem))
 
 
 def path_message(planned: PlannedPath, stamp: Any) -> Path:

@@ -5,9 +5,11 @@ import math
 from dataclasses import dataclass
 from typing import Optional, Tuple, TypeVar
 
-from mtr_core.errors import RobotError
+from mtr_core.problems import NO_PROBLEM, Problem, ProblemError
 from mtr_core.requests import Goal
 from mtr_core.se2 import Pose2
+
+from . import problems
 
 Point = Tuple[float, float]
 
@@ -34,7 +36,7 @@ class RobotState:
     pose: Pose2
     speed_mps: float
     yaw_rate_radps: float
-    message: str = ""
+    message: Problem = NO_PROBLEM
     is_degenerate: bool = False
 
 
@@ -65,7 +67,7 @@ class Drive:
     zone: Zone = Zone.CLEAR
     obstacle_m: float = math.nan
     obstacle_bearing: float = math.nan
-    message: str = ""
+    message: Problem = NO_PROBLEM
 
 
 @dataclass(frozen=True)
@@ -79,7 +81,7 @@ class Inputs:
     drive: Optional[Drive] = None
 
 
-class InputsUnusable(RobotError):
+class InputsUnusable(ProblemError):
     """The inputs must not move the robot; the text says why."""
 
 
@@ -110,24 +112,23 @@ def situation_of(inputs: Inputs, age_limit_s: float) -> Situation:
 
 def _fresh(name: str, message: Optional[Stamped], tick_s: float, age_limit_s: float) -> Stamped:
     if message is None:
-        raise InputsUnusable(f"No {name} has arrived yet.")
+        raise InputsUnusable(problems.INPUT_MISSING(what=name))
     age_s = tick_s - message.stamp_s
     if not age_s <= age_limit_s:
-        raise InputsUnusable(f"The newest {name} is {age_s:.2f} s old; allowed is {age_limit_s:g} s.")
+        raise InputsUnusable(problems.INPUT_OLD(what=name, age_s=age_s, limit_s=age_limit_s))
     if age_s < -age_limit_s:
-        raise InputsUnusable(f"The newest {name} is {-age_s:.2f} s in the future; allowed is {age_limit_s:g} s. Check "
-                             "the clocks.")
+        raise InputsUnusable(problems.INPUT_IN_FUTURE(what=name, ahead_s=-age_s, limit_s=age_limit_s))
     return message
 
 
-def _value_fault(order: Order, robot: RobotState, car: Car) -> str:
+def _value_fault(order: Order, robot: RobotState, car: Car) -> Problem:
     if not robot.valid:
-        return "The robot does not know where it is: " + (robot.message or "localization gave no reason.")
+        cause = robot.message
+        return problems.POSITION_UNKNOWN_BECAUSE(cause=cause) if cause else problems.POSITION_UNKNOWN()
     if not (robot.pose.is_finite() and math.isfinite(robot.speed_mps) and math.isfinite(robot.yaw_rate_radps)):
-        return "The robot's pose is not a number."
+        return problems.POSE_NOT_A_NUMBER()
     if not (car.pose.is_finite() and all(math.isfinite(c) for point in car.outline for c in point)):
-        return "The Car's position is not a number."
+        return problems.CAR_NOT_A_NUMBER()
     if not 0.0 < order.max_speed_mps <= MAX_SPEED_MPS:
-        return (f"The maximum speed is {order.max_speed_mps:g} m/s; it must be above 0 and at most "
-                f"{MAX_SPEED_MPS:g} m/s.")
-    return ""
+        return problems.MAXIMUM_SPEED(value=order.max_speed_mps, high=MAX_SPEED_MPS)
+    return NO_PROBLEM

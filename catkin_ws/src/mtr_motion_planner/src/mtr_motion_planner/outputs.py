@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
+from mtr_core.problems import Problem
 from mtr_core.requests import GoalId
 from mtr_core.states import Result
 
@@ -27,5 +28,5 @@ class Output:
     goal_id: GoalId
     result: Result
     remaining_m: float
-    message: str
+    message: Problem
     path: Optional[Path] = None

@@ -4,15 +4,16 @@ from concurrent.futures import Executor
 from typing import Optional
 
 from mtr_core.errors import RobotError
+from mtr_core.problems import NO_PROBLEM, Problem, problem_in
 from mtr_core.requests import NO_GOAL
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
 
+from . import problems
 from .following.follower import Follower, FollowerOutput
 from .following.ramp import Ramp
-from .following.tolerance import miss_of, sentence_about, was_displaced
-from .following.watch import StallWatch, is_heading_into
-from .following.watch import sentence_about as sentence_about_drive
+from .following.tolerance import miss_of, problem_of_miss, was_displaced
+from .following.watch import StallWatch, is_heading_into, problem_of_drive
 from .inputs import Car, Inputs, InputsUnusable, Situation, Zone, situation_of
 from .outputs import Output
 from .parameters import MotionParameters
@@ -42,7 +43,7 @@ class MotionPlanner:
         self._ramp = Ramp(parameters.limits)
         self._stall = StallWatch()
         self._goal = NO_GOAL
-        self._result, self._message = Result.IDLE, ""
+        self._result, self._message = Result.IDLE, NO_PROBLEM
         self._corrections = 0
         self._settled_at: Optional[Pose2] = None
         self.site: Optional[Site] = None
@@ -61,7 +62,7 @@ class MotionPlanner:
         try:
             now = situation_of(inputs, self._parameters.input_age_limit_s)
         except InputsUnusable as fault:
-            return self._stop_at_once(str(fault))
+            return self._stop_at_once(fault.problem)
         self._ramp.begin(now.tick_s, now.robot)
         if not self._goal.waypoint.id:
             self._ramp.brake()
@@ -72,13 +73,13 @@ class MotionPlanner:
 
     def _begin(self, result: Result) -> None:
         """Start anew with the goal; a follower stays until the new plan goes on from its motion."""
-        self._result, self._message = result, ""
+        self._result, self._message = result, NO_PROBLEM
         self._replanning.restart()
         self._corrections = 0
         self._settled_at = None
         self._stall.reset()
 
-    def _stop_at_once(self, fault: str) -> Output:
+    def _stop_at_once(self, fault: Problem) -> Output:
         self._ramp.drop()
         self._stall.reset()
         self._replanning.stop()
@@ -113,7 +114,7 @@ class MotionPlanner:
         try:
             self.site = Site(self._goal.waypoint, car, self._parameters)
         except RobotError as refusal:
-            self._settle(Result.REFUSED, str(refusal), None)
+            self._settle(Result.REFUSED, problem_in(refusal), None)
         return self.site
 
     def _stay(self) -> Output:
@@ -133,7 +134,7 @@ class MotionPlanner:
                 self._replanning.plan(site, target, robot, now.tick_s, speed)
             self._replanning.change_over(site, now.tick_s, speed)
         except RobotError as refusal:
-            self._settle(Result.REFUSED, str(refusal), pose)
+            self._settle(Result.REFUSED, problem_in(refusal), pose)
 
     def _direction(self) -> Direction:
         number = self._goal.waypoint.direction
@@ -153,37 +154,37 @@ class MotionPlanner:
             return self._stay()
         if is_heading_into(site.keep_out, pose, now.robot, wanted.velocity, self._parameters):
             self._ramp.brake()
-            return self._output(Result.BLOCKED, wanted.remaining_m, "The robot stands before it touches the Car.")
+            return self._output(Result.BLOCKED, wanted.remaining_m, problems.BEFORE_CAR())
         self._ramp.drive(wanted.velocity)
         return self._under_way(pose, now, wanted)
 
     def _under_way(self, pose: Pose2, now: Situation, wanted: FollowerOutput) -> Output:
-        message = sentence_about_drive(now.drive) if now.drive else ""
+        message = problem_of_drive(now.drive) if now.drive else NO_PROBLEM
         if now.drive and message and now.drive.zone in STANDING:
             self._stall.reset()
             return self._output(Result.BLOCKED, wanted.remaining_m, message)
         if self._stall.stalls(pose, wanted.remaining_m > 0.0, now.tick_s):
-            return self._output(Result.BLOCKED, wanted.remaining_m, "The robot is told to drive and does not move.")
+            return self._output(Result.BLOCKED, wanted.remaining_m, problems.STALLED())
         return self._output(Result.PENDING, wanted.remaining_m, message)
 
     def _arrive(self, site: Site, pose: Pose2) -> None:
         """The plan is done: within tolerance, or one more attempt, or near enough."""
         miss = miss_of(site.goal, pose, self._parameters.arrival)
         if miss.is_within:
-            self._settle(Result.REACHED, "", pose)
+            self._settle(Result.REACHED, NO_PROBLEM, pose)
         elif self._corrections < self._parameters.arrival.corrections:
             self._corrections += 1
             # From where the robot is: its reference has arrived.
             self._replanning.stop()
         else:
             result = Result.REACHED if miss.is_near else Result.REFUSED
-            self._settle(result, sentence_about(miss, self._corrections), pose)
+            self._settle(result, problem_of_miss(miss, self._corrections), pose)
 
-    def _settle(self, result: Result, message: str, pose: Optional[Pose2]) -> None:
+    def _settle(self, result: Result, message: Problem, pose: Optional[Pose2]) -> None:
         self._result, self._message, self._settled_at = result, message, pose
         self._replanning.follower = None
 
-    def _output(self, result: Result, remaining_m: float = 0.0, message: str = "") -> Output:
+    def _output(self, result: Result, remaining_m: float = 0.0, message: Problem = NO_PROBLEM) -> Output:
         active = self._goal.waypoint.id != 0 or not self._ramp.is_still
         return Output(self._ramp.linear_mps, self._ramp.angular_radps, active, self._goal.id, result, remaining_m,
                       message, self._replanning.take_path())

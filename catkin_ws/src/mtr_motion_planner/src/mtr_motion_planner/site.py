@@ -11,6 +11,7 @@ from mtr_core import names
 from mtr_core.requests import Waypoint
 from mtr_core.se2 import Pose2
 
+from . import problems
 from .geometry.fence import Fence, corners_of
 from .geometry.keep_out import KeepOut
 from .inputs import Car
@@ -35,12 +36,12 @@ class Site:
         """OutlineUnusable or PlanRefused when one cannot plan here."""
         self._car = car
         if goal.frame not in (names.CAR, names.MAP):
-            raise PlanRefused(f"The goal's frame is {goal.frame!r}; allowed are car and map.")
+            raise PlanRefused(problems.GOAL_FRAME(frame=repr(goal.frame)))
         if not goal.pose.is_finite():
-            raise PlanRefused("The goal is not a number.")
+            raise PlanRefused(problems.GOAL_NOT_A_NUMBER())
         self.in_car_frame = goal.frame == names.CAR
         if self.in_car_frame and not car.located:
-            raise PlanRefused("The Car has not been located, so a goal relative to it means nothing yet.")
+            raise PlanRefused(problems.CAR_NOT_LOCATED())
         self.goal = goal.pose @ parameters.footprint.slip.base_from_centre
         frame_from_car = MAP_FROM_MAP if self.in_car_frame else car.pose
         self.keep_out = KeepOut([frame_from_car.apply(x, y) for x, y in car.outline], parameters.footprint)

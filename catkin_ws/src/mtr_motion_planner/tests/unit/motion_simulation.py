@@ -85,7 +85,7 @@ class SimulatedRobot:
     def planner_says(self, result: Result, word: str) -> bool:
         """True when the goal is settled so, with the word in the sentence, and still is a second later."""
         first, later = self.run(), self.run_for(1.0)
-        return all(output.result == result and word in output.message for output in (first, later))
+        return all(output.result == result and word in output.message.text for output in (first, later))
 
     def goal_in_map(self) -> Pose2:
         """Where the robot should stand."""

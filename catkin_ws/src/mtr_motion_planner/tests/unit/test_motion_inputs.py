@@ -7,6 +7,7 @@ import pytest
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import parameters_from
+from mtr_core.problems import Problem
 from mtr_core.requests import NO_GOAL_ID, Goal, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Result
@@ -39,7 +40,7 @@ BAD = {
     "old order": dataclasses.replace(GOOD, order=dataclasses.replace(ORDER, stamp_s=0.65)),
     "old car": dataclasses.replace(GOOD, car=dataclasses.replace(CAR, stamp_s=0.65)),
     "stamp not a number": dataclasses.replace(GOOD, robot=dataclasses.replace(ROBOT, stamp_s=NAN)),
-    "lost": dataclasses.replace(GOOD, robot=dataclasses.replace(ROBOT, valid=False, message="No scan.")),
+    "lost": dataclasses.replace(GOOD, robot=dataclasses.replace(ROBOT, valid=False, message=Problem(text="No scan."))),
     "pose not a number": dataclasses.replace(GOOD, robot=dataclasses.replace(ROBOT, pose=Pose2(NAN, 0, 0))),
     "speed infinite": dataclasses.replace(GOOD, robot=dataclasses.replace(ROBOT, speed_mps=math.inf)),
     "car not a number": dataclasses.replace(GOOD, car=dataclasses.replace(CAR, pose=Pose2(0, 0, NAN))),
@@ -63,7 +64,7 @@ def test_bad_input_gives_zero_velocity(case):
     output = MotionPlanner(MotionParameters(), InlineExecutor()).step(BAD[case])
     assert (output.linear_mps, output.angular_radps) == (0.0, 0.0)
     assert output.result in (Result.IDLE, Result.PENDING, Result.REFUSED)
-    assert output.message.endswith(".") or output.goal_id == NO_GOAL_ID
+    assert output.message.text.endswith(".") or output.goal_id == NO_GOAL_ID
 
 
 @pytest.mark.parametrize("case", BAD)
@@ -85,7 +86,7 @@ SENTENCES = {"goal not a number": "not a number", "goal infinite": "not a number
 
 @pytest.mark.parametrize("case", SENTENCES)
 def test_sentence_says_what_is_wrong_with_the_input(case):
-    assert SENTENCES[case] in MotionPlanner(MotionParameters(), InlineExecutor()).step(BAD[case]).message
+    assert SENTENCES[case] in MotionPlanner(MotionParameters(), InlineExecutor()).step(BAD[case]).message.text
 
 
 def test_input_that_turns_bad_in_mid_motion_gives_zero_at_once_and_goes_on_from_the_measured_speed():

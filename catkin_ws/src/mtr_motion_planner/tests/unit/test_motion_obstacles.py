@@ -10,6 +10,7 @@ from shapely.geometry import Polygon, box
 from shapely.geometry.polygon import orient
 
 from mtr_core.errors import ConfigurationError
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
 from mtr_motion_planner.geometry.keep_out import KeepOut, OutlineUnusable, centres, plain_of
@@ -124,7 +125,8 @@ def test_obstacle_is_named_and_the_robot_goes_on_when_it_is_gone(bearing, side):
     robot.run_for(2.0)
     robot.held, robot.drive = True, Drive(robot.now, Zone.BLOCKED, 0.6, bearing)
     output = robot.run_for(5.0)
-    assert (output.result, output.message) == (Result.BLOCKED, f"The robot is blocked by an obstacle 0.6 m {side}.")
+    assert output.result is Result.BLOCKED
+    assert output.message.text == f"The robot is blocked by an obstacle 0.6 m {side}."
     assert abs(output.linear_mps) <= 0.35
     robot.held, robot.drive = False, None
     assert robot.run().result == Result.REACHED
@@ -133,10 +135,10 @@ def test_obstacle_is_named_and_the_robot_goes_on_when_it_is_gone(bearing, side):
 
 def test_blind_lidar_is_reported_in_drive_controls_words():
     robot = SimulatedRobot(Pose2(0.0, -6.0, math.radians(90.0)), held=True)
-    robot.drive = Drive(robot.now, Zone.BLIND, message="The front LiDAR is silent.")
+    robot.drive = Drive(robot.now, Zone.BLIND, message=Problem("drive_control.silent", "The front LiDAR is silent."))
     robot.go(1, 0.0, -3.0, 90.0)
     output = robot.run_for(1.0)
-    assert (output.result, output.message) == (Result.BLOCKED, "The front LiDAR is silent.")
+    assert (output.result, output.message) == (Result.BLOCKED, robot.drive.message)
 
 
 def test_command_to_a_slowed_robot_does_not_wind_up_and_its_way_is_kept():
@@ -170,5 +172,5 @@ def test_base_that_slides_otherwise_than_expected_arrives_all_the_same(slip):
     robot = SimulatedRobot(Pose2(4.0, 2.6, math.radians(-147.0)), slip=slip)
     robot.go(1, -4.0, -1.0, 60.0)
     output = robot.run()
-    assert (output.result, output.message) == (Result.REACHED, "")
+    assert (output.result, output.message) == (Result.REACHED, NO_PROBLEM)
     assert np.hypot(robot.miss().x, robot.miss().y) < 0.03

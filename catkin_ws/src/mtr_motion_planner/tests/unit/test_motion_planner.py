@@ -131,7 +131,7 @@ def test_goal_in_the_keep_out_zone_is_refused_and_the_robot_stays(goal):
     robot.go(1, *goal)
     output = robot.run()
     assert output.result == Result.REFUSED
-    assert "0.10 m" in output.message
+    assert "0.10 m" in output.message.text
     robot.run_for(1.0)
     assert robot.pose == Pose2(4.0, 2.6, 0.0)
 
@@ -142,7 +142,7 @@ def test_goal_parallel_to_the_side_without_room_to_turn_is_refused():
     robot.go(1, 0.0, 1.23, 0.0)
     output = robot.run()
     assert output.result == Result.REFUSED
-    assert "straight" in output.message
+    assert "straight" in output.message.text
 
 
 def test_goal_id_zero_brakes_within_the_limit_and_becomes_idle():

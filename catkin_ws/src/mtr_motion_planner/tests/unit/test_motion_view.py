@@ -9,6 +9,7 @@ from shapely.geometry import Polygon
 from std_msgs.msg import Header
 
 from mtr_core.conversions import goal_report_from, waypoint_message
+from mtr_core.problems import Problem
 from mtr_core.requests import NO_GOAL, NO_GOAL_ID, Goal, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Result
@@ -84,7 +85,9 @@ def test_goal_of_the_state_machine_is_echoed_in_the_status():
     waypoint = Waypoint(3, "car_locator", "map", Pose2(1.0, 2.0, 0.5), 1)
     goal = order_from(RobotMode(goal=waypoint_message(waypoint), goal_attempt=6)).goal
     assert goal == Goal(waypoint, 6)
-    status = status_message(Output(0.1, 0.2, True, goal.id, Result.BLOCKED, 1.5, "Why."), Header())
+    why = Problem("motion_planner.why", "Why.")
+    status = status_message(Output(0.1, 0.2, True, goal.id, Result.BLOCKED, 1.5, why), Header())
     assert (status.requester, status.goal_id, status.goal_attempt) == ("car_locator", 3, 6)
-    assert (status.result, status.remaining_m, status.message) == (MotionStatus.BLOCKED, 1.5, "Why.")
+    assert (status.result, status.remaining_m, status.message) == (MotionStatus.BLOCKED, 1.5, why.text)
+    assert [problem.code for problem in status.problems] == [why.code]
     assert goal_report_from(status).is_about(goal)

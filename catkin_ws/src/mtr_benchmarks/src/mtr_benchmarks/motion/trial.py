@@ -70,7 +70,7 @@ class Trial:
         for _ in range(REST_TICKS):
             self._tick(order_goal, speed)
         miss = goal.inverse() @ self._sim.truth().car_from_base
-        return DrivenLeg(output.result, output.message, time_s, miss, tuple(poses), clearance_m)
+        return DrivenLeg(output.result, output.message.text, time_s, miss, tuple(poses), clearance_m)
 
     def _drive(self, goal: Goal, speed: float) -> Tuple[Output, List[Pose2], float]:
         """Until the planner has settled: its last output, the poses on the way, and the time."""

@@ -5,6 +5,7 @@ from typing import Dict, Optional
 
 from mtr_core.se2 import Pose2
 
+from .. import problems
 from ..measure.axis import SymmetryAxis, axis_of
 from ..measure.belonging import belongs
 from ..measure.close_up import CloseUp
@@ -49,7 +50,7 @@ class Alignment:
         sides = sides_of(in_car.where(belongs(in_car, car, beyond_m)))
         axis = axis_of(*(sides[name] for name in LONG_SIDES), length=car.length)
         if axis is None:
-            raise NotLocated("The Car's long sides were seen too little to tell its heading.")
+            raise NotLocated(problems.HEADING_UNSEEN())
         return axis
 
     def _wheels(self, in_car: Surfels, car: Rectangle, extents: Dict[str, SideExtent]) -> Optional[CarWheels]:
@@ -70,5 +71,5 @@ class Alignment:
     def _rough_wheels(self, in_car: Surfels, car: Rectangle) -> CarWheels:
         found = wheels_between(wheel_sides(in_car), 0.0, car.width, self._sheet)
         if found is None:
-            raise NotLocated("Only wheels of the Car were seen, and they do not stand as a car's do.")
+            raise NotLocated(problems.WHEELS_APART())
         return found

@@ -6,6 +6,7 @@ from typing import List, Optional
 
 import numpy as np
 
+from .. import problems
 from ..measure.car_fit import CarFit
 from ..measure.close_up import CloseUp
 from ..measure.measurement import measured
@@ -37,7 +38,7 @@ def fit_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters,
     """
     seen = near(surfels, prior, parameters)
     if seen.length.sum() < MIN_SURFACE_M:
-        raise NotLocated("There is nothing of a Car's size where the Car should stand.")
+        raise NotLocated(problems.NOTHING_THERE())
     best = _chosen(candidates(seen, prior, parameters))
     found = Alignment(seen, close_up, parameters.sheet, on_wheels=best.wheels is not None).aligned(best.car)
     fit = measured(seen, found, parameters.sheet, close_up)
@@ -59,19 +60,17 @@ def rough_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> 
 
 def _chosen(found: List[CarCandidate]) -> CarCandidate:
     if not found:
-        raise NotLocated("Not enough of a Car was seen: one long side and one end are needed at least, or all four "
-                         "wheels.")
+        raise NotLocated(problems.TOO_LITTLE_SEEN())
     best = found[0]
     minimum = MIN_QUALITY_ON_WHEELS if best.wheels else MIN_QUALITY
     if best.score.quality < minimum:
-        raise NotLocated(f"What stands there looks too little like a Car: {100.0 * best.score.cover:.0f} % of a Car's "
-                         f"outline was seen; its likeness is {best.score.quality:.2f}, needed is {minimum:g}.")
+        raise NotLocated(problems.UNLIKE(cover_percent=100.0 * best.score.cover, likeness=best.score.quality,
+                                         low=minimum))
     for other in found[1:]:
         apart = other.car.pose.distance_to(best.car.pose)
         if (apart > TWO_THINGS_M and other.score.quality >= minimum
                 and other.score.total >= ALIKE * best.score.total):
-            raise NotLocated(f"Two things of a Car's size stand there, {apart:.1f} m apart, and which of them is the "
-                             "Car cannot be told.")
+            raise NotLocated(problems.TWO_CARS(apart_m=apart))
     return best
 
 
@@ -80,13 +79,13 @@ def _check(fit: CarFit, prior: Prior, parameters: LocatorParameters) -> None:
     for name, found_m, expected in (("length", size.length or car.length, sheet.length_m),
                                     ("width", size.width or car.width, sheet.width_m)):
         if abs(found_m - expected) > sheet.size_tolerance_m:
-            raise NotLocated(f"What was found has a {name} of {found_m:.2f} m; expected is {expected:.2f} m, at most "
-                             f"{sheet.size_tolerance_m:.2f} m off.")
+            raise NotLocated(problems.OTHER_SIZE(dimension=name, found_m=found_m, expected_m=expected,
+                                                 allowed_m=sheet.size_tolerance_m))
     off_m, off_rad = prior.error_of(car.pose)
     if not is_allowed(car, prior, parameters):
-        raise NotLocated(f"What was found is {off_m:.2f} m and {math.degrees(off_rad):.0f} deg away from where the Car "
-                         f"should stand; allowed is {parameters.position_tolerance_m:.2f} m and "
-                         f"{math.degrees(parameters.heading_tolerance_rad):.0f} deg.")
+        raise NotLocated(problems.ELSEWHERE(off_m=off_m, off_deg=math.degrees(off_rad),
+                                            allowed_m=parameters.position_tolerance_m,
+                                            allowed_deg=math.degrees(parameters.heading_tolerance_rad)))
     if not np.all(np.isfinite([car.pose.x, car.pose.y, car.pose.heading, *fit.sigmas, fit.length_sigma,
                                fit.width_sigma])):
-        raise NotLocated("The fit of the Car is not a number.")
+        raise NotLocated(problems.NOT_A_NUMBER())

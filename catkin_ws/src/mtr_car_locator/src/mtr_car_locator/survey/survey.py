@@ -7,10 +7,12 @@ from typing import Optional, Sequence, Tuple
 
 from mtr_core import names
 from mtr_core.arrays import FloatArray
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import CAR_LOCATOR, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
 
+from .. import problems
 from ..find.errors import NotLocated
 from ..find.fit import fit_car, rough_car
 from ..find.prior import Prior
@@ -49,7 +51,7 @@ class SurfaceMap:
     valid: bool
     surfels: Surfels
     key_frames: FloatArray
-    message: str = ""
+    message: Problem = NO_PROBLEM
     range_bias_m: float = 0.0
 
 
@@ -104,13 +106,13 @@ class Survey:
         return self._waypoint_id + 1
 
     @property
-    def progress(self) -> str:
-        """One sentence for a person."""
+    def progress(self) -> Problem:
+        """What it does now."""
         if self._ring is None:
-            return "The robot looks at the Car from where it stands."
+            return problems.FIRST_LOOK()
         if self._ring.is_finished:
-            return "The robot makes a map of what it has seen."
-        return f"The robot goes round the Car: place {self._ring.done + 1} of {self._ring.total}."
+            return problems.MAKES_MAP()
+        return problems.GOES_ROUND(place=self._ring.done + 1, total=self._ring.total)
 
     def collect(self, scans: Sequence[Scan], poses: PoseHistory) -> None:
         """Take the returns of new scans."""
@@ -144,11 +146,11 @@ class Survey:
             self._fit(self._grid.surfels(robot.position_sigma_m))
         elif surfaces is not None and surfaces.map_id == self.map_id:
             if not surfaces.valid:
-                raise NotLocated(surfaces.message or "Localization could not make a map of what was seen.")
+                raise NotLocated(surfaces.message or problems.NO_MAP())
             if robot.map_revision == surfaces.revision:
                 self._fit(surfaces.surfels, self._way.close_up(surfaces.key_frames, surfaces.range_bias_m))
         elif now_s - self._frozen_since_s > self._parameters.map_limit_s:
-            raise NotLocated(f"Localization has not made its map within {self._parameters.map_limit_s:g} s.")
+            raise NotLocated(problems.MAP_LATE(limit_s=self._parameters.map_limit_s))
 
     def _go_on(self, ring: Ring, now_s: float, robot: RobotPose, result: Result) -> None:
         is_settled = result in (Result.REACHED, Result.REFUSED)

@@ -4,9 +4,11 @@ import math
 from dataclasses import dataclass
 from typing import List, Optional, Sequence, Tuple
 
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.se2 import Pose2
 from mtr_core.states import Check, Result
 
+from .. import problems
 from ..measure.car_fit import CarFit
 from ..parameters import RefinementParameters
 from ..poses import PoseHistory
@@ -30,7 +32,7 @@ class CheckReport:
     state: Check = Check.NONE
     difference_m: float = math.nan
     difference_rad: float = math.nan
-    message: str = ""
+    message: Problem = NO_PROBLEM
 
 
 class SelfCheck:
@@ -48,7 +50,7 @@ class SelfCheck:
         self._found: List[Evidence] = []
         self._observation: Optional[CarObservation] = None
         self._since_s = now_s
-        self.report = CheckReport(check_id, Check.RUNNING, message="The robot goes to look at the Car again.")
+        self.report = CheckReport(check_id, Check.RUNNING, message=problems.CHECK_RUNNING())
 
     @property
     def place(self) -> Optional[Pose2]:
@@ -93,24 +95,24 @@ class SelfCheck:
     def _judge(self) -> None:
         check_id = self.report.check_id
         if len(self._found) < PLACES:
-            self.report = CheckReport(check_id, Check.FAILED, message=(
-                f"The Car could be looked at from {len(self._found)} of {PLACES} places only; clear the way round it, "
-                "or map it again."))
+            self.report = CheckReport(check_id, Check.FAILED, message=problems.CHECK_BLOCKED(
+                seen=len(self._found), needed=PLACES))
             return
         evidence = joined(*self._found)
         shift_m, turn_rad = evidence.shift_m, abs(evidence.motion.heading)
         state, words = self._verdict(shift_m, turn_rad, evidence)
         self.report = CheckReport(check_id, state, shift_m, turn_rad, words)
 
-    def _verdict(self, shift_m: float, turn_rad: float, evidence: Evidence) -> Tuple[Check, str]:
+    def _verdict(self, shift_m: float, turn_rad: float, evidence: Evidence) -> Tuple[Check, Problem]:
         limits = self._parameters
         sigma_m, sigma_rad = evidence.sigmas
-        found = (f"The Car stands {100.0 * shift_m:.1f} cm and {math.degrees(turn_rad):.2f} deg from where it was "
-                 f"measured (1 sigma {100.0 * sigma_m:.1f} cm, {math.degrees(sigma_rad):.2f} deg)")
+        found = {"shift_cm": 100.0 * shift_m, "turn_deg": math.degrees(turn_rad),
+                 "shift_sigma_cm": 100.0 * sigma_m, "turn_sigma_deg": math.degrees(sigma_rad)}
         if shift_m > limits.check_limit_m or turn_rad > limits.check_limit_rad:
-            allowed = f"{100.0 * limits.check_limit_m:.1f} cm and {math.degrees(limits.check_limit_rad):.2f} deg"
-            return Check.FAILED, f"{found}; allowed is {allowed}. Close its doors and check again, or map it again."
-        return Check.PASSED, f"{found}."
+            return Check.FAILED, problems.CHECK_FAILED(
+                **found, allowed_cm=100.0 * limits.check_limit_m,
+                allowed_deg=math.degrees(limits.check_limit_rad))
+        return Check.PASSED, problems.CHECK_PASSED(**found)
 
 
 def _order(places: List[Pose2], first: int) -> List[Pose2]:

@@ -4,8 +4,10 @@ import math
 from dataclasses import dataclass
 from typing import Optional
 
+from mtr_core.problems import Problem
 from mtr_core.se2 import Pose2
 
+from .. import problems
 from ..parameters import Arrival
 
 # This is near enough for a measurement, though not within tolerance, when no correction helped.
@@ -38,10 +40,10 @@ def miss_of(goal: Pose2, pose: Pose2, arrival: Arrival) -> Miss:
     return Miss(math.hypot(at.x, at.y), at.heading, within)
 
 
-def sentence_about(miss: Miss, corrections: int) -> str:
+def problem_of_miss(miss: Miss, corrections: int) -> Problem:
     """What a person should know about it."""
-    return (f"After {corrections} corrections the robot stands {miss.distance_m:.2f} m and "
-            f"{math.degrees(abs(miss.heading_rad)):.1f} deg off its goal.")
+    return problems.OFF_GOAL(corrections=corrections, distance_m=miss.distance_m,
+                             turn_deg=math.degrees(abs(miss.heading_rad)))
 
 
 def was_displaced(settled_at: Optional[Pose2], pose: Pose2) -> bool:

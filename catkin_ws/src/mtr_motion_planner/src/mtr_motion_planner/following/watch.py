@@ -3,8 +3,10 @@
 import math
 from typing import Optional
 
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.se2 import Pose2
 
+from .. import problems
 from ..geometry.keep_out import KeepOut
 from ..inputs import Drive, RobotState, Zone
 from ..parameters import MotionParameters
@@ -56,16 +58,16 @@ def is_heading_into(keep_out: KeepOut, pose: Pose2, robot: RobotState, wanted: V
             and clearance < keep_out.clearance(pose) - OPENING_M)
 
 
-def sentence_about(drive: Drive) -> str:
-    """What a person should know about drive control's collision stop; empty when the way is free."""
+def problem_of_drive(drive: Drive) -> Problem:
+    """What a person should know about drive control's collision stop; no problem when the way is free."""
     if drive.zone == Zone.CLEAR:
-        return ""
+        return NO_PROBLEM
     if drive.zone == Zone.BLIND:
-        return drive.message or "The robot stands because a LiDAR that should see its way is silent."
+        return drive.message or problems.LIDAR_SILENT()
     what = "blocked" if drive.zone == Zone.BLOCKED else "slowed"
     if not math.isfinite(drive.obstacle_m):
-        return drive.message or f"The robot is {what} by an obstacle."
-    return f"The robot is {what} by an obstacle {drive.obstacle_m:.1f} m {_side(drive.obstacle_bearing)}."
+        return drive.message or problems.OBSTACLE(what=what)
+    return problems.OBSTACLE_AT(what=what, distance_m=drive.obstacle_m, side=_side(drive.obstacle_bearing))
 
 
 def _side(bearing: float) -> str:

@@ -9,9 +9,10 @@ from shapely.geometry import Point as ShapelyPoint
 from shapely.geometry.polygon import orient
 
 from mtr_core.arrays import FloatArray
-from mtr_core.errors import RobotError
+from mtr_core.problems import ProblemError
 from mtr_core.se2 import Pose2
 
+from .. import problems
 from ..inputs import Point
 from ..parameters import Footprint
 
@@ -24,7 +25,7 @@ GRAZE_M = 0.005
 SHORT_SIDE_M, CORNER_MARGIN_M = 1.0, 0.3
 
 
-class OutlineUnusable(RobotError):
+class OutlineUnusable(ProblemError):
     """The outline is no polygon that one could drive around."""
 
 
@@ -123,13 +124,13 @@ def _meeting(before: Point, first: Point, last: Point, after: Point) -> Optional
 def polygon_of(points: Sequence[Point]) -> Polygon:
     """Simple polygon of a size that can be a Car; OutlineUnusable says what is wrong."""
     if len(points) < 3:
-        raise OutlineUnusable("The Car's outline is unknown, so there is no way around it.")
+        raise OutlineUnusable(problems.OUTLINE_UNKNOWN())
     polygon = Polygon(points)
     # Points on a line are an invalid polygon too; their hull tells them from one that crosses itself.
     if polygon.convex_hull.area < MIN_AREA_M2:
-        raise OutlineUnusable("The Car's outline has no size.")
+        raise OutlineUnusable(problems.OUTLINE_WITHOUT_SIZE())
     if not polygon.is_valid:
-        raise OutlineUnusable("The Car's outline crosses itself.")
+        raise OutlineUnusable(problems.OUTLINE_CROSSED())
     return polygon
 
 

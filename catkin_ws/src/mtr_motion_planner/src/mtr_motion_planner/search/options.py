@@ -9,6 +9,7 @@ import numpy as np
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction
 
+from .. import problems
 from ..geometry.keep_out import KeepOut
 from ..geometry.route import moved
 from ..parameters import MotionParameters
@@ -50,7 +51,7 @@ def departures(start: Pose2, keep_out: KeepOut, parameters: MotionParameters) ->
     found = [StraightPiece(sign, length) for sign in (-1, 1)
              for length in _free_after(start, sign, min_clearance_m, keep_out, parameters)]
     if not found:
-        raise PlanRefused("The robot stands so close to the Car that it cannot drive straight out; move it by hand.")
+        raise PlanRefused(problems.HEMMED_IN())
     return found
 
 
@@ -66,7 +67,7 @@ def arrivals(goal: Target, keep_out: KeepOut, parameters: MotionParameters) -> L
     found = [StraightPiece(sign, length + parameters.run_in_m) for sign in SIGNS[goal.direction]
              for length in _free_after(goal.pose, -sign, min_clearance_m, keep_out, parameters)]
     if not found:
-        raise PlanRefused("No straight piece leads to the goal past the Car without getting too close to it.")
+        raise PlanRefused(problems.NO_STRAIGHT_PIECE())
     return found
 
 

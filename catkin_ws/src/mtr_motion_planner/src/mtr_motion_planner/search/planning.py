@@ -6,6 +6,7 @@ from typing import List, NamedTuple, Optional
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction
 
+from .. import problems
 from ..geometry.fence import Fence
 from ..geometry.keep_out import KeepOut
 from ..geometry.route import moved
@@ -73,8 +74,7 @@ class Planning:
             stopped = self._parts(Moving(brake.trajectory.at(math.inf).pose), goal, effort if parts else STANDING)
             parts = quicker(parts, None if stopped is None else [brake, *stopped])
         if parts is None:
-            raise PlanRefused("No way to the goal was found that keeps the robot away from the Car"
-                              f"{' and inside the test area' if self._fence else ''}.")
+            raise PlanRefused(problems.NO_WAY_INSIDE() if self._fence else problems.NO_WAY())
         return Plan(goal.pose, tuple(parts))
 
     def straight(self, start: Moving, goal: Target) -> Optional[Plan]:
@@ -96,14 +96,13 @@ class Planning:
         keep_out = self._parameters.margins.keep_out_m
         left = self._keep_out.clearance(goal)
         if left < keep_out:
-            raise PlanRefused(f"At the goal the robot would leave {left:.2f} m to the Car; at least {keep_out:.2f} m "
-                              "must be left.")
+            raise PlanRefused(problems.GOAL_TOO_CLOSE(left_m=left, low_m=keep_out))
         if self._keep_out.clearance(start) < MIN_CLEARANCE_M:
-            raise PlanRefused("The robot stands too close to the Car to plan; move it away by hand.")
+            raise PlanRefused(problems.ROBOT_TOO_CLOSE())
         if self._fence and not self._fence.holds_pose(goal):
-            raise PlanRefused("At the goal the robot would not be inside the test area.")
+            raise PlanRefused(problems.GOAL_OUTSIDE())
         if self._fence and not self._fence.holds_pose(start):
-            raise PlanRefused("The robot stands outside the test area; move it back by hand.")
+            raise PlanRefused(problems.ROBOT_OUTSIDE())
 
     def _parts(self, start: Moving, goal: Target, effort: Effort) -> Optional[List[PlanPart]]:
         parts = self._straight(start, goal.pose, goal.direction)

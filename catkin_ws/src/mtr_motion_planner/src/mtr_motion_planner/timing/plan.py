@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import List, Tuple
 
-from mtr_core.errors import RobotError
+from mtr_core.problems import ProblemError
 from mtr_core.se2 import Pose2
 
 from ..inputs import Point
@@ -11,7 +11,7 @@ from .motion import PlannedMotion
 from .trajectory import Trajectory
 
 
-class PlanRefused(RobotError):
+class PlanRefused(ProblemError):
     """There is no plan that the robot may follow; the text says why."""
 
 
