@@ -6,8 +6,11 @@ from mtr_benchmarks.harness.rows import all_met
 from mtr_benchmarks.serial import __main__ as serial
 from mtr_benchmarks.serial.echo import COMMANDS, figures_of
 from mtr_benchmarks.simulation import __main__ as simulation
+from mtr_benchmarks.simulation import whole_stack
 from mtr_benchmarks.simulation.physics import PhysicsFigures
 from mtr_benchmarks.simulation.whole_stack import WholeStackFigures
+from mtr_bringup.demo import DemoError
+from mtr_bringup.stack import StackError
 
 PHYSICS = PhysicsFigures(real_time_factor=25.0, tick_median_ms=0.7, tick_p99_ms=2.0)
 
@@ -37,3 +40,13 @@ def test_line_is_met_when_every_command_is_echoed_in_time(trips_ms, met):
 def test_figures_of_the_line_keep_their_names():
     written = serial.report(figures_of([5.0] * COMMANDS, 57600)).document()
     assert list(written) == ["commands", "echoes", "baud", "echo_p50_ms", "echo_p95_ms", "echo_max_ms", "table"]
+
+
+@pytest.mark.parametrize("error", [StackError("It ended while starting."), DemoError("A scenario failed.")])
+def test_demo_that_fails_is_a_problem_and_no_traceback(tmp_path, monkeypatch, error):
+    def fails(options):
+        raise error
+
+    monkeypatch.setattr(whole_stack, "run_demo", fails)
+    found = whole_stack.measure_whole_stack(tmp_path)
+    assert found.real_time_factor is None and found.problems == (str(error),)

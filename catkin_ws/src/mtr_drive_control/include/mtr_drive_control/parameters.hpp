@@ -33,7 +33,7 @@ struct Parameters {
   double command_timeout_s = 0.14;
   /// Share of the static tip-over limit that is used. On its tyres the robot pitches half as far again when it brakes
   /// at once, and the ground is not level. In simulation, with the lift up, the hardest stops leave 10.6 of 62 N on the
-  /// lightest wheel (bench_motion/tip_over.py).
+  /// lightest wheel (mtr_benchmarks/motion/tip_over.py).
   double tip_margin = 0.52;
   /// Height of the centre of mass above ground: this plus the rise times the height of the key. From the masses and
   /// places of mtr_description's URDF; a unit test compares them.

@@ -1,0 +1,53 @@
+"""The demo says what is wrong or missing in its results."""
+# SPDX-License-Identifier: Apache-2.0
+import pytest
+
+from mtr_bringup import demo
+from mtr_bringup.demo import MIN_LINES, OUTPUTS, DemoResult, event_times, problems_of, read_rows
+
+HEADER = "line,unlock_robot_time_s,lock_robot_time_s\n"
+
+
+@pytest.fixture
+def agrees(monkeypatch):
+    """Measured and true events are the same."""
+    monkeypatch.setattr(demo, "compare", lambda events, folder: 0)
+
+
+def results(folder, lines):
+    """Everything that a scenario leaves, with so many lines."""
+    folder.mkdir()
+    for file in OUTPUTS:
+        (folder / file).write_text("", encoding="utf-8")
+    rows = "".join(f"{number},{number}.5,\n" for number in range(lines))
+    (folder / "results.csv").write_text(f"# robot: simulated\n{HEADER}{rows}", encoding="utf-8")
+
+
+@pytest.mark.usefixtures("agrees")
+def test_complete_results_have_no_problem(tmp_path):
+    results(tmp_path / "key_press", MIN_LINES["key_press"])
+    assert problems_of(tmp_path, "key_press") == []
+
+
+@pytest.mark.usefixtures("agrees")
+def test_missing_file_and_missing_lines_are_named(tmp_path):
+    results(tmp_path / "key_press", 3)
+    (tmp_path / "key_press" / "protocol.png").unlink()
+    assert problems_of(tmp_path, "key_press") == ["key_press: protocol.png is missing",
+                                                  "key_press: 3 lines instead of at least 8"]
+
+
+def test_results_that_do_not_match_the_truth_are_a_problem(tmp_path, monkeypatch):
+    monkeypatch.setattr(demo, "compare", lambda events, folder: 1)
+    results(tmp_path / "autolock", MIN_LINES["autolock"])
+    assert problems_of(tmp_path, "autolock") == ["autolock: measured and true events do not match"]
+
+
+def test_event_times_are_read_past_metadata_and_empty_cells(tmp_path):
+    results(tmp_path / "autolock", 2)
+    assert event_times(read_rows(tmp_path / "autolock" / "results.csv")) == [0.5, 1.5]
+    assert read_rows(tmp_path / "missing.csv") == []
+
+
+def test_speed_is_robot_time_by_wall_time():
+    assert DemoResult(700.0, 100.0, ()).real_time_factor == 7.0
