@@ -3,6 +3,7 @@ window's translation."""
 # SPDX-License-Identifier: Apache-2.0
 import ast
 import pathlib
+import re
 from string import Formatter
 from typing import Dict, Iterator, List, NamedTuple
 
@@ -33,7 +34,19 @@ def python_rows() -> Iterator[Row]:
                 yield Row(path.parent.name, node.targets[0].id, code, template)
 
 
-ROWS = list(python_rows())
+# constexpr Sentence kName{"code", "text" "more text"};
+CPP_ROW = re.compile(r'Sentence (k\w+)\{\s*"([^"]+)",\s*((?:"(?:[^"\\]|\\.)*"\s*)+)\}')
+CPP_CALL = re.compile(r"problems::(k\w+)\((\{\{.*?\}\})?\)", re.DOTALL)
+
+
+def cpp_rows() -> Iterator[Row]:
+    """Constants of each header `problems.hpp`."""
+    for path in sorted(PACKAGES.glob("*/**/problems.hpp")):
+        for name, code, literals in CPP_ROW.findall(path.read_text(encoding="utf-8")):
+            yield Row(path.relative_to(PACKAGES).parts[0], name, code, ast.literal_eval(f"({literals})"))
+
+
+ROWS = [*python_rows(), *cpp_rows()]
 TRANSLATION = yaml.safe_load(CZECH.read_text(encoding="utf-8"))
 
 
@@ -84,6 +97,22 @@ def test_calls_give_each_placeholder_its_value(package):
         assert not call.args and (given - {None} <= wanted if None in given else given == wanted), ast.dump(call)
 
 
-@pytest.mark.parametrize("row", [row for row in ROWS if row.name.isupper()], ids=lambda row: row.code)
+def sources(package: str) -> Iterator[pathlib.Path]:
+    """C++ sources of a package."""
+    yield from sorted((PACKAGES / package / "src").rglob("*.cpp"))
+
+
+@pytest.mark.parametrize("package", sorted({row.package for row in ROWS}))
+def test_calls_in_cpp_give_each_placeholder_its_value(package):
+    rows = {row.name: row for row in ROWS if row.package == package}
+    for path in sources(package):
+        for name, arguments in CPP_CALL.findall(path.read_text(encoding="utf-8")):
+            given = sorted(re.findall(r'\{"(\w+)",', arguments))
+            assert given == placeholders(rows[name].template), f"{path.name}: {name}"
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.code)
 def test_sentence_is_used(row):
-    assert any(f"problems.{row.name}" in path.read_text(encoding="utf-8") for path in modules(row.package))
+    is_used = re.compile(rf"problems(\.|::){row.name}\b")
+    assert any(is_used.search(path.read_text(encoding="utf-8"))
+               for path in (*modules(row.package), *sources(row.package)))

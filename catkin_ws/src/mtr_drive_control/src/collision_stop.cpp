@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/collision_stop.hpp"
 
-#include <cstdio>
+#include "problems.hpp"
 
 namespace mtr_drive_control {
 namespace {
@@ -26,7 +26,7 @@ CollisionStop::CollisionStop(const CollisionParameters& parameters, bool has_rea
 }
 
 Verdict CollisionStop::judge(std::int64_t tick_ns, const MotionWish& wish, const Deceleration& normal) {
-  if (!blindness().empty()) {
+  if (blindness()) {
     if (!wish.velocity.is_zero()) {
       blocked_wish_ = wish;
       last_blocked_ns_ = tick_ns;
@@ -41,21 +41,20 @@ Verdict CollisionStop::judge(std::int64_t tick_ns, const MotionWish& wish, const
     return blocked(tick_ns, tried, hindrance);
   }
   if (is_pausing(tick_ns)) {
-    return {
-        {}, Zone::kBlocked, hindrance, hindrance ? sentence_about(*hindrance) : "Waits a moment before it goes on."};
+    return {{}, Zone::kBlocked, hindrance, hindrance ? problem_of(*hindrance) : problems::kPausing()};
   }
   blocked_wish_.reset();
   if (wish.velocity.is_zero()) {
     return {};
   }
-  return {tried.velocity.scaled(share), hindrance ? Zone::kSlowed : Zone::kClear, hindrance, ""};
+  return {tried.velocity.scaled(share), hindrance ? Zone::kSlowed : Zone::kClear, hindrance, {}};
 }
 
 Verdict CollisionStop::blocked(std::int64_t tick_ns, const MotionWish& wish,
                                const std::optional<Hindrance>& hindrance) {
   blocked_wish_ = wish;
   last_blocked_ns_ = tick_ns;
-  return {{}, Zone::kBlocked, hindrance, sentence_about(*hindrance)};
+  return {{}, Zone::kBlocked, hindrance, problem_of(*hindrance)};
 }
 
 bool CollisionStop::is_pausing(std::int64_t tick_ns) const {
@@ -165,19 +164,16 @@ Hindrance CollisionStop::hindrance_at(const Point& point) const {
   return {footprint_.distance_to(point), std::atan2(point.y_m, point.x_m), false};
 }
 
-std::string sentence_about(const Hindrance& hindrance) {
+mtr_core::Problem problem_of(const Hindrance& hindrance) {
   if (hindrance.is_unseen_ground) {
-    return "Blocked: the ground behind was not seen free lately; turn the robot once on the spot with the manual "
-           "controller, so that its LiDAR sees it.";
+    return problems::kUnseenGround();
   }
   const double bearing = std::abs(hindrance.bearing_rad);
   const char* side = bearing < kPi / 4.0           ? "ahead"
                      : bearing > 3.0 * kPi / 4.0   ? "behind"
                      : hindrance.bearing_rad > 0.0 ? "on the left"
                                                    : "on the right";
-  char text[64];
-  std::snprintf(text, sizeof(text), "Blocked by an obstacle %.1f m %s.", hindrance.distance_m, side);
-  return text;
+  return problems::kObstacle({{"distance_m", hindrance.distance_m}, {"side", side}});
 }
 
 }  // namespace mtr_drive_control

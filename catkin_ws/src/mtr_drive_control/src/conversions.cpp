@@ -53,7 +53,8 @@ mtr_msgs::DriveStatus status_message(std::int64_t tick_ns, const Decision& decis
   status.linear_mps = decision.velocity.linear_mps;
   status.angular_radps = decision.velocity.angular_radps;
   status.engaged_locks = decision.engaged_locks;
-  status.message = decision.message;
+  status.message = decision.message.text;
+  status.problems = mtr_core::messages_of<mtr_msgs::Problem>(decision.message);
   status.zone = static_cast<std::uint8_t>(decision.zone);
   const Hindrance hindrance = decision.hindrance.value_or(Hindrance{});
   status.obstacle_m = hindrance.distance_m;

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/drive_control.hpp"
 
+#include "problems.hpp"
+
 namespace mtr_drive_control {
 namespace {
 
@@ -49,7 +51,7 @@ Velocity DriveControl::pursue(std::int64_t tick_ns, const Inputs& inputs, const 
   const Verdict verdict = collision_stop_.judge(tick_ns, wanted, normal_deceleration());
   decision.zone = verdict.zone;
   decision.hindrance = verdict.hindrance;
-  if (decision.message.empty()) {
+  if (!decision.message) {
     decision.message = verdict.message;
   }
   if (!wish.velocity || verdict.zone == Zone::kBlind) {
@@ -100,18 +102,18 @@ DriveControl::Wish DriveControl::wish_of(const std::string& source, const std::o
                                          std::int64_t tick_ns) const {
   const std::string who = source == "manual" ? "manual controller" : "motion planner";
   if (!command) {
-    return {"none", std::nullopt, "Waiting for the " + who + "."};
+    return {"none", std::nullopt, problems::kWaitingForSource({{"source", who}})};
   }
   if (!is_fresh(command->stamp_ns, tick_ns, parameters_.command_timeout_s)) {
-    return {"none", std::nullopt, "The " + who + " is silent."};
+    return {"none", std::nullopt, problems::kSourceSilent({{"source", who}})};
   }
   if (!command->active) {
-    return {"none", Velocity{}, ""};
+    return {"none", Velocity{}, {}};
   }
   if (!command->velocity.is_finite()) {
-    return {source, std::nullopt, "The " + who + " wants a velocity that is not a finite number."};
+    return {source, std::nullopt, problems::kSourceNotFinite({{"source", who}})};
   }
-  return {source, command->velocity, ""};
+  return {source, command->velocity, {}};
 }
 
 }  // namespace mtr_drive_control

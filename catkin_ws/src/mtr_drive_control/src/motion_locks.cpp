@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "problems.hpp"
+
 namespace mtr_drive_control {
 namespace {
 
@@ -51,9 +53,9 @@ std::vector<EngagedLock> MotionLocks::engaged_at(std::int64_t tick_ns) {
     const std::optional<Lock> lock = samples.at(tick_ns);
     age_s_ = lock ? std::max(age_s_, static_cast<double>(tick_ns - lock->stamp_ns) * 1e-9) : age_s_;
     if (!lock) {
-      engaged.push_back({owner, "Waiting for the motion lock of " + owner + "."});
+      engaged.push_back({owner, problems::kWaitingForLock({{"owner", owner}})});
     } else if (!is_fresh(lock->stamp_ns, tick_ns, timeout_s_)) {
-      engaged.push_back({owner, "The motion lock of " + owner + " is silent."});
+      engaged.push_back({owner, problems::kLockSilent({{"owner", owner}})});
     } else if (lock->engaged) {
       engaged.push_back({owner, lock->reason});
     }

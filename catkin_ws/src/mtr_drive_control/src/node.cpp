@@ -7,6 +7,7 @@
 
 #include "mtr_core/names.hpp"
 #include "mtr_drive_control/tip_over.hpp"
+#include "problems.hpp"
 
 namespace mtr_drive_control {
 namespace {
@@ -79,7 +80,8 @@ void Node::listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>
   lock_subscribers_.push_back(node.subscribe<mtr_msgs::MotionLock>(
       names::kMotionLock, 50,
       [this](const mtr_msgs::MotionLock::ConstPtr& message) {
-        const Lock lock{mtr_core::to_ns(message->header.stamp), static_cast<bool>(message->engaged), message->reason};
+        const Lock lock{mtr_core::to_ns(message->header.stamp), static_cast<bool>(message->engaged),
+                        mtr_core::problem_of(message->problems, message->reason)};
         take(message->owner, lock);
       },
       ros::VoidConstPtr(), hints));
@@ -87,7 +89,7 @@ void Node::listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>
     lock_subscribers_.push_back(node.subscribe<std_msgs::Bool>(
         topic, 50,
         [this, topic](const std_msgs::Bool::ConstPtr& message) {
-          const Lock lock{ticker_.now_ns(), static_cast<bool>(message->data), "The emergency stop is pressed."};
+          const Lock lock{ticker_.now_ns(), static_cast<bool>(message->data), problems::kEmergencyStop()};
           take(topic, lock);
         },
         ros::VoidConstPtr(), hints));
@@ -134,14 +136,15 @@ void Node::publish(std::int64_t tick_ns, const Decision& decision) {
 
 void Node::log(const Decision& decision) {
   // While it is blocked the distance in the sentence changes all the time.
-  const bool is_news = decision.zone != zone_ || (decision.zone != Zone::kBlocked && decision.message != message_);
-  if (is_news && decision.message != message_) {
+  const std::string& message = decision.message.text;
+  const bool is_news = decision.zone != zone_ || (decision.zone != Zone::kBlocked && message != message_);
+  if (is_news && message != message_) {
     // The Operator reads warnings.
     const bool is_stopped = decision.zone == Zone::kBlocked || decision.zone == Zone::kBlind;
     ROS_LOG(is_stopped ? ros::console::levels::Warn : ros::console::levels::Info, ROSCONSOLE_DEFAULT_NAME, "%s",
-            decision.message.empty() ? "Free to move." : decision.message.c_str());
+            message.empty() ? "Free to move." : message.c_str());
   }
-  message_ = decision.message;
+  message_ = message;
   zone_ = decision.zone;
 }
 

@@ -72,7 +72,7 @@ Decision step(DriveControl& control, std::int64_t tick_ns, const std::optional<s
               const py::object& front, const py::object& rear, const py::object& odometry, double key_height_m) {
   Inputs inputs;
   for (const std::string& owner : locks) {
-    inputs.locks.push_back({owner, "Locked by " + owner + "."});
+    inputs.locks.push_back({owner, mtr_core::problem_with_text("Locked by " + owner + ".")});
   }
   inputs.planner = command_of(tick_ns, planner);
   inputs.manual = command_of(tick_ns, manual);
@@ -110,7 +110,7 @@ PYBIND11_MODULE(mtr_drive_control_core, module) {
       .def_property_readonly("linear_mps", [](const Decision& decision) { return decision.velocity.linear_mps; })
       .def_property_readonly("angular_radps", [](const Decision& decision) { return decision.velocity.angular_radps; })
       .def_readonly("source", &Decision::source)
-      .def_readonly("message", &Decision::message)
+      .def_property_readonly("message", [](const Decision& decision) { return decision.message.text; })
       .def_property_readonly("zone", [](const Decision& decision) { return static_cast<int>(decision.zone); })
       .def_property_readonly(
           "obstacle_m", [](const Decision& decision) { return decision.hindrance.value_or(Hindrance{}).distance_m; })

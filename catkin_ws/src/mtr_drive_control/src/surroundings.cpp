@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/surroundings.hpp"
 
+#include "problems.hpp"
+
 namespace mtr_drive_control {
 namespace {
 
@@ -74,19 +76,17 @@ void Surroundings::classify() {
   }
 }
 
-std::string Surroundings::blindness_at(std::int64_t tick_ns) const {
+mtr_core::Problem Surroundings::blindness_at(std::int64_t tick_ns) const {
   for (const Lidar& lidar : lidars_) {
-    const std::string problem = lidar.watch.problem_at(tick_ns);
-    if (!problem.empty()) {
+    if (mtr_core::Problem problem = lidar.watch.problem_at(tick_ns)) {
       return problem;
     }
   }
   if (!motion_) {
-    return "Waiting for the wheels' odometry.";
+    return problems::kWaitingForOdometry();
   }
-  return std::abs(age_s(tick_ns, motion_->stamp_ns)) > parameters_.odometry_timeout_s
-             ? "The wheels' odometry is silent."
-             : "";
+  return std::abs(age_s(tick_ns, motion_->stamp_ns)) > parameters_.odometry_timeout_s ? problems::kOdometrySilent()
+                                                                                      : mtr_core::Problem{};
 }
 
 void Surroundings::add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "problems.hpp"
+
 namespace mtr_drive_control {
 namespace {
 
@@ -17,26 +19,26 @@ constexpr double kCoveredShare = 0.5;
 
 }  // namespace
 
-std::string defect_of(const Sweep& sweep) {
+mtr_core::Problem defect_of(const Sweep& sweep, const std::string& lidar) {
   if (sweep.frame_id != sweep.expected_frame_id) {
-    return "speaks of frame '" + sweep.frame_id + "' and not of '" + sweep.expected_frame_id + "'";
+    return problems::kLidarFrame({{"lidar", lidar}, {"frame", sweep.frame_id}, {"expected", sweep.expected_frame_id}});
   }
   if (sweep.ranges_m.size() < 2) {
-    return "sends sweeps without beams";
+    return problems::kLidarWithoutBeams({{"lidar", lidar}});
   }
   if (!std::isfinite(sweep.angle_min_rad) || !(std::abs(sweep.angle_increment_rad) > 0.0) ||
       !std::isfinite(sweep.angle_increment_rad) || !std::isfinite(sweep.time_increment_s)) {
-    return "sends sweeps whose angles or times are not numbers";
+    return problems::kLidarNotNumbers({{"lidar", lidar}});
   }
   if (!(sweep.range_min_m >= 0.0) || !(sweep.range_max_m > sweep.range_min_m)) {
-    return "sends sweeps without a range of measurement";
+    return problems::kLidarWithoutRange({{"lidar", lidar}});
   }
   std::size_t seeing = 0;
   for (std::size_t beam = 0; beam < sweep.ranges_m.size(); ++beam) {
     seeing += sweep.is_echo(beam) || sweep.is_far(beam) ? 1 : 0;
   }
   const double covered = 1.0 - static_cast<double>(seeing) / static_cast<double>(sweep.ranges_m.size());
-  return covered > kCoveredShare ? "is covered" : "";
+  return covered > kCoveredShare ? problems::kLidarCovered({{"lidar", lidar}}) : mtr_core::Problem{};
 }
 
 bool LidarWatch::take(const std::shared_ptr<const Sweep>& sweep) {
@@ -45,25 +47,25 @@ bool LidarWatch::take(const std::shared_ptr<const Sweep>& sweep) {
   }
   repetitions_ = newest_ && repeats(*sweep) ? repetitions_ + 1 : 0;
   newest_ = sweep;
-  defect_ = defect_of(*sweep);
-  if (defect_.empty() && repetitions_ >= kFrozenAfterRepetitions) {
-    defect_ = "is frozen: it repeats the same sweep";
+  defect_ = defect_of(*sweep, name_);
+  if (!defect_ && repetitions_ >= kFrozenAfterRepetitions) {
+    defect_ = problems::kLidarFrozen({{"lidar", name_}});
   }
-  return defect_.empty();
+  return !defect_;
 }
 
-std::string LidarWatch::problem_at(std::int64_t tick_ns) const {
+mtr_core::Problem LidarWatch::problem_at(std::int64_t tick_ns) const {
   if (!newest_) {
-    return "Waiting for the " + name_ + ".";
+    return problems::kWaitingForLidar({{"lidar", name_}});
   }
   const double age_s = static_cast<double>(tick_ns - newest_->stamp_ns) * 1e-9;
   if (age_s > timeout_s_) {
-    return "The " + name_ + " is silent.";
+    return problems::kLidarSilent({{"lidar", name_}});
   }
   if (age_s < -timeout_s_) {
-    return "The " + name_ + " sends sweeps from the future.";
+    return problems::kLidarInFuture({{"lidar", name_}});
   }
-  return defect_.empty() ? "" : "The " + name_ + " " + defect_ + ".";
+  return defect_;
 }
 
 bool LidarWatch::repeats(const Sweep& sweep) const {

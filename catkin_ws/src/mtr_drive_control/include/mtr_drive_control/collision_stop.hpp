@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mtr_core/problem.hpp"
 #include "mtr_drive_control/stopping_path.hpp"
 #include "mtr_drive_control/surroundings.hpp"
 
@@ -31,7 +32,7 @@ struct Verdict {
   Zone zone = Zone::kClear;
   std::optional<Hindrance> hindrance;
   /// One sentence when it forbids motion, else empty.
-  std::string message;
+  mtr_core::Problem message;
 };
 
 /// What is wanted at a tick.
@@ -65,7 +66,7 @@ class CollisionStop {
   /// Nobody wants to move any more.
   void rest() { blocked_wish_.reset(); }
 
-  const std::string& blindness() const { return surroundings_.blindness(); }
+  const mtr_core::Problem& blindness() const { return surroundings_.blindness(); }
   const Footprint& footprint() const { return footprint_; }
   std::vector<PathPoint> stopping_path_of(const Velocity& velocity, const Deceleration& deceleration) const {
     return stopping_path(velocity, deceleration, parameters_.reaction_s, footprint_.radius_m());
@@ -94,6 +95,6 @@ class CollisionStop {
 };
 
 /// "Blocked by an obstacle 0.6 m ahead." and the like.
-std::string sentence_about(const Hindrance& hindrance);
+mtr_core::Problem problem_of(const Hindrance& hindrance);
 
 }  // namespace mtr_drive_control

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mtr_core/problem.hpp"
 #include "mtr_drive_control/collision_stop.hpp"
 #include "mtr_drive_control/motion_locks.hpp"
 #include "mtr_drive_control/parameters.hpp"
@@ -47,7 +48,7 @@ struct Decision {
   std::string source;
   std::vector<std::string> engaged_locks;
   /// One sentence, empty when all is well.
-  std::string message;
+  mtr_core::Problem message;
   Zone zone = Zone::kClear;
   std::optional<Hindrance> hindrance;
 };
@@ -75,7 +76,7 @@ class DriveControl {
     std::string source;
     /// Nothing: emergency stop.
     std::optional<Velocity> velocity;
-    std::string message;
+    mtr_core::Problem message;
   };
 
   Wish choose(std::int64_t tick_ns, const Inputs& inputs) const;

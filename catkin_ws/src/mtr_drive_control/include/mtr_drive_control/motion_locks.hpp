@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "mtr_core/problem.hpp"
 #include "mtr_core/samples.hpp"
 
 namespace mtr_drive_control {
@@ -19,13 +20,13 @@ struct Lock {
   std::int64_t stamp_ns;
   bool engaged;
   /// One sentence for the Operator.
-  std::string reason;
+  mtr_core::Problem reason;
 };
 
 /// A lock that forbids motion now.
 struct EngagedLock {
   std::string owner;
-  std::string reason;
+  mtr_core::Problem reason;
 };
 
 /// True when stamp and tick are not farther apart than the time-out; a stamp far ahead means a clock that was set.

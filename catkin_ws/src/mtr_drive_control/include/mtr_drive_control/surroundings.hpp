@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "mtr_core/problem.hpp"
 #include "mtr_drive_control/collision_parameters.hpp"
 #include "mtr_drive_control/ground_memory.hpp"
 
@@ -52,7 +53,7 @@ class Surroundings {
   void take(std::int64_t tick_ns, const Sensors& sensors);
 
   /// One sentence when a sensor that should see does not, else empty.
-  const std::string& blindness() const { return blindness_; }
+  const mtr_core::Problem& blindness() const { return blindness_; }
   const std::vector<Obstacle>& obstacles() const { return obstacles_; }
   bool watches_rear() const { return watches_rear_; }
 
@@ -70,7 +71,7 @@ class Surroundings {
 
   bool look(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep);
   void classify();
-  std::string blindness_at(std::int64_t tick_ns) const;
+  mtr_core::Problem blindness_at(std::int64_t tick_ns) const;
   void add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind);
   void find_obstacles();
 
@@ -82,7 +83,7 @@ class Surroundings {
   std::int64_t tick_ns_ = 0;
   std::optional<Motion> motion_;
   Pose odom_from_base_;
-  std::string blindness_;
+  mtr_core::Problem blindness_;
   std::vector<Obstacle> obstacles_;
 };
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mtr_core/problem.hpp"
 #include "mtr_drive_control/geometry.hpp"
 
 namespace mtr_drive_control {
@@ -33,7 +34,7 @@ struct Sweep {
 };
 
 /// Why the sweep cannot be used, as the end of a sentence about the LiDAR; empty when it can.
-std::string defect_of(const Sweep& sweep);
+mtr_core::Problem defect_of(const Sweep& sweep, const std::string& lidar);
 
 /// Notices a LiDAR that is silent, frozen or covered.
 class LidarWatch {
@@ -44,7 +45,7 @@ class LidarWatch {
   bool take(const std::shared_ptr<const Sweep>& sweep);
 
   /// One sentence when it sees nothing now, else empty.
-  std::string problem_at(std::int64_t tick_ns) const;
+  mtr_core::Problem problem_at(std::int64_t tick_ns) const;
 
  private:
   bool repeats(const Sweep& sweep) const;
@@ -52,7 +53,7 @@ class LidarWatch {
   std::string name_;
   double timeout_s_;
   std::shared_ptr<const Sweep> newest_;
-  std::string defect_;
+  mtr_core::Problem defect_;
   int repetitions_ = 0;
 };
 

@@ -24,16 +24,16 @@ TEST(LidarWatch, LiveLidarHasNoProblem) {
   for (int i = 0; i < 5; ++i) {
     EXPECT_TRUE(lidar.take(sweep_at(i * kTestSweepNs)));
   }
-  EXPECT_EQ(lidar.problem_at(4 * kTestSweepNs + 60 * kTestMs), "");
+  EXPECT_EQ(lidar.problem_at(4 * kTestSweepNs + 60 * kTestMs).text, "");
 }
 
-TEST(LidarWatch, LidarNeverHeardIsWaitedFor) { EXPECT_EQ(watch().problem_at(0), "Waiting for the front LiDAR."); }
+TEST(LidarWatch, LidarNeverHeardIsWaitedFor) { EXPECT_EQ(watch().problem_at(0).text, "Waiting for the front LiDAR."); }
 
 TEST(LidarWatch, SilentLidarIsNamedAfterTheTimeout) {
   LidarWatch lidar = watch();
   lidar.take(sweep_at(0));
-  EXPECT_EQ(lidar.problem_at(140 * kTestMs), "");
-  EXPECT_EQ(lidar.problem_at(160 * kTestMs), "The front LiDAR is silent.");
+  EXPECT_EQ(lidar.problem_at(140 * kTestMs).text, "");
+  EXPECT_EQ(lidar.problem_at(160 * kTestMs).text, "The front LiDAR is silent.");
 }
 
 TEST(LidarWatch, SameSweepTwiceIsNoNews) {
@@ -50,7 +50,7 @@ TEST(LidarWatch, FrozenLidarIsFoundByItsThirdEqualSweep) {
     frozen->stamp_ns = i * kTestSweepNs;
     EXPECT_EQ(lidar.take(frozen), i < 2);
   }
-  EXPECT_EQ(lidar.problem_at(2 * kTestSweepNs), "The front LiDAR is frozen: it repeats the same sweep.");
+  EXPECT_EQ(lidar.problem_at(2 * kTestSweepNs).text, "The front LiDAR is frozen: it repeats the same sweep.");
 }
 
 TEST(LidarWatch, OpenFieldWithoutEchoesIsNotFrozen) {
@@ -58,29 +58,31 @@ TEST(LidarWatch, OpenFieldWithoutEchoesIsNotFrozen) {
   for (int i = 0; i < 10; ++i) {
     EXPECT_TRUE(lidar.take(Scene().sweep(Pose(), i * kTestSweepNs)));
   }
-  EXPECT_EQ(lidar.problem_at(9 * kTestSweepNs), "");
+  EXPECT_EQ(lidar.problem_at(9 * kTestSweepNs).text, "");
 }
 
 TEST(LidarWatch, BrokenSweepsAreRefusedWithASentence) {
   const auto broken = [](auto change) {
     Sweep sweep = *sweep_at(0);
     change(sweep);
-    return defect_of(sweep);
+    return defect_of(sweep, "front LiDAR").text;
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(defect_of(*sweep_at(0)), "");
+  EXPECT_EQ(defect_of(*sweep_at(0), "front LiDAR").text, "");
   EXPECT_NE(broken([](Sweep& sweep) { sweep.ranges_m.clear(); }), "");
   EXPECT_NE(broken([nan](Sweep& sweep) { sweep.angle_min_rad = nan; }), "");
   EXPECT_NE(broken([](Sweep& sweep) { sweep.angle_increment_rad = 0.0; }), "");
   EXPECT_NE(broken([nan](Sweep& sweep) { sweep.range_max_m = nan; }), "");
-  EXPECT_EQ(broken([](Sweep& sweep) { sweep.frame_id = "map"; }), "speaks of frame 'map' and not of ''");
-  EXPECT_EQ(broken([nan](Sweep& sweep) { sweep.ranges_m.assign(720, static_cast<float>(nan)); }), "is covered");
+  EXPECT_EQ(broken([](Sweep& sweep) { sweep.frame_id = "map"; }),
+            "The front LiDAR speaks of frame 'map' and not of ''.");
+  EXPECT_EQ(broken([nan](Sweep& sweep) { sweep.ranges_m.assign(720, static_cast<float>(nan)); }),
+            "The front LiDAR is covered.");
 }
 
 TEST(LidarWatch, SweepFromTheFutureIsRefused) {
   LidarWatch lidar = watch();
   lidar.take(sweep_at(1000 * kTestMs));
-  EXPECT_EQ(lidar.problem_at(500 * kTestMs), "The front LiDAR sends sweeps from the future.");
+  EXPECT_EQ(lidar.problem_at(500 * kTestMs).text, "The front LiDAR sends sweeps from the future.");
 }
 
 TEST(Blindness, SilentLidarStopsTheMovingRobotWithinHalfASecond) {
@@ -92,7 +94,7 @@ TEST(Blindness, SilentLidarStopsTheMovingRobotWithinHalfASecond) {
   const Decision decision = robot.drive({0.7, 0.0}, 0.5);
   EXPECT_EQ(decision.zone, Zone::kBlind);
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
-  EXPECT_EQ(decision.message, "The front LiDAR is silent.");
+  EXPECT_EQ(decision.message.text, "The front LiDAR is silent.");
 }
 
 TEST(Blindness, MissingRearLidarKeepsARobotThatShouldHaveOneStanding) {
@@ -100,7 +102,7 @@ TEST(Blindness, MissingRearLidarKeepsARobotThatShouldHaveOneStanding) {
   Inputs inputs;
   inputs.planner = SourceCommand{1000 * kTestMs, {0.5, 0.0}, true};
   inputs.sensors = {sweep_at(960 * kTestMs), nullptr, Motion{1000 * kTestMs, Pose(), {}}};
-  EXPECT_EQ(control.step(1000 * kTestMs, inputs).message, "Waiting for the rear LiDAR.");
+  EXPECT_EQ(control.step(1000 * kTestMs, inputs).message.text, "Waiting for the rear LiDAR.");
 }
 
 TEST(Blindness, SilentOdometryStopsTheRobot) {
@@ -110,7 +112,7 @@ TEST(Blindness, SilentOdometryStopsTheRobot) {
   inputs.sensors = {sweep_at(960 * kTestMs), nullptr, Motion{880 * kTestMs, Pose(), {}}};
   const Decision decision = control.step(1000 * kTestMs, inputs);
   EXPECT_EQ(decision.zone, Zone::kBlind);
-  EXPECT_EQ(decision.message, "The wheels' odometry is silent.");
+  EXPECT_EQ(decision.message.text, "The wheels' odometry is silent.");
 }
 
 TEST(UnwatchedRear, GroundNeverSeenIsNotBackedInto) {
@@ -118,7 +120,7 @@ TEST(UnwatchedRear, GroundNeverSeenIsNotBackedInto) {
   robot.settle();
   const Decision decision = robot.drive({-0.5, 0.0}, 1.0);
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
-  EXPECT_EQ(decision.message,
+  EXPECT_EQ(decision.message.text,
             "Blocked: the ground behind was not seen free lately; turn the robot once on the spot with the manual "
             "controller, so that its LiDAR sees it.");
 }

@@ -38,7 +38,7 @@ TEST(CollisionStop, WallAheadIsSlowedForAndNotTouched) {
   EXPECT_LT(robot.clearance(), 0.12);
   EXPECT_NEAR(decision.hindrance->distance_m, robot.clearance(), 0.03);
   EXPECT_NEAR(decision.hindrance->bearing_rad, 0.0, 0.8);
-  EXPECT_EQ(decision.message, "Blocked by an obstacle 0.1 m ahead.");
+  EXPECT_EQ(decision.message.text, "Blocked by an obstacle 0.1 m ahead.");
 }
 
 TEST(CollisionStop, WallBehindStopsABackingRobotAndIsSaidToBeBehind) {
@@ -48,7 +48,7 @@ TEST(CollisionStop, WallBehindStopsABackingRobotAndIsSaidToBeBehind) {
   const Decision decision = robot.drive({-0.8, 0.0}, 6.0);
   EXPECT_EQ(decision.zone, Zone::kBlocked);
   EXPECT_GT(robot.clearance(), 0.0);
-  EXPECT_NE(decision.message.find("behind"), std::string::npos);
+  EXPECT_NE(decision.message.text.find("behind"), std::string::npos);
 }
 
 TEST(CollisionStop, WallInACornersWayStopsATurnOnTheSpot) {

@@ -46,7 +46,7 @@ TEST_F(DriveControlTest, PlannerDrivesWhenNothingElseWantsTo) {
   const Decision decision = step({}, std::nullopt, command(0.5));
   EXPECT_EQ(decision.source, "planner");
   EXPECT_GT(decision.velocity.linear_mps, 0.0);
-  EXPECT_EQ(decision.message, "");
+  EXPECT_EQ(decision.message.text, "");
 }
 
 TEST_F(DriveControlTest, ManualControllerTakesPrecedenceOverThePlanner) {
@@ -63,22 +63,23 @@ TEST_F(DriveControlTest, ManualControllerSilentWhileDrivingStopsTheRobotAndKeeps
   const Decision decision = step({}, command(0.5, true, kTickNs - 160 * kMs), command(0.5));
   EXPECT_EQ(decision.source, "none");
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
-  EXPECT_EQ(decision.message, "The manual controller is silent.");
+  EXPECT_EQ(decision.message.text, "The manual controller is silent.");
 }
 
 TEST_F(DriveControlTest, LockStopsEverySourceAndIsNamed) {
-  const Decision decision = step({{"dispatcher", "The link is silent."}}, command(0.5), command(0.5));
+  const Decision decision =
+      step({{"dispatcher", mtr_core::problem_with_text("The link is silent.")}}, command(0.5), command(0.5));
   EXPECT_EQ(decision.source, "locked");
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
   EXPECT_EQ(decision.engaged_locks, std::vector<std::string>{"dispatcher"});
-  EXPECT_EQ(decision.message, "The link is silent.");
+  EXPECT_EQ(decision.message.text, "The link is silent.");
 }
 
 TEST_F(DriveControlTest, LockAtFullSpeedIsZeroAfterHalfASecond) {
   ASSERT_DOUBLE_EQ(drive_at_full_speed().velocity.linear_mps, limits.max_linear_mps);
   Decision decision;
   for (int tick = 0; tick < 25; ++tick) {
-    decision = step({{"dispatcher", "Stop."}}, std::nullopt, command(1.5));
+    decision = step({{"dispatcher", mtr_core::problem_with_text("Stop.")}}, std::nullopt, command(1.5));
   }
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
 }
@@ -105,7 +106,7 @@ TEST_F(DriveControlTest, SilentPlannerIsAnEmergencyStop) {
   EXPECT_EQ(decision.source, "none");
   EXPECT_NEAR(decision.velocity.linear_mps, limits.max_linear_mps - limits.emergency_linear_deceleration_mps2 * 0.02,
               1e-9);
-  EXPECT_EQ(decision.message, "The motion planner is silent.");
+  EXPECT_EQ(decision.message.text, "The motion planner is silent.");
 }
 
 TEST_F(DriveControlTest, PlannerWithoutAWishIsBrakedForAtTheNormalLimit) {
@@ -113,20 +114,20 @@ TEST_F(DriveControlTest, PlannerWithoutAWishIsBrakedForAtTheNormalLimit) {
   const Decision decision = step({}, std::nullopt, command(1.5, false));
   EXPECT_EQ(decision.source, "none");
   EXPECT_NEAR(decision.velocity.linear_mps, limits.max_linear_mps - 1.5 * 0.02, 1e-9);
-  EXPECT_EQ(decision.message, "");
+  EXPECT_EQ(decision.message.text, "");
 }
 
 TEST_F(DriveControlTest, NoPlannerYetStandsStillAndSaysSo) {
   const Decision decision = step({}, std::nullopt, std::nullopt);
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
-  EXPECT_EQ(decision.message, "Waiting for the motion planner.");
+  EXPECT_EQ(decision.message.text, "Waiting for the motion planner.");
 }
 
 TEST_F(DriveControlTest, WishThatIsNotAFiniteNumberStopsTheRobotWithAMessage) {
   for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const Decision decision = step({}, std::nullopt, command(wrong));
     EXPECT_EQ(decision.velocity.linear_mps, 0.0);
-    EXPECT_NE(decision.message, "");
+    EXPECT_NE(decision.message.text, "");
   }
 }
 

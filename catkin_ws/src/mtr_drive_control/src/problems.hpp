@@ -1,0 +1,44 @@
+/// @file
+/// What drive control says to the Operator; a test reads this table too.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mtr_core/problem.hpp"
+
+namespace mtr_drive_control::problems {
+
+using mtr_core::Sentence;
+
+// Sources of motion, and those that lock it
+constexpr Sentence kWaitingForLock{"drive_control.waiting_for_lock", "Waiting for the motion lock of {owner}."};
+constexpr Sentence kLockSilent{"drive_control.lock_silent", "The motion lock of {owner} is silent."};
+constexpr Sentence kEmergencyStop{"drive_control.emergency_stop", "The emergency stop is pressed."};
+constexpr Sentence kWaitingForSource{"drive_control.waiting_for_source", "Waiting for the {source}."};
+constexpr Sentence kSourceSilent{"drive_control.source_silent", "The {source} is silent."};
+constexpr Sentence kSourceNotFinite{"drive_control.source_not_finite",
+                                    "The {source} wants a velocity that is not a finite number."};
+
+// LiDARs and wheels
+constexpr Sentence kWaitingForLidar{"drive_control.waiting_for_lidar", "Waiting for the {lidar}."};
+constexpr Sentence kLidarSilent{"drive_control.lidar_silent", "The {lidar} is silent."};
+constexpr Sentence kLidarInFuture{"drive_control.lidar_in_future", "The {lidar} sends sweeps from the future."};
+constexpr Sentence kLidarFrame{"drive_control.lidar_frame",
+                               "The {lidar} speaks of frame '{frame}' and not of '{expected}'."};
+constexpr Sentence kLidarWithoutBeams{"drive_control.lidar_without_beams", "The {lidar} sends sweeps without beams."};
+constexpr Sentence kLidarNotNumbers{"drive_control.lidar_not_numbers",
+                                    "The {lidar} sends sweeps whose angles or times are not numbers."};
+constexpr Sentence kLidarWithoutRange{"drive_control.lidar_without_range",
+                                      "The {lidar} sends sweeps without a range of measurement."};
+constexpr Sentence kLidarCovered{"drive_control.lidar_covered", "The {lidar} is covered."};
+constexpr Sentence kLidarFrozen{"drive_control.lidar_frozen", "The {lidar} is frozen: it repeats the same sweep."};
+constexpr Sentence kWaitingForOdometry{"drive_control.waiting_for_odometry", "Waiting for the wheels' odometry."};
+constexpr Sentence kOdometrySilent{"drive_control.odometry_silent", "The wheels' odometry is silent."};
+
+// Collision stop
+constexpr Sentence kObstacle{"drive_control.obstacle", "Blocked by an obstacle {distance_m:.1f} m {side}."};
+constexpr Sentence kUnseenGround{"drive_control.unseen_ground",
+                                 "Blocked: the ground behind was not seen free lately; turn the robot once on the spot "
+                                 "with the manual controller, so that its LiDAR sees it."};
+constexpr Sentence kPausing{"drive_control.pausing", "Waits a moment before it goes on."};
+
+}  // namespace mtr_drive_control::problems
