@@ -28,9 +28,8 @@ def line(row: Row) -> str:
     sign = ">=" if wanted.at_least else "<="
     limits = ", ".join(f"{name} {sign} {_number(limit, shown)}" for name, limit in
                        (("must", wanted.must), ("goal", wanted.goal)) if limit is not None)
-    verdict = f" {limits}: {_verdict(row)}" if limits else ""
-    remark = f", {row.remark}" if row.remark else ""
-    return f"{value}{verdict}{remark}".rstrip()
+    said = [f"{limits}: {_verdict(row)}"] if limits else []
+    return " ".join([value, ", ".join([*said, *([row.remark] if row.remark else [])])]).rstrip()
 
 
 def _verdict(row: Row) -> str:
