@@ -1,6 +1,7 @@
 """The thread of the links, with the kinematic robot and Car of these tests."""
 # SPDX-License-Identifier: Apache-2.0
 import json
+import sys
 import threading
 
 import pytest
@@ -109,6 +110,17 @@ def test_refusal_names_the_part_and_ends_the_thread(worker, post, opener, refusa
     worker.start()
     refused = post.wait_for(LinkRefused)
     assert (refused.part, refused.text) == (part, str(refusal))
+
+
+def test_missing_contract_is_a_sentence_in_the_window_too(post, monkeypatch):
+    for name in [name for name in sys.modules if name.startswith(("mtr_proto", "mtr_operator.robot_link.c"))]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "mtr_proto", None)
+    worker = Worker(Connection(), LinkOpener(), post.box)
+    worker.start()
+    refused = post.wait_for(LinkRefused)
+    assert worker.close(LIMIT_S)
+    assert refused.part == "robot" and "mtr_proto, the contract with the robot, is not installed" in refused.text
 
 
 def test_stop_ends_the_test_and_the_rest_is_measured_later(worker, post, four_lines, robot_link):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import CarLink, RobotLink
+from mtr_operator.station.connection import LinkOpener, RobotChoice
 
 
 def robot_link(options: argparse.Namespace) -> RobotLink:
@@ -13,14 +13,7 @@ def robot_link(options: argparse.Namespace) -> RobotLink:
     if options.simulated_robot:
         from mtr_operator.robot_link.fake import FakeRobotLink
         return FakeRobotLink(options.seed)
-    try:
-        from mtr_operator.robot_link.client import ZmqRobotLink
-    except ModuleNotFoundError as error:
-        if error.name not in ("mtr_proto", "mtr_proto.robot_link_pb2"):
-            raise
-        raise ConnectionFailed("The package mtr_proto, the contract with the robot, is not installed; pip install the "
-                               "folder proto of the project.") from None
-    return ZmqRobotLink(options.robot, options.subscriber_port, options.publisher_port)
+    return LinkOpener().robot(RobotChoice(options.robot, options.subscriber_port, options.publisher_port))
 
 
 def car_link(options: argparse.Namespace) -> CarLink:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mtr_operator.domain.absent_car import AbsentCarLink
-from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter
 from mtr_operator.domain.ports import CarLink, RobotLink
 from mtr_operator.robot_link.address import PUBLISHER_PORT, SUBSCRIBER_PORT, RobotAddress
 
@@ -62,8 +62,14 @@ class LinkOpener:
     """Makes the links for a choice; drivers are imported when they are used first."""
 
     def robot(self, choice: RobotChoice) -> RobotLink:
-        """A new link of a new session, not connected yet."""
-        from mtr_operator.robot_link.client import ZmqRobotLink
+        """A new link of a new session, not connected yet; ConnectionFailed when the contract is not installed."""
+        try:
+            from mtr_operator.robot_link.client import ZmqRobotLink
+        except ModuleNotFoundError as error:
+            if error.name not in ("mtr_proto", "mtr_proto.robot_link_pb2"):
+                raise
+            raise ConnectionFailed("The package mtr_proto, the contract with the robot, is not installed; pip install "
+                                   "the folder proto of the project.") from None
         return ZmqRobotLink(choice.host, choice.subscriber_port, choice.publisher_port)
 
     def car(self, choice: CanChoice | None) -> CarLink:

@@ -94,6 +94,8 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The {} is {}; allowed is a whole number."),
     QT_TRANSLATE_NOOP("Sentence", "Subscriber port and publisher port are both {}; the robot uses two different "
                                   "ones."),
+    QT_TRANSLATE_NOOP("Sentence", "The package mtr_proto, the contract with the robot, is not installed; pip install "
+                                  "the folder proto of the project."),
     QT_TRANSLATE_NOOP("Sentence", "No host of the name {} is known; check the robot's address."),
     QT_TRANSLATE_NOOP("Sentence", "No answer from {} within {} s; check the address, the Wi-Fi and that the robot "
                                   "is on."),

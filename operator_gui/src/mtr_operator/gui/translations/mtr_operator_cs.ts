@@ -82,7 +82,7 @@
         <translation>Stisknuto po dobu {duration} s.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="151"/>
+        <location filename="../windows/calibration_window.py" line="153"/>
         <source>Sent.</source>
         <translation>Odesláno.</translation>
     </message>
@@ -90,42 +90,42 @@
 <context>
     <name>CanForm</name>
     <message>
-        <location filename="../forms/can_form.py" line="31"/>
+        <location filename="../forms/can_form.py" line="32"/>
         <source>None yet</source>
         <translation>Zatím žádný</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="34"/>
+        <location filename="../forms/can_form.py" line="35"/>
         <source>Simulated Car (to try the application)</source>
         <translation>Simulované auto (na vyzkoušení aplikace)</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="35"/>
+        <location filename="../forms/can_form.py" line="36"/>
         <source>Channel</source>
         <translation>Kanál</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="35"/>
+        <location filename="../forms/can_form.py" line="36"/>
         <source>as the adapter&apos;s driver calls it</source>
         <translation>jak jej nazývá ovladač adaptéru</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="40"/>
+        <location filename="../forms/can_form.py" line="41"/>
         <source>Without an adapter everything but a test works.</source>
         <translation>Bez adaptéru funguje vše kromě testu.</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="46"/>
+        <location filename="../forms/can_form.py" line="47"/>
         <source>CAN adapter</source>
         <translation>Adaptér CAN</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="48"/>
+        <location filename="../forms/can_form.py" line="49"/>
         <source>Bit rate in bit/s</source>
         <translation>Přenosová rychlost v bit/s</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="49"/>
+        <location filename="../forms/can_form.py" line="50"/>
         <source>Car profile</source>
         <translation>Profil auta</translation>
     </message>
@@ -232,17 +232,17 @@
 <context>
     <name>Duration</name>
     <message>
-        <location filename="../i18n.py" line="59"/>
+        <location filename="../i18n.py" line="60"/>
         <source>{seconds} s</source>
         <translation>{seconds} s</translation>
     </message>
     <message>
-        <location filename="../i18n.py" line="62"/>
+        <location filename="../i18n.py" line="63"/>
         <source>{minutes} min</source>
         <translation>{minutes} min</translation>
     </message>
     <message>
-        <location filename="../i18n.py" line="63"/>
+        <location filename="../i18n.py" line="64"/>
         <source>{hours} h {minutes:02d} min</source>
         <translation>{hours} h {minutes:02d} min</translation>
     </message>
@@ -291,37 +291,37 @@
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="72"/>
+        <location filename="../windows/main_window.py" line="78"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="114"/>
+        <location filename="../windows/main_window.py" line="120"/>
         <source>Continue test</source>
         <translation>Pokračovat v testu</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="123"/>
+        <location filename="../windows/main_window.py" line="129"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="125"/>
+        <location filename="../windows/main_window.py" line="131"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="140"/>
+        <location filename="../windows/main_window.py" line="146"/>
         <source>A test is running. Stop the robot and close? What is measured is kept; the next start offers to go on.</source>
         <translation>Test běží. Zastavit robot a zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="142"/>
+        <location filename="../windows/main_window.py" line="148"/>
         <source>Stop and close</source>
         <translation>Zastavit a zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="142"/>
+        <location filename="../windows/main_window.py" line="148"/>
         <source>Go on measuring</source>
         <translation>Měřit dál</translation>
     </message>
@@ -329,77 +329,77 @@
 <context>
     <name>MeasurementFacts</name>
     <message>
-        <location filename="../screens/measurement_facts.py" line="32"/>
+        <location filename="../screens/measurement_facts.py" line="33"/>
         <source>Progress of the test</source>
         <translation>Průběh testu</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="38"/>
+        <location filename="../screens/measurement_facts.py" line="39"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="38"/>
+        <location filename="../screens/measurement_facts.py" line="39"/>
         <source>Locks</source>
         <translation>Zámky</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="38"/>
+        <location filename="../screens/measurement_facts.py" line="39"/>
         <source>Key height</source>
         <translation>Výška klíče</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="39"/>
+        <location filename="../screens/measurement_facts.py" line="40"/>
         <source>Speed</source>
         <translation>Rychlost</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="39"/>
+        <location filename="../screens/measurement_facts.py" line="40"/>
         <source>Position</source>
         <translation>Poloha</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="39"/>
+        <location filename="../screens/measurement_facts.py" line="40"/>
         <source>Last result</source>
         <translation>Poslední výsledek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="63"/>
+        <location filename="../screens/measurement_facts.py" line="64"/>
         <source>{done} of {total} lines measured</source>
         <translation>změřeno {done} z {total} přímek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="76"/>
+        <location filename="../screens/measurement_facts.py" line="77"/>
         <source>locked</source>
         <translation>zamčeno</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="76"/>
+        <location filename="../screens/measurement_facts.py" line="77"/>
         <source>unlocked</source>
         <translation>odemčeno</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="77"/>
+        <location filename="../screens/measurement_facts.py" line="78"/>
         <source>unknown</source>
         <translation>neznámý stav</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="81"/>
+        <location filename="../screens/measurement_facts.py" line="82"/>
         <source>not known</source>
         <translation>není známa</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="87"/>
+        <location filename="../screens/measurement_facts.py" line="88"/>
         <source>about {time} left</source>
         <translation>zbývá asi {time}</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="91"/>
+        <location filename="../screens/measurement_facts.py" line="92"/>
         <source>The robot is being stopped.</source>
         <translation>Robot se zastavuje.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="93"/>
+        <location filename="../screens/measurement_facts.py" line="94"/>
         <source>Paused. The line at hand is measured anew after Resume.</source>
         <translation>Pozastaveno. Rozpracovaná přímka se po pokračování změří znovu.</translation>
     </message>
@@ -682,17 +682,17 @@
 <context>
     <name>ParameterForm</name>
     <message>
-        <location filename="../forms/parameter_form.py" line="40"/>
+        <location filename="../forms/parameter_form.py" line="41"/>
         <source>Usual values</source>
         <translation>Obvyklé hodnoty</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_form.py" line="89"/>
+        <location filename="../forms/parameter_form.py" line="91"/>
         <source>Fewer parameters</source>
         <translation>Méně parametrů</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_form.py" line="89"/>
+        <location filename="../forms/parameter_form.py" line="91"/>
         <source>More parameters</source>
         <translation>Více parametrů</translation>
     </message>
@@ -700,7 +700,7 @@
 <context>
     <name>Picture</name>
     <message>
-        <location filename="../pictures/layers/car_layer.py" line="72"/>
+        <location filename="../pictures/layers/car_layer.py" line="74"/>
         <source>FRONT</source>
         <translation>PŘEDEK</translation>
     </message>
@@ -749,22 +749,22 @@
 <context>
     <name>Protocol</name>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="60"/>
+        <location filename="../pictures/protocol_sheet.py" line="62"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="73"/>
+        <location filename="../pictures/protocol_sheet.py" line="75"/>
         <source>Result</source>
         <translation>Výsledek</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="73"/>
+        <location filename="../pictures/protocol_sheet.py" line="75"/>
         <source>Parameters</source>
         <translation>Parametry</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="73"/>
+        <location filename="../pictures/protocol_sheet.py" line="75"/>
         <source>Test</source>
         <translation>Test</translation>
     </message>
@@ -772,67 +772,67 @@
 <context>
     <name>ProtocolScreen</name>
     <message>
-        <location filename="../screens/protocol.py" line="68"/>
+        <location filename="../screens/protocol.py" line="78"/>
         <source>Results; choose a row to see its points</source>
         <translation>Výsledky; vyberte řádek a uvidíte jeho body</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="58"/>
+        <location filename="../screens/protocol.py" line="57"/>
         <source>Save</source>
         <translation>Uložit</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="59"/>
+        <location filename="../screens/protocol.py" line="58"/>
         <source>Save as CSV and PNG</source>
         <translation>Uložit jako CSV a PNG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="60"/>
+        <location filename="../screens/protocol.py" line="59"/>
         <source>Save PDF</source>
         <translation>Uložit PDF</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="61"/>
+        <location filename="../screens/protocol.py" line="60"/>
         <source>Save SVG</source>
         <translation>Uložit SVG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="62"/>
+        <location filename="../screens/protocol.py" line="61"/>
         <source>Show folder</source>
         <translation>Ukázat složku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="63"/>
+        <location filename="../screens/protocol.py" line="62"/>
         <source>New test</source>
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="119"/>
+        <location filename="../screens/protocol.py" line="129"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="134"/>
+        <location filename="../screens/protocol.py" line="144"/>
         <source>{count} lines, {invalid} of them invalid. Not saved as CSV and PNG yet.</source>
         <translation>Počet přímek: {count}, z toho neplatných: {invalid}. Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="136"/>
+        <location filename="../screens/protocol.py" line="146"/>
         <source>{count} lines. Not saved as CSV and PNG yet.</source>
         <translation>Počet přímek: {count}. Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="170"/>
+        <location filename="../screens/protocol.py" line="180"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="175"/>
+        <location filename="../screens/protocol.py" line="185"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="179"/>
+        <location filename="../screens/protocol.py" line="189"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
@@ -1545,6 +1545,11 @@
         <source>The Car&apos;s bus is not connected.</source>
         <translation>Sběrnice auta není připojena.</translation>
     </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The package mtr_proto, the contract with the robot, is not installed; pip install the folder proto of the project.</source>
+        <translation>Balíček mtr_proto, rozhraní k robotu, není nainstalován; nainstalujte složku proto projektu příkazem pip install.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -1838,7 +1843,7 @@
         <translation>Vše je připraveno k testu.</translation>
     </message>
     <message>
-        <location filename="../header/status_word.py" line="58"/>
+        <location filename="../header/status_word.py" line="60"/>
         <source>Nothing stands against it.</source>
         <translation>Nic tomu nebrání.</translation>
     </message>
@@ -1854,12 +1859,12 @@
 <context>
     <name>WarningSymbol</name>
     <message>
-        <location filename="../header/warning_symbol.py" line="45"/>
+        <location filename="../header/warning_symbol.py" line="53"/>
         <source>Notifications of the robot</source>
         <translation>Upozornění robotu</translation>
     </message>
     <message>
-        <location filename="../header/warning_symbol.py" line="99"/>
+        <location filename="../header/warning_symbol.py" line="108"/>
         <source>The robot says</source>
         <translation>Robot sděluje</translation>
     </message>
