@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import datetime
-from typing import Any
 
-from mtr_operator import __version__
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.ports import RobotLink
 from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.results.session_record import (
+    CONTINUED,
+    ROBOT_SOFTWARE,
+    now,
+    session_record,
+    written,
+)
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.report.files import FILE_NAMES, write_report
@@ -23,6 +27,9 @@ from mtr_operator.storage.parameter_file import load_parameters
 from .display import Display
 from .interrupt import Interrupt
 from .links import car_link, robot_link
+
+# What results call a robot and a Car inside the application.
+SUBSTITUTE = "substitute"
 
 
 class CommandLineRun:
@@ -60,9 +67,9 @@ class CommandLineRun:
             progress_file.refuse_to_overwrite(path, FILE_NAMES)
         parameters = self._parameters.to_mapping()
         if continued is None:
-            return Progress(self._scenario.name, parameters, _session_data(self._options))
+            return Progress(self._scenario.name, parameters, _session_record(self._options))
         progress = progress_file.load_progress(continued, self._scenario, parameters)
-        progress.session["continued"] = _now()
+        progress.session[CONTINUED] = written(now())
         return progress
 
     def _measure(self, display: Display, interrupt: Interrupt) -> None:
@@ -73,7 +80,7 @@ class CommandLineRun:
                     raise Cancelled("Interrupted; the robot was not moved.")
             loop = ControlLoop(robot, car, display, interrupt.is_requested)
             rejected_before = loop.status.rejected_messages
-            self._progress.session["robot software"] = loop.status.software_version
+            self._progress.session[ROBOT_SOFTWARE] = loop.status.software_version
             try:
                 Runner(self._scenario, self._parameters, loop, self._progress, self._save).run()
             finally:
@@ -98,19 +105,9 @@ class CommandLineRun:
         print(f"{len(results)} lines measured{tail}; results are in {self._options.out}.")
 
 
-def _session_data(options: argparse.Namespace) -> dict[str, Any]:
-    return {
-        "started": _now(),
-        "software": f"mtr-operator {__version__}",
-        "robot": "substitute" if options.simulated_robot else options.robot,
-        "car profile": "substitute" if options.simulated_car else options.car_profile,
-        "units": "SI; angles in degrees where the column says so; 1 sigma uncertainties",
-        "coordinates": "Car coordinate system: origin in the Car's centre, x to its front, y to its left",
-    }
-
-
-def _now() -> str:
-    return datetime.datetime.now().astimezone().isoformat(timespec="seconds")
+def _session_record(options: argparse.Namespace) -> dict[str, str]:
+    return session_record(now(), SUBSTITUTE if options.simulated_robot else options.robot,
+                          SUBSTITUTE if options.simulated_car else options.car_profile)
 
 
 def _say_statistics(display: Display, robot: RobotLink, rejected: int) -> None:

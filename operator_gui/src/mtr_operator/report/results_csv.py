@@ -30,8 +30,8 @@ def results_csv(scenario: AnyScenario, progress: Progress) -> str:
 
 def _metadata(scenario: AnyScenario, progress: Progress) -> Iterator[str]:
     yield f"scenario: {scenario.title}"
-    for name, value in progress.session.items():
-        yield f"{name}: {_one_line(value)}"
+    for name, entry in progress.session.items():
+        yield f"{name}: {_one_line(entry)}"
     car = progress.car
     if car is not None:
         yield f"Car length: {car.length:.3f} m (sigma {car.length_sigma:.3f} m)"

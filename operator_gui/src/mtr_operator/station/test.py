@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-import datetime
 import pathlib
 from dataclasses import dataclass
 
-from mtr_operator import __version__
 from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.results.session_record import CONTINUED, now, session_record, written
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.scenarios import SCENARIOS
@@ -70,15 +69,8 @@ class Test:
 def new_test(scenario: AnyScenario, parameters: ScenarioParameters, folder: pathlib.Path,
              connection: Connection) -> Test:
     """A test that has measured nothing yet."""
-    started = datetime.datetime.now().astimezone()
-    session = {
-        "started": started.isoformat(timespec="seconds"),
-        "software": f"mtr-operator {__version__}",
-        "robot": connection.robot.host,
-        "car profile": profile_name(connection.can),
-        "units": "SI; angles in degrees where the column says so; 1 sigma uncertainties",
-        "coordinates": "Car coordinate system: origin in the Car's centre, x to its front, y to its left",
-    }
+    started = now()
+    session = session_record(started, connection.robot.host, profile_name(connection.can))
     path = folder / f"{scenario.name}_{started.strftime(_MOMENT)}.json"
     return Test(scenario, parameters, Progress(scenario.name, parameters.to_mapping(), session), path)
 
@@ -98,4 +90,4 @@ def open_test(path: pathlib.Path) -> Test:
 
 def note_continued(test: Test) -> None:
     """Say in the progress that the test goes on now."""
-    test.progress.session["continued"] = datetime.datetime.now().astimezone().isoformat(timespec="seconds")
+    test.progress.session[CONTINUED] = written(now())

@@ -34,7 +34,7 @@ class Progress:
 
     scenario: str
     parameters: dict[str, Any]
-    session: dict[str, Any] = field(default_factory=dict)
+    session: dict[str, str] = field(default_factory=dict)
     car: CarDimensions | None = None
     results: list[LineResult] = field(default_factory=list)
     retried: list[int] = field(default_factory=list)

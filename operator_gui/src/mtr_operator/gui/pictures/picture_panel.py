@@ -28,7 +28,7 @@ class PicturePanel(QWidget):
         self.ruler.toggled.connect(self.view.measure)
         self.length = QLabel()
         self.length.setProperty("role", "soft")
-        self.view.measured.connect(self._tell_length)
+        self.view.measured.connect(self._show_length)
         row = QHBoxLayout()
         row.setSpacing(S)
         for text, hint, act in (("+", self.tr("Zoom in"), lambda: self.view.zoom(ZOOM_STEP)),
@@ -54,6 +54,6 @@ class PicturePanel(QWidget):
         button.setToolTip(hint)
         return button
 
-    def _tell_length(self) -> None:
+    def _show_length(self) -> None:
         length_m = self.view.ruler.length_m
         self.length.setText("" if length_m is None else f"{number(length_m, 2)} m")

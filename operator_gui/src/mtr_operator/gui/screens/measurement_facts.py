@@ -22,7 +22,7 @@ _UNKNOWN = "\N{EN DASH}"
 
 
 class MeasurementFacts(QFrame):
-    """Attributes: percent, bar, left, action: of the test. values: labels by name of what they tell."""
+    """Attributes: percent, bar, left, action: of the test. values: labels by name of what they show."""
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)

@@ -54,7 +54,7 @@ class WelcomeScreen(QWidget):
         """Offer to go on with a test that the last start has not finished; None offers nothing."""
         self.offer.setVisible(test is not None)
         if test is not None:
-            self._told.setText(self.tr("The {scenario} test of {moment} is not finished: {done} of {total} lines are "
+            self._notice.setText(self.tr("The {scenario} test of {moment} is not finished: {done} of {total} lines are "
                                        "measured.").format(
                 scenario=scenario_title(test.scenario),
                 moment=str(test.progress.session.get("started", "")).replace("T", " ")[:16],
@@ -62,9 +62,9 @@ class WelcomeScreen(QWidget):
 
     def _make_offer(self) -> QWidget:
         offer = QWidget()
-        self._told = QLabel()
-        self._told.setWordWrap(True)
-        self._told.setProperty("role", "notice")
+        self._notice = QLabel()
+        self._notice.setWordWrap(True)
+        self._notice.setProperty("role", "notice")
         go_on = QPushButton(self.tr("Go on with it"))
         go_on.setProperty("role", "primary")
         go_on.clicked.connect(self.go_on)
@@ -78,7 +78,7 @@ class WelcomeScreen(QWidget):
         column = QVBoxLayout(offer)
         column.setContentsMargins(0, 0, 0, M)
         column.setSpacing(S)
-        column.addWidget(self._told)
+        column.addWidget(self._notice)
         column.addLayout(row)
         column.setAlignment(Qt.AlignmentFlag.AlignTop)
         return offer

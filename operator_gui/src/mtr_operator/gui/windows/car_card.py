@@ -45,12 +45,12 @@ class CarCard(Card):
         button.clicked.connect(lambda _checked: self._flow.request_car(request))
         return button
 
-    def show_status(self, status: RobotStatus, can_order: bool) -> None:
-        """Show what the robot says; can_order: it hears orders."""
+    def show_status(self, status: RobotStatus, is_linked: bool) -> None:
+        """Show what the robot says; is_linked: it takes requests."""
         is_moving = status.mode in _MOVING
-        self.check.setEnabled(can_order and status.car is not None and status.car_check is not None and not is_moving)
-        self.map.setEnabled(can_order and not is_moving)
-        self.stop.setEnabled(can_order and is_moving)
+        self.check.setEnabled(is_linked and status.car is not None and status.car_check is not None and not is_moving)
+        self.map.setEnabled(is_linked and not is_moving)
+        self.stop.setEnabled(is_linked and is_moving)
         self.notice.setText(self._text(status))
 
     def _text(self, status: RobotStatus) -> str:

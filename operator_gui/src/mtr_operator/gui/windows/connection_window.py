@@ -35,7 +35,7 @@ class ConnectionWindow(QWidget):
         self.button.clicked.connect(self._connect)
         self.robot.submitted.connect(self._connect)
         self.can.submitted.connect(self._connect)
-        flow.refused.connect(self._tell_refusal)
+        flow.refused.connect(self._show_refusal)
         self.robot.show_choice(proposed.robot, flow.store.settings.hosts)
         self.can.show_choice(proposed.can)
         self._say(flow.store.problem, "")
@@ -83,7 +83,7 @@ class ConnectionWindow(QWidget):
         self.button.setEnabled(False)
         self._flow.connect_to(Connection(robot, self.can.choice))
 
-    def _tell_refusal(self, part: str, text: str) -> None:
+    def _show_refusal(self, part: str, text: str) -> None:
         self.button.setEnabled(True)
         message = {
             "address": self.tr("The IP address or port provided is invalid."),

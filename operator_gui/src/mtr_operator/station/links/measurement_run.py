@@ -10,6 +10,7 @@ from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OperatorError, OutputError
 from mtr_operator.domain.ports import CarLink
+from mtr_operator.domain.results.session_record import ROBOT_SOFTWARE
 from mtr_operator.domain.runner import Runner
 
 from ..events import Outcome, RunEnded
@@ -58,6 +59,6 @@ class MeasurementRun:
             robot.connect()
             reporter = Reporter(self._mailbox, robot, self._car, test.progress, after_status)
             loop = ControlLoop(robot, self._car, reporter, is_cancelled)
-            test.progress.session["robot software"] = loop.status.software_version
+            test.progress.session[ROBOT_SOFTWARE] = loop.status.software_version
             Runner(test.scenario, test.parameters, loop, test.progress, lambda progress: test.save()).run()
             test.save()

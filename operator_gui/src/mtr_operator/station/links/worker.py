@@ -1,4 +1,4 @@
-"""The thread that owns both links: it keeps the robot answered, runs tests and calibration, and tells the mailbox."""
+"""The thread that owns both links: it keeps the robot answered, runs tests and calibration, and fills the mailbox."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 

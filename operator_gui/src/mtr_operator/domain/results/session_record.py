@@ -1,0 +1,31 @@
+"""Where, when and with what a test is measured, as it stands in its files."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import datetime
+
+from mtr_operator import __version__
+
+STARTED, CONTINUED, ROBOT_SOFTWARE = "started", "continued", "robot software"
+
+
+def session_record(started: datetime.datetime, robot: str, car_profile: str) -> dict[str, str]:
+    """Record of a test that begins now; robot: its address, or what stands for it."""
+    return {
+        STARTED: written(started),
+        "software": f"mtr-operator {__version__}",
+        "robot": robot,
+        "car profile": car_profile,
+        "units": "SI; angles in degrees where the column says so; 1 sigma uncertainties",
+        "coordinates": "Car coordinate system: origin in the Car's centre, x to its front, y to its left",
+    }
+
+
+def now() -> datetime.datetime:
+    """Local time with its distance from UTC."""
+    return datetime.datetime.now().astimezone()
+
+
+def written(moment: datetime.datetime) -> str:
+    """A moment as it stands in files."""
+    return moment.isoformat(timespec="seconds")
