@@ -48,6 +48,14 @@ def test_demo_car_is_decoded_as_its_database_says(raw, state):
     assert profile.decode(message.frame_id, False, data) == (state, "passive_entry")
 
 
+def test_database_of_diagnostics_is_a_sentence(tmp_path, monkeypatch):
+    path = write(tmp_path)
+    diagnostics = cantools.database.diagnostics.Database()
+    monkeypatch.setattr("cantools.database.load_file", lambda *_, **__: diagnostics)
+    with pytest.raises(ConnectionFailed, match=r"other\.dbc has no message Doors"):
+        load_profile(path)
+
+
 @pytest.mark.parametrize(("raw", "source"), [(0, ""), (1, PASSIVE_ENTRY), (2, KEY_BUTTON), (7, "")])
 def test_demo_car_says_what_made_its_locks_move(raw, source):
     profile = load_profile("mtr_demo_car")
