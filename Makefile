@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations clean \
-	bench bench-motion bench-localization firmware flash bare-root
+	bench bench-motion bench-localization firmware flash bare-root docs
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -80,6 +80,10 @@ system: setup build ## Only the tests of the whole stack
 BARE ?= test
 bare-root: ## The whole test on a fresh clone in a fresh Debian 12; needs root and debootstrap
 	@setup/bare_root.sh $(BARE)
+
+docs: setup build ## API pages of all packages, in out/docs
+	@setup/install.sh setup/debian-docs-packages.txt
+	@$(RUN) setup/docs.sh
 
 bench: setup build firmware ## Benchmarks of the simulation's speed and the serial line; figures in out/bench
 	@$(RUN) failed=0; for part in simulation serial; do \
