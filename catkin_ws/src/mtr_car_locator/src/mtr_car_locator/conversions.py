@@ -20,7 +20,7 @@ from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 
 from . import problems
 from .drawing import MarkerKind, MarkerShape
-from .estimate import Estimate, Order
+from .estimate import Estimate, LocatorTask
 from .offline import FilesUnusable
 from .parameters import LocatorParameters, RefinementParameters
 from .poses import PoseMode, RobotPose
@@ -33,12 +33,12 @@ MARKER_TYPES = {MarkerKind.LOOP: Marker.LINE_STRIP, MarkerKind.SEGMENTS: Marker.
                 MarkerKind.ARROW: Marker.ARROW, MarkerKind.DOTS: Marker.SPHERE_LIST}
 
 
-def order_from(message: Optional[RobotMode]) -> Optional[Order]:
-    """Order of the state machine."""
+def task_from(message: Optional[RobotMode]) -> Optional[LocatorTask]:
+    """What the state machine wants of the locator."""
     if message is None:
         return None
-    return Order(message.mapping, message.map_car_id, goal_from(message), message.mode == State.CHECKING_CAR,
-                 message.check_car_id)
+    return LocatorTask(message.mapping, message.map_car_id, goal_from(message), message.mode == State.CHECKING_CAR,
+                       message.check_car_id)
 
 
 def robot_pose_from(message: LocalizedPose) -> RobotPose:

@@ -9,9 +9,9 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 
 from .estimate import Estimate
+from .rectangle import Point
 from .surfels import Surfels
 
-Point = Tuple[float, float]
 Colour = Tuple[float, float, float, float]
 
 GREEN: Colour = (0.1, 0.8, 0.2, 1.0)

@@ -1,4 +1,4 @@
-"""What the Car locator is told at a tick, and what it says."""
+"""What the Car locator receives at a tick, and what it makes of it."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Optional, Sequence, Tuple
@@ -9,7 +9,7 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Result
 
 from .measure.car_fit import CarFit
-from .rectangle import Rectangle
+from .rectangle import Point, Rectangle
 from .scan import Scan
 from .survey.survey import MapPhase, SurfaceMap
 from .watch.self_check import CheckReport
@@ -18,7 +18,7 @@ NO_MOTION = Pose2(0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
-class Order:
+class LocatorTask:
     """What the state machine wants: mapping or checking, under which ids, and the goal that the motion planner has."""
 
     mapping: bool
@@ -33,7 +33,7 @@ class Inputs:
     """Everything that is new at a tick; all poses up to it have been added."""
 
     now_s: float
-    order: Optional[Order] = None
+    task: Optional[LocatorTask] = None
     motion: GoalReport = GoalReport()
     scans: Sequence[Scan] = ()
     surfaces: Optional[SurfaceMap] = None
@@ -48,14 +48,14 @@ class Estimate:
         revision: counts the frames that the Car has had, 0 before the first.
         correction: the present frame in the previous one.
         phase: what localization's mapper shall do.
-        map_id: with which map; each survey has its own, also when an order is tried again.
+        map_id: with which map; each survey has its own, also when mapping is tried again.
         places: where the robot shall still go for the locator.
         fit: the Car once it was found.
     """
 
     state: CarState
     rectangle: Rectangle
-    outline: Tuple[Tuple[float, float], ...]
+    outline: Tuple[Point, ...]
     sigmas: Tuple[float, float, float]
     length_sigma: float
     width_sigma: float
@@ -71,9 +71,9 @@ class Estimate:
     fit: Optional[CarFit] = None
 
 
-def result_at(waypoint: Optional[Waypoint], order: Optional[Order], motion: GoalReport) -> Result:
+def result_at(waypoint: Optional[Waypoint], task: Optional[LocatorTask], motion: GoalReport) -> Result:
     """What the motion planner says of a waypoint; IDLE while another is its goal."""
-    if waypoint is None or order is None or not motion.is_about(order.goal):
+    if waypoint is None or task is None or not motion.is_about(task.goal):
         return Result.IDLE
-    goal = order.goal.waypoint
+    goal = task.goal.waypoint
     return motion.result if (goal.requester, goal.id) == (waypoint.requester, waypoint.id) else Result.IDLE

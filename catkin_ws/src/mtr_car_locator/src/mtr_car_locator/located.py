@@ -11,7 +11,7 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import Direction
 
 from . import problems
-from .estimate import NO_MOTION, Inputs, Order, result_at
+from .estimate import NO_MOTION, Inputs, LocatorTask, result_at
 from .find.errors import NotLocated
 from .measure.car_fit import CarFit
 from .parameters import RefinementParameters
@@ -58,7 +58,7 @@ class LocatedCar:
 
     def wants_scans(self, inputs: Inputs, poses: PoseHistory) -> bool:
         """True while something looks."""
-        if inputs.order is not None and inputs.order.checking:
+        if inputs.task is not None and inputs.task.checking:
             return self._waypoint is not None
         return self._refinement.wants_scans(inputs.now_s, poses)
 
@@ -66,19 +66,19 @@ class LocatedCar:
         """One tick; NotLocated when the Car's frame holds no longer."""
         if poses.newest.map_revision != self._map_revision:
             raise NotLocated(problems.OTHER_MAP())
-        if inputs.order is not None and inputs.order.checking:
-            self._run_check(inputs, inputs.order, poses, next_id)
+        if inputs.task is not None and inputs.task.checking:
+            self._run_check(inputs, inputs.task, poses, next_id)
             return
         self._waypoint = None
         change = self._refinement.step(inputs.now_s, inputs.scans, poses)
         if change:
             self._apply(change)
 
-    def _run_check(self, inputs: Inputs, order: Order, poses: PoseHistory, next_id: int) -> None:
-        if self._check is None or self._check.report.check_id != order.check_car_id:
-            self._check = SelfCheck(order.check_car_id, inputs.now_s, poses.newest.pose, self.fit, self._parameters)
+    def _run_check(self, inputs: Inputs, task: LocatorTask, poses: PoseHistory, next_id: int) -> None:
+        if self._check is None or self._check.report.check_id != task.check_car_id:
+            self._check = SelfCheck(task.check_car_id, inputs.now_s, poses.newest.pose, self.fit, self._parameters)
             self._waypoint = None
-        result = result_at(self._waypoint, order, inputs.motion)
+        result = result_at(self._waypoint, task, inputs.motion)
         self._check.step(inputs.now_s, result, inputs.scans, poses)
         self._waypoint = self._placed(self._check.place, next_id)
 

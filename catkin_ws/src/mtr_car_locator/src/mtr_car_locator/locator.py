@@ -1,4 +1,4 @@
-"""The car locator: at each tick from orders, poses, scans and maps to the estimate of the Car."""
+"""The car locator: at each tick from tasks, poses, scans and maps to the estimate of the Car."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 from typing import Optional, Tuple
@@ -8,14 +8,14 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 
 from . import problems
-from .estimate import Estimate, Inputs, Order, result_at
+from .estimate import Estimate, Inputs, LocatorTask, result_at
 from .find.errors import NotLocated
 from .find.prior import prior_at, prior_from_start
 from .located import LocatedCar
-from .measure.outline import Point, rounded
+from .measure.outline import rounded
 from .parameters import LocatorParameters
 from .poses import PoseHistory, RobotPose
-from .rectangle import Rectangle
+from .rectangle import Point, Rectangle
 from .survey.survey import Survey
 
 # The starting place alone tells the Car's pose with this 1 sigma.
@@ -40,9 +40,9 @@ class CarLocator:
 
     def wants_scans(self, inputs: Inputs) -> bool:
         """True while scans are collected or about to be."""
-        order = inputs.order
-        if order is not None and order.mapping:
-            return self._state == CarState.COLLECTING or self._is_new(order)
+        task = inputs.task
+        if task is not None and task.mapping:
+            return self._state == CarState.COLLECTING or self._is_new(task)
         return (self._located is not None and self._poses is not None
                 and self._located.wants_scans(inputs, self._poses))
 
@@ -62,12 +62,12 @@ class CarLocator:
                 self._work(inputs, self._poses)
             except NotLocated as reason:
                 self._fail(reason.problem)
-        self._was_mapping = inputs.order is not None and inputs.order.mapping
+        self._was_mapping = inputs.task is not None and inputs.task.mapping
         return self._estimate()
 
     def _work(self, inputs: Inputs, poses: PoseHistory) -> None:
-        order = inputs.order
-        survey = self._survey_for(order, inputs.now_s, poses.newest.pose) if order and order.mapping else None
+        task = inputs.task
+        survey = self._survey_for(task, inputs.now_s, poses.newest.pose) if task and task.mapping else None
         if survey:
             self._collect(survey, inputs, poses)
         elif self._located:
@@ -76,26 +76,26 @@ class CarLocator:
                 self._next_waypoint_id = self._located.waypoint.id + 1
             self._revision, self._message = self._located.revision, self._located.message
 
-    def _survey_for(self, order: Order, now_s: float, robot: Pose2) -> Optional[Survey]:
-        """The survey that the order is about, a new one if need be; None when it has ended."""
-        if self._is_new(order):
+    def _survey_for(self, task: LocatorTask, now_s: float, robot: Pose2) -> Optional[Survey]:
+        """The survey that the task is about, a new one if need be; None when it has ended."""
+        if self._is_new(task):
             prior = (prior_at(self._located.fit.rectangle) if self._located
                      else prior_from_start(robot, self._parameters))
             # The time at which it begins is a number that no survey has had, not even before this node was restarted.
             self._survey = Survey(prior, round(now_s * 1000.0), self._next_waypoint_id, self._parameters)
             self._located = None
-            self._state, self._map_car_id = CarState.COLLECTING, order.map_car_id
+            self._state, self._map_car_id = CarState.COLLECTING, task.map_car_id
         return self._survey if self._state == CarState.COLLECTING else None
 
-    def _is_new(self, order: Order) -> bool:
-        if self._state == CarState.UNKNOWN or order.map_car_id != self._map_car_id:
+    def _is_new(self, task: LocatorTask) -> bool:
+        if self._state == CarState.UNKNOWN or task.map_car_id != self._map_car_id:
             return True
         return self._state == CarState.FAILED and not self._was_mapping
 
     def _collect(self, survey: Survey, inputs: Inputs, poses: PoseHistory) -> None:
         robot = poses.newest
         survey.collect(inputs.scans, poses)
-        survey.advance(inputs.now_s, robot, result_at(survey.waypoint, inputs.order, inputs.motion))
+        survey.advance(inputs.now_s, robot, result_at(survey.waypoint, inputs.task, inputs.motion))
         self._next_waypoint_id = survey.next_waypoint_id
         self._message = survey.progress
         survey.conclude(inputs.now_s, robot, inputs.surfaces)

@@ -1,5 +1,6 @@
 """The car locator as a ROS node: poses, scans and maps in; the Car, and orders to localization's mapper, out."""
 # SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
 from typing import Optional, Tuple
 
 import rospy
@@ -19,7 +20,7 @@ from .conversions import (
     estimate_message,
     mapping_message,
     markers_message,
-    order_from,
+    task_from,
     transform_message,
 )
 from .drawing import shapes_of
@@ -56,10 +57,10 @@ class CarLocatorNode:
     def tick(self, tick_ns: int) -> None:
         """One step of the locator."""
         self._poses.feed(tick_ns)
-        heard = Inputs(tick_ns * 1e-9, order_from(self._mode.at(tick_ns)), goal_report_from(self._drive.at(tick_ns)))
-        scans = self._scans.take(tick_ns, self._locator.wants_scans(heard))
+        inputs = Inputs(tick_ns * 1e-9, task_from(self._mode.at(tick_ns)), goal_report_from(self._drive.at(tick_ns)))
+        scans = self._scans.take(tick_ns, self._locator.wants_scans(inputs))
         surfaces = self._maps.at(tick_ns, self._poses.map_revision)
-        self._publish(self._locator.step(Inputs(heard.now_s, heard.order, heard.motion, scans, surfaces)), tick_ns)
+        self._publish(self._locator.step(replace(inputs, scans=scans, surfaces=surfaces)), tick_ns)
 
     def _publish(self, estimate: Estimate, tick_ns: int) -> None:
         stamp = stamp_of(tick_ns)

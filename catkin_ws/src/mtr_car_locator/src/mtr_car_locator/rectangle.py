@@ -9,19 +9,22 @@ import numpy as np
 from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
+# x and y in m.
+Point = Tuple[float, float]
+
 # Within this distance of its middle line a Car has no outside: directions outwards are counted from there.
 CORE_M = 0.6
 
 
 @dataclass(frozen=True)
 class Rectangle:
-    """Pose of the Car's centre in map, x to its front, and its dimensions."""
+    """Pose of the Car's centre in map, x to its front, and its length and width in m."""
 
     pose: Pose2
     length: float
     width: float
 
-    def outline(self, margin_m: float = 0.0) -> List[Tuple[float, float]]:
+    def outline(self, margin_m: float = 0.0) -> List[Point]:
         """Corners in the Car's own frame, counterclockwise, grown by the margin on each side."""
         x, y = 0.5 * self.length + margin_m, 0.5 * self.width + margin_m
         return [(x, y), (-x, y), (-x, -y), (x, -y)]

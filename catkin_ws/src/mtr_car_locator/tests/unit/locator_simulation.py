@@ -6,7 +6,7 @@ from typing import List, Optional, Sequence, Tuple
 
 import numpy as np
 
-from mtr_car_locator.estimate import Estimate, Inputs, Order
+from mtr_car_locator.estimate import Estimate, Inputs, LocatorTask
 from mtr_car_locator.locator import CarLocator
 from mtr_car_locator.parameters import LocatorParameters
 from mtr_car_locator.poses import PoseHistory, PoseMode, RobotPose
@@ -217,8 +217,8 @@ class World:
         goal = Goal(place, 100 + place.id) if place else NO_GOAL
         due = [scan for time_s, scan in self._scans if time_s <= self.now - 0.06]
         self._scans = [entry for entry in self._scans if entry[0] > self.now - 0.06]
-        order = Order(mapping, map_car_id, goal, checking=self.checking != 0, check_car_id=self.checking)
-        inputs = Inputs(self.now, order, GoalReport(goal.id, self._result(place)), due, self.mapper.map)
+        task = LocatorTask(mapping, map_car_id, goal, checking=self.checking != 0, check_car_id=self.checking)
+        inputs = Inputs(self.now, task, GoalReport(goal.id, self._result(place)), due, self.mapper.map)
         self.estimates.append(self.locator.step(inputs))
         if self.scene.maps:
             self.mapper.follow(self.now, self.newest, due)

@@ -16,13 +16,13 @@ from mtr_car_locator.conversions import (
     estimate_message,
     mapping_message,
     markers_message,
-    order_from,
     robot_pose_from,
     scans_in,
     surface_map_from,
+    task_from,
 )
 from mtr_car_locator.drawing import shapes_of
-from mtr_car_locator.estimate import Estimate, Order, result_at
+from mtr_car_locator.estimate import Estimate, LocatorTask, result_at
 from mtr_car_locator.find.fit import fit_car
 from mtr_car_locator.offline import FilesUnusable
 from mtr_car_locator.poses import PoseMode
@@ -60,24 +60,24 @@ def estimate():
 
 def test_order_names_mapping_checking_and_the_goal():
     waypoint = Waypoint(3, CAR_LOCATOR, "map", Pose2(1.0, 2.0, 0.0))
-    order = order_from(RobotMode(mode=RobotMode.CHECKING_CAR, goal=waypoint_message(waypoint), goal_attempt=9,
+    task = task_from(RobotMode(mode=RobotMode.CHECKING_CAR, goal=waypoint_message(waypoint), goal_attempt=9,
                                  map_car_id=5, check_car_id=8))
-    assert (order.mapping, order.checking, order.check_car_id, order.map_car_id) == (False, True, 8, 5)
-    assert order.goal == Goal(waypoint, 9)
-    assert order_from(None) is None
+    assert (task.mapping, task.checking, task.check_car_id, task.map_car_id) == (False, True, 8, 5)
+    assert task.goal == Goal(waypoint, 9)
+    assert task_from(None) is None
 
 
 def test_motion_counts_for_the_waypoint_that_is_the_goal_and_for_no_other():
     waypoint = Waypoint(3, CAR_LOCATOR, "map", Pose2(1.0, 2.0, 0.0))
-    order, motion = Order(True, 0, Goal(waypoint, 9)), GoalReport(GoalId(CAR_LOCATOR, 3, 9), Result.BLOCKED)
-    assert result_at(waypoint, order, motion) is Result.BLOCKED
-    assert result_at(replace(waypoint, id=4), order, motion) is Result.IDLE
-    assert result_at(None, order, motion) is result_at(waypoint, None, motion) is Result.IDLE
-    assert result_at(waypoint, order, replace(motion, goal_id=GoalId(CAR_LOCATOR, 3, 8))) is Result.IDLE
+    task, motion = LocatorTask(True, 0, Goal(waypoint, 9)), GoalReport(GoalId(CAR_LOCATOR, 3, 9), Result.BLOCKED)
+    assert result_at(waypoint, task, motion) is Result.BLOCKED
+    assert result_at(replace(waypoint, id=4), task, motion) is Result.IDLE
+    assert result_at(None, task, motion) is result_at(waypoint, None, motion) is Result.IDLE
+    assert result_at(waypoint, task, replace(motion, goal_id=GoalId(CAR_LOCATOR, 3, 8))) is Result.IDLE
     operators = replace(waypoint, requester="application/5")
-    assert result_at(waypoint, Order(True, 0, Goal(operators, 9)),
+    assert result_at(waypoint, LocatorTask(True, 0, Goal(operators, 9)),
                      replace(motion, goal_id=GoalId("application/5", 3, 9))) is Result.IDLE
-    assert result_at(waypoint, Order(True, 0), GoalReport()) is Result.IDLE
+    assert result_at(waypoint, LocatorTask(True, 0), GoalReport()) is Result.IDLE
 
 
 def test_pose_carries_mode_map_and_motion():
@@ -118,8 +118,8 @@ def test_estimate_survives_as_a_message(estimate):
 
 
 def test_mapper_and_check_are_told(estimate):
-    order = mapping_message(estimate, STAMP)
-    assert (order.phase, order.map_car_id, order.header.stamp) == (MappingOrder.FREEZE, 77, STAMP)
+    mapping = mapping_message(estimate, STAMP)
+    assert (mapping.phase, mapping.map_car_id, mapping.header.stamp) == (MappingOrder.FREEZE, 77, STAMP)
     check = check_message(estimate, PARAMETERS.refinement, STAMP)
     assert (check.id, check.state, check.message) == (6, CarCheck.FAILED, MOVED.text)
     assert [problem.code for problem in check.problems] == [MOVED.code]

@@ -14,9 +14,9 @@ from mtr_core.problems import messages_of, problem_of
 from mtr_core.se2 import Pose2
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, Problem, RobotMode, VelocityCommand
 
-from .inputs import Car, Drive, Order, RobotState, Zone
-from .outputs import Output
+from .inputs import CollisionStop, DesiredMotion, EstimatedCar, RobotState, Zone
 from .outputs import Path as PlannedPath
+from .outputs import PlannerOutput
 from .picture import PlanPicture
 
 # Of the markers: lines, their height above ground, and colours by what they show.
@@ -25,12 +25,12 @@ RED, GREEN, YELLOW = (0.9, 0.2, 0.1), (0.1, 0.9, 0.2), (1.0, 0.9, 0.1)
 SLOW, FAST = (0.2, 0.4, 1.0), (1.0, 1.0, 1.0)
 
 
-def order_from(message: Optional[RobotMode]) -> Optional[Order]:
-    """Order of the state machine."""
+def desired_from(message: Optional[RobotMode]) -> Optional[DesiredMotion]:
+    """What the state machine wants of the robot's motion."""
     if message is None:
         return None
-    return Order(message.header.stamp.to_sec(), goal_from(message), message.max_speed_mps,
-                 message.mode == RobotMode.FOLLOWING_WAYPOINT)
+    return DesiredMotion(message.header.stamp.to_sec(), goal_from(message), message.max_speed_mps,
+                         message.mode == RobotMode.FOLLOWING_WAYPOINT)
 
 
 def nav_goal_from(message: PoseStamped) -> Optional[Tuple[Pose2, bool]]:
@@ -50,30 +50,31 @@ def robot_from(message: Optional[LocalizedPose]) -> Optional[RobotState]:
                       message.degenerate)
 
 
-def car_from(message: Optional[CarEstimate]) -> Optional[Car]:
+def car_from(message: Optional[CarEstimate]) -> Optional[EstimatedCar]:
     """The Car as estimated; its outline is the prior's before it is located."""
     if message is None:
         return None
-    return Car(message.header.stamp.to_sec(), message.state == CarEstimate.LOCATED,
-               Pose2(message.x, message.y, message.heading), tuple(zip(message.outline_x, message.outline_y)))
+    return EstimatedCar(message.header.stamp.to_sec(), message.state == CarEstimate.LOCATED,
+                        Pose2(message.x, message.y, message.heading),
+                        tuple(zip(message.outline_x, message.outline_y)))
 
 
-def drive_from(message: Optional[DriveStatus]) -> Optional[Drive]:
+def collision_stop_from(message: Optional[DriveStatus]) -> Optional[CollisionStop]:
     """What the collision stop does."""
     if message is None:
         return None
     zone = Zone(message.zone) if message.zone in tuple(Zone) else Zone.BLOCKED
-    return Drive(message.header.stamp.to_sec(), zone, message.obstacle_m, message.obstacle_bearing,
-                 problem_of(message.problems, message.message))
+    return CollisionStop(message.header.stamp.to_sec(), zone, message.obstacle_m, message.obstacle_bearing,
+                         problem_of(message.problems, message.message))
 
 
-def velocity_message(output: Output, header: Header) -> VelocityCommand:
+def velocity_message(output: PlannerOutput, header: Header) -> VelocityCommand:
     """Velocity for drive control."""
     header.frame_id = names.BASE
     return VelocityCommand(header, output.linear_mps, output.angular_radps, output.active)
 
 
-def status_message(output: Output, header: Header) -> MotionStatus:
+def status_message(output: PlannerOutput, header: Header) -> MotionStatus:
     """Status for the state machine."""
     goal_id = output.goal_id
     return MotionStatus(header=header, requester=goal_id.requester, goal_id=goal_id.waypoint_id,

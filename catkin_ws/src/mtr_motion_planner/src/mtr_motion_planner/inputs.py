@@ -1,4 +1,4 @@
-"""What the motion planner is told at a tick, and the check that it may be used."""
+"""What the motion planner receives at a tick, and the check that it may be used."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 import math
@@ -13,13 +13,13 @@ from . import problems
 
 Point = Tuple[float, float]
 
-# Of the platform, by its data sheet.
+# The platform reaches this, by its data sheet.
 MAX_SPEED_MPS = 2.0
 
 
 @dataclass(frozen=True)
-class Order:
-    """What the robot shall do; from the state machine."""
+class DesiredMotion:
+    """Where the robot shall drive, and how fast at most; from the state machine."""
 
     stamp_s: float
     goal: Goal
@@ -41,7 +41,7 @@ class RobotState:
 
 
 @dataclass(frozen=True)
-class Car:
+class EstimatedCar:
     """Where the Car is in map; outline in its own frame. Before it is located both are a rough prior."""
 
     stamp_s: float
@@ -60,8 +60,8 @@ class Zone(enum.IntEnum):
 
 
 @dataclass(frozen=True)
-class Drive:
-    """What drive control says; obstacle in base_link, NaN: none."""
+class CollisionStop:
+    """What drive control's collision stop does; obstacle in base_link, m and rad, NaN: none."""
 
     stamp_s: float
     zone: Zone = Zone.CLEAR
@@ -75,10 +75,10 @@ class Inputs:
     """Newest message of each kind at a tick, None before the first; the planner can do without drive control's."""
 
     tick_s: float
-    order: Optional[Order]
+    desired: Optional[DesiredMotion]
     robot: Optional[RobotState]
-    car: Optional[Car]
-    drive: Optional[Drive] = None
+    car: Optional[EstimatedCar]
+    collision_stop: Optional[CollisionStop] = None
 
 
 class InputsUnusable(ProblemError):
@@ -90,21 +90,21 @@ class Situation:
     """Inputs that may move the robot: all there, new enough, and numbers."""
 
     tick_s: float
-    order: Order
+    desired: DesiredMotion
     robot: RobotState
-    car: Car
-    drive: Optional[Drive]
+    car: EstimatedCar
+    collision_stop: Optional[CollisionStop]
 
 
-Stamped = TypeVar("Stamped", Order, RobotState, Car)
+Stamped = TypeVar("Stamped", DesiredMotion, RobotState, EstimatedCar)
 
 
 def situation_of(inputs: Inputs, age_limit_s: float) -> Situation:
     """The inputs checked; InputsUnusable when they must not move the robot."""
-    now = Situation(inputs.tick_s, _fresh("order", inputs.order, inputs.tick_s, age_limit_s),
+    now = Situation(inputs.tick_s, _fresh("order", inputs.desired, inputs.tick_s, age_limit_s),
                     _fresh("pose", inputs.robot, inputs.tick_s, age_limit_s),
-                    _fresh("position of the Car", inputs.car, inputs.tick_s, age_limit_s), inputs.drive)
-    fault = _value_fault(now.order, now.robot, now.car)
+                    _fresh("position of the Car", inputs.car, inputs.tick_s, age_limit_s), inputs.collision_stop)
+    fault = _value_fault(now.desired, now.robot, now.car)
     if fault:
         raise InputsUnusable(fault)
     return now
@@ -121,7 +121,7 @@ def _fresh(name: str, message: Optional[Stamped], tick_s: float, age_limit_s: fl
     return message
 
 
-def _value_fault(order: Order, robot: RobotState, car: Car) -> Problem:
+def _value_fault(desired: DesiredMotion, robot: RobotState, car: EstimatedCar) -> Problem:
     if not robot.valid:
         cause = robot.message
         return problems.POSITION_UNKNOWN_BECAUSE(cause=cause) if cause else problems.POSITION_UNKNOWN()
@@ -129,6 +129,6 @@ def _value_fault(order: Order, robot: RobotState, car: Car) -> Problem:
         return problems.POSE_NOT_A_NUMBER()
     if not (car.pose.is_finite() and all(math.isfinite(c) for point in car.outline for c in point)):
         return problems.CAR_NOT_A_NUMBER()
-    if not 0.0 < order.max_speed_mps <= MAX_SPEED_MPS:
-        return problems.MAXIMUM_SPEED(value=order.max_speed_mps, high=MAX_SPEED_MPS)
+    if not 0.0 < desired.max_speed_mps <= MAX_SPEED_MPS:
+        return problems.MAXIMUM_SPEED(value=desired.max_speed_mps, high=MAX_SPEED_MPS)
     return NO_PROBLEM

@@ -8,7 +8,7 @@ from mtr_core import names
 from mtr_core.requests import RVIZ, Goal, Waypoint
 from mtr_core.se2 import Pose2
 
-from .inputs import Order
+from .inputs import DesiredMotion
 
 
 class NavGoals:
@@ -27,18 +27,18 @@ class NavGoals:
             self._count += 1
             self._goal = Goal(Waypoint(self._count, RVIZ, names.CAR if in_car_frame else names.MAP, pose))
 
-    def joined(self, order: Optional[Order]) -> Optional[Order]:
+    def joined(self, desired: Optional[DesiredMotion]) -> Optional[DesiredMotion]:
         """The order, with the goal from rviz if nobody else wants one; an Operator's goal ends that."""
         with self._lock:
-            if order is None or self._goal is None:
-                return order
-            has_goal = order.goal.waypoint.id != 0
-            if has_goal or not order.follows_waypoints:
+            if desired is None or self._goal is None:
+                return desired
+            has_goal = desired.goal.waypoint.id != 0
+            if has_goal or not desired.follows_waypoints:
                 self._goal = None
                 why = "the Operator's goes before it" if has_goal else "the robot is not ready for waypoints"
                 self._refusal = f"The goal from rviz is dropped: {why}."
-                return order
-            return replace(order, goal=self._goal, max_speed_mps=self._speed_mps)
+                return desired
+            return replace(desired, goal=self._goal, max_speed_mps=self._speed_mps)
 
     def refusal(self) -> str:
         """Sentence, once, that says why the newest goal was dropped; empty when it was not."""

@@ -15,10 +15,10 @@ from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, 
 
 from .conversions import (
     car_from,
-    drive_from,
+    collision_stop_from,
+    desired_from,
     markers_message,
     nav_goal_from,
-    order_from,
     path_message,
     robot_from,
     status_message,
@@ -68,12 +68,12 @@ class MotionPlannerNode:
 
     def tick(self, tick_ns: int) -> None:
         """One step of the planner."""
-        order = self._nav_goals.joined(order_from(self._mode.at(tick_ns)))
+        desired = self._nav_goals.joined(desired_from(self._mode.at(tick_ns)))
         refusal = self._nav_goals.refusal()
         if refusal:
             rospy.logwarn("%s", refusal)
-        inputs = Inputs(tick_ns * 1e-9, order, robot_from(self._pose.at(tick_ns)),
-                        car_from(self._car.at(tick_ns)), drive_from(self._drive.at(tick_ns)))
+        inputs = Inputs(tick_ns * 1e-9, desired, robot_from(self._pose.at(tick_ns)),
+                        car_from(self._car.at(tick_ns)), collision_stop_from(self._drive.at(tick_ns)))
         output = self._planner.step(inputs)
         stamp = stamp_of(tick_ns)
         self._velocity.publish(velocity_message(output, Header(stamp=stamp)))

@@ -1,4 +1,4 @@
-"""What the motion planner says at a tick."""
+"""What the motion planner sends at a tick."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Optional, Tuple
@@ -19,7 +19,7 @@ class Path:
 
 
 @dataclass(frozen=True)
-class Output:
+class PlannerOutput:
     """Velocity and status of one tick; path only when it is new."""
 
     linear_mps: float

@@ -14,8 +14,8 @@ from .following.follower import Follower, FollowerOutput
 from .following.ramp import Ramp
 from .following.tolerance import miss_of, problem_of_miss, was_displaced
 from .following.watch import StallWatch, is_heading_into, problem_of_drive
-from .inputs import Car, Inputs, InputsUnusable, Situation, Zone, situation_of
-from .outputs import Output
+from .inputs import EstimatedCar, Inputs, InputsUnusable, Situation, Zone, situation_of
+from .outputs import PlannerOutput
 from .parameters import MotionParameters
 from .replanning import Replanning
 from .search.options import Target
@@ -53,12 +53,12 @@ class MotionPlanner:
         """What leads the robot now, None when there is nothing to follow."""
         return self._replanning.follower
 
-    def step(self, inputs: Inputs) -> Output:
+    def step(self, inputs: Inputs) -> PlannerOutput:
         """Velocity and status at a tick."""
-        order = inputs.order
-        if order and order.goal.id != self._goal.id:
-            self._goal, self.site = order.goal, None
-            self._begin(Result.PENDING if order.goal.waypoint.id else Result.IDLE)
+        desired = inputs.desired
+        if desired and desired.goal.id != self._goal.id:
+            self._goal, self.site = desired.goal, None
+            self._begin(Result.PENDING if desired.goal.waypoint.id else Result.IDLE)
         try:
             now = situation_of(inputs, self._parameters.input_age_limit_s)
         except InputsUnusable as fault:
@@ -79,7 +79,7 @@ class MotionPlanner:
         self._settled_at = None
         self._stall.reset()
 
-    def _stop_at_once(self, fault: Problem) -> Output:
+    def _stop_at_once(self, fault: Problem) -> PlannerOutput:
         self._ramp.drop()
         self._stall.reset()
         self._replanning.stop()
@@ -87,7 +87,7 @@ class MotionPlanner:
             return self._output(Result.IDLE)
         return self._output(self._result if self._result in SETTLED else Result.PENDING, message=fault)
 
-    def _take_car(self, car: Car) -> None:
+    def _take_car(self, car: EstimatedCar) -> None:
         """Plan again when the Car is not what the plan was made for; a robot that has arrived stays."""
         if self.site is None or self.site.holds_for(car):
             return
@@ -95,7 +95,7 @@ class MotionPlanner:
         if self._result != Result.REACHED:
             self._begin(Result.PENDING)
 
-    def _pursue(self, now: Situation) -> Output:
+    def _pursue(self, now: Situation) -> PlannerOutput:
         site = self.site or self._arranged(now.car)
         if site is None:
             return self._stay()
@@ -110,19 +110,19 @@ class MotionPlanner:
         follower = self._replanning.follower
         return self._stay() if follower is None else self._follow(site, follower, pose, now, speed)
 
-    def _arranged(self, car: Car) -> Optional[Site]:
+    def _arranged(self, car: EstimatedCar) -> Optional[Site]:
         try:
             self.site = Site(self._goal.waypoint, car, self._parameters)
         except RobotError as refusal:
             self._settle(Result.REFUSED, problem_in(refusal), None)
         return self.site
 
-    def _stay(self) -> Output:
+    def _stay(self) -> PlannerOutput:
         self._ramp.brake()
         return self._output(self._result, message=self._message)
 
     def _speed(self, now: Situation) -> float:
-        speed = min(now.order.max_speed_mps, self._parameters.limits.max_linear_mps)
+        speed = min(now.desired.max_speed_mps, self._parameters.limits.max_linear_mps)
         return min(speed, self._parameters.degenerate_speed_mps) if now.robot.is_degenerate else speed
 
     def _keep_planned(self, site: Site, pose: Pose2, now: Situation, speed: float) -> None:
@@ -140,7 +140,7 @@ class MotionPlanner:
         number = self._goal.waypoint.direction
         return Direction(number) if number in tuple(Direction) else Direction.ANY
 
-    def _follow(self, site: Site, follower: Follower, pose: Pose2, now: Situation, speed: float) -> Output:
+    def _follow(self, site: Site, follower: Follower, pose: Pose2, now: Situation, speed: float) -> PlannerOutput:
         if not follower.set_speed(speed):
             self._replanning.is_needed = True
         wanted = follower.step(pose, now.robot, self._ramp.step_s)
@@ -158,9 +158,9 @@ class MotionPlanner:
         self._ramp.drive(wanted.velocity)
         return self._under_way(pose, now, wanted)
 
-    def _under_way(self, pose: Pose2, now: Situation, wanted: FollowerOutput) -> Output:
-        message = problem_of_drive(now.drive) if now.drive else NO_PROBLEM
-        if now.drive and message and now.drive.zone in STANDING:
+    def _under_way(self, pose: Pose2, now: Situation, wanted: FollowerOutput) -> PlannerOutput:
+        message = problem_of_drive(now.collision_stop) if now.collision_stop else NO_PROBLEM
+        if now.collision_stop and message and now.collision_stop.zone in STANDING:
             self._stall.reset()
             return self._output(Result.BLOCKED, wanted.remaining_m, message)
         if self._stall.stalls(pose, wanted.remaining_m > 0.0, now.tick_s):
@@ -184,7 +184,7 @@ class MotionPlanner:
         self._result, self._message, self._settled_at = result, message, pose
         self._replanning.follower = None
 
-    def _output(self, result: Result, remaining_m: float = 0.0, message: Problem = NO_PROBLEM) -> Output:
+    def _output(self, result: Result, remaining_m: float = 0.0, message: Problem = NO_PROBLEM) -> PlannerOutput:
         active = self._goal.waypoint.id != 0 or not self._ramp.is_still
-        return Output(self._ramp.linear_mps, self._ramp.angular_radps, active, self._goal.id, result, remaining_m,
-                      message, self._replanning.take_path())
+        return PlannerOutput(self._ramp.linear_mps, self._ramp.angular_radps, active, self._goal.id, result,
+                             remaining_m, message, self._replanning.take_path())

@@ -14,7 +14,7 @@ from mtr_core.se2 import Pose2
 from . import problems
 from .geometry.fence import Fence, corners_of
 from .geometry.keep_out import KeepOut
-from .inputs import Car
+from .inputs import EstimatedCar
 from .parameters import MotionParameters
 from .timing.plan import PlanRefused
 
@@ -32,7 +32,7 @@ class Site:
         fence: the test area in the frame, None when there is no bound.
     """
 
-    def __init__(self, goal: Waypoint, car: Car, parameters: MotionParameters):
+    def __init__(self, goal: Waypoint, car: EstimatedCar, parameters: MotionParameters):
         """OutlineUnusable or PlanRefused when one cannot plan here."""
         self._car = car
         if goal.frame not in (names.CAR, names.MAP):
@@ -58,11 +58,11 @@ class Site:
         frame = frame_from_car if in_car else self.frame_from_map(self._car)
         return Fence([frame.apply(x, y) for x, y in corners], parameters.footprint, parameters.limits)
 
-    def frame_from_map(self, car: Car) -> Pose2:
+    def frame_from_map(self, car: EstimatedCar) -> Pose2:
         """Where map is in the frame, by the Car's newest pose."""
         return car.pose.inverse() if self.in_car_frame else MAP_FROM_MAP
 
-    def holds_for(self, car: Car) -> bool:
+    def holds_for(self, car: EstimatedCar) -> bool:
         """True when a plan made here is still right for the Car."""
         old = self._car
         if old.located != car.located or len(old.outline) != len(car.outline):

@@ -9,8 +9,8 @@ from shapely.geometry import Polygon
 from mtr_core.requests import NO_GOAL, Goal, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
-from mtr_motion_planner.inputs import Car, Drive, Inputs, Order, RobotState
-from mtr_motion_planner.outputs import Output
+from mtr_motion_planner.inputs import CollisionStop, DesiredMotion, EstimatedCar, Inputs, RobotState
+from mtr_motion_planner.outputs import PlannerOutput
 from mtr_motion_planner.parameters import MotionParameters, Slip
 from mtr_motion_planner.planner import MotionPlanner
 from mtr_motion_planner.replanning import InlineExecutor
@@ -24,26 +24,26 @@ OUTLINE = ((2.25, 0.6), (1.9, 0.9), (-1.9, 0.9), (-2.25, 0.6), (-2.25, -0.6), (-
 ORIGIN = Pose2(0.0, 0.0, 0.0)
 
 
-def car_at(pose: Pose2 = ORIGIN, located: bool = True, outline=OUTLINE) -> Car:
+def car_at(pose: Pose2 = ORIGIN, located: bool = True, outline=OUTLINE) -> EstimatedCar:
     """A located Car of ordinary size."""
-    return Car(0.0, located, pose, outline)
+    return EstimatedCar(0.0, located, pose, outline)
 
 
 class SimulatedRobot:
     """Robot, planner and Car; `run` steps them until the goal is settled."""
 
-    def __init__(self, pose: Pose2, car: Optional[Car] = None, held: bool = False, slip: Slip = EXPECTED_SLIP,
+    def __init__(self, pose: Pose2, car: Optional[EstimatedCar] = None, held: bool = False, slip: Slip = EXPECTED_SLIP,
                  parameters: MotionParameters = PARAMETERS):
         self.pose, self.car, self.held, self.slip = pose, car or car_at(), held, slip
         self.speed = self.yaw_rate = 0.0
         self.planner = MotionPlanner(parameters, InlineExecutor())
-        self.drive: Optional[Drive] = None
+        self.collision_stop: Optional[CollisionStop] = None
         self.speed_cap, self.is_degenerate = math.inf, False
         self.ticks = 0
         self.goal = NO_GOAL
         self.max_speed = 0.5
         self.least_clearance = math.inf
-        self.outputs: List[Output] = []
+        self.outputs: List[PlannerOutput] = []
         self.poses: List[Pose2] = []
         self._queue = deque([(0.0, 0.0)], maxlen=2)
 
@@ -58,17 +58,18 @@ class SimulatedRobot:
         pose = Pose2(x, y, math.radians(heading_deg))
         self.goal = Goal(Waypoint(goal_id, "test", "car" if in_car else "map", pose, direction))
 
-    def tick(self) -> Output:
+    def tick(self) -> PlannerOutput:
         """One period."""
         robot = RobotState(self.now, True, self.pose, self.speed, self.yaw_rate, "", self.is_degenerate)
-        car = Car(self.now, self.car.located, self.car.pose, self.car.outline)
-        output = self.planner.step(Inputs(self.now, Order(self.now, self.goal, self.max_speed), robot, car, self.drive))
+        car = EstimatedCar(self.now, self.car.located, self.car.pose, self.car.outline)
+        desired = DesiredMotion(self.now, self.goal, self.max_speed)
+        output = self.planner.step(Inputs(self.now, desired, robot, car, self.collision_stop))
         self.outputs.append(output)
         self._move(output)
         self.ticks += 1
         return output
 
-    def run(self, limit_s: float = 120.0) -> Output:
+    def run(self, limit_s: float = 120.0) -> PlannerOutput:
         """Step until the goal is reached or refused."""
         for _ in range(int(limit_s / PERIOD_S)):
             output = self.tick()
@@ -76,7 +77,7 @@ class SimulatedRobot:
                 return output
         return output
 
-    def run_for(self, seconds: float) -> Output:
+    def run_for(self, seconds: float) -> PlannerOutput:
         """Step for a while."""
         for _ in range(round(seconds / PERIOD_S)):
             output = self.tick()
@@ -101,7 +102,7 @@ class SimulatedRobot:
         speeds = [output.linear_mps for output in self.outputs]
         return max(abs(b - a) for a, b in zip(speeds, speeds[1:]))
 
-    def _move(self, output: Output) -> None:
+    def _move(self, output: PlannerOutput) -> None:
         self._queue.append((output.linear_mps, output.angular_radps))
         linear, angular = (0.0, 0.0) if self.held else self._queue[0]
         linear = limited(linear, self.speed_cap)

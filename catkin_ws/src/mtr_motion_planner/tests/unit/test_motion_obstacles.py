@@ -14,7 +14,7 @@ from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
 from mtr_motion_planner.geometry.keep_out import KeepOut, OutlineUnusable, centres, plain_of
-from mtr_motion_planner.inputs import Drive, Zone
+from mtr_motion_planner.inputs import CollisionStop, Zone
 from mtr_motion_planner.parameters import Margins, Slip
 from mtr_motion_planner.search.options import Target
 from mtr_motion_planner.search.planning import Planning
@@ -123,22 +123,23 @@ def test_obstacle_is_named_and_the_robot_goes_on_when_it_is_gone(bearing, side):
     robot = SimulatedRobot(Pose2(0.0, -6.0, math.radians(90.0)))
     robot.go(1, 0.0, -3.0, 90.0)
     robot.run_for(2.0)
-    robot.held, robot.drive = True, Drive(robot.now, Zone.BLOCKED, 0.6, bearing)
+    robot.held, robot.collision_stop = True, CollisionStop(robot.now, Zone.BLOCKED, 0.6, bearing)
     output = robot.run_for(5.0)
     assert output.result is Result.BLOCKED
     assert output.message.text == f"The robot is blocked by an obstacle 0.6 m {side}."
     assert abs(output.linear_mps) <= 0.35
-    robot.held, robot.drive = False, None
+    robot.held, robot.collision_stop = False, None
     assert robot.run().result == Result.REACHED
     assert robot.miss().distance_to(Pose2(0.0, 0.0, 0.0)) < 0.02
 
 
 def test_blind_lidar_is_reported_in_drive_controls_words():
     robot = SimulatedRobot(Pose2(0.0, -6.0, math.radians(90.0)), held=True)
-    robot.drive = Drive(robot.now, Zone.BLIND, message=Problem("drive_control.silent", "The front LiDAR is silent."))
+    silent = Problem("drive_control.silent", "The front LiDAR is silent.")
+    robot.collision_stop = CollisionStop(robot.now, Zone.BLIND, message=silent)
     robot.go(1, 0.0, -3.0, 90.0)
     output = robot.run_for(1.0)
-    assert (output.result, output.message) == (Result.BLOCKED, robot.drive.message)
+    assert (output.result, output.message) == (Result.BLOCKED, robot.collision_stop.message)
 
 
 def test_command_to_a_slowed_robot_does_not_wind_up_and_its_way_is_kept():

@@ -13,15 +13,15 @@ from mtr_core.problems import Problem
 from mtr_core.requests import NO_GOAL, NO_GOAL_ID, Goal, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Result
-from mtr_motion_planner.conversions import markers_message, nav_goal_from, order_from, path_message, status_message
-from mtr_motion_planner.inputs import Order
+from mtr_motion_planner.conversions import desired_from, markers_message, nav_goal_from, path_message, status_message
+from mtr_motion_planner.inputs import DesiredMotion
 from mtr_motion_planner.nav_goal import NavGoals
-from mtr_motion_planner.outputs import Output
+from mtr_motion_planner.outputs import PlannerOutput
 from mtr_motion_planner.picture import picture_of
 from mtr_msgs.msg import MotionStatus, RobotMode
 
 PLACE = Pose2(3.0, -2.0, 1.0)
-FREE = Order(1.0, NO_GOAL, 0.8, follows_waypoints=True)
+FREE = DesiredMotion(1.0, NO_GOAL, 0.8, follows_waypoints=True)
 
 
 def test_goal_from_rviz_is_taken_at_its_own_speed_while_nobody_wants_anything():
@@ -37,7 +37,7 @@ def test_goal_from_rviz_is_taken_at_its_own_speed_while_nobody_wants_anything():
 def test_operators_goal_goes_first_and_ends_the_one_from_rviz():
     goals = NavGoals(0.4)
     goals.take(PLACE, in_car_frame=True)
-    operators = Order(1.0, Goal(Waypoint(7, "application/5", "car", PLACE), 1), 0.8, follows_waypoints=True)
+    operators = DesiredMotion(1.0, Goal(Waypoint(7, "application/5", "car", PLACE), 1), 0.8, follows_waypoints=True)
     assert goals.joined(operators) == operators
     assert "Operator" in goals.refusal()
     assert goals.joined(FREE) == FREE
@@ -47,7 +47,7 @@ def test_operators_goal_goes_first_and_ends_the_one_from_rviz():
 def test_goal_from_rviz_moves_nothing_in_another_state():
     goals = NavGoals(0.4)
     goals.take(PLACE, in_car_frame=True)
-    starting = Order(1.0, NO_GOAL, 0.8, follows_waypoints=False)
+    starting = DesiredMotion(1.0, NO_GOAL, 0.8, follows_waypoints=False)
     assert goals.joined(starting) == starting
     assert "not ready" in goals.refusal()
     assert goals.joined(None) is None
@@ -83,10 +83,10 @@ def test_picture_shows_zone_way_and_goal_in_the_frame_of_the_plan():
 
 def test_goal_of_the_state_machine_is_echoed_in_the_status():
     waypoint = Waypoint(3, "car_locator", "map", Pose2(1.0, 2.0, 0.5), 1)
-    goal = order_from(RobotMode(goal=waypoint_message(waypoint), goal_attempt=6)).goal
+    goal = desired_from(RobotMode(goal=waypoint_message(waypoint), goal_attempt=6)).goal
     assert goal == Goal(waypoint, 6)
     why = Problem("motion_planner.why", "Why.")
-    status = status_message(Output(0.1, 0.2, True, goal.id, Result.BLOCKED, 1.5, why), Header())
+    status = status_message(PlannerOutput(0.1, 0.2, True, goal.id, Result.BLOCKED, 1.5, why), Header())
     assert (status.requester, status.goal_id, status.goal_attempt) == ("car_locator", 3, 6)
     assert (status.result, status.remaining_m, status.message) == (MotionStatus.BLOCKED, 1.5, why.text)
     assert [problem.code for problem in status.problems] == [why.code]

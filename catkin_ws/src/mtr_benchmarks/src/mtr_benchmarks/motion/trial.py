@@ -8,8 +8,8 @@ from mtr_core import names
 from mtr_core.requests import Goal, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
-from mtr_motion_planner.inputs import Car, Inputs, Order, RobotState
-from mtr_motion_planner.outputs import Output
+from mtr_motion_planner.inputs import DesiredMotion, EstimatedCar, Inputs, RobotState
+from mtr_motion_planner.outputs import PlannerOutput
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.planner import MotionPlanner
 from mtr_motion_planner.replanning import InlineExecutor
@@ -72,10 +72,10 @@ class Trial:
         miss = goal.inverse() @ self._sim.truth().car_from_base
         return DrivenLeg(output.result, output.message.text, time_s, miss, tuple(poses), clearance_m)
 
-    def _drive(self, goal: Goal, speed: float) -> Tuple[Output, List[Pose2], float]:
+    def _drive(self, goal: Goal, speed: float) -> Tuple[PlannerOutput, List[Pose2], float]:
         """Until the planner has settled: its last output, the poses on the way, and the time."""
         begun, poses = self._ticks, []
-        output: Optional[Output] = None
+        output: Optional[PlannerOutput] = None
         while (self._ticks - begun) * TICK_S < MAX_DURATION_S:
             output = self._tick(goal, speed) or output
             poses.append(self._sim.truth().car_from_base)
@@ -84,7 +84,7 @@ class Trial:
         assert output
         return output, poses, (self._ticks - begun) * TICK_S
 
-    def _tick(self, goal: Goal, speed: float) -> Optional[Output]:
+    def _tick(self, goal: Goal, speed: float) -> Optional[PlannerOutput]:
         """One step of 20 ms; drive control acts on the planner's output of an earlier tick."""
         now_s = 1.0 + self._ticks * TICK_S
         velocity = self._limiter.follow(self._wanted)
@@ -92,8 +92,8 @@ class Trial:
         if self._ticks % PLANNER_TICKS == 0:
             truth = self._sim.truth()
             robot = RobotState(now_s, True, truth.world_from_base, truth.linear_mps, truth.angular_radps)
-            car = Car(now_s, True, self._world_from_car, self._outline)
-            output = self._planner.step(Inputs(now_s, Order(now_s, goal, speed), robot, car))
+            car = EstimatedCar(now_s, True, self._world_from_car, self._outline)
+            output = self._planner.step(Inputs(now_s, DesiredMotion(now_s, goal, speed), robot, car))
             self._wanted = (output.linear_mps, output.angular_radps)
         self._sim.command(*velocity)
         self._sim.step()

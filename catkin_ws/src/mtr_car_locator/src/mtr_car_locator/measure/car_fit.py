@@ -3,10 +3,8 @@
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
-from ..rectangle import Rectangle
+from ..rectangle import Point, Rectangle
 from ..surfels import Surfels
-
-Point = Tuple[float, float]
 
 
 @dataclass(frozen=True)

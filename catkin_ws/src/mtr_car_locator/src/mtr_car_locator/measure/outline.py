@@ -8,11 +8,10 @@ from scipy.spatial import ConvexHull
 
 from mtr_core.arrays import FloatArray
 
-from ..rectangle import Rectangle
+from ..rectangle import Point, Rectangle
 from ..surfels import Surfels
 from .side import ENDS, OUTWARDS
 
-Point = Tuple[float, float]
 # What reaches so far beyond the measured side is still the Car's: a mirror or a tow bar.
 PROTRUSION_M = 0.25
 # Corners that bend the outline less are left out.

@@ -8,7 +8,7 @@ from mtr_core.se2 import Pose2
 
 from .. import problems
 from ..geometry.keep_out import KeepOut
-from ..inputs import Drive, RobotState, Zone
+from ..inputs import CollisionStop, RobotState, Zone
 from ..parameters import MotionParameters
 from .tracking import DELAY_S, Velocity
 
@@ -58,7 +58,7 @@ def is_heading_into(keep_out: KeepOut, pose: Pose2, robot: RobotState, wanted: V
             and clearance < keep_out.clearance(pose) - OPENING_M)
 
 
-def problem_of_drive(drive: Drive) -> Problem:
+def problem_of_drive(drive: CollisionStop) -> Problem:
     """What a person should know about drive control's collision stop; no problem when the way is free."""
     if drive.zone == Zone.CLEAR:
         return NO_PROBLEM
