@@ -86,6 +86,13 @@ bool is_on(const urdf::ModelInterface& model, const std::string& link, const urd
 
 }  // namespace
 
+void check_value(const std::string& subject, double value, double low, double high, const std::string& unit) {
+  if (!(value >= low && value <= high)) {
+    throw ConfigurationError(subject + " in robot_description is " + mtr_core::with_unit(value, unit) +
+                             "; allowed is " + mtr_core::range_text(low, high, unit) + ".");
+  }
+}
+
 void check_level(const Mount& mount) {
   check_value("The roll of " + mount.frame, mount.roll_rad, -kMaxTiltRad, kMaxTiltRad, "rad");
   check_value("The pitch of " + mount.frame, mount.pitch_rad, -kMaxTiltRad, kMaxTiltRad, "rad");

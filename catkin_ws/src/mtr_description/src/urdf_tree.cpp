@@ -7,10 +7,10 @@
 
 #include <cmath>
 #include <map>
-#include <sstream>
 
 #include "mtr_core/names.hpp"
 #include "mtr_core/parameter.hpp"
+#include "mtr_description/robot_geometry.hpp"
 
 namespace mtr_description {
 namespace {
@@ -31,19 +31,6 @@ std::string list_of(const Joints& joints) {
 }
 
 }  // namespace
-
-std::string figure(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
-void check_value(const std::string& subject, double value, double low, double high, const std::string& unit) {
-  if (!(value >= low && value <= high)) {
-    throw ConfigurationError(subject + " in robot_description is " + mtr_core::with_unit(value, unit) +
-                             "; allowed is " + mtr_core::range_text(low, high, unit) + ".");
-  }
-}
 
 double rounded(double value_m) { return std::round(value_m * 1e9) / 1e9 + 0.0; }
 

@@ -13,12 +13,6 @@ namespace mtr_description {
 
 using Joints = std::vector<urdf::JointConstSharedPtr>;
 
-/// The number as it is written in a sentence.
-std::string figure(double value);
-
-/// Throws ConfigurationError that says subject, value and what is allowed, unless low <= value <= high.
-void check_value(const std::string& subject, double value, double low, double high, const std::string& unit);
-
 /// To a nanometre, so that the sum of a chain's numbers is the number that a person would write.
 double rounded(double value_m);
 

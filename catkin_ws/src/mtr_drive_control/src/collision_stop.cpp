@@ -18,10 +18,8 @@ constexpr double kRearStepM = 0.05;
 
 }  // namespace
 
-CollisionStop::CollisionStop(const CollisionParameters& parameters, bool has_rear_lidar)
-    : parameters_(parameters),
-      footprint_{parameters.front_m, parameters.rear_m, parameters.half_width_m},
-      surroundings_(parameters, has_rear_lidar) {
+CollisionStop::CollisionStop(const CollisionParameters& parameters, const RobotShape& shape)
+    : parameters_(parameters), footprint_(shape.footprint), surroundings_(parameters, shape) {
   check(parameters);
 }
 

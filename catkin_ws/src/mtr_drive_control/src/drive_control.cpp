@@ -12,12 +12,12 @@ constexpr double kRoundingS = 1e-9;
 
 }  // namespace
 
-DriveControl::DriveControl(const Parameters& parameters, const CollisionParameters& collision, bool has_rear_lidar,
+DriveControl::DriveControl(const Parameters& parameters, const CollisionParameters& collision, const RobotShape& shape,
                            double period_s)
     : parameters_(parameters),
       period_s_(period_s),
       limits_(parameters),
-      collision_stop_(collision, has_rear_lidar),
+      collision_stop_(collision, shape),
       limiter_(limits_, period_s) {
   check(parameters);
 }

@@ -6,6 +6,7 @@
 #include <geometry_msgs/Twist.h>
 
 #include "mtr_core/names.hpp"
+#include "mtr_description/robot_description.hpp"
 #include "mtr_drive_control/tip_over.hpp"
 #include "problems.hpp"
 
@@ -56,7 +57,8 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
 }
 
 Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
-    : drive_control_(parameters.limits, parameters.collision, parameters.rear_lidar, kPeriodS),
+    : drive_control_(parameters.limits, parameters.collision,
+                     shape_of(mtr_description::described_robot(), parameters.rear_lidar), kPeriodS),
       locks_(owners_of(parameters), parameters.limits.lock_timeout_s, mtr_core::lockstep_waiting()),
       ticker_(node, mtr_core::kDriveControl),
       manual_(node, names::kManualVelocity, mtr_core::kControllerInput, mtr_core::kClockStep.period_ns,

@@ -118,12 +118,14 @@ PYBIND11_MODULE(mtr_drive_control_core, module) {
         return decision.hindrance.value_or(Hindrance{}).bearing_rad;
       });
   py::class_<DriveControl>(module, "DriveControl")
-      .def(py::init([](bool rear_lidar, const py::dict& limits, const py::dict& collision, double period_s) {
+      .def(py::init([](const std::string& urdf, bool rear_lidar, const py::dict& limits, const py::dict& collision,
+                       double period_s) {
              return DriveControl(parameters_of<Parameters>(kRows, limits),
-                                 parameters_of<CollisionParameters>(kCollisionRows, collision), rear_lidar, period_s);
+                                 parameters_of<CollisionParameters>(kCollisionRows, collision),
+                                 shape_of(mtr_description::RobotGeometry(urdf), rear_lidar), period_s);
            }),
-           py::arg("rear_lidar") = true, py::arg("limits") = py::dict(), py::arg("collision") = py::dict(),
-           py::arg("period_s") = 0.02)
+           py::arg("urdf"), py::arg("rear_lidar") = true, py::arg("limits") = py::dict(),
+           py::arg("collision") = py::dict(), py::arg("period_s") = 0.02)
       .def("step", &step, py::arg("tick_ns"), py::kw_only(), py::arg("planner") = py::none(),
            py::arg("manual") = py::none(), py::arg("locks") = std::vector<std::string>(), py::arg("front") = py::none(),
            py::arg("rear") = py::none(), py::arg("odometry") = py::none(), py::arg("key_height_m") = 0.35,

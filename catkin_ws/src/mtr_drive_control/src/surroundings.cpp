@@ -20,15 +20,12 @@ double age_s(std::int64_t now_ns, std::int64_t stamp_ns) { return static_cast<do
 
 }  // namespace
 
-Surroundings::Surroundings(const CollisionParameters& parameters, bool has_rear_lidar)
-    : parameters_(parameters),
-      footprint_{parameters.front_m, parameters.rear_m, parameters.half_width_m},
-      watches_rear_(has_rear_lidar) {
-  const LidarMount front{parameters.front_lidar_x_m, 0.0, parameters.front_lidar_yaw_rad};
-  lidars_.push_back({LidarWatch("front LiDAR", parameters.lidar_timeout_s), EchoFinder(front, footprint_), {}, {}});
-  if (has_rear_lidar) {
-    const LidarMount rear{parameters.rear_lidar_x_m, 0.0, parameters.rear_lidar_yaw_rad};
-    lidars_.push_back({LidarWatch("rear LiDAR", parameters.lidar_timeout_s), EchoFinder(rear, footprint_), {}, {}});
+Surroundings::Surroundings(const CollisionParameters& parameters, const RobotShape& shape)
+    : parameters_(parameters), footprint_(shape.footprint), watches_rear_(shape.rear_lidar.has_value()) {
+  const double timeout_s = parameters.lidar_timeout_s;
+  lidars_.push_back({LidarWatch("front LiDAR", timeout_s), EchoFinder(shape.front_lidar, footprint_), {}, {}});
+  if (shape.rear_lidar) {
+    lidars_.push_back({LidarWatch("rear LiDAR", timeout_s), EchoFinder(*shape.rear_lidar, footprint_), {}, {}});
   }
 }
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
-from typing import Any, Iterator, List, Optional
+from typing import Any, Dict, Iterator, List, Optional
 
 import numpy as np
 from geometry_msgs.msg import Point, TransformStamped
@@ -15,6 +15,7 @@ from mtr_core.conversions import goal_from, waypoint_message
 from mtr_core.problems import messages_of, problem_of
 from mtr_core.se2 import Pose2
 from mtr_core.states import State
+from mtr_description.mounts import LidarMounts
 from mtr_msgs.msg import CarCheck, CarEstimate, LocalizedPose, MappingOrder, Problem, RobotMode
 from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 
@@ -22,7 +23,7 @@ from . import problems
 from .drawing import MarkerKind, MarkerShape
 from .estimate import Estimate, LocatorTask
 from .offline import FilesUnusable
-from .parameters import LocatorParameters, RefinementParameters
+from .parameters import RefinementParameters
 from .poses import PoseMode, RobotPose
 from .scan import Scan
 from .surfels import surfels_from
@@ -55,12 +56,20 @@ def scan_from(message: LaserScan, base_from_lidar: Pose2) -> Scan:
                 base_from_lidar)
 
 
-def scans_in(bag: pathlib.Path, parameters: LocatorParameters) -> Iterator[Scan]:
-    """Sweeps of both LiDARs in a recorded drive, in the order of their times."""
+def scan_mounts(lidars: LidarMounts) -> Dict[str, Pose2]:
+    """Mount of the LiDAR behind each topic with scans."""
+    mounts = {names.FRONT_SCAN: lidars.front}
+    if lidars.rear is not None:
+        mounts[names.REAR_SCAN] = lidars.rear
+    return mounts
+
+
+def scans_in(bag: pathlib.Path, lidars: LidarMounts) -> Iterator[Scan]:
+    """Sweeps of the LiDARs in a recorded drive, in the order of their times."""
     # The import is not above, so that the node, which reads no bags, starts without rosbag.
     import rosbag
 
-    mounts = {names.FRONT_SCAN: parameters.base_from_front_lidar, names.REAR_SCAN: parameters.base_from_rear_lidar}
+    mounts = scan_mounts(lidars)
     try:
         with rosbag.Bag(str(bag)) as recorded:
             for topic, message, _ in recorded.read_messages(topics=list(mounts)):

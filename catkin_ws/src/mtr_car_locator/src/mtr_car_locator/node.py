@@ -13,6 +13,7 @@ from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
 from mtr_core.lockstep.clock import stamp_of
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
+from mtr_description.robot_description import described_robot
 from mtr_msgs.msg import CarCheck, CarEstimate, MappingOrder, MotionStatus, RobotMode
 
 from .conversions import (
@@ -35,12 +36,13 @@ class CarLocatorNode:
     """Feeds the locator at its ticks and publishes what it says."""
 
     def __init__(self, parameters: LocatorParameters):
+        lidars = described_robot().lidars(parameters.rear_lidar)
         self._parameters = parameters
         self._locator = CarLocator(parameters)
         self._ticker = Ticker(schedule.CAR_LOCATOR)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
         self._drive = TickInput(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER)
-        self._poses, self._scans, self._maps = PoseSource(self._locator), ScanSource(parameters), MapSource()
+        self._poses, self._scans, self._maps = PoseSource(self._locator), ScanSource(lidars), MapSource()
         self._shown: Optional[Tuple[CarState, Rectangle, Tuple[Pose2, ...]]] = None
         self._said = ("", 0)
         self._estimates = publisher(names.CAR_ESTIMATE, CarEstimate)

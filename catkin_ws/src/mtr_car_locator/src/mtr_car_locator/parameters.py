@@ -90,10 +90,7 @@ class LocatorParameters(ParameterSet):
         look_first_s: standing look at the Car before the way round it is laid.
         look_limit_s: the Car has to be seen from the starting place by then.
         map_limit_s: localization has to have adjusted its map by then.
-        front_lidar_x_m: front LiDAR ahead of base_link.
-        front_lidar_yaw_rad: its heading.
-        rear_lidar_x_m: rear LiDAR ahead of base_link.
-        rear_lidar_yaw_rad: its heading.
+        rear_lidar: the robot has one.
     """
 
     start_x_m: float = number(4.0, -20.0, 20.0, "m")
@@ -111,10 +108,7 @@ class LocatorParameters(ParameterSet):
     look_first_s: float = number(1.0, 0.3, 10.0, "s")
     look_limit_s: float = number(8.0, 0.5, 60.0, "s")
     map_limit_s: float = number(15.0, 1.0, 120.0, "s")
-    front_lidar_x_m: float = number(0.12, -1.0, 1.0, "m")
-    front_lidar_yaw_rad: float = number(0.0, -math.pi, math.pi, "rad")
-    rear_lidar_x_m: float = number(-0.20, -1.0, 1.0, "m")
-    rear_lidar_yaw_rad: float = number(math.pi, -math.pi, math.pi, "rad")
+    rear_lidar: bool = True
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -128,13 +122,3 @@ class LocatorParameters(ParameterSet):
     def car_from_start(self) -> Pose2:
         """Where the robot starts, in the Car's frame."""
         return Pose2(self.start_x_m, self.start_y_m, self.start_heading_rad)
-
-    @property
-    def base_from_front_lidar(self) -> Pose2:
-        """Mounting of the front LiDAR."""
-        return Pose2(self.front_lidar_x_m, 0.0, self.front_lidar_yaw_rad)
-
-    @property
-    def base_from_rear_lidar(self) -> Pose2:
-        """Mounting of the rear LiDAR."""
-        return Pose2(self.rear_lidar_x_m, 0.0, self.rear_lidar_yaw_rad)

@@ -12,12 +12,12 @@ from mtr_core import names, schedule
 from mtr_core.lockstep import StampedQueue
 from mtr_core.lockstep.clock import is_simulated
 from mtr_core.schedule import MILLISECOND_NS
+from mtr_description.mounts import LidarMounts
 from mtr_msgs.msg import LocalizedPose
 from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 
-from .conversions import robot_pose_from, scan_from, surface_map_from
+from .conversions import robot_pose_from, scan_from, scan_mounts, surface_map_from
 from .locator import CarLocator
-from .parameters import LocatorParameters
 from .scan import Scan
 from .survey.survey import SurfaceMap
 
@@ -51,10 +51,10 @@ class PoseSource:
 
 
 class ScanSource:
-    """Scans of both LiDARs, from when they are wanted on."""
+    """Scans of the LiDARs, from when they are wanted on."""
 
-    def __init__(self, parameters: LocatorParameters):
-        self._mounts = (parameters.base_from_front_lidar, parameters.base_from_rear_lidar)
+    def __init__(self, lidars: LidarMounts):
+        self._mounts = scan_mounts(lidars)
         self._queues: List[StampedQueue] = []
         self._usable_from_ns = 0
 
@@ -66,8 +66,8 @@ class ScanSource:
         if not self._queues:
             self._usable_from_ns = tick_ns + CONNECTING_NS
             self._queues = [StampedQueue(topic, numpy_msg(LaserScan), schedule.LIDAR, SCAN_LAG_NS)
-                            for topic in (names.FRONT_SCAN, names.REAR_SCAN)]
-        return [scan_from(message, mount) for queue, mount in zip(self._queues, self._mounts)
+                            for topic in self._mounts]
+        return [scan_from(message, mount) for queue, mount in zip(self._queues, self._mounts.values())
                 for message in queue.take(tick_ns) if message.header.stamp.to_nsec() >= self._usable_from_ns]
 
     def _close(self) -> None:

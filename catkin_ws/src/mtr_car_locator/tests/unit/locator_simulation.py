@@ -17,6 +17,7 @@ from mtr_core.problems import Problem
 from mtr_core.requests import NO_GOAL, Goal, GoalReport, Waypoint
 from mtr_core.se2 import Pose2, wrap_angle
 from mtr_core.states import CarState, Check, Result
+from mtr_description.shipped import shipped_geometry
 
 PARAMETERS = LocatorParameters()
 BEAMS, FIELD_RAD, SWEEP_S = 480, math.radians(270.0), 0.030
@@ -198,7 +199,7 @@ class World:
         self.locator.add_pose(self._localized(before))
         self.mapper.add_pose(self.now, self.pose)
         if self.steps % (8 if self.pose == before else 16) == 0 and len(self._trail) == 4:
-            for mount in (PARAMETERS.base_from_front_lidar, PARAMETERS.base_from_rear_lidar):
+            for mount in shipped_geometry().lidars():
                 self._scans.append((self.now, self._scan(mount)))
         if self.steps % 5 == 0:
             self._tick(mapping, map_car_id)

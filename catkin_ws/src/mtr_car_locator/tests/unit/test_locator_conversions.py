@@ -34,6 +34,7 @@ from mtr_core.problems import Problem
 from mtr_core.requests import CAR_LOCATOR, Goal, GoalId, GoalReport, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Check, Direction, Result
+from mtr_description.shipped import shipped_geometry
 from mtr_msgs.msg import (
     CarCheck,
     CarEstimate,
@@ -46,6 +47,7 @@ from mtr_msgs.msg import (
 
 FOUND = Problem("car_locator.found", "Found.")
 MOVED = Problem("car_locator.moved", "Moved.", (("shift_cm", "3.0"),))
+LIDARS = shipped_geometry().lidars()
 STAMP = genpy.Time(9, 60_000_000)
 
 
@@ -158,10 +160,9 @@ def test_scans_in_a_bag_come_in_order_with_their_mounting(tmp_path):
             message = LaserScan(angle_increment=0.01, range_max=30.0, ranges=[1.0, 2.0])
             message.header.stamp = genpy.Time(time_s)
             recorded.write(topic, message, message.header.stamp)
-    found = list(scans_in(bag, PARAMETERS))
+    found = list(scans_in(bag, LIDARS))
     assert [scan.start_s for scan in found] == [1.0, 2.0]
-    assert [scan.base_from_lidar for scan in found] == [PARAMETERS.base_from_front_lidar,
-                                                        PARAMETERS.base_from_rear_lidar]
+    assert [scan.base_from_lidar for scan in found] == list(LIDARS)
 
 
 @pytest.mark.parametrize("content", [None, b"no bag"])
@@ -170,4 +171,4 @@ def test_bag_that_cannot_be_read_is_named(tmp_path, content):
     if content is not None:
         bag.write_bytes(content)
     with pytest.raises(FilesUnusable, match=r"drive\.bag cannot be read"):
-        list(scans_in(bag, PARAMETERS))
+        list(scans_in(bag, LIDARS))

@@ -43,7 +43,8 @@ def no_bag(path, _):
 
 @pytest.mark.parametrize("arguments, word", [(["--prior", "30", "0", "0"], "nothing of a Car's size"),
                                              (["--parameter", "nonsense=1"], "nonsense"),
-                                             (["--bag", "drive.bag"], "There is no drive.bag")])
+                                             (["--bag", "drive.bag"], "There is no drive.bag"),
+                                             (["--bag", "a.bag", "--robot", "no.xacro"], "no.xacro cannot be read")])
 def test_command_says_in_one_sentence_what_is_wrong(folder, capsys, arguments, word):
     assert main(no_bag, [str(folder), *arguments]) == 2
     said = capsys.readouterr().err

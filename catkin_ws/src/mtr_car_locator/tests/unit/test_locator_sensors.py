@@ -9,6 +9,7 @@ from sensor_msgs.msg import LaserScan
 from mtr_car_locator import sensors
 from mtr_car_locator.locator import CarLocator
 from mtr_car_locator.parameters import LocatorParameters
+from mtr_description.shipped import shipped_geometry
 from mtr_msgs.msg import LocalizedPose, SurfaceMap
 
 MILLISECOND_NS = 1_000_000
@@ -50,7 +51,7 @@ def stamped(message, time_ms):
 
 
 def test_scans_are_heard_only_while_they_are_wanted_and_none_of_the_first_200_ms(topics):
-    source = sensors.ScanSource(PARAMETERS)
+    source = sensors.ScanSource(shipped_geometry().lidars())
     topics["/front/scan"] = [stamped(LaserScan(), 1150), stamped(LaserScan(), 1250)]
     assert source.take(1000 * MILLISECOND_NS, False) == [] and not FakeQueue.opened
     scans = source.take(1000 * MILLISECOND_NS, True)

@@ -25,6 +25,9 @@ struct Mount {
 /// m.
 inline constexpr double kMaxTiltRad = 0.03490658503988659;
 
+/// Throws ConfigurationError that says subject, value and what is allowed, unless low <= value <= high.
+void check_value(const std::string& subject, double value, double low, double high, const std::string& unit);
+
 /// Throws ConfigurationError unless the frame is upright and level.
 void check_level(const Mount& mount);
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
-from typing import Tuple
+from typing import NamedTuple, Optional, Tuple
 
 from mtr_core.errors import ConfigurationError, range_problem
 from mtr_core.se2 import Pose2
@@ -37,6 +37,13 @@ class Mount:
         check_value(f"The roll of {self.frame}", self.roll_rad, -MAX_TILT_RAD, MAX_TILT_RAD, "rad")
         check_value(f"The pitch of {self.frame}", self.pitch_rad, -MAX_TILT_RAD, MAX_TILT_RAD, "rad")
         return Pose2(self.x_m, self.y_m, self.yaw_rad)
+
+
+class LidarMounts(NamedTuple):
+    """base_from_lidar of the LiDARs, seen from above; both are upright and level. A robot may have no rear one."""
+
+    front: Pose2
+    rear: Optional[Pose2]
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ import numpy as np
 from mtr_core import names
 from mtr_core.errors import ConfigurationError
 
-from .mounts import Footprint, KeyMount, Mount, Wheels, check_value
+from .mounts import Footprint, KeyMount, LidarMounts, Mount, Wheels, check_value
 from .outline import convex_hull, corners_from_above
 from .urdf_tree import DIGITS, UrdfTree
 
@@ -38,6 +38,11 @@ class RobotGeometry:
         place = self.tree.place(frame)
         x, y, z = (float(value) for value in place.position)
         return Mount(frame, x, y, z, *place.rpy())
+
+    def lidars(self, has_rear: bool = True) -> LidarMounts:
+        """Mounts of the LiDARs; ConfigurationError unless they are there, upright and level."""
+        return LidarMounts(self.mount(names.FRONT_LIDAR).level(),
+                           self.mount(names.REAR_LIDAR).level() if has_rear else None)
 
     def footprint(self) -> Footprint:
         """Outline of everything that collides; neither a wheel's turn nor the lift changes it."""

@@ -1,4 +1,4 @@
-"""The robot that this package describes, for tests, benchmarks and the simulation without ROS."""
+"""Robots from files, above all the one that this package describes: for what runs without ROS."""
 # SPDX-License-Identifier: Apache-2.0
 import functools
 import pathlib
@@ -6,14 +6,24 @@ import pathlib
 import rospkg
 import xacro
 
+from mtr_core.errors import ConfigurationError
+
 from .robot_geometry import RobotGeometry
 
 
-def shipped_urdf() -> str:
-    """Text of urdf/robot.urdf.xacro as launch files load it."""
-    path = pathlib.Path(rospkg.RosPack().get_path("mtr_description")) / "urdf" / "robot.urdf.xacro"
-    text: str = xacro.process_file(str(path)).toxml()
+def urdf_in(path: pathlib.Path) -> str:
+    """URDF text of a file, through xacro as launch files do it; ConfigurationError when it cannot be read."""
+    try:
+        text: str = xacro.process_file(str(path)).toxml()
+    except Exception as error:  # Beside its own errors xacro lets through those of XML, of Python and of files.
+        raise ConfigurationError(f"{path} cannot be read; allowed is a URDF or a xacro file ({error}).") from error
     return text
+
+
+@functools.lru_cache(maxsize=None)
+def shipped_urdf() -> str:
+    """Text of urdf/robot.urdf.xacro."""
+    return urdf_in(pathlib.Path(rospkg.RosPack().get_path("mtr_description")) / "urdf" / "robot.urdf.xacro")
 
 
 @functools.lru_cache(maxsize=None)

@@ -9,6 +9,7 @@ from rosgraph_msgs.msg import Log
 
 from mtr_core import names, schedule
 from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
+from mtr_description.robot_description import described_robot
 from mtr_msgs.msg import CarCheck, CarEstimate, DesiredState, LocalizedPose, MotionLock, PeripheralsState, RobotMode
 
 from .conversions import desired_message, lock_message
@@ -131,10 +132,11 @@ class DispatcherNode:
 
 def make(parameters: Parameters) -> DispatcherNode:
     """The node with its ports open."""
+    key = described_robot().key()
     server = LinkServer()
     server.bind(parameters.bind_address, parameters.status_port, parameters.command_port)
     identity = Identity(secrets.randbits(63) | 1, rospkg.RosPack().get_manifest("mtr_dispatcher").version,
-                        parameters.key_x_m, parameters.key_y_m)
+                        key.x_m, key.y_m)
     return DispatcherNode(parameters, Dispatcher(parameters, identity), server)
 
 

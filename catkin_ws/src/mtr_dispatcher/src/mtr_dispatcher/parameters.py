@@ -21,8 +21,6 @@ class Parameters(ParameterSet):
         takeover_after_s: silence of the application in control after which another may take over.
         default_speed_mps: maximum speed when a Command names none; not above platform_speed_mps.
         platform_speed_mps: highest maximum speed that a Command may ask for (Jackal data sheet).
-        key_x_m: Remote key in base_link.
-        key_y_m: Remote key in base_link.
         low_battery: charge below which the Operator is warned.
     """
 
@@ -36,8 +34,6 @@ class Parameters(ParameterSet):
     takeover_after_s: float = number(3.0, 1.0, 60.0, "s")
     default_speed_mps: float = number(0.5, 0.05, 2.0, "m/s")
     platform_speed_mps: float = number(2.0, 0.05, 2.0, "m/s")
-    key_x_m: float = number(0.25, -1.0, 1.0, "m")
-    key_y_m: float = number(0.0, -1.0, 1.0, "m")
     low_battery: float = number(0.2, 0.0, 1.0)
 
     def __post_init__(self) -> None:

@@ -1,5 +1,5 @@
 /// @file
-/// Parameters of the collision stop: the robot's outline, its LiDARs, and what a person can do; SI units.
+/// Parameters of the collision stop: what a person can do, and what the robot leaves between; SI units.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,16 +9,8 @@
 
 namespace mtr_drive_control {
 
-/// The outline and the LiDARs' places are those of mtr_description; a unit test compares them.
+/// Margins and time-outs; the robot's outline and its LiDARs are in its URDF (robot_shape.hpp).
 struct CollisionParameters {
-  /// base_link to what is foremost, the key.
-  double front_m = 0.27;
-  double rear_m = 0.254;
-  double half_width_m = 0.215;
-  double front_lidar_x_m = 0.12;
-  double front_lidar_yaw_rad = 0.0;
-  double rear_lidar_x_m = -0.20;
-  double rear_lidar_yaw_rad = 3.14159265;
   /// A thing that may be a person may walk at this speed at any moment.
   double person_speed_mps = 1.5;
   /// A foot swings so far ahead of the walking body (0.28 m at 1.5 m/s), and the body overhangs the legs that are seen.
@@ -41,14 +33,7 @@ struct CollisionParameters {
 
 using CollisionRow = mtr_core::ParameterRow<CollisionParameters>;
 
-inline constexpr std::array<CollisionRow, 17> kCollisionRows{{
-    {"front_m", &CollisionParameters::front_m, 0.1, 1.0, "m"},
-    {"rear_m", &CollisionParameters::rear_m, 0.1, 1.0, "m"},
-    {"half_width_m", &CollisionParameters::half_width_m, 0.1, 0.6, "m"},
-    {"front_lidar_x_m", &CollisionParameters::front_lidar_x_m, -1.0, 1.0, "m"},
-    {"front_lidar_yaw_rad", &CollisionParameters::front_lidar_yaw_rad, -3.15, 3.15, "rad"},
-    {"rear_lidar_x_m", &CollisionParameters::rear_lidar_x_m, -1.0, 1.0, "m"},
-    {"rear_lidar_yaw_rad", &CollisionParameters::rear_lidar_yaw_rad, -3.15, 3.15, "rad"},
+inline constexpr std::array<CollisionRow, 10> kCollisionRows{{
     {"person_speed_mps", &CollisionParameters::person_speed_mps, 0.5, 3.0, "m/s"},
     {"person_reach_m", &CollisionParameters::person_reach_m, 0.0, 1.0, "m"},
     {"gap_m", &CollisionParameters::gap_m, 0.02, 0.5, "m"},

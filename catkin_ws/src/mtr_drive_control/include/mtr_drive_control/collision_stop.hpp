@@ -50,7 +50,7 @@ struct MotionWish {
 /// for a pause.
 class CollisionStop {
  public:
-  CollisionStop(const CollisionParameters& parameters, bool has_rear_lidar);
+  CollisionStop(const CollisionParameters& parameters, const RobotShape& shape);
 
   /// Takes the readings of a tick; to be called once per tick, first.
   void look(std::int64_t tick_ns, const Sensors& sensors) { surroundings_.take(tick_ns, sensors); }

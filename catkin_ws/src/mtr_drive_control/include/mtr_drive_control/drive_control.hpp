@@ -61,7 +61,7 @@ struct Decision {
 /// dead.
 class DriveControl {
  public:
-  DriveControl(const Parameters& parameters, const CollisionParameters& collision, bool has_rear_lidar,
+  DriveControl(const Parameters& parameters, const CollisionParameters& collision, const RobotShape& shape,
                double period_s);
 
   /// Decision of this tick, ns of the ROS clock; to be called once per period.

@@ -5,21 +5,10 @@
 
 #include <vector>
 
-#include "mtr_drive_control/geometry.hpp"
+#include "mtr_drive_control/robot_shape.hpp"
 #include "mtr_drive_control/sweep.hpp"
 
 namespace mtr_drive_control {
-
-/// Where a LiDAR is mounted, upright, in base_link.
-struct LidarMount {
-  double x_m;
-  double y_m;
-  double yaw_rad;
-
-  Point in_base(double range_m, double angle_rad) const {
-    return {x_m + range_m * std::cos(yaw_rad + angle_rad), y_m + range_m * std::sin(yaw_rad + angle_rad)};
-  }
-};
 
 /// One echo in odom.
 struct Echo {

@@ -46,8 +46,8 @@ struct Obstacle {
 /// Keeps what the newest sweeps tell.
 class Surroundings {
  public:
-  /// @param has_rear_lidar false: the ground behind is not watched
-  Surroundings(const CollisionParameters& parameters, bool has_rear_lidar);
+  /// @param shape without a rear LiDAR the ground behind is not watched
+  Surroundings(const CollisionParameters& parameters, const RobotShape& shape);
 
   /// Takes the readings of a tick; to be called once per tick, before the questions below.
   void take(std::int64_t tick_ns, const Sensors& sensors);

@@ -17,6 +17,12 @@ constexpr std::int64_t kTestPeriodNs = 20 * kTestMs;
 constexpr std::int64_t kTestSweepNs = 40 * kTestMs;
 constexpr double kTestPi = 3.14159265358979323846;
 
+/// A robot like the one of mtr_description.
+inline RobotShape test_shape(bool has_rear_lidar) {
+  const LidarMount rear{-0.20, 0.0, kTestPi};
+  return {{0.27, 0.254, 0.215}, {0.12, 0.0, 0.0}, has_rear_lidar ? std::optional<LidarMount>(rear) : std::nullopt};
+}
+
 /// Upright cylinder in world.
 struct Disc {
   Point centre;
@@ -105,7 +111,7 @@ class Scene {
 class TestRobot {
  public:
   explicit TestRobot(bool has_rear_lidar = true, const Parameters& parameters = Parameters{})
-      : control(parameters, collision, has_rear_lidar, 0.02), has_rear_lidar_(has_rear_lidar) {}
+      : control(parameters, CollisionParameters{}, test_shape(has_rear_lidar), 0.02), has_rear_lidar_(has_rear_lidar) {}
 
   /// One tick with this wish.
   Decision step(const Velocity& wish, bool by_hand = false) {
@@ -138,7 +144,6 @@ class TestRobot {
 
   double clearance() const { return scene.clearance(control.footprint(), world_from_base); }
 
-  CollisionParameters collision;
   Scene scene;
   DriveControl control;
   Pose world_from_base;
@@ -149,14 +154,14 @@ class TestRobot {
  private:
   // The sweep that has just ended, as seen when it ended.
   void look() {
-    front_ = scene.sweep(lidar_pose(collision.front_lidar_x_m, 0.0), now_ns - kTestSweepNs);
-    rear_ =
-        has_rear_lidar_ ? scene.sweep(lidar_pose(collision.rear_lidar_x_m, kTestPi), now_ns - kTestSweepNs) : nullptr;
+    const RobotShape shape = test_shape(true);
+    front_ = scene.sweep(pose_of(shape.front_lidar), now_ns - kTestSweepNs);
+    rear_ = has_rear_lidar_ ? scene.sweep(pose_of(*shape.rear_lidar), now_ns - kTestSweepNs) : nullptr;
   }
 
-  Pose lidar_pose(double x_m, double yaw_rad) const {
-    const Point at = world_from_base.apply({x_m, 0.0});
-    return {at.x_m, at.y_m, world_from_base.heading_rad() + yaw_rad};
+  Pose pose_of(const LidarMount& mount) const {
+    const Point at = world_from_base.apply({mount.x_m, mount.y_m});
+    return {at.x_m, at.y_m, world_from_base.heading_rad() + mount.yaw_rad};
   }
 
   bool has_rear_lidar_;

@@ -98,7 +98,7 @@ TEST(Blindness, SilentLidarStopsTheMovingRobotWithinHalfASecond) {
 }
 
 TEST(Blindness, MissingRearLidarKeepsARobotThatShouldHaveOneStanding) {
-  DriveControl control(Parameters{}, CollisionParameters{}, true, 0.02);
+  DriveControl control(Parameters{}, CollisionParameters{}, test_shape(true), 0.02);
   Inputs inputs;
   inputs.planner = SourceCommand{1000 * kTestMs, {0.5, 0.0}, true};
   inputs.sensors = {sweep_at(960 * kTestMs), nullptr, Motion{1000 * kTestMs, Pose(), {}}};
@@ -106,7 +106,7 @@ TEST(Blindness, MissingRearLidarKeepsARobotThatShouldHaveOneStanding) {
 }
 
 TEST(Blindness, SilentOdometryStopsTheRobot) {
-  DriveControl control(Parameters{}, CollisionParameters{}, false, 0.02);
+  DriveControl control(Parameters{}, CollisionParameters{}, test_shape(false), 0.02);
   Inputs inputs;
   inputs.planner = SourceCommand{1000 * kTestMs, {0.5, 0.0}, true};
   inputs.sensors = {sweep_at(960 * kTestMs), nullptr, Motion{880 * kTestMs, Pose(), {}}};

@@ -39,7 +39,7 @@ class DriveControlTest : public ::testing::Test {
   }
 
   const Parameters limits = limits_at(Parameters{}, 0.35);
-  DriveControl control{Parameters{}, CollisionParameters{}, false, 0.02};
+  DriveControl control{Parameters{}, CollisionParameters{}, test_shape(false), 0.02};
 };
 
 TEST_F(DriveControlTest, PlannerDrivesWhenNothingElseWantsTo) {
@@ -145,7 +145,7 @@ TEST_F(DriveControlTest, UnknownKeyHeightLowersTheSpeedToThatOfTheRaisedKey) {
 TEST_F(DriveControlTest, WrongParameterIsRefusedAtConstruction) {
   Parameters parameters;
   parameters.max_linear_mps = -1.0;
-  EXPECT_THROW(DriveControl(parameters, CollisionParameters{}, false, 0.02), mtr_core::ConfigurationError);
+  EXPECT_THROW(DriveControl(parameters, CollisionParameters{}, test_shape(false), 0.02), mtr_core::ConfigurationError);
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
-"""The robot's outline, LiDARs and masses that drive control assumes are those of the URDF."""
+"""Which robots drive control serves, and that the masses that it assumes are those of the URDF."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import re
 from pathlib import Path
 from xml.etree import ElementTree
 
+import mtr_drive_control_core as core
 import pytest
 
 from mtr_description.shipped import shipped_urdf
@@ -57,27 +58,33 @@ def centre_of_mass(key_height_m):
     return x, z + BASE_HEIGHT_M
 
 
-def test_lidars_are_where_the_urdf_has_them():
-    for side in ("front", "rear"):
-        assert default(f"{side}_lidar_x_m") == pytest.approx(place_of(f"{side}_lidar")[0])
-        turn = numbers(JOINTS[f"{side}_lidar"].find("origin"), "rpy")[2]
-        assert default(f"{side}_lidar_yaw_rad") == pytest.approx(turn, abs=1e-6)
+def test_robot_of_mtr_description_is_served():
+    core.DriveControl(shipped_urdf())
 
 
-def test_everything_of_the_robot_is_within_the_footprint():
-    for name, link in LINKS.items():
-        x, y, _ = place_of(name)
-        for collision in link.findall("collision"):
-            origin = numbers(collision.find("origin"), "xyz")
-            box, cylinder = collision.find("geometry/box"), collision.find("geometry/cylinder")
-            if box is not None:
-                length, width, _ = numbers(box, "size")
-            else:
-                radius, height = float(cylinder.get("radius")), float(cylinder.get("length"))
-                length, width = 2.0 * radius, height if "wheel" in name else 2.0 * radius
-            assert x + origin[0] + length / 2.0 <= default("front_m") + 1e-9, name
-            assert x + origin[0] - length / 2.0 >= -default("rear_m") - 1e-9, name
-            assert abs(y + origin[1]) + width / 2.0 <= default("half_width_m") + 1e-9, name
+@pytest.mark.parametrize("wrong, sentence", [
+    (('"front_lidar"', '"lidar"'),
+     "The robot_description has no link front_lidar; allowed are descriptions in which it hangs on base_link."),
+    (('"0 0 3.141592653589793"', '"3.141592653589793 0 3.141592653589793"'),
+     "The roll of rear_lidar in robot_description is 3.14159 rad; allowed is -0.0349066 to 0.0349066 rad."),
+    (('"0 0 3.141592653589793"', '"0 0 1"'),
+     "The turn of rear_lidar from straight back in robot_description is -2.14159 rad; allowed is -0.785398 to 0.785398 "
+     "rad."),
+    (('size="0.508 0.43 0.06"', 'size="0.508 1.43 0.06"'),
+     "The footprint's half width in robot_description is 0.715 m; allowed is 0.1 to 0.6 m."),
+], ids=["missing LiDAR", "LiDAR upside down", "rear LiDAR looks aside", "too wide"])
+def test_robot_that_cannot_be_served_is_refused(wrong, sentence):
+    assert wrong[0] in shipped_urdf()
+    with pytest.raises(RuntimeError) as refused:
+        core.DriveControl(shipped_urdf().replace(*wrong))
+    assert str(refused.value) == sentence
+
+
+def test_rear_lidar_that_is_not_there_is_not_asked_for():
+    urdf = shipped_urdf().replace('"rear_lidar"', '"box"')
+    core.DriveControl(urdf, rear_lidar=False)
+    with pytest.raises(RuntimeError, match="no link rear_lidar"):
+        core.DriveControl(urdf, rear_lidar=True)
 
 
 @pytest.mark.parametrize("key_height_m", [KEY_AT_LOWER_STOP_M, KEY_AT_UPPER_STOP_M])

@@ -1,6 +1,5 @@
-"""Calibration of lift and servos: the only place where metres above ground and servos meet heights and buttons."""
+"""Calibration of the servos: the only place where they meet buttons."""
 # SPDX-License-Identifier: Apache-2.0
-import math
 from dataclasses import dataclass
 from typing import Iterable, Tuple
 
@@ -12,8 +11,6 @@ from . import problems
 
 MAX_SERVOS = 2
 MAX_BUTTON = 255
-# Rounding of a height that was sent as a 32-bit float.
-HEIGHT_ROUNDING_M = 1e-3
 
 
 class RequestRefused(ProblemError):
@@ -25,16 +22,12 @@ class Calibration(ParameterSet):
     """What config/calibration.yaml says.
 
     Attributes:
-        key_height_at_lower_stop_m: Remote key above ground with the lift at its lower stop.
-        lift_stroke_m: travel of the lift.
         button_of_servo: number of the button that each servo presses, in the firmware's order; 1 or 2 servos.
         minimum_strength, maximum_strength: allowed travel of a press as a share of the servo's.
         default_hold_s: time a button is held when the order names none.
         maximum_hold_s: longest time a button is held; the firmware counts 16-bit milliseconds.
     """
 
-    key_height_at_lower_stop_m: float = number(0.35, 0.05, 1.5, "m")
-    lift_stroke_m: float = number(1.2, 0.05, 2.0, "m")
     button_of_servo: Tuple[int, ...] = (1, 2)
     minimum_strength: float = number(0.0, 0.0, 1.0)
     maximum_strength: float = number(1.0, 0.0, 1.0)
@@ -48,24 +41,6 @@ class Calibration(ParameterSet):
         check_range("length of button_of_servo", len(self.button_of_servo), 1, MAX_SERVOS)
         for button in self.button_of_servo:
             check_range("button_of_servo", button, 1, MAX_BUTTON)
-
-    @property
-    def highest_key_m(self) -> float:
-        """Remote key above ground with the lift at its upper stop."""
-        return self.key_height_at_lower_stop_m + self.lift_stroke_m
-
-    def key_height_m(self, lift_height_m: float) -> float:
-        """Height of the key above ground."""
-        return self.key_height_at_lower_stop_m + lift_height_m
-
-    def lift_height_m(self, key_height_m: float) -> float:
-        """Height of the lift for a height of the key; NaN asks to hold still. Raises RequestRefused."""
-        if math.isnan(key_height_m):
-            return math.nan
-        low, high = self.key_height_at_lower_stop_m, self.highest_key_m
-        if not low - HEIGHT_ROUNDING_M <= key_height_m <= high + HEIGHT_ROUNDING_M:
-            raise RequestRefused(problems.KEY_HEIGHT(value=key_height_m, low=low, high=high))
-        return min(max(key_height_m - low, 0.0), self.lift_stroke_m)
 
     def servos(self, buttons: Iterable[int]) -> int:
         """Bits of the servos that press the buttons. Raises RequestRefused."""

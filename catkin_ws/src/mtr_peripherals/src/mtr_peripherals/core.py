@@ -11,6 +11,7 @@ from mtr_core.states import State
 from . import problems
 from .calibration import RequestRefused
 from .firmware import FAULTS, FirmwareReport, Led, ServoPress
+from .key_lift import KeyLift
 from .parameters import Parameters
 from .presses import Presses
 
@@ -58,8 +59,8 @@ class Outcome:
 class Peripherals:
     """Decides at each tick what lift, servos and LEDs do."""
 
-    def __init__(self, parameters: Parameters):
-        self._parameters, self._calibration = parameters, parameters.calibration
+    def __init__(self, parameters: Parameters, lift: KeyLift):
+        self._parameters, self._key_lift = parameters, lift
         self._presses = Presses(parameters.calibration)
 
     def step(self, inputs: Inputs, report: Optional[FirmwareReport], now_ns: int) -> Outcome:
@@ -72,7 +73,7 @@ class Peripherals:
         return Outcome(
             lift_height_m, self._led(inputs, bool(silence or fault)), press, not silence,
             lift_now_m=report.lift_height_m if report else 0.0,
-            key_height_m=self._calibration.key_height_m(report.lift_height_m) if report else math.nan,
+            key_height_m=self._key_lift.key_height_m(report.lift_height_m) if report else math.nan,
             pressed_buttons=self._presses.pressed_buttons, results=list(self._presses.results),
             led_shown=_led_name(report), message=silence or fault or refusal)
 
@@ -89,11 +90,11 @@ class Peripherals:
             return self._while_calibrating(inputs, report)
         if inputs.manual_lift_mps and report is not None:
             ahead_m = report.lift_height_m + MANUAL_LEAD_S * inputs.manual_lift_mps
-            return min(max(ahead_m, 0.0), self._calibration.lift_stroke_m), NO_PROBLEM
+            return self._key_lift.within_travel_m(ahead_m), NO_PROBLEM
         if not inputs.desired.link_alive:
             return math.nan, NO_PROBLEM
         try:
-            return self._calibration.lift_height_m(inputs.desired.key_height_m), NO_PROBLEM
+            return self._key_lift.height_m(inputs.desired.key_height_m), NO_PROBLEM
         except RequestRefused as refused:
             return math.nan, refused.problem
 
@@ -103,7 +104,7 @@ class Peripherals:
             return math.nan, problems.CALIBRATION_REFUSED()
         if not inputs.calibrates:
             return math.nan, problems.CALIBRATION_ENDED()
-        return min(max(report.lift_height_m, 0.0), self._calibration.lift_stroke_m), NO_PROBLEM
+        return self._key_lift.within_travel_m(report.lift_height_m), NO_PROBLEM
 
     def _led(self, inputs: Inputs, failed: bool) -> Led:
         choices = (

@@ -11,6 +11,7 @@ from mtr_core.crc import is_sound
 from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_core.lockstep.samples import Samples
 from mtr_core.requests import PressReport
+from mtr_description.robot_description import described_robot
 from mtr_msgs.msg import (
     DesiredState,
     DriveStatus,
@@ -38,6 +39,7 @@ from .core import Outcome, Peripherals
 from .firmware import FirmwareReport
 from .firmware_clock import FirmwareClock, SharedClock
 from .health_watch import HealthWatch
+from .key_lift import KeyLift
 from .parameters import Parameters
 
 NS = 1e-9
@@ -57,7 +59,7 @@ class PeripheralsNode:
 
     def __init__(self, parameters: Parameters):
         self._parameters = parameters
-        self._core = Peripherals(parameters)
+        self._core = Peripherals(parameters, KeyLift(described_robot().key()))
         start_us, lag_ns = (EMULATED_CLOCK_START_US, EMULATED_LAG_NS) if parameters.emulated_firmware else (0, 0)
         self._times = SharedClock(start_us) if clock.is_simulated() else FirmwareClock()
         self._reports: Samples[FirmwareReport] = Samples(schedule.FIRMWARE, lag_ns, clock.is_simulated())

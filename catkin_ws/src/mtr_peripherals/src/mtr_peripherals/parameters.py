@@ -18,7 +18,7 @@ class Parameters(ParameterSet):
         emulated_firmware: in simulation, the firmware is the flashed one on an emulated board: its clock starts
             elsewhere, and its reports take time to come.
         rear_lidar: the robot has one; without it the LEDs warn while it drives backwards.
-        calibration: of lift and servos.
+        calibration: of the servos.
     """
 
     firmware_silent_after_s: float = number(1.0, 0.2, 5.0, "s")

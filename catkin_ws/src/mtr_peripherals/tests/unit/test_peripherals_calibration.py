@@ -1,4 +1,4 @@
-"""Heights, buttons and times of the calibration."""
+"""Buttons and times of the calibration."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
@@ -20,21 +20,6 @@ def test_shipped_file_holds_every_value_and_is_valid():
     shipped = parameters_from(values, Calibration)
     assert set(values) == set(vars(CALIBRATION))
     assert shipped.button_of_servo == (1, 2)
-
-
-@pytest.mark.parametrize("key_m, lift_m", [(0.35, 0.0), (1.55, 1.2), (1.0, 0.65), (1.5504, 1.2), (0.3496, 0.0)])
-def test_key_height_becomes_lift_height(key_m, lift_m):
-    assert CALIBRATION.lift_height_m(key_m) == pytest.approx(lift_m)
-
-
-def test_no_height_holds_the_lift():
-    assert math.isnan(CALIBRATION.lift_height_m(math.nan))
-
-
-@pytest.mark.parametrize("key_m", [0.34, 1.56, -1.0, math.inf, -math.inf])
-def test_height_out_of_range_is_refused_with_the_range(key_m):
-    with pytest.raises(RequestRefused, match="0.35 to 1.55 m"):
-        CALIBRATION.lift_height_m(key_m)
 
 
 @pytest.mark.parametrize("buttons, bits", [([1], 1), ([2], 2), ([1, 2], 3), ([2, 2], 2)])
@@ -65,14 +50,13 @@ def test_duration_out_of_range_is_refused(duration_s):
         CALIBRATION.hold_ms(duration_s)
 
 
-@pytest.mark.parametrize("bad", [{"lift_stroke_m": 3.0}, {"button_of_servo": [1, 2, 3]}, {"button_of_servo": [0]},
-                                 {"default_hold_s": 20.0}, {"minimum_strength": 1.1},
-                                 {"key_height_at_lower_stop_m": math.nan}])
+@pytest.mark.parametrize("bad", [{"maximum_hold_s": 100.0}, {"button_of_servo": [1, 2, 3]}, {"button_of_servo": [0]},
+                                 {"default_hold_s": 20.0}, {"minimum_strength": 1.1}])
 def test_value_out_of_range_is_a_sentence(bad):
     with pytest.raises(ConfigurationError, match=next(iter(bad))):
         Calibration(**bad)
 
 
 def test_node_reads_parameters_and_calibration_from_one_namespace():
-    parameters = parameters_from({"firmware_silent_after_s": 2, "lift_stroke_m": 0.8}, Parameters)
-    assert parameters == Parameters(firmware_silent_after_s=2.0, calibration=Calibration(lift_stroke_m=0.8))
+    parameters = parameters_from({"firmware_silent_after_s": 2, "default_hold_s": 0.8}, Parameters)
+    assert parameters == Parameters(firmware_silent_after_s=2.0, calibration=Calibration(default_hold_s=0.8))

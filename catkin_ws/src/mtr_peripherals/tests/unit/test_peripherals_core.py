@@ -7,8 +7,10 @@ import pytest
 
 from mtr_core.problems import NO_PROBLEM
 from mtr_core.requests import NO_PRESS, DesiredState, Press
+from mtr_description.shipped import shipped_geometry
 from mtr_peripherals.core import Inputs, Peripherals
 from mtr_peripherals.firmware import FirmwareReport, Led, PressState
+from mtr_peripherals.key_lift import KeyLift
 from mtr_peripherals.parameters import Parameters
 
 MS = 1_000_000
@@ -56,7 +58,7 @@ class FakeFirmware:
 
 @pytest.fixture
 def core():
-    return Peripherals(Parameters())
+    return Peripherals(Parameters(), KeyLift(shipped_geometry().key()))
 
 
 def run(core, inputs, firmware, ticks, first=0):

@@ -7,6 +7,7 @@ import mtr_drive_control_core as core
 
 from mtr_core.schedule import SIMULATION_START_NS
 from mtr_core.se2 import Pose2
+from mtr_description.shipped import shipped_geometry, shipped_urdf
 from mtr_simulation import robot
 from mtr_simulation.lidar import LidarParameters
 from mtr_simulation.readings import Scan, Sensors
@@ -17,12 +18,13 @@ from mtr_simulation.sim import Sim, SimParameters
 Velocity = Tuple[float, float]
 # States of the zone in DriveStatus.
 SLOWED, STOPPED = 1, 2
-FRONT_M = core.default_collision()["front_m"]
+FOOTPRINT = shipped_geometry().footprint()
+FRONT_M = FOOTPRINT.front_m
 TICK_S = 0.02
 # The robot stands for so long until nothing sways, and then looks around, before its first tick.
 SETTLING_S, LOOKING_S = 1.5, 0.2
 START_S = SETTLING_S + LOOKING_S
-RADIUS_M = math.hypot(FRONT_M, core.default_collision()["half_width_m"])
+RADIUS_M = math.hypot(FRONT_M, FOOTPRINT.half_width_m)
 PERSON = {"person", "left_leg", "right_leg"}
 
 
@@ -40,7 +42,7 @@ class Rig:
         lidar = LidarParameters(errors=ScanErrors(echo_share=rain))
         self.sim = Sim(seed, scenario, SimParameters(rear_lidar=rear_lidar, lidar=lidar))
         self.decision: Optional[Any] = None
-        self._control = core.DriveControl(rear_lidar=rear_lidar)
+        self._control = core.DriveControl(shipped_urdf(), rear_lidar=rear_lidar)
         self._key_height_m = robot.KEY_HEIGHT_AT_LOWER_STOP_M + lift_m
         self._front: Optional[Scan] = None
         self._rear: Optional[Scan] = None

@@ -17,6 +17,7 @@ from mtr_car_locator.parameters import DataSheet, LocatorParameters
 from mtr_car_locator.scan import Scan
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
+from mtr_description.shipped import shipped_geometry
 from mtr_simulation.car_shape import CAR_SHAPES
 
 from ..drives.pose_track import PoseTrack, aligned, at, compose, pose_track, read_columns
@@ -42,7 +43,7 @@ def run_this_system(folder: pathlib.Path, truth: DriveTruth) -> MethodOutcome:
     if not summary["map_valid"]:
         raise SystemFailure(f"There is no map of this way round. {summary['map_message']}")
     track = read_replayed(out / "trajectory.csv")
-    found = locate(out, truth.meta, scans_in(folder / BAG, PARAMETERS))
+    found = locate(out, truth.meta, scans_in(folder / BAG, shipped_geometry().lidars()))
     return MethodOutcome(errors_of(track, car_pose(found), truth), float(summary["cpu_ms_per_scan"]),
                    car_errors(found, key_frames(out), truth))
 

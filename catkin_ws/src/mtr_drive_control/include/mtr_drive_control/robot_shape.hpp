@@ -1,0 +1,35 @@
+/// @file
+/// What drive control has to know of the robot's shape.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "mtr_description/robot_geometry.hpp"
+#include "mtr_drive_control/geometry.hpp"
+
+namespace mtr_drive_control {
+
+/// Where a LiDAR is mounted, upright and level, in base_link.
+struct LidarMount {
+  double x_m;
+  double y_m;
+  double yaw_rad;
+
+  Point in_base(double range_m, double angle_rad) const {
+    return {x_m + range_m * std::cos(yaw_rad + angle_rad), y_m + range_m * std::sin(yaw_rad + angle_rad)};
+  }
+};
+
+/// Outline and LiDARs of the robot.
+struct RobotShape {
+  Footprint footprint;
+  LidarMount front_lidar;
+  /// None: the ground behind is not watched.
+  std::optional<LidarMount> rear_lidar;
+};
+
+/// From the URDF; throws mtr_core::ConfigurationError for a footprint or a LiDAR that cannot be served.
+RobotShape shape_of(const mtr_description::RobotGeometry& geometry, bool has_rear_lidar);
+
+}  // namespace mtr_drive_control
