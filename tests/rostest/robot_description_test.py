@@ -14,9 +14,9 @@ from mtr_core.lockstep.start import CANNOT_START
 from mtr_description.shipped import shipped_urdf
 
 NODES = {"car_locator": "mtr_car_locator", "dispatcher": "mtr_dispatcher", "drive_control": "mtr_drive_control",
-         "peripherals": "mtr_peripherals"}
+         "motion_planner": "mtr_motion_planner", "peripherals": "mtr_peripherals"}
 READS_LIDARS = {"car_locator", "drive_control"}
-READS_KEY = {"dispatcher", "drive_control", "peripherals"}
+READS_KEY = {"dispatcher", "drive_control", "motion_planner", "peripherals"}
 
 
 START_LIMIT_S = 20.0

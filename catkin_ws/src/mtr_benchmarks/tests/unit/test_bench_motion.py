@@ -14,14 +14,17 @@ from mtr_benchmarks.motion.__main__ import PROMISED, report
 from mtr_benchmarks.motion.bound import Ends, lower_bound, shortest_way
 from mtr_benchmarks.motion.limiter import PERIOD_S, Limiter
 from mtr_core.se2 import Pose2
+from mtr_description.shipped import shipped_geometry
 from mtr_motion_planner.following.ramp import ANGULAR_SHARE, LINEAR_SHARE
 from mtr_motion_planner.geometry.keep_out import KeepOut
+from mtr_motion_planner.geometry.robot_outline import RobotOutline
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.search.options import Target
 from mtr_motion_planner.search.planning import Planning
 from mtr_motion_planner.timing.plan import Moving
 
 PARAMETERS = MotionParameters()
+OUTLINE = RobotOutline(shipped_geometry().footprint(), PARAMETERS.slip)
 CAR = Polygon([(2.25, 0.9), (-2.25, 0.9), (-2.25, -0.9), (2.25, -0.9)])
 FAR = Polygon([(90.0, 90.0), (91.0, 90.0), (91.0, 91.0)])
 LIMITS = PARAMETERS.limits
@@ -45,7 +48,7 @@ def test_turn_on_the_spot_takes_its_bound(angle):
 @pytest.mark.parametrize("speed", [0.4, 1.0])
 def test_no_plan_is_quicker_than_the_bound(car, heading, speed):
     start, end = Pose2(4.0, 1.0, heading), Pose2(-4.0, -1.5, 0.3 - heading)
-    keep_out = KeepOut(list(car.exterior.coords)[:-1], PARAMETERS.footprint)
+    keep_out = KeepOut(list(car.exterior.coords)[:-1], OUTLINE, PARAMETERS.margins)
     plan = Planning(keep_out, None, PARAMETERS, speed).plan(Moving(start), Target(end))
     assert plan.duration_s >= bound(start, end, car, speed) - 0.1
 

@@ -11,6 +11,7 @@ from visualization_msgs.msg import MarkerArray
 from mtr_core import names, schedule
 from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
 from mtr_core.lockstep.clock import is_simulated, stamp_of
+from mtr_description.robot_description import described_robot
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
 from .conversions import (
@@ -46,7 +47,7 @@ class MotionPlannerNode:
         self._parameters = parameters
         # In simulation time waits for the plan.
         executor = InlineExecutor() if is_simulated() else ThreadPoolExecutor(PLANS_AT_ONCE)
-        self._planner = MotionPlanner(parameters, executor)
+        self._planner = MotionPlanner(parameters, described_robot().footprint(), executor)
         self._ticker = Ticker(schedule.MOTION_PLANNER)
         self._pose = TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)

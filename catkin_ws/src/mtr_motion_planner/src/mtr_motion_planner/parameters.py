@@ -39,30 +39,6 @@ class Slip(ParameterSet):
 
 
 @dataclass(frozen=True)
-class Footprint(ParameterSet):
-    """The robot from above: a rectangle centred about base_link."""
-
-    footprint_length_m: float = number(0.51, 0.1, 2.0, "m")
-    footprint_width_m: float = number(0.43, 0.1, 2.0, "m")
-    slip: Slip = field(default_factory=Slip)
-
-    @property
-    def half_length_m(self) -> float:
-        """From base_link to the front."""
-        return 0.5 * self.footprint_length_m
-
-    @property
-    def half_width_m(self) -> float:
-        """From base_link to a side."""
-        return 0.5 * self.footprint_width_m
-
-    @property
-    def radius_m(self) -> float:
-        """About the turn centre, of what a turn on the spot sweeps."""
-        return math.hypot(self.half_length_m + abs(self.slip.turn_centre_x_m), self.half_width_m)
-
-
-@dataclass(frozen=True)
 class Margins(ParameterSet):
     """How far the robot stays away from things, by plan.
 
@@ -123,7 +99,7 @@ class MotionParameters(ParameterSet):
     """
 
     limits: MotionLimits = field(default_factory=MotionLimits)
-    footprint: Footprint = field(default_factory=Footprint)
+    slip: Slip = field(default_factory=Slip)
     margins: Margins = field(default_factory=Margins)
     arrival: Arrival = field(default_factory=Arrival)
     run_in_m: float = number(0.3, 0.0, 2.0, "m")
@@ -132,13 +108,3 @@ class MotionParameters(ParameterSet):
     input_age_limit_s: float = number(0.3, 0.1, 2.0, "s")
     accept_nav_goal: bool = False
     nav_goal_speed_mps: float = number(0.5, 0.05, 2.0, "m/s")
-
-    @property
-    def pivot_gap_m(self) -> float:
-        """Distance of the turn centre from the Car that a turn on the spot needs."""
-        return self.footprint.radius_m + self.margins.keep_out_m
-
-    @property
-    def route_gap_m(self) -> float:
-        """Distance of the turn centre from the Car on the way around it; the robot can turn on the spot there."""
-        return max(self.footprint.half_width_m + self.margins.route_margin_m, self.pivot_gap_m + 0.02)

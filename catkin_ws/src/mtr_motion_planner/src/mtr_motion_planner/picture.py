@@ -41,4 +41,4 @@ def picture_of(planner: MotionPlanner, parameters: MotionParameters) -> Optional
         part.trajectory.poses[::5], part.trajectory.linear[::5]))
     return PlanPicture(site.in_car_frame, tuple(zone.exterior.coords), trajectory,
                    follower.reference().pose if follower else None,
-                   site.goal @ parameters.footprint.slip.base_from_centre.inverse())
+                   site.goal @ parameters.slip.base_from_centre.inverse())

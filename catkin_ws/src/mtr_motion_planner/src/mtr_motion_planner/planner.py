@@ -8,12 +8,14 @@ from mtr_core.problems import NO_PROBLEM, Problem, problem_in
 from mtr_core.requests import NO_GOAL
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
+from mtr_description.mounts import Footprint
 
 from . import problems
 from .following.follower import Follower, FollowerOutput
 from .following.ramp import Ramp
 from .following.tolerance import miss_of, problem_of_miss, was_displaced
 from .following.watch import StallWatch, is_heading_into, problem_of_drive
+from .geometry.robot_outline import RobotOutline
 from .inputs import EstimatedCar, Inputs, InputsUnusable, Situation, Zone, situation_of
 from .outputs import PlannerOutput
 from .parameters import MotionParameters
@@ -36,9 +38,9 @@ class MotionPlanner:
         site: frame of the present plan, None before the first.
     """
 
-    def __init__(self, parameters: MotionParameters, executor: Executor):
+    def __init__(self, parameters: MotionParameters, footprint: Footprint, executor: Executor):
         """executor: makes the plans."""
-        self._parameters = parameters
+        self._parameters, self._outline = parameters, RobotOutline(footprint, parameters.slip)
         self._replanning = Replanning(parameters, executor)
         self._ramp = Ramp(parameters.limits)
         self._stall = StallWatch()
@@ -100,7 +102,7 @@ class MotionPlanner:
         if site is None:
             return self._stay()
         base = site.frame_from_map(now.car) @ now.robot.pose
-        pose = base @ self._parameters.footprint.slip.base_from_centre
+        pose = base @ self._parameters.slip.base_from_centre
         if self._result in SETTLED:
             if not was_displaced(self._settled_at, pose):
                 return self._stay()
@@ -112,7 +114,7 @@ class MotionPlanner:
 
     def _arranged(self, car: EstimatedCar) -> Optional[Site]:
         try:
-            self.site = Site(self._goal.waypoint, car, self._parameters)
+            self.site = Site(self._goal.waypoint, car, self._outline, self._parameters)
         except RobotError as refusal:
             self._settle(Result.REFUSED, problem_in(refusal), None)
         return self.site

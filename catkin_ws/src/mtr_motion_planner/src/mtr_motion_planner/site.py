@@ -14,6 +14,7 @@ from mtr_core.se2 import Pose2
 from . import problems
 from .geometry.fence import Fence, corners_of
 from .geometry.keep_out import KeepOut
+from .geometry.robot_outline import RobotOutline
 from .inputs import EstimatedCar
 from .parameters import MotionParameters
 from .timing.plan import PlanRefused
@@ -32,7 +33,7 @@ class Site:
         fence: the test area in the frame, None when there is no bound.
     """
 
-    def __init__(self, goal: Waypoint, car: EstimatedCar, parameters: MotionParameters):
+    def __init__(self, goal: Waypoint, car: EstimatedCar, robot: RobotOutline, parameters: MotionParameters):
         """OutlineUnusable or PlanRefused when one cannot plan here."""
         self._car = car
         if goal.frame not in (names.CAR, names.MAP):
@@ -42,9 +43,9 @@ class Site:
         self.in_car_frame = goal.frame == names.CAR
         if self.in_car_frame and not car.located:
             raise PlanRefused(problems.CAR_NOT_LOCATED())
-        self.goal = goal.pose @ parameters.footprint.slip.base_from_centre
+        self.goal = goal.pose @ parameters.slip.base_from_centre
         frame_from_car = MAP_FROM_MAP if self.in_car_frame else car.pose
-        self.keep_out = KeepOut([frame_from_car.apply(x, y) for x, y in car.outline], parameters.footprint)
+        self.keep_out = KeepOut([frame_from_car.apply(x, y) for x, y in car.outline], robot, parameters.margins)
         self.fence = self._fence(parameters, frame_from_car)
 
     def _fence(self, parameters: MotionParameters, frame_from_car: Pose2) -> Optional[Fence]:
@@ -56,7 +57,7 @@ class Site:
         if in_car and not self._car.located:
             return None  # while the Car is mapped nobody knows yet where its frame is
         frame = frame_from_car if in_car else self.frame_from_map(self._car)
-        return Fence([frame.apply(x, y) for x, y in corners], parameters.footprint, parameters.limits)
+        return Fence([frame.apply(x, y) for x, y in corners], self.keep_out.robot, parameters.limits)
 
     def frame_from_map(self, car: EstimatedCar) -> Pose2:
         """Where map is in the frame, by the Car's newest pose."""

@@ -9,6 +9,8 @@ from shapely.geometry import Polygon
 from mtr_core.requests import NO_GOAL, Goal, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
+from mtr_description.shipped import shipped_geometry
+from mtr_motion_planner.geometry.robot_outline import RobotOutline
 from mtr_motion_planner.inputs import CollisionStop, DesiredMotion, EstimatedCar, Inputs, RobotState
 from mtr_motion_planner.outputs import PlannerOutput
 from mtr_motion_planner.parameters import MotionParameters, Slip
@@ -16,7 +18,9 @@ from mtr_motion_planner.planner import MotionPlanner
 from mtr_motion_planner.replanning import InlineExecutor
 
 PARAMETERS = MotionParameters()
-EXPECTED_SLIP = PARAMETERS.footprint.slip
+EXPECTED_SLIP = PARAMETERS.slip
+FOOTPRINT = shipped_geometry().footprint()
+ROBOT = RobotOutline(FOOTPRINT, EXPECTED_SLIP)
 PERIOD_S, SUBSTEPS = 0.04, 4
 LAG_S = 0.03
 BASE_ACCELERATION_MPS2, BASE_ANGULAR_RADPS2 = 3.0, 6.0
@@ -36,7 +40,7 @@ class SimulatedRobot:
                  parameters: MotionParameters = PARAMETERS):
         self.pose, self.car, self.held, self.slip = pose, car or car_at(), held, slip
         self.speed = self.yaw_rate = 0.0
-        self.planner = MotionPlanner(parameters, InlineExecutor())
+        self.planner = MotionPlanner(parameters, FOOTPRINT, InlineExecutor())
         self.collision_stop: Optional[CollisionStop] = None
         self.speed_cap, self.is_degenerate = math.inf, False
         self.ticks = 0
@@ -121,7 +125,7 @@ class SimulatedRobot:
         """Distance of the footprint from the Car, computed apart from the planner's."""
         if len(self.car.outline) < 3:
             return math.inf
-        corners = [self.pose.apply(x, y) for x, y in ((.255, .215), (-.255, .215), (-.255, -.215), (.255, -.215))]
+        corners = [self.pose.apply(x, y) for x, y in ((.27, .215), (-.254, .215), (-.254, -.215), (.27, -.215))]
         car = Polygon([self.car.pose.apply(x, y) for x, y in self.car.outline])
         return Polygon(corners).distance(car)
 

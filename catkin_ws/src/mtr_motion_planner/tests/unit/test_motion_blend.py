@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from motion_simulation import PARAMETERS, SimulatedRobot, car_at
+from motion_simulation import PARAMETERS, ROBOT, SimulatedRobot, car_at
 
 from mtr_core.se2 import Pose2, wrap_angle
 from mtr_core.states import Direction, Result
@@ -23,7 +23,7 @@ ENDS = (Pose2(1.5, -3.0, 1.1), Pose2(0.0, -3.0, 0.0), Pose2(3.0, -4.0, 2.0), Pos
 
 
 def planned(end, speed=0.7):
-    keep_out = KeepOut(car_at().outline, PARAMETERS.footprint)
+    keep_out = KeepOut(car_at().outline, ROBOT, PARAMETERS.margins)
     return Planning(keep_out, None, PARAMETERS, speed).plan(Moving(START), Target(end, Direction.ANY))
 
 
@@ -62,7 +62,7 @@ def test_blended_plan_keeps_speed_yaw_rate_and_accelerations(end, speed):
 
 def test_blend_around_the_car_follows_its_drive_once_the_first_turn_is_done():
     start, end = Pose2(4.0, -2.0, 2.6), Pose2(-3.5, 1.0, -1.2)
-    keep_out = KeepOut(car_at().outline, PARAMETERS.footprint)
+    keep_out = KeepOut(car_at().outline, ROBOT, PARAMETERS.margins)
     part, = Planning(keep_out, None, PARAMETERS, 0.7).plan(Moving(start), Target(end, Direction.ANY)).parts
     curve, poses = part.motion.drive.curve, part.trajectory.poses
     assert math.hypot(curve.x[0] - start.x, curve.y[0] - start.y) > 0.05
@@ -114,7 +114,7 @@ def test_goal_replaced_in_a_blend_is_reached_without_a_jump(after_s):
 
 @pytest.mark.parametrize("end", [Pose2(4.0, -6.0, -2.6), Pose2(5.0, -6.0, 2.8), Pose2(3.0, -6.3, 2.5)])
 def test_plan_with_a_blend_at_its_end_goes_on_from_the_present_speed(end):
-    keep_out = KeepOut(car_at().outline, PARAMETERS.footprint)
+    keep_out = KeepOut(car_at().outline, ROBOT, PARAMETERS.margins)
     plan = Planning(keep_out, None, PARAMETERS, 0.7).plan(Moving(START, 0.5), Target(end, Direction.ANY))
     assert isinstance(plan.parts[0].motion, Blend)
     assert plan.parts[0].trajectory.linear[:3] == pytest.approx(0.5, abs=0.05)

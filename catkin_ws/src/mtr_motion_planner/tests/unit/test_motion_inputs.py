@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 
 import pytest
+from motion_simulation import FOOTPRINT
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import parameters_from
@@ -61,7 +62,7 @@ BAD = {
 
 @pytest.mark.parametrize("case", BAD)
 def test_bad_input_gives_zero_velocity(case):
-    output = MotionPlanner(MotionParameters(), InlineExecutor()).step(BAD[case])
+    output = MotionPlanner(MotionParameters(), FOOTPRINT, InlineExecutor()).step(BAD[case])
     assert (output.linear_mps, output.angular_radps) == (0.0, 0.0)
     assert output.result in (Result.IDLE, Result.PENDING, Result.REFUSED)
     assert output.message.text.endswith(".") or output.goal_id == NO_GOAL_ID
@@ -69,7 +70,7 @@ def test_bad_input_gives_zero_velocity(case):
 
 @pytest.mark.parametrize("case", BAD)
 def test_robot_sets_out_when_the_input_is_good_again(case):
-    planner = MotionPlanner(MotionParameters(), InlineExecutor())
+    planner = MotionPlanner(MotionParameters(), FOOTPRINT, InlineExecutor())
     planner.step(BAD[case])
     for tick in range(1, 20):
         now = 1.0 + 0.04 * tick
@@ -86,11 +87,11 @@ SENTENCES = {"goal not a number": "not a number", "goal infinite": "not a number
 
 @pytest.mark.parametrize("case", SENTENCES)
 def test_sentence_says_what_is_wrong_with_the_input(case):
-    assert SENTENCES[case] in MotionPlanner(MotionParameters(), InlineExecutor()).step(BAD[case]).message.text
+    assert SENTENCES[case] in MotionPlanner(MotionParameters(), FOOTPRINT, InlineExecutor()).step(BAD[case]).message.text
 
 
 def test_input_that_turns_bad_in_mid_motion_gives_zero_at_once_and_goes_on_from_the_measured_speed():
-    planner = MotionPlanner(MotionParameters(), InlineExecutor())
+    planner = MotionPlanner(MotionParameters(), FOOTPRINT, InlineExecutor())
     moving = replace(ROBOT, speed_mps=0.3)
     for tick in range(40):
         now = 1.0 + 0.04 * tick

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from motion_simulation import OUTLINE, PARAMETERS, SimulatedRobot, car_at
+from motion_simulation import FOOTPRINT, OUTLINE, PARAMETERS, ROBOT, SimulatedRobot, car_at
 from shapely.geometry import Polygon, box
 from shapely.geometry.polygon import orient
 
@@ -25,27 +25,27 @@ FENCED = dataclasses.replace(PARAMETERS, margins=Margins(geofence_xy=TEST_AREA))
 
 
 def footprint_at(pose):
-    length, width = PARAMETERS.footprint.half_length_m, PARAMETERS.footprint.half_width_m
-    base = pose @ PARAMETERS.footprint.slip.base_from_centre.inverse()
-    return Polygon([base.apply(x, y) for x, y in ((length, width), (-length, width), (-length, -width),
-                                                  (length, -width))])
+    front, rear, width = FOOTPRINT.front_m, FOOTPRINT.rear_m, FOOTPRINT.half_width_m
+    base = pose @ PARAMETERS.slip.base_from_centre.inverse()
+    return Polygon([base.apply(x, y) for x, y in ((front, width), (-rear, width), (-rear, -width),
+                                                  (front, -width))])
 
 
 @pytest.mark.parametrize("pose", [Pose2(3.0, 0.4, 0.3), Pose2(0.2, -1.5, 1.5), Pose2(-2.6, 1.2, -0.8)])
 def test_clearance_is_the_distance_of_the_two_polygons(pose):
-    keep_out = KeepOut(OUTLINE, PARAMETERS.footprint)
+    keep_out = KeepOut(OUTLINE, ROBOT, PARAMETERS.margins)
     assert keep_out.clearance(pose) == pytest.approx(footprint_at(pose).distance(Polygon(OUTLINE)), abs=0.003)
 
 
 def test_clearance_is_zero_on_and_inside_the_outline():
-    keep_out = KeepOut(OUTLINE, PARAMETERS.footprint)
+    keep_out = KeepOut(OUTLINE, ROBOT, PARAMETERS.margins)
     assert keep_out.clearance(Pose2(0.0, 0.0, 0.0)) == 0.0
     assert keep_out.clearance(Pose2(2.2, 0.0, 0.0)) == 0.0
 
 
 @pytest.mark.parametrize("radius", [0.465, 0.8, 1.4])
 def test_ring_grown_by_its_radius_covers_the_hull_grown_by_the_gap(radius):
-    keep_out = KeepOut(OUTLINE, PARAMETERS.footprint)
+    keep_out = KeepOut(OUTLINE, ROBOT, PARAMETERS.margins)
     ring = Polygon(centres(keep_out.hull, radius, 0.465)).buffer(radius, 64)
     assert ring.buffer(0.002).contains(keep_out.hull.buffer(0.465, 64))
 
@@ -65,7 +65,7 @@ def test_plain_zone_does_not_reach_far_beyond_a_blunt_corner():
 
 def test_way_around_a_car_with_cut_corners_takes_no_longer_than_around_its_box():
     def time_s(outline):
-        planning = Planning(KeepOut(outline, PARAMETERS.footprint), None, PARAMETERS, 0.7)
+        planning = Planning(KeepOut(outline, ROBOT, PARAMETERS.margins), None, PARAMETERS, 0.7)
         return planning.plan(Moving(Pose2(4.0, -2.0, 2.6)), Target(Pose2(-3.5, 1.0, -1.2), Direction.ANY)).duration_s
     assert time_s(OUTLINE) < time_s(box(-2.25, -0.9, 2.25, 0.9).exterior.coords[:-1]) + 0.1
 
@@ -74,7 +74,7 @@ def test_way_around_a_car_with_cut_corners_takes_no_longer_than_around_its_box()
                                      ((0, 0), (4, 2), (4, 0), (0, 2))])
 def test_outline_without_area_or_crossing_itself_is_refused_with_a_sentence(outline):
     with pytest.raises(OutlineUnusable, match="outline"):
-        KeepOut(outline, PARAMETERS.footprint)
+        KeepOut(outline, ROBOT, PARAMETERS.margins)
     robot = SimulatedRobot(Pose2(4.0, 2.6, 0.0), car_at(outline=outline))
     robot.go(1, 6.0, 0.0, 0.0)
     assert robot.planner_says(Result.REFUSED, "outline")
@@ -106,7 +106,7 @@ def test_way_around_the_car_takes_the_side_inside_the_test_area():
     robot.go(1, -4.0, 1.2, 180.0)
     assert robot.run().result == Result.REACHED
     area = Polygon(list(zip(TEST_AREA[::2], TEST_AREA[1::2])))
-    centre = PARAMETERS.footprint.slip.base_from_centre
+    centre = PARAMETERS.slip.base_from_centre
     assert all(area.contains(footprint_at(pose @ centre)) for pose in robot.poses[::10])
     assert min(pose.y for pose in robot.poses) < -1.0
 

@@ -4,7 +4,7 @@ import math
 from concurrent.futures import Executor, Future
 
 import pytest
-from motion_simulation import PARAMETERS, PERIOD_S, SimulatedRobot
+from motion_simulation import FOOTPRINT, PARAMETERS, PERIOD_S, SimulatedRobot
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Result
@@ -39,7 +39,7 @@ def later_fixture():
 @pytest.fixture(name="robot")
 def robot_fixture(later):
     robot = SimulatedRobot(START)
-    robot.planner = MotionPlanner(PARAMETERS, later)
+    robot.planner = MotionPlanner(PARAMETERS, FOOTPRINT, later)
     robot.go(1, -4.0, 2.5, 0.0)
     robot.tick()
     later.work()
@@ -49,7 +49,7 @@ def robot_fixture(later):
 
 def test_robot_stands_until_its_first_plan_is_made_and_says_that_it_is_under_way(later):
     robot = SimulatedRobot(START)
-    robot.planner = MotionPlanner(PARAMETERS, later)
+    robot.planner = MotionPlanner(PARAMETERS, FOOTPRINT, later)
     robot.go(1, -4.0, 2.5, 0.0)
     robot.run_for(2.0)
     assert all(output.result == Result.PENDING and output.linear_mps == 0.0 for output in robot.outputs)

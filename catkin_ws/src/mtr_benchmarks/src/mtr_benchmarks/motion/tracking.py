@@ -16,7 +16,9 @@ from shapely.geometry import Polygon
 
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
+from mtr_description.shipped import shipped_geometry
 from mtr_motion_planner.geometry.keep_out import KeepOut
+from mtr_motion_planner.geometry.robot_outline import RobotOutline
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_simulation.car_shape import CarShape
 
@@ -35,6 +37,7 @@ AXIS_START_M, AXIS_END_M = 2.5, 0.3
 # Pairs closer together are corrections rather than ways.
 MIN_APART_M = 1.0
 PARAMETERS = MotionParameters()
+OUTLINE = RobotOutline(shipped_geometry().footprint(), PARAMETERS.slip)
 TIME_MEDIAN = Requirement("time of a way by its lower bound, median", "(ratio)")
 TIME_P95 = Requirement("time of a way by its lower bound, 95 %", "(ratio)", must=1.15)
 CROSS_TRACK = Requirement("across the axis, 95 %", "m", must=0.02)
@@ -129,7 +132,7 @@ def _pair(task: Tuple[int, int]) -> PairOutcome:
 
 def min_gap() -> float:
     """base_link never gets closer to the Car by plan: half the width, and the margin that a rounded corner leaves."""
-    return PARAMETERS.footprint.half_width_m + PARAMETERS.margins.keep_out_m
+    return OUTLINE.half_width_m + PARAMETERS.margins.keep_out_m
 
 
 def waypoint_pair(dice: random.Random, shape: CarShape) -> Tuple[Pose2, Pose2]:
@@ -142,7 +145,7 @@ def waypoint_pair(dice: random.Random, shape: CarShape) -> Tuple[Pose2, Pose2]:
 
 def waypoint(dice: random.Random, shape: CarShape) -> Pose2:
     """Random place in the belt: every second one faces the Car, as on an axis; the others face anywhere."""
-    keep_out = KeepOut(outline_of(shape), PARAMETERS.footprint)
+    keep_out = KeepOut(outline_of(shape), OUTLINE, PARAMETERS.margins)
     while True:
         x, y = dice.uniform(-1.0, 1.0) * (0.5 * shape.length_m + 4.0), dice.uniform(-1.0, 1.0) * (
             0.5 * shape.width_m + 4.0)
@@ -150,7 +153,7 @@ def waypoint(dice: random.Random, shape: CarShape) -> Pose2:
         if dice.random() < 0.5:
             heading = math.atan2(-y, -x)
         pose = Pose2(x, y, heading)
-        turn_room = keep_out.distance(pose) >= PARAMETERS.pivot_gap_m
+        turn_room = keep_out.distance(pose) >= keep_out.pivot_gap_m
         if turn_room and MIN_DISTANCE_M <= keep_out.clearance(pose) <= MAX_DISTANCE_M:
             return pose
 
@@ -162,7 +165,7 @@ def axis_of(dice: random.Random, shape: CarShape) -> Tuple[Pose2, Pose2]:
     across = dice.uniform(-0.9, 0.9) * (half_width if side in ("front", "rear") else half_length)
     turn = {"front": 0.0, "left": 0.5 * math.pi, "rear": math.pi, "right": -0.5 * math.pi}[side]
     extent = half_length if side in ("front", "rear") else half_width
-    front = PARAMETERS.footprint.half_length_m
+    front = OUTLINE.footprint.front_m
     far, near = (Pose2(0.0, 0.0, turn) @ Pose2(extent + distance + front, across, math.pi)
                  for distance in (AXIS_START_M, AXIS_END_M))
     return far, near

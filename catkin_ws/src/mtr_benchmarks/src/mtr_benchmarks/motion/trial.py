@@ -8,6 +8,7 @@ from mtr_core import names
 from mtr_core.requests import Goal, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
+from mtr_description.shipped import shipped_geometry
 from mtr_motion_planner.inputs import DesiredMotion, EstimatedCar, Inputs, RobotState
 from mtr_motion_planner.outputs import PlannerOutput
 from mtr_motion_planner.parameters import MotionParameters
@@ -52,8 +53,9 @@ class Trial:
         self._sim.scans_wanted = False
         self._world_from_car = scenario.world_from_car
         self._outline = outline_of(shape)
-        self._centre = parameters.footprint.slip.base_from_centre
-        self._planner, self._limiter = MotionPlanner(parameters, InlineExecutor()), Limiter()
+        self._centre = parameters.slip.base_from_centre
+        self._planner = MotionPlanner(parameters, shipped_geometry().footprint(), InlineExecutor())
+        self._limiter = Limiter()
         self._ticks, self._goals = 0, 0
         self._wanted: Velocity = (0.0, 0.0)
         self.contacts: Set[str] = set()

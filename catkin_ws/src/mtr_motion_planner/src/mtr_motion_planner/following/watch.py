@@ -50,7 +50,7 @@ def is_heading_into(keep_out: KeepOut, pose: Pose2, robot: RobotState, wanted: V
     """True when the robot, braking now, would come too close to the Car and closer than it is."""
     speed = max(abs(robot.speed_mps), abs(wanted.linear_mps) * 0.1)
     reach = speed ** 2 / (2.0 * parameters.limits.acceleration_mps2) + speed * DELAY_S
-    if wanted.linear_mps == 0.0 or keep_out.distance(pose) > parameters.footprint.radius_m + reach + 0.1:
+    if wanted.linear_mps == 0.0 or keep_out.distance(pose) > keep_out.robot.radius_m + reach + 0.1:
         return False
     sense = robot.speed_mps if abs(robot.speed_mps) > 0.05 else wanted.linear_mps
     clearance = keep_out.clearance(pose @ Pose2(math.copysign(reach, sense), 0.0, 0.0))

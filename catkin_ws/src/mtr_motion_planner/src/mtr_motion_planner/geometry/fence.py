@@ -12,7 +12,7 @@ from mtr_core.se2 import Pose2
 
 from ..inputs import Point
 from ..limits import MotionLimits
-from ..parameters import Footprint
+from .robot_outline import RobotOutline
 
 
 def corners_of(numbers: Sequence[float]) -> Sequence[Point]:
@@ -26,18 +26,18 @@ def corners_of(numbers: Sequence[float]) -> Sequence[Point]:
 class Fence:
     """Polygon in the frame of the plan."""
 
-    def __init__(self, corners: Sequence[Point], footprint: Footprint, limits: MotionLimits):
+    def __init__(self, corners: Sequence[Point], robot: RobotOutline, limits: MotionLimits):
         self._area = prep(Polygon(corners))
-        self._footprint, self._limits = footprint, limits
+        self._robot, self._limits = robot, limits
 
     def holds(self, poses: FloatArray, speeds: FloatArray) -> bool:
         """True when the robot may have these poses (rows of x, y, heading) at these signed speeds in m/s."""
-        ahead, aside = self._footprint.half_length_m, self._footprint.half_width_m
+        ahead, back, aside = self._robot.front_m, -self._robot.rear_m, self._robot.half_width_m
         reach = speeds * np.abs(speeds) / (2.0 * self._limits.acceleration_mps2)
         cos, sin = np.cos(poses[:, 2]), np.sin(poses[:, 2])
         points = []
-        for x, y in ((ahead, aside), (ahead, -aside), (-ahead, aside), (-ahead, -aside)):
-            along = x - self._footprint.slip.turn_centre_x_m + np.where(reach * x > 0.0, reach, 0.0)
+        for x, y in ((ahead, aside), (ahead, -aside), (back, aside), (back, -aside)):
+            along = x + np.where(reach * x > 0.0, reach, 0.0)
             points.append(np.column_stack((poses[:, 0] + cos * along - sin * y, poses[:, 1] + sin * along + cos * y)))
         return self._area.contains(MultiPoint(np.concatenate(points)))
 

@@ -14,7 +14,8 @@ from mtr_core.se2 import Pose2
 
 from .. import problems
 from ..inputs import Point
-from ..parameters import Footprint
+from ..parameters import Margins
+from .robot_outline import RobotOutline
 
 # The outline is sampled this densely; a footprint 0.1 m beside it is then seen at most 2 mm too far away.
 OUTLINE_STEP_M = 0.04
@@ -33,25 +34,37 @@ class KeepOut:
     """The Car in the frame of the plan.
 
     Attributes:
+        robot: that stays away from it.
         outline: as it was measured.
         hull: its convex hull.
         plain: around the hull, with few corners.
     """
 
-    def __init__(self, outline: Sequence[Point], footprint: Footprint):
-        self._footprint = footprint
+    def __init__(self, outline: Sequence[Point], robot: RobotOutline, margins: Margins):
+        self._margins = margins
+        self.robot = robot
         self.outline = polygon_of(outline)
         self.hull: Polygon = orient(self.outline.convex_hull)
         self.plain: Polygon = plain_of(self.hull)
         self._edge = _sampled(self.outline)
 
+    @property
+    def pivot_gap_m(self) -> float:
+        """Distance of the turn centre from the Car that a turn on the spot needs."""
+        return self.robot.radius_m + self._margins.keep_out_m
+
+    @property
+    def route_gap_m(self) -> float:
+        """Distance of the turn centre from the Car on the way around it; the robot can turn on the spot there."""
+        return max(self.robot.half_width_m + self._margins.route_margin_m, self.pivot_gap_m + 0.02)
+
     def clearances(self, poses: FloatArray) -> FloatArray:
         """Distance of the footprint from the outline at each pose (rows of x, y, heading); 0 when they overlap."""
-        half_length, half_width = self._footprint.half_length_m, self._footprint.half_width_m
         cos, sin = np.cos(poses[:, 2:3]), np.sin(poses[:, 2:3])
         dx, dy = self._edge[0] - poses[:, 0:1], self._edge[1] - poses[:, 1:2]
-        ahead = np.maximum(np.abs(cos * dx + sin * dy + self._footprint.slip.turn_centre_x_m) - half_length, 0.0)
-        aside = np.maximum(np.abs(cos * dy - sin * dx) - half_width, 0.0)
+        along = cos * dx + sin * dy
+        ahead = np.maximum(np.maximum(along - self.robot.front_m, -along - self.robot.rear_m), 0.0)
+        aside = np.maximum(np.abs(cos * dy - sin * dx) - self.robot.half_width_m, 0.0)
         return np.sqrt((ahead * ahead + aside * aside).min(axis=1))
 
     def clearance(self, pose: Pose2) -> float:

@@ -42,7 +42,7 @@ class Assembly:
     def __init__(self, keep_out: KeepOut, fence: Optional[Fence], parameters: MotionParameters, speed: float):
         self._keep_out, self._fence, self._parameters, self._speed = keep_out, fence, parameters, speed
         self.blends_left = 0
-        self._driving = Driving(parameters.limits, parameters.footprint.slip, speed)
+        self._driving = Driving(parameters.limits, parameters.slip, speed)
 
     def work_out(self, candidate: WayCandidate, start: Moving, goal: Pose2, best_s: float = math.inf
                  ) -> Optional[List[PlanPart]]:
@@ -70,7 +70,7 @@ class Assembly:
     def _blends(self, candidate: WayCandidate, begin: Moving, end: Pose2, transit: List[Begun], best_s: float
                 ) -> Iterator[Blend]:
         """The transit with turns that overlap with the drive, the quickest first."""
-        turns, slip = self._turns(transit), self._parameters.footprint.slip
+        turns, slip = self._turns(transit), self._parameters.slip
         if turns is None:
             return
         for overlap_s in overlaps_of(turns, self._parameters.limits, slip):
@@ -90,7 +90,7 @@ class Assembly:
             turns = None if transit is None else self._turns(transit)
             if transit is None or turns is None:
                 return None
-            trajectory, aside = overlapped(turns, overlap_s, self._parameters.footprint.slip,
+            trajectory, aside = overlapped(turns, overlap_s, self._parameters.slip,
                                            complex(begin.pose.x, begin.pose.y))
             if not keeps(trajectory, self._parameters.limits):
                 return None

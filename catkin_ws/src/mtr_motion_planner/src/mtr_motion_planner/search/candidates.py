@@ -46,7 +46,7 @@ class WayCandidates:
         self._keep_out, self._parameters, self._speed = keep_out, parameters, speed
         cruise = parameters.limits.corner_radius(speed)
         self._radii = sorted({*(radius for radius in TIGHT_RADII_M if radius < 0.9 * cruise), cruise})
-        gap = parameters.route_gap_m
+        gap = keep_out.route_gap_m
         sizes = {gap, min(MAX_RING_M, max(gap, cruise)), min(MAX_RING_M, max(gap, 0.6 * cruise))}
         self._rings, self._close_rings = ([TurnPolygon(centres(zone, size, gap), size) for size in sorted(sizes)]
                                           for zone in (keep_out.plain, keep_out.hull))
@@ -100,10 +100,10 @@ class WayCandidates:
 
     def _ways(self, begin: Pose2, finish: Pose2) -> Sequence[Tuple[Optional[TurnPolygon], int]]:
         line = [(begin.x, begin.y), (finish.x, finish.y)]
-        gap = min(self._parameters.route_gap_m, self._keep_out.distance(begin), self._keep_out.distance(finish))
+        gap = min(self._keep_out.route_gap_m, self._keep_out.distance(begin), self._keep_out.distance(finish))
         if begin.distance_to(finish) < 1e-6 or not self._keep_out.crosses(line, gap):
             return [(None, 1)]
-        is_near = any(self._keep_out.plain.distance(ShapelyPoint(pose.x, pose.y)) < self._parameters.route_gap_m
+        is_near = any(self._keep_out.plain.distance(ShapelyPoint(pose.x, pose.y)) < self._keep_out.route_gap_m
                       for pose in (begin, finish))
         return list(itertools.product(self._close_rings if is_near else self._rings, (1, -1)))
 

@@ -45,7 +45,7 @@ class Target:
 
 def departures(start: Pose2, keep_out: KeepOut, parameters: MotionParameters) -> List[StraightPiece]:
     """None needed where the robot may turn, else the shortest ways straight out; PlanRefused when there is none."""
-    if keep_out.distance(start) >= parameters.pivot_gap_m:
+    if keep_out.distance(start) >= keep_out.pivot_gap_m:
         return [NONE]
     min_clearance_m = min(parameters.margins.keep_out_m, keep_out.clearance(start)) - ROUNDING_M
     found = [StraightPiece(sign, length) for sign in (-1, 1)
@@ -57,7 +57,7 @@ def departures(start: Pose2, keep_out: KeepOut, parameters: MotionParameters) ->
 
 def arrivals(goal: Target, keep_out: KeepOut, parameters: MotionParameters) -> List[StraightPiece]:
     """Straight pieces into the goal, none where the robot may turn at it; PlanRefused when no way leads there."""
-    if keep_out.distance(goal.pose) >= parameters.pivot_gap_m:
+    if keep_out.distance(goal.pose) >= keep_out.pivot_gap_m:
         if goal.is_correction:
             return [StraightPiece(sign, max(parameters.run_in_m, CORRECTION_RUN_IN_M)) for sign in (1, -1)]
         if goal.direction == Direction.ANY:
@@ -81,6 +81,6 @@ def _free_after(pose: Pose2, sign: int, min_clearance_m: float, keep_out: KeepOu
     for length, is_clear in zip(lengths.tolist(), clear.tolist()):
         if not is_clear:
             return ()
-        if keep_out.distance(moved(pose, sign * length)) >= parameters.route_gap_m:
+        if keep_out.distance(moved(pose, sign * length)) >= keep_out.route_gap_m:
             return (length,)
     return ()
