@@ -13,7 +13,7 @@ from mtr_core import names
 from mtr_core.lockstep.clock import stamp_of
 from mtr_core.lockstep.samples import Samples
 from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS, Slot
-from mtr_simulation.connections import wait_until_complete
+from mtr_simulation.clock.connections import wait_until_complete
 
 STEP_NS = CLOCK_STEP.period_ns
 NS = 1e-9

@@ -11,7 +11,7 @@ import time
 from dataclasses import dataclass
 from typing import Dict, List, Optional, Tuple
 
-from mtr_simulation.scenario import named_scenario
+from mtr_simulation.site.scenario import named_scenario
 
 from .stack import Stack, StackError, StackOptions
 

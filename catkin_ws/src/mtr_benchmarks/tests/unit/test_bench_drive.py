@@ -33,7 +33,7 @@ from mtr_benchmarks.localization.drives.truth import read_truth
 from mtr_core import names
 from mtr_core.errors import ConfigurationError
 from mtr_core.se2 import Pose2, wrap_angle
-from mtr_simulation.car_shape import CAR_SHAPES
+from mtr_simulation.site.car_shape import CAR_SHAPES
 
 TICK_S = 0.02
 START = Pose2(4.0, 2.6, math.atan2(-2.6, -4.0))

@@ -10,7 +10,7 @@ import yaml
 
 from mtr_core import names
 from mtr_description.shipped import shipped_urdf
-from mtr_simulation import robot
+from mtr_simulation.physics import robot
 
 PACKAGE = pathlib.Path(__file__).resolve().parents[2]
 

@@ -17,10 +17,10 @@ from mtr_core import names
 from mtr_core.crc import seal
 from mtr_msgs.msg import FirmwareState
 
-from .battery import CAPACITY_WH, FULL_V
 from .firmware.simulated import State
-from .imu import ImuParameters
-from .readings import BatteryReading, ImuReading, Scan, WheelOdometry
+from .sensors.battery import CAPACITY_WH, FULL_V
+from .sensors.imu import ImuParameters
+from .sensors.readings import BatteryReading, ImuReading, Scan, WheelOdometry
 from .sim import TICK_S
 from .true_state import TrueState
 

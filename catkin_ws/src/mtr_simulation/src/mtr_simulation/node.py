@@ -17,13 +17,14 @@ from mtr_core import names
 from mtr_core.lockstep import direct_publisher, run_node
 from mtr_core.schedule import CLOCK_STEP, LIDAR, SIMULATION_START_NS, slot
 
-from . import connections, conversions
+from . import conversions
+from .clock import connections
+from .clock.barrier import Barrier, Watcher
+from .clock.pacing import Pace
 from .firmware.connections import emulated_firmware, firmware_topics
-from .imu import ImuParameters
-from .lockstep_barrier import Barrier, Watcher
-from .pacing import Pace
 from .parameters import SimulatorParameters
-from .readings import Sensors
+from .sensors.imu import ImuParameters
+from .sensors.readings import Sensors
 from .world import World
 
 BATTERY = slot(1000)

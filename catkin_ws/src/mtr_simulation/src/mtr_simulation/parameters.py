@@ -5,7 +5,7 @@ from typing import Tuple
 
 from mtr_core.parameters import ParameterSet, number
 
-from .scenario import named_scenario
+from .site.scenario import named_scenario
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 import hashlib
 from typing import List, NamedTuple, Protocol, Tuple
 
-from .readings import Sensors
+from .sensors.readings import Sensors
 from .sim import TICK_S, Sim
 from .true_state import TrueState
 

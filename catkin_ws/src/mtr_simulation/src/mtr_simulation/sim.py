@@ -10,21 +10,21 @@ from mtr_core.errors import ConfigurationError
 from mtr_core.schedule import CLOCK_STEP, LIDAR, SIMULATION_START_NS
 from mtr_core.se2 import Pose2
 
-from . import robot
-from .base_state import BaseState, base_state, mean_spin, rotate_back
-from .battery import battery
-from .imu import Imu, ImuParameters
-from .lidar import Lidar, LidarFault, LidarParameters, Mount
-from .mjcf import model_xml
-from .mjcf_robot import LIFT_STIFFNESS_NPM
 from .noise import stream
-from .person import Person
-from .readings import Scan, Sensors
-from .scenario import Scenario
-from .surroundings import uneven_ground
+from .physics import robot
+from .physics.base_state import BaseState, base_state, mean_spin, rotate_back
+from .physics.mjcf import model_xml
+from .physics.mjcf_robot import LIFT_STIFFNESS_NPM
+from .physics.tyres import TyreParameters, Tyres
+from .physics.wheels import BaseParameters, Wheels
+from .sensors.battery import battery
+from .sensors.imu import Imu, ImuParameters
+from .sensors.lidar import Lidar, LidarFault, LidarParameters, Mount
+from .sensors.readings import Scan, Sensors
+from .site.person import Person
+from .site.scenario import Scenario
+from .site.surroundings import uneven_ground
 from .true_state import TrueState
-from .tyres import TyreParameters, Tyres
-from .wheels import BaseParameters, Wheels
 
 GRAVITY_MPS2 = 9.81
 TICK_S = CLOCK_STEP.period_ns * 1e-9

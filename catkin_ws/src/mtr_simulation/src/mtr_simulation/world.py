@@ -9,9 +9,9 @@ from .car.parameters import CarParameters
 from .car.slcan_port import SlcanPort
 from .firmware.simulated import SimulatedFirmware
 from .parameters import SimulatorParameters
-from .readings import Sensors
-from .scenario import named_scenario
+from .sensors.readings import Sensors
 from .sim import Sim, SimParameters
+from .site.scenario import named_scenario
 from .true_state import TrueState
 from .truth.log import TruthLog
 

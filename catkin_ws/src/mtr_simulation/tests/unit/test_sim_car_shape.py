@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from mtr_core.se2 import Pose2
-from mtr_simulation import robot
-from mtr_simulation.car_shape import CAR_SHAPES, CarShape, size_at
-from mtr_simulation.lidar import LidarParameters
-from mtr_simulation.scenario import Scenario
+from mtr_simulation.physics import robot
+from mtr_simulation.sensors.lidar import LidarParameters
 from mtr_simulation.sim import Sim, SimParameters
+from mtr_simulation.site.car_shape import CAR_SHAPES, CarShape, size_at
+from mtr_simulation.site.scenario import Scenario
 
 # Before the front's left corner, so that the front and the left side are seen.
 CORNERS = [Pose2(x, y, math.atan2(-y, -x)) for x, y in ((4.2, 2.8), (-4.2, 2.8), (-4.2, -2.8), (4.2, -2.8))]

@@ -4,9 +4,9 @@ import threading
 
 import pytest
 
-from mtr_simulation import connections
-from mtr_simulation.lockstep_barrier import SILENT_AFTER_WALL_S, Barrier, Watcher
-from mtr_simulation.pacing import Pace
+from mtr_simulation.clock import connections
+from mtr_simulation.clock.barrier import SILENT_AFTER_WALL_S, Barrier, Watcher
+from mtr_simulation.clock.pacing import Pace
 
 STEP = 20_000_000
 

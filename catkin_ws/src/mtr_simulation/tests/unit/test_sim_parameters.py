@@ -4,12 +4,12 @@ import pytest
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import parameters_from
-from mtr_simulation.car_shape import CarShape
-from mtr_simulation.lidar import LidarParameters
 from mtr_simulation.parameters import SimulatorParameters
-from mtr_simulation.scenario import SCENARIOS, Scenario, named_scenario
+from mtr_simulation.physics.wheels import BaseParameters
+from mtr_simulation.sensors.lidar import LidarParameters
 from mtr_simulation.sim import SimParameters
-from mtr_simulation.wheels import BaseParameters
+from mtr_simulation.site.car_shape import CarShape
+from mtr_simulation.site.scenario import SCENARIOS, Scenario, named_scenario
 
 
 def test_defaults_are_valid():

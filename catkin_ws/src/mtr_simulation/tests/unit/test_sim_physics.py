@@ -7,10 +7,10 @@ import statistics
 import pytest
 
 from mtr_core.se2 import Pose2
-from mtr_simulation import robot
-from mtr_simulation.scenario import Scenario
+from mtr_simulation.physics import robot
+from mtr_simulation.physics.wheels import BaseParameters
 from mtr_simulation.sim import TICK_S, Sim, SimParameters
-from mtr_simulation.wheels import BaseParameters
+from mtr_simulation.site.scenario import Scenario
 
 # Far from the Car, exactly as placed.
 FIELD = Scenario(start_in_car=Pose2(10.0, 0.0, 0.0), start_offset_m=0.0, start_offset_rad=0.0)

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from mtr_core.se2 import Pose2
-from mtr_simulation import robot
-from mtr_simulation.lidar import LidarFault, LidarParameters
 from mtr_simulation.noise import stream
-from mtr_simulation.scan_errors import EDGE_M, ScanErrors, with_errors
-from mtr_simulation.scenario import Scenario
+from mtr_simulation.physics import robot
+from mtr_simulation.sensors.lidar import LidarFault, LidarParameters
+from mtr_simulation.sensors.scan_errors import EDGE_M, ScanErrors, with_errors
 from mtr_simulation.sim import Sim, SimParameters
+from mtr_simulation.site.scenario import Scenario
 
 BESIDE = Scenario(start_in_car=Pose2(0.0, 2.3, -math.pi / 2.0), start_offset_m=0.0, start_offset_rad=0.0)
 FIELD = dataclasses.replace(BESIDE, start_in_car=Pose2(20.0, 0.0, 0.0))

@@ -8,14 +8,14 @@ import pytest
 
 from mtr_core.schedule import LIDAR, SIMULATION_START_NS
 from mtr_core.se2 import Pose2
-from mtr_simulation import robot
-from mtr_simulation.car_shape import CarShape
-from mtr_simulation.imu import ImuParameters
-from mtr_simulation.lidar import LidarParameters
+from mtr_simulation.physics import robot
 from mtr_simulation.runner import run
-from mtr_simulation.scenario import Scenario, named_scenario
+from mtr_simulation.sensors.imu import ImuParameters
+from mtr_simulation.sensors.lidar import LidarParameters
 from mtr_simulation.sim import Sim, SimParameters
-from mtr_simulation.surroundings import Pole, Walk
+from mtr_simulation.site.car_shape import CarShape
+from mtr_simulation.site.scenario import Scenario, named_scenario
+from mtr_simulation.site.surroundings import Pole, Walk
 
 NO_NOISE = SimParameters(lidar=LidarParameters(noise_m=0.0), imu=ImuParameters(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 # At the Car's left side, front to the Car.

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from mtr_core.se2 import Pose2
-from mtr_simulation.imu import ImuParameters
-from mtr_simulation.lidar import LidarParameters
-from mtr_simulation.scenario import SCENARIOS, Scenario, named_scenario
+from mtr_simulation.sensors.imu import ImuParameters
+from mtr_simulation.sensors.lidar import LidarParameters
 from mtr_simulation.sim import Sim, SimParameters
-from mtr_simulation.surroundings import uneven_ground
+from mtr_simulation.site.scenario import SCENARIOS, Scenario, named_scenario
+from mtr_simulation.site.surroundings import uneven_ground
 
 NO_NOISE = SimParameters(lidar=LidarParameters(noise_m=0.0), imu=ImuParameters(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 

@@ -11,8 +11,8 @@ from sensor_msgs.msg import LaserScan
 
 from mtr_core import names
 from mtr_simulation import conversions
-from mtr_simulation.imu import ImuParameters
 from mtr_simulation.parameters import SimulatorParameters
+from mtr_simulation.sensors.imu import ImuParameters
 from mtr_simulation.world import World
 
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from typing import List, NamedTuple, Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
-from mtr_simulation import robot
-from mtr_simulation.car_shape import CarShape
-from mtr_simulation.scenario import named_scenario
+from mtr_simulation.physics import robot
+from mtr_simulation.site.car_shape import CarShape
+from mtr_simulation.site.scenario import named_scenario
 
 from .rig import FRONT_M, SLOWED, STOPPED, TICK_S, Rig, Velocity
 

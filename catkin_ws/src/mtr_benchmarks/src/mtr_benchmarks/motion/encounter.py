@@ -7,9 +7,9 @@ from typing import List, NamedTuple, Tuple
 import numpy as np
 
 from mtr_core.se2 import Pose2
-from mtr_simulation import robot
-from mtr_simulation.scenario import Scenario
-from mtr_simulation.surroundings import Walk
+from mtr_simulation.physics import robot
+from mtr_simulation.site.scenario import Scenario
+from mtr_simulation.site.surroundings import Walk
 
 from .rig import PERSON, START_S, STOPPED, TICK_S, Rig, Velocity
 

@@ -8,12 +8,12 @@ import mtr_drive_control_core as core
 from mtr_core.schedule import SIMULATION_START_NS
 from mtr_core.se2 import Pose2
 from mtr_description.shipped import shipped_geometry, shipped_urdf
-from mtr_simulation import robot
-from mtr_simulation.lidar import LidarParameters
-from mtr_simulation.readings import Scan, Sensors
-from mtr_simulation.scan_errors import ScanErrors
-from mtr_simulation.scenario import Scenario
+from mtr_simulation.physics import robot
+from mtr_simulation.sensors.lidar import LidarParameters
+from mtr_simulation.sensors.readings import Scan, Sensors
+from mtr_simulation.sensors.scan_errors import ScanErrors
 from mtr_simulation.sim import Sim, SimParameters
+from mtr_simulation.site.scenario import Scenario
 
 Velocity = Tuple[float, float]
 # States of the zone in DriveStatus.

@@ -6,8 +6,8 @@ from typing import Dict, List, Optional, Tuple
 import mtr_drive_control_core as core
 
 from mtr_core.se2 import Pose2
-from mtr_simulation import robot
-from mtr_simulation.scenario import Scenario
+from mtr_simulation.physics import robot
+from mtr_simulation.site.scenario import Scenario
 
 from ..harness.rows import Requirement, Row
 from .options import MotionOptions

@@ -20,7 +20,7 @@ from mtr_description.shipped import shipped_geometry
 from mtr_motion_planner.geometry.keep_out import KeepOut
 from mtr_motion_planner.geometry.robot_outline import RobotOutline
 from mtr_motion_planner.parameters import MotionParameters
-from mtr_simulation.car_shape import CarShape
+from mtr_simulation.site.car_shape import CarShape
 
 from ..harness.rows import Requirement, Row
 from .bound import Ends, lower_bound

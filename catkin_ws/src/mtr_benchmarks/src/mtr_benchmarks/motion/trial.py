@@ -14,9 +14,9 @@ from mtr_motion_planner.outputs import PlannerOutput
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.planner import MotionPlanner
 from mtr_motion_planner.replanning import InlineExecutor
-from mtr_simulation.car_shape import CarShape
-from mtr_simulation.scenario import Scenario
 from mtr_simulation.sim import Sim
+from mtr_simulation.site.car_shape import CarShape
+from mtr_simulation.site.scenario import Scenario
 
 from .limiter import Limiter, Velocity
 

@@ -5,8 +5,8 @@ import time
 from dataclasses import dataclass
 
 from mtr_core.schedule import CLOCK_STEP
-from mtr_simulation.scenario import named_scenario
 from mtr_simulation.sim import Sim
+from mtr_simulation.site.scenario import named_scenario
 
 SIMULATED_S = 60.0
 TICK_S = CLOCK_STEP.period_ns * 1e-9

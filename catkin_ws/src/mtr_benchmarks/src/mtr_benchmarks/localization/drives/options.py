@@ -5,13 +5,13 @@ from dataclasses import dataclass, replace
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import ParameterSet, number
-from mtr_simulation.car_shape import CAR_SHAPES, CarShape
-from mtr_simulation.imu import ImuParameters
-from mtr_simulation.lidar import LidarParameters
-from mtr_simulation.scan_errors import ScanErrors
-from mtr_simulation.scenario import Scenario, named_scenario
+from mtr_simulation.sensors.imu import ImuParameters
+from mtr_simulation.sensors.lidar import LidarParameters
+from mtr_simulation.sensors.scan_errors import ScanErrors
 from mtr_simulation.sim import Sim, SimParameters
-from mtr_simulation.surroundings import Walk
+from mtr_simulation.site.car_shape import CAR_SHAPES, CarShape
+from mtr_simulation.site.scenario import Scenario, named_scenario
+from mtr_simulation.site.surroundings import Walk
 
 # The person's way, beside the Car's right: beyond all axes, and no radial of the pattern leads there.
 PERSON_BESIDE_M, PERSON_REACH_M = 3.7, 5.0

@@ -4,8 +4,8 @@ import math
 from typing import Iterator, List, NamedTuple, Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
-from mtr_simulation import robot
-from mtr_simulation.car_shape import CarShape
+from mtr_simulation.physics import robot
+from mtr_simulation.site.car_shape import CarShape
 
 from .legs import Leg, LiftLeg, PathLeg, Point, StandLeg, StraightLeg, TurnLeg
 

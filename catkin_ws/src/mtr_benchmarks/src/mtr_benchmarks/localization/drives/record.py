@@ -15,8 +15,8 @@ from mtr_core.parameters import LIMITS
 from mtr_core.schedule import CAR_LOCATOR, CLOCK_STEP, LIDAR, SIMULATION_START_NS
 from mtr_core.se2 import Pose2
 from mtr_msgs.msg import MappingOrder
-from mtr_simulation.car_shape import size_at
 from mtr_simulation.sim import TICK_S, Sim
+from mtr_simulation.site.car_shape import size_at
 
 from .legs import LegFollower, LiftLeg, leg_name
 from .options import DriveOptions

@@ -13,9 +13,10 @@ from tf2_msgs.msg import TFMessage
 from mtr_core import names
 from mtr_core.se2 import Pose2
 from mtr_msgs.msg import MappingOrder
-from mtr_simulation import conversions, robot
-from mtr_simulation.imu import ImuParameters
-from mtr_simulation.readings import Sensors
+from mtr_simulation import conversions
+from mtr_simulation.physics import robot
+from mtr_simulation.sensors.imu import ImuParameters
+from mtr_simulation.sensors.readings import Sensors
 from mtr_simulation.true_state import TrueState
 
 BAG, TRUTH, META = "drive.bag", "truth.csv", "meta.json"

@@ -9,7 +9,7 @@ import rosbag
 
 from mtr_core import names
 from mtr_core.arrays import FloatArray
-from mtr_simulation import robot
+from mtr_simulation.physics import robot
 
 MOUNTS = {names.FRONT_SCAN: (robot.FRONT_LIDAR_X_M, robot.FRONT_LIDAR_YAW_RAD),
           names.REAR_SCAN: (robot.REAR_LIDAR_X_M, robot.REAR_LIDAR_YAW_RAD)}

@@ -7,7 +7,7 @@ import numpy as np
 
 from mtr_core.arrays import BoolArray, FloatArray
 from mtr_core.se2 import Pose2
-from mtr_simulation import robot
+from mtr_simulation.physics import robot
 
 from ..drives.pose_track import PoseTrack, at, compose, wrapped
 from ..drives.truth import DriveTruth

@@ -18,7 +18,7 @@ from mtr_car_locator.scan import Scan
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 from mtr_description.shipped import shipped_geometry
-from mtr_simulation.car_shape import CAR_SHAPES
+from mtr_simulation.site.car_shape import CAR_SHAPES
 
 from ..drives.pose_track import PoseTrack, aligned, at, compose, pose_track, read_columns
 from ..drives.recording import BAG

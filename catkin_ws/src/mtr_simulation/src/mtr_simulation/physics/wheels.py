@@ -12,8 +12,8 @@ import mujoco
 
 from mtr_core.parameters import ParameterSet, number
 
+from ..sensors.readings import WheelOdometry
 from . import robot
-from .readings import WheelOdometry
 
 INTEGRAL_GAIN_PER_S = 6.0
 INTEGRAL_LIMIT_RADPS = 3.0

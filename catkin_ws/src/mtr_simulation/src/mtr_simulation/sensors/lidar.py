@@ -10,9 +10,9 @@ import numpy as np
 
 from mtr_core.parameters import ParameterSet, number
 
-from . import robot
-from .base_state import BaseState
-from .noise import stream
+from ..noise import stream
+from ..physics import robot
+from ..physics.base_state import BaseState
 from .readings import Scan
 from .scan_errors import ScanErrors, with_errors
 

@@ -6,8 +6,8 @@ from typing import List, Tuple
 
 from mtr_core.se2 import Pose2
 
+from ..noise import stream
 from .car_shape import CarShape
-from .noise import stream
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,9 @@ import mujoco
 
 from mtr_core.parameters import ParameterSet, number
 
+from ..site.surroundings import Ground
 from . import robot
 from .base_state import BaseState, Vector
-from .surroundings import Ground
 
 # Below this spin the rolling resistance fades out, so that a wheel can stand still.
 ROLLING_FADE_RADPS = 0.05

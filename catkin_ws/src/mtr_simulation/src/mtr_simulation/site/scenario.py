@@ -8,8 +8,8 @@ from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import ParameterSet, number
 from mtr_core.se2 import Pose2
 
+from ..noise import stream
 from .car_shape import CAR_SHAPES, CarShape
-from .noise import stream
 from .surroundings import Cone, ParkedCar, Pole, Walk, Wall
 
 

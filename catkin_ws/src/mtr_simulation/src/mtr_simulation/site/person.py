@@ -4,7 +4,7 @@ import math
 
 import mujoco
 
-from .mjcf import HIP_HEIGHT_M
+from ..physics.mjcf import HIP_HEIGHT_M
 from .surroundings import Walk
 
 STRIDE_M = 1.4

@@ -5,10 +5,10 @@ from typing import Tuple
 
 from mtr_core.se2 import Pose2
 
+from ..site.scenario import Scenario
+from ..site.surroundings import Cone, Pole, Wall
 from .mjcf_car import SOLID, car_body, car_meshes, parked_car_body
 from .mjcf_robot import robot_actuators, robot_body
-from .scenario import Scenario
-from .surroundings import Cone, Pole, Wall
 
 POLE_HEIGHT_M, WALL_HEIGHT_M, CONE_HEIGHT_M = 1.2, 2.0, 0.75
 CONE_CORNERS = 16

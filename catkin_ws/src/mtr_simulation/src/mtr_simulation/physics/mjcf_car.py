@@ -4,7 +4,15 @@ from typing import List, Tuple
 
 from mtr_core.se2 import Pose2
 
-from .car_shape import ARCH_HALF_LENGTH_M, SILL_INSET_M, TYRE_INSET_M, TYRE_WIDTH_M, UNDERCUT_TOP_M, CarShape, Point
+from ..site.car_shape import (
+    ARCH_HALF_LENGTH_M,
+    SILL_INSET_M,
+    TYRE_INSET_M,
+    TYRE_WIDTH_M,
+    UNDERCUT_TOP_M,
+    CarShape,
+    Point,
+)
 
 FRONT_TOP_M, REAR_TOP_M, SHOULDER_TOP_M, CABIN_FOOT_M = 0.78, 0.90, 0.80, 0.75
 TUNNEL_HALF_WIDTH_M = 0.55

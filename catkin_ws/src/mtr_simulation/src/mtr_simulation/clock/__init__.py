@@ -1,0 +1,2 @@
+"""What the simulated clock waits for."""
+# SPDX-License-Identifier: Apache-2.0
