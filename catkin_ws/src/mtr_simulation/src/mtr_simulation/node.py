@@ -16,6 +16,7 @@ from std_msgs.msg import Header
 from mtr_core import names
 from mtr_core.lockstep import direct_publisher, run_node
 from mtr_core.schedule import CLOCK_STEP, LIDAR, SIMULATION_START_NS, slot
+from mtr_description.robot_description import described_robot
 
 from . import conversions
 from .clock import connections
@@ -23,6 +24,7 @@ from .clock.barrier import Barrier, Watcher
 from .clock.pacing import Pace
 from .firmware.connections import emulated_firmware, firmware_topics
 from .parameters import SimulatorParameters
+from .physics.robot import robot_model
 from .sensors.imu import ImuParameters
 from .sensors.readings import Sensors
 from .world import World
@@ -35,7 +37,7 @@ class SimulatorNode:
 
     def __init__(self, parameters: SimulatorParameters):
         firmware = emulated_firmware(parameters.firmware_elf) if parameters.firmware_elf else None
-        self._world = World(parameters, firmware)
+        self._world = World(parameters, firmware, robot_model(described_robot(), parameters.rear_lidar))
         self._firmware = firmware_topics(self._world.firmware)
         self._output = Output(parameters.rear_lidar, self._firmware.publishers)
         self._barrier = Barrier(parameters.held_by, NodeWatcher(self._output))

@@ -1,25 +1,27 @@
 """Simulated robot in its world: physics and sensors, one tick of the schedule at a time."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import List, Optional, Set
 
 import mujoco
 
+from mtr_core import names
 from mtr_core.errors import ConfigurationError
 from mtr_core.schedule import CLOCK_STEP, LIDAR, SIMULATION_START_NS
 from mtr_core.se2 import Pose2
+from mtr_description.mounts import Mount
 
 from .noise import stream
-from .physics import robot
 from .physics.base_state import BaseState, base_state, mean_spin, rotate_back
 from .physics.mjcf import model_xml
 from .physics.mjcf_robot import LIFT_STIFFNESS_NPM
-from .physics.tyres import TyreParameters, Tyres
+from .physics.robot import RobotModel, shipped_robot
+from .physics.tyres import Surface, TyreParameters, Tyres
 from .physics.wheels import BaseParameters, Wheels
 from .sensors.battery import battery
 from .sensors.imu import Imu, ImuParameters
-from .sensors.lidar import Lidar, LidarFault, LidarParameters, Mount
+from .sensors.lidar import Lidar, LidarFault, LidarParameters
 from .sensors.readings import Scan, Sensors
 from .site.person import Person
 from .site.scenario import Scenario
@@ -28,9 +30,6 @@ from .true_state import TrueState
 
 GRAVITY_MPS2 = 9.81
 TICK_S = CLOCK_STEP.period_ns * 1e-9
-# Mounting and stream of noise.
-LIDARS = ((Mount(robot.FRONT_LIDAR_X_M, robot.FRONT_LIDAR_YAW_RAD), "front_lidar"),
-          (Mount(robot.REAR_LIDAR_X_M, robot.REAR_LIDAR_YAW_RAD), "rear_lidar"))
 # The robot settles on its tyres before the clock starts.
 SETTLING_S = 0.5
 
@@ -65,26 +64,29 @@ class Sim:
 
     Attributes:
         scenario: what it was made for.
+        robot: shape and masses.
         time_ns: simulated time, an exact multiple of the clock step.
         scans_wanted: False saves the work of the LiDARs, half of everything; a sweep that was not seen whole is not
             given. Nothing else changes, so a listener more or less does not change a run.
     """
 
-    def __init__(self, seed: int, scenario: Scenario, parameters: Optional[SimParameters] = None):
-        parameters = parameters or SimParameters()
+    def __init__(self, seed: int, scenario: Scenario, parameters: Optional[SimParameters] = None,
+                 robot: Optional[RobotModel] = None):
+        """robot: the one of mtr_description unless another is given."""
+        parameters, robot = parameters or SimParameters(), robot or shipped_robot()
+        self.robot = robot
         self.scenario, self.time_ns, self.scans_wanted = scenario, SIMULATION_START_NS, True
         self._model = mujoco.MjModel.from_xml_string(model_xml(
-            scenario, scenario.start_in_world(seed), parameters.timestep_s, parameters.base.max_wheel_torque_nm))
+            scenario, robot, scenario.start_in_world(seed), parameters.timestep_s, parameters.base.max_wheel_torque_nm))
         self._data = mujoco.MjData(self._model)
         self._steps = round(TICK_S / parameters.timestep_s)
-        self._wheels = Wheels(self._model, self._data, parameters.base)
+        self._wheels = Wheels(self._model, self._data, robot, parameters.base)
         ground = uneven_ground(seed, scenario.ground_tilt_rad) if scenario.ground_tilt_rad else None
-        self._tyres = Tyres(self._model, self._data, scenario.friction, parameters.tyres, ground)
+        self._tyres = Tyres(self._model, self._data, robot, Surface(scenario.friction, ground), parameters.tyres)
         self._person = Person(self._model, self._data, scenario.person) if scenario.person else None
         self._imu = Imu(parameters.imu, TICK_S, stream(seed, "imu"))
-        self._front, self._rear = (
-            Lidar(self._model, self._data, mount, parameters.lidar, (seed, name)) for mount, name in LIDARS)
-        self._lidars = [self._front, self._rear] if parameters.rear_lidar else [self._front]
+        self._lidars = {mount.frame: self._lidar(mount, parameters.lidar, seed)
+                        for mount in (robot.front_lidar, robot.rear_lidar if parameters.rear_lidar else None) if mount}
         self._lift_joint = int(self._model.joint("lift").qposadr[0])
         self._lift_servo = self._model.actuator("lift").id
         self._car_from_world = scenario.world_from_car.inverse()
@@ -98,18 +100,20 @@ class Sim:
     def set_lift(self, height_m: float) -> None:
         """Height that the lift's firmware has reached; the carriage follows."""
         # The servo is a spring: what the carriage weighs is added, so that it does not sag.
-        weight = (robot.CARRIAGE_MASS_KG + robot.KEY_MASS_KG) * GRAVITY_MPS2
+        weight = (self.robot.carriage_mass_kg + self.robot.key_mass_kg) * GRAVITY_MPS2
         self._data.ctrl[self._lift_servo] = height_m + weight / LIFT_STIFFNESS_NPM
 
     def set_lidar_faults(self, front: LidarFault, rear: LidarFault = LidarFault.NONE) -> None:
         """What the LiDARs do from now on instead of working."""
-        self._front.fault, self._rear.fault = front, rear
+        for frame, fault in ((names.FRONT_LIDAR, front), (names.REAR_LIDAR, rear)):
+            if frame in self._lidars:
+                self._lidars[frame].fault = fault
 
     def kidnap(self, world_from_base: Pose2) -> None:
         """Lift the robot and put it down elsewhere: no time passes and the wheels do not turn."""
         pose, data = world_from_base, self._data
         data.qpos[0:2] = pose.x, pose.y
-        data.qpos[2] = robot.BASE_HEIGHT_M
+        data.qpos[2] = self.robot.base_height_m
         data.qpos[3:7] = math.cos(0.5 * pose.heading), 0.0, 0.0, math.sin(0.5 * pose.heading)
         data.qvel[0:6] = 0.0
         self._tyres.lift_off()
@@ -141,7 +145,7 @@ class Sim:
         """Where everything really is now."""
         base = self._base()
         lift = float(self._data.qpos[self._lift_joint])
-        key = base.point(robot.KEY_X_M, 0.0, robot.KEY_HEIGHT_AT_LOWER_STOP_M - robot.BASE_HEIGHT_M + lift)
+        key = base.point(*self.robot.key_in_base(lift))
         forward, left, _ = rotate_back(base.rotation, *base.velocity)
         pose = base.pose()
         return TrueState(self.time_ns, pose, self._car_from_world @ pose, key,
@@ -171,7 +175,7 @@ class Sim:
 
     def _cast(self, base: BaseState, step: int) -> None:
         """Cast the beams that belong to a physics step of this tick."""
-        for lidar in self._lidars:
+        for lidar in self._lidars.values():
             lidar.cast(base, self._sweep_step() + step)
 
     def _sweep_step(self) -> int:
@@ -205,7 +209,11 @@ class Sim:
         """Sweeps of front and rear LiDAR when they end at this tick and were seen whole."""
         if self._sweep_step():
             return [None, None]
-        scans = [lidar.scan(self.time_ns - LIDAR.period_ns) for lidar in (self._front, self._rear)]
-        return [scan if self._sweep_is_whole and lidar in self._lidars else None
-                for scan, lidar in zip(scans, (self._front, self._rear))]
+        scans = {frame: lidar.scan(self.time_ns - LIDAR.period_ns) for frame, lidar in self._lidars.items()}
+        return [scans.get(frame) if self._sweep_is_whole else None for frame in (names.FRONT_LIDAR, names.REAR_LIDAR)]
+
+    def _lidar(self, mount: Mount, parameters: LidarParameters, seed: int) -> Lidar:
+        if parameters.height_m is not None:
+            mount = replace(mount, z_m=parameters.height_m - self.robot.base_height_m)
+        return Lidar(self._model, self._data, mount, parameters, (seed, mount.frame))
 

@@ -9,6 +9,7 @@ from .car.parameters import CarParameters
 from .car.slcan_port import SlcanPort
 from .firmware.simulated import SimulatedFirmware
 from .parameters import SimulatorParameters
+from .physics.robot import RobotModel
 from .sensors.readings import Sensors
 from .sim import Sim, SimParameters
 from .site.scenario import named_scenario
@@ -41,9 +42,10 @@ class World:
         contacts: what the robot touches after the last step.
     """
 
-    def __init__(self, parameters: SimulatorParameters, firmware: Optional[Any] = None):
+    def __init__(self, parameters: SimulatorParameters, firmware: Optional[Any] = None,
+                 robot: Optional[RobotModel] = None):
         scenario = named_scenario(parameters.scenario)
-        self.sim = Sim(parameters.seed, scenario, SimParameters(rear_lidar=parameters.rear_lidar))
+        self.sim = Sim(parameters.seed, scenario, SimParameters(rear_lidar=parameters.rear_lidar), robot)
         # The firmware's clock is the simulated one; that of a real board starts anywhere.
         self.firmware = firmware or SimulatedFirmware(clock_start_us=SIMULATION_START_NS // 1000)
         self.firmware.start(SIMULATION_START_NS)

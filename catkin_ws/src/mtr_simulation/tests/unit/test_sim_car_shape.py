@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from mtr_core.se2 import Pose2
-from mtr_simulation.physics import robot
+from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.sensors.lidar import LidarParameters
 from mtr_simulation.sim import Sim, SimParameters
 from mtr_simulation.site.car_shape import CAR_SHAPES, CarShape, size_at
 from mtr_simulation.site.scenario import Scenario
 
+ROBOT = shipped_robot()
 # Before the front's left corner, so that the front and the left side are seen.
 CORNERS = [Pose2(x, y, math.atan2(-y, -x)) for x, y in ((4.2, 2.8), (-4.2, 2.8), (-4.2, -2.8), (4.2, -2.8))]
 
@@ -26,7 +27,7 @@ def seen_from(shape, height_m, start):
     base = sim.truth().car_from_base
     angles = base.heading + scan.angle_min_rad + scan.angle_increment_rad * np.arange(len(scan.ranges_m))
     near = scan.ranges_m < 8.0
-    x, y = base.apply(robot.FRONT_LIDAR_X_M, 0.0)
+    x, y = base.apply(ROBOT.front_lidar.x_m, 0.0)
     return np.stack([x + scan.ranges_m[near] * np.cos(angles[near]),
                      y + scan.ranges_m[near] * np.sin(angles[near])], axis=1)
 

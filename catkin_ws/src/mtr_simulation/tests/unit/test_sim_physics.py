@@ -7,15 +7,16 @@ import statistics
 import pytest
 
 from mtr_core.se2 import Pose2
-from mtr_simulation.physics import robot
+from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.physics.wheels import BaseParameters
 from mtr_simulation.sim import TICK_S, Sim, SimParameters
 from mtr_simulation.site.scenario import Scenario
 
+ROBOT = shipped_robot()
 # Far from the Car, exactly as placed.
 FIELD = Scenario(start_in_car=Pose2(10.0, 0.0, 0.0), start_offset_m=0.0, start_offset_rad=0.0)
 EXACT = BaseParameters(radius_error=0.0)
-FOUR_SLIDING_POINTS = 1.0 + (robot.HALF_WHEELBASE_M / robot.HALF_TRACK_M) ** 2
+FOUR_SLIDING_POINTS = 1.0 + (ROBOT.half_wheelbase_m / ROBOT.half_track_m) ** 2
 
 
 def drive(sim, linear_mps, angular_radps, duration_s):
@@ -58,7 +59,7 @@ def test_wheels_spin_when_accelerating_beyond_friction():
 def tilt_when_braking_deg(deceleration_mps2, friction):
     base = BaseParameters(max_linear_mps2=deceleration_mps2, max_wheel_torque_nm=20.0)
     sim = Sim(1, dataclasses.replace(FIELD, friction=friction), SimParameters(base=base))
-    sim.set_lift(robot.LIFT_STROKE_M)
+    sim.set_lift(ROBOT.key.lift_travel_m)
     drive(sim, 0.0, 0.0, 4.0)
     drive(sim, 1.5, 0.0, 2.5)
     return math.degrees(max(truth.tilt_rad for truth, _ in drive(sim, 0.0, 0.0, 1.5)))
@@ -112,12 +113,12 @@ def test_key_is_at_the_height_of_the_lift(height_m):
     sim.set_lift(height_m)
     for _ in range(150):
         sim.step()
-    assert sim.truth().key_in_car[2] == pytest.approx(robot.KEY_HEIGHT_AT_LOWER_STOP_M + height_m, abs=0.01)
+    assert sim.truth().key_in_car[2] == pytest.approx(ROBOT.key.min_height_m + height_m, abs=0.01)
 
 
 def test_key_is_ahead_of_the_base():
     truth = Sim(1, FIELD).truth()
-    expected = truth.car_from_base.apply(robot.KEY_X_M, 0.0)
+    expected = truth.car_from_base.apply(ROBOT.key.x_m, 0.0)
     assert truth.key_in_car[:2] == pytest.approx(expected, abs=1e-3)
 
 

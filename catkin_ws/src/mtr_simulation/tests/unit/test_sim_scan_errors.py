@@ -8,12 +8,14 @@ import pytest
 
 from mtr_core.se2 import Pose2
 from mtr_simulation.noise import stream
-from mtr_simulation.physics import robot
+from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.sensors.lidar import LidarFault, LidarParameters
 from mtr_simulation.sensors.scan_errors import EDGE_M, ScanErrors, with_errors
 from mtr_simulation.sim import Sim, SimParameters
 from mtr_simulation.site.scenario import Scenario
 
+ROBOT = shipped_robot()
+LIDAR_HEIGHT_M = ROBOT.base_height_m + ROBOT.front_lidar.z_m
 BESIDE = Scenario(start_in_car=Pose2(0.0, 2.3, -math.pi / 2.0), start_offset_m=0.0, start_offset_rad=0.0)
 FIELD = dataclasses.replace(BESIDE, start_in_car=Pose2(20.0, 0.0, 0.0))
 # A near wall of 100 beams between two far ones, and sky.
@@ -103,7 +105,7 @@ def test_lidar_that_looks_down_sees_the_ground_where_its_height_says():
     pitch = math.radians(2.0)
     scan = scans(1, FIELD, noise_m=0.0, pitch_rad=pitch)[0]
     ahead = scan.ranges_m[len(scan.ranges_m) // 2]
-    assert ahead == pytest.approx(robot.LIDAR_HEIGHT_M / math.sin(pitch), rel=0.05)
+    assert ahead == pytest.approx(LIDAR_HEIGHT_M / math.sin(pitch), rel=0.05)
     assert np.isinf(scan.ranges_m[0])
 
 

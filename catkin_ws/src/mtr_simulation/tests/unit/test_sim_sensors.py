@@ -8,7 +8,7 @@ import pytest
 
 from mtr_core.schedule import LIDAR, SIMULATION_START_NS
 from mtr_core.se2 import Pose2
-from mtr_simulation.physics import robot
+from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.runner import run
 from mtr_simulation.sensors.imu import ImuParameters
 from mtr_simulation.sensors.lidar import LidarParameters
@@ -17,6 +17,7 @@ from mtr_simulation.site.car_shape import CarShape
 from mtr_simulation.site.scenario import Scenario, named_scenario
 from mtr_simulation.site.surroundings import Pole, Walk
 
+ROBOT = shipped_robot()
 NO_NOISE = SimParameters(lidar=LidarParameters(noise_m=0.0), imu=ImuParameters(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 # At the Car's left side, front to the Car.
 BESIDE = Scenario(start_in_car=Pose2(0.0, 2.3, -math.pi / 2.0), start_offset_m=0.0, start_offset_rad=0.0)
@@ -52,7 +53,7 @@ def points(scan, mount, base):
 def front_points_in_car(scenario):
     sim = Sim(1, scenario, NO_NOISE)
     scan = first_scans(sim).front_scan
-    return points(scan, (robot.FRONT_LIDAR_X_M, 0.0), sim.truth().car_from_base)
+    return points(scan, (ROBOT.front_lidar.x_m, 0.0), sim.truth().car_from_base)
 
 
 def test_lidar_sees_the_side_of_the_car_where_it_is():
@@ -91,7 +92,7 @@ def test_rear_lidar_sees_what_is_behind():
     turned = dataclasses.replace(BESIDE, start_in_car=Pose2(0.0, 2.3, math.pi / 2.0))
     sim = Sim(1, turned, NO_NOISE)
     scan = first_scans(sim).rear_scan
-    seen = points(scan, (robot.REAR_LIDAR_X_M, robot.REAR_LIDAR_YAW_RAD), sim.truth().car_from_base)
+    seen = points(scan, (ROBOT.rear_lidar.x_m, ROBOT.rear_lidar.yaw_rad), sim.truth().car_from_base)
     assert np.allclose(seen[np.abs(seen[:, 0]) < 0.8][:, 1], 0.88, atol=0.01)
 
 
@@ -170,7 +171,7 @@ def pole_bearing_rad(angular_radps):
     sim.command(0.0, angular_radps)
     sim.step()
     scan = sim.step().front_scan
-    seen = points(scan, (robot.FRONT_LIDAR_X_M, 0.0), start)
+    seen = points(scan, (ROBOT.front_lidar.x_m, 0.0), start)
     last = seen[-3:].mean(axis=0)
     true = min(around, key=lambda pole: math.hypot(pole.x_m - last[0], pole.y_m - last[1]))
     return (math.atan2(last[1] - start.y, last[0] - start.x) - math.atan2(true.y_m - start.y, true.x_m - start.x))

@@ -5,12 +5,13 @@ from dataclasses import dataclass, replace
 from typing import List, NamedTuple, Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
-from mtr_simulation.physics import robot
+from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.site.car_shape import CarShape
 from mtr_simulation.site.scenario import named_scenario
 
 from .rig import FRONT_M, SLOWED, STOPPED, TICK_S, Rig, Velocity
 
+ROBOT = shipped_robot()
 MIN_DISTANCE_M, MAX_DISTANCE_M = 0.3, 2.5
 # Name, start in frame car, length in m, speed in m/s.
 Way = Tuple[str, Pose2, float, float]
@@ -72,7 +73,8 @@ class DriveEnd(NamedTuple):
 
 def simulate(drive: StraightDrive) -> DriveEnd:
     """How often drive control stopped it for nothing, and whether it got to both ends."""
-    rig = Rig(replace(SITE, start_in_car=drive.start), drive.seed, drive.rear_lidar, drive.rain, robot.LIFT_STROKE_M)
+    rig = Rig(replace(SITE, start_in_car=drive.start), drive.seed, drive.rear_lidar, drive.rain,
+              ROBOT.key.lift_travel_m)
     slowed_s, was_blocked = 0.0, False
     ends, sentences = [], []
     begin_m = 0.0 if drive.rear_lidar or drive.name == "axis" else drive.length_m - MAX_REVERSE_M

@@ -7,12 +7,13 @@ from typing import List, NamedTuple, Tuple
 import numpy as np
 
 from mtr_core.se2 import Pose2
-from mtr_simulation.physics import robot
+from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.site.scenario import Scenario
 from mtr_simulation.site.surroundings import Walk
 
 from .rig import PERSON, START_S, STOPPED, TICK_S, Rig, Velocity
 
+ROBOT = shipped_robot()
 # What the planner wants, and for how long.
 Wanted = Tuple[Tuple[float, Velocity], ...]
 # Nobody stands so near to base_link when the robot starts: in the footprint, or within a foot's length of it.
@@ -80,7 +81,7 @@ def _drawn(seed: int, random: np.random.Generator) -> Encounter:
     speed = float(random.uniform(0.5, 1.5) if random.random() < 0.5 else 1.5)
     walk = _walk(random, aim, place.heading + in_base, speed, meeting_s)
     return Encounter(seed, motion, approach, rear_lidar, wanted, walk, float(random.choice([0.0, RAIN])),
-                     float(random.choice([0.0, robot.LIFT_STROKE_M])))
+                     float(random.choice([0.0, ROBOT.key.lift_travel_m])))
 
 
 class EncounterEnd(NamedTuple):
@@ -124,7 +125,7 @@ def _is_in_view(rig: Rig, walk: Walk) -> bool:
     walked = walk.speed_mps * max(0.0, rig.time_s - walk.stands_s) / math.dist(walk.start, walk.end)
     place = [start + walked * (end - start) for start, end in zip(walk.start, walk.end)]
     x, y = rig.pose.inverse().apply(*place)
-    bearing = math.atan2(y, x - robot.FRONT_LIDAR_X_M)
+    bearing = math.atan2(y, x - ROBOT.front_lidar.x_m)
     return math.hypot(x, y) > UNSEEN_WITHIN_M or abs(bearing) < WATCHED_TO_RAD
 
 

@@ -8,13 +8,14 @@ import mtr_drive_control_core as core
 from mtr_core.schedule import SIMULATION_START_NS
 from mtr_core.se2 import Pose2
 from mtr_description.shipped import shipped_geometry, shipped_urdf
-from mtr_simulation.physics import robot
+from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.sensors.lidar import LidarParameters
 from mtr_simulation.sensors.readings import Scan, Sensors
 from mtr_simulation.sensors.scan_errors import ScanErrors
 from mtr_simulation.sim import Sim, SimParameters
 from mtr_simulation.site.scenario import Scenario
 
+ROBOT = shipped_robot()
 Velocity = Tuple[float, float]
 # States of the zone in DriveStatus.
 SLOWED, STOPPED = 1, 2
@@ -43,7 +44,7 @@ class Rig:
         self.sim = Sim(seed, scenario, SimParameters(rear_lidar=rear_lidar, lidar=lidar))
         self.decision: Optional[Any] = None
         self._control = core.DriveControl(shipped_urdf(), rear_lidar=rear_lidar)
-        self._key_height_m = robot.KEY_HEIGHT_AT_LOWER_STOP_M + lift_m
+        self._key_height_m = ROBOT.key.min_height_m + lift_m
         self._front: Optional[Scan] = None
         self._rear: Optional[Scan] = None
         self._sensors: Sensors = self._settled(lift_m)

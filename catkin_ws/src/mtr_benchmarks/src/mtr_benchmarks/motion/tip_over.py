@@ -6,13 +6,14 @@ from typing import Dict, List, Optional, Tuple
 import mtr_drive_control_core as core
 
 from mtr_core.se2 import Pose2
-from mtr_simulation.physics import robot
+from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.site.scenario import Scenario
 
 from ..harness.rows import Requirement, Row
 from .options import MotionOptions
 from .rig import TICK_S, Rig, Velocity
 
+ROBOT = shipped_robot()
 FAR_AWAY = Pose2(60.0, 0.0, 0.0)
 FAST, TURN = 2.0, 4.0
 # Yaw rate that is wanted at FAST: radii of 8, 4, 2, 1, 0.5 and 0.25 m.
@@ -53,16 +54,16 @@ class TipOverFigures:
 def measure(_options: MotionOptions) -> TipOverFigures:
     """Loads in all manoeuvres, and at rest."""
     loads = {name: min_load_n(before, then) for name, (before, then) in MANOEUVRES.items()}
-    standing = Rig(_site(), 1, lift_m=robot.LIFT_STROKE_M)
+    standing = Rig(_site(), 1, lift_m=ROBOT.key.lift_travel_m)
     return TipOverFigures(
         round(min(loads.values()), 2), {name: round(load, 2) for name, load in loads.items()},
         [round(load, 2) for load in standing.sim.wheel_loads_n()],
-        core.limits_at(robot.KEY_HEIGHT_AT_LOWER_STOP_M + robot.LIFT_STROKE_M))
+        core.limits_at(ROBOT.key.max_height_m))
 
 
 def min_load_n(before: Velocity, then: Optional[Velocity]) -> float:
     """Minimum load of any wheel from the start of the first motion on."""
-    rig = Rig(_site(), 1, lift_m=robot.LIFT_STROKE_M)
+    rig = Rig(_site(), 1, lift_m=ROBOT.key.lift_travel_m)
     loads = _drive(rig, before, DRIVING_S)
     loads += _drive(rig, before, STOPPING_S, locked=True) if then is None else _drive(rig, then, DRIVING_S)
     return min(loads)

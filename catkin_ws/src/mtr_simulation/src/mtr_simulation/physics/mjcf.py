@@ -9,13 +9,15 @@ from ..site.scenario import Scenario
 from ..site.surroundings import Cone, Pole, Wall
 from .mjcf_car import SOLID, car_body, car_meshes, parked_car_body
 from .mjcf_robot import robot_actuators, robot_body
+from .robot import RobotModel
 
 POLE_HEIGHT_M, WALL_HEIGHT_M, CONE_HEIGHT_M = 1.2, 2.0, 0.75
 CONE_CORNERS = 16
 LEG_LENGTH_M, HIP_HEIGHT_M = 0.82, 0.92
 
 
-def model_xml(scenario: Scenario, world_from_base: Pose2, timestep_s: float, max_wheel_torque_nm: float) -> str:
+def model_xml(scenario: Scenario, robot: RobotModel, world_from_base: Pose2, timestep_s: float,
+              max_wheel_torque_nm: float) -> str:
     """MJCF text with bodies car, base_link and what surrounds them."""
     parked = "".join(parked_car_body(f"parked_{index}", each.shape, each.pose)
                      for index, each in enumerate(scenario.parked_cars))
@@ -35,7 +37,7 @@ def model_xml(scenario: Scenario, world_from_base: Pose2, timestep_s: float, max
     {"".join(map(_cone, enumerate(scenario.cones)))}
     {"".join(map(_wall, scenario.walls))}
     {_person() if scenario.person else ""}
-    {robot_body(world_from_base)}
+    {robot_body(robot, world_from_base)}
   </worldbody>
   <actuator>{robot_actuators(max_wheel_torque_nm)}</actuator>
 </mujoco>"""

@@ -5,8 +5,9 @@ chassis 0/9, tyres 0/1, because the ground carries the tyres by the explicit tyr
 """
 # SPDX-License-Identifier: Apache-2.0
 from mtr_core.se2 import Pose2
+from mtr_description.mounts import Mount
 
-from . import robot
+from .robot import WHEELS, Box, RobotModel, Vector
 
 SHELL = 'group="2" contype="0" conaffinity="9" friction="0.3"'
 # A stronger servo, or an implicit integrator, lets the base run faster than its wheels turn.
@@ -15,27 +16,26 @@ WHEEL_ARMATURE_KGM2 = 0.05
 LIFT_STIFFNESS_NPM = 4000.0
 
 
-def robot_body(world_from_base: Pose2) -> str:
+def robot_body(robot: RobotModel, world_from_base: Pose2) -> str:
     """Body base_link on a free joint."""
-    pose = world_from_base
+    pose, base = world_from_base, robot.base
     return f"""
-    <body name="base_link" pos="{pose.x:.9f} {pose.y:.9f} {robot.BASE_HEIGHT_M:.6f}" euler="0 0 {pose.heading:.9f}">
+    <body name="base_link" pos="{pose.x:.9f} {pose.y:.9f} {robot.base_height_m:.6f}" euler="0 0 {pose.heading:.9f}">
       <freejoint name="root"/>
-      <inertial pos="0.012 0.002 0.067" mass="{robot.BASE_MASS_KG}"
-        fullinertia="0.3136 0.3922 0.4485 -0.0008 0.0164 -0.0009"/>
-      {_box("chassis", robot.CHASSIS_CENTRE, robot.CHASSIS_SIZE)}
-      {_box("fenders", robot.FENDERS_CENTRE, robot.FENDERS_SIZE)}
-      {_lidar("front_lidar", robot.FRONT_LIDAR_X_M)}
-      {_lidar("rear_lidar", robot.REAR_LIDAR_X_M)}
-      {_mast()}
-      {"".join(_wheel(name, position) for name, position in zip(robot.WHEELS, robot.WHEEL_POSITIONS))}
+      <inertial pos="{_plain(*base.centre)}" mass="{base.mass_kg}"
+        fullinertia="{_plain(*base.inertia_kgm2)}"/>
+      {"".join(_box(f"chassis_{index}", box) for index, box in enumerate(robot.chassis))}
+      {_lidar(robot, robot.front_lidar)}
+      {_lidar(robot, robot.rear_lidar) if robot.rear_lidar else ""}
+      {_mast(robot)}
+      {"".join(_wheel(robot, name, position) for name, position in zip(WHEELS, robot.wheel_positions))}
     </body>"""
 
 
 def robot_actuators(max_wheel_torque_nm: float) -> str:
     """Speed servos of the wheels, then the position servo of the lift."""
     wheels = "".join(f'<velocity name="{name}" joint="{name}" kv="{WHEEL_SERVO_NMS}" '
-                     f'forcerange="-{max_wheel_torque_nm} {max_wheel_torque_nm}"/>' for name in robot.WHEELS)
+                     f'forcerange="-{max_wheel_torque_nm} {max_wheel_torque_nm}"/>' for name in WHEELS)
     return f'{wheels}<position name="lift" joint="lift" kp="{LIFT_STIFFNESS_NPM}" forcerange="-300 300"/>'
 
 
@@ -43,39 +43,50 @@ def _vector(*values: float) -> str:
     return " ".join(f"{value:.6f}" for value in values)
 
 
-def _box(name: str, centre: robot.Vector, size: robot.Vector) -> str:
-    half = _vector(*(side / 2.0 for side in size))
-    return f'<geom name="{name}" type="box" pos="{_vector(*centre)}" size="{half}" {SHELL}/>'
+def _plain(*values: float) -> str:
+    return " ".join(f"{value:g}" for value in values)
 
 
-def _lidar(name: str, x_m: float) -> str:
-    height = robot.LIDAR_HEIGHT_M - robot.BASE_HEIGHT_M
-    return (f'<body name="{name}" pos="{_vector(x_m, 0.0, height)}">'
-            f'<geom type="cylinder" size="0.05 0.04" mass="{robot.LIDAR_MASS_KG}" {SHELL}/></body>')
+def _box(name: str, box: Box) -> str:
+    half = _vector(*(side / 2.0 for side in box.size))
+    return f'<geom name="{name}" type="box" pos="{_vector(*box.centre)}" size="{half}" {SHELL}/>'
 
 
-def _mast() -> str:
-    half = robot.MAST_LENGTH_M / 2.0
-    foot = robot.CHASSIS_SIZE[2]
-    reach = robot.KEY_X_M - robot.MAST_X_M
-    carriage_z = robot.KEY_HEIGHT_AT_LOWER_STOP_M - robot.BASE_HEIGHT_M - foot
+def _lidar(robot: RobotModel, mount: Mount) -> str:
+    radius, height = robot.lidar_size
+    return (f'<body name="{mount.frame}" pos="{_vector(*mount.position)}">'
+            f'<geom type="cylinder" size="{radius} {height / 2.0}" mass="{robot.lidar_mass_kg}" {SHELL}/></body>')
+
+
+def _mast(robot: RobotModel) -> str:
     return f"""
-      <body name="mast" pos="{_vector(robot.MAST_X_M, 0.0, foot)}">
-        <geom name="mast" type="box" pos="0 0 {half}" size="0.03 0.03 {half}" mass="{robot.MAST_MASS_KG}" {SHELL}/>
-        <body name="carriage" pos="{_vector(0.0, 0.0, carriage_z)}">
-          <joint name="lift" type="slide" axis="0 0 1" range="0 {robot.LIFT_STROKE_M}" damping="200" armature="2"/>
-          <geom name="arm" type="box" pos="{reach / 2.0} 0 0" size="{reach / 2.0 - 0.02} 0.015 0.01"
-            mass="{robot.CARRIAGE_MASS_KG}" {SHELL}/>
-          <geom name="key" type="box" pos="{reach} 0 0" size="0.02 0.02 0.035" mass="{robot.KEY_MASS_KG}" {SHELL}/>
+      <body name="mast" pos="{_vector(*robot.mast_foot)}">
+        {_heavy_box("mast", robot.mast, robot.mast_mass_kg)}
+        <body name="carriage" pos="{_vector(0.0, 0.0, robot.carriage_z_m)}">
+          <joint name="lift" type="slide" axis="0 0 1" range="0 {robot.key.lift_travel_m}" damping="200" armature="2"/>
+          {_heavy_box("arm", robot.arm, robot.carriage_mass_kg)}
+          {_heavy_box("key", _key_on_carriage(robot), robot.key_mass_kg)}
         </body>
       </body>"""
 
 
-def _wheel(name: str, position: robot.Vector) -> str:
+def _key_on_carriage(robot: RobotModel) -> Box:
+    x, y, z = robot.key_box.centre
+    ahead_m, aside_m = robot.key.x_m - robot.mast_foot[0], robot.key.y_m - robot.mast_foot[1]
+    return Box((x + ahead_m, y + aside_m, z), robot.key_box.size)
+
+
+def _heavy_box(name: str, box: Box, mass_kg: float) -> str:
+    half = " ".join(str(side / 2.0) for side in box.size)
+    return (f'<geom name="{name}" type="box" pos="{_plain(*box.centre)}" size="{half}" mass="{mass_kg}" '
+            f'{SHELL}/>')
+
+
+def _wheel(robot: RobotModel, name: str, position: Vector) -> str:
     return f"""
       <body name="{name}_wheel" pos="{_vector(*position)}">
-        <inertial pos="0 0 0" mass="{robot.WHEEL_MASS_KG}" diaginertia="0.0013 0.0024 0.0013"/>
+        <inertial pos="0 0 0" mass="{robot.wheel.mass_kg}" diaginertia="{_plain(*robot.wheel.inertia_kgm2[:3])}"/>
         <joint name="{name}" type="hinge" axis="0 1 0" damping="0.02" armature="{WHEEL_ARMATURE_KGM2}"/>
-        <geom name="{name}_tyre" type="cylinder" size="{robot.WHEEL_RADIUS_M} {robot.WHEEL_WIDTH_M / 2.0}"
+        <geom name="{name}_tyre" type="cylinder" size="{robot.wheel_radius_m} {robot.wheel_width_m / 2.0}"
           euler="1.5707963268 0 0" group="2" contype="0" conaffinity="1"/>
       </body>"""

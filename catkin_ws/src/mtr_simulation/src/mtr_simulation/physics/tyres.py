@@ -14,8 +14,8 @@ import mujoco
 from mtr_core.parameters import ParameterSet, number
 
 from ..site.surroundings import Ground
-from . import robot
 from .base_state import BaseState, Vector
+from .robot import WHEELS, RobotModel
 
 # Below this spin the rolling resistance fades out, so that a wheel can stand still.
 ROLLING_FADE_RADPS = 0.05
@@ -40,6 +40,13 @@ class TyreParameters(ParameterSet):
     rolling_resistance: float = number(0.015, 0.0, 0.1, "(force by load)")
 
 
+class Surface(NamedTuple):
+    """What the wheels stand on; without a ground it is level."""
+
+    friction: float
+    ground: Optional[Ground] = None
+
+
 class _WheelPlane(NamedTuple):
     """How all wheels stand, in world: axle, way from a wheel's centre to its lowest point, rolling direction."""
 
@@ -48,12 +55,12 @@ class _WheelPlane(NamedTuple):
     forward: Tuple[float, float]
 
 
-def _wheel_plane(base: BaseState) -> _WheelPlane:
+def _wheel_plane(base: BaseState, radius_m: float) -> _WheelPlane:
     (_, ax, _), (_, ay, _), (_, az, _) = base.rotation
     upright = sqrt(max(1e-9, 1.0 - az * az))
     level = sqrt(ax * ax + ay * ay) or 1.0
-    scale = robot.WHEEL_RADIUS_M / upright
-    return _WheelPlane((ax, ay, az), (scale * az * ax, scale * az * ay, -robot.WHEEL_RADIUS_M * upright),
+    scale = radius_m / upright
+    return _WheelPlane((ax, ay, az), (scale * az * ax, scale * az * ay, -radius_m * upright),
                        (ay / level, -ax / level))
 
 
@@ -63,23 +70,24 @@ class Tyres:
     Uneven ground is so gentle that its forces act upwards and along the level plane all the same.
     """
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, friction: float, parameters: TyreParameters,
-                 ground: Optional[Ground] = None):
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, robot: RobotModel, surface: Surface,
+                 parameters: TyreParameters):
+        self._radius_m, self._positions = robot.wheel_radius_m, robot.wheel_positions
         self._forces = data.xfrc_applied
         self._speeds = data.qvel
         self._step_s = model.opt.timestep
-        self._friction, self._parameters, self._ground = friction, parameters, ground
-        self._bodies = [model.body(f"{name}_wheel").id for name in robot.WHEELS]
-        self._dofs = [int(model.joint(name).dofadr[0]) for name in robot.WHEELS]
-        self._bristles = [[0.0, 0.0] for _ in robot.WHEELS]
+        self._surface, self._parameters = surface, parameters
+        self._bodies = [model.body(f"{name}_wheel").id for name in WHEELS]
+        self._dofs = [int(model.joint(name).dofadr[0]) for name in WHEELS]
+        self._bristles = [[0.0, 0.0] for _ in WHEELS]
 
     def apply(self, base: BaseState) -> None:
         """Forces and torques on each wheel's centre for the base's motion and the wheels' spin."""
         (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = base.rotation
-        plane = _wheel_plane(base)
+        plane = _wheel_plane(base, self._radius_m)
         dx, dy, dz = plane.down
         height = base.position[2] + dz
-        for index, (x, y, z) in enumerate(robot.WHEEL_POSITIONS):
+        for index, (x, y, z) in enumerate(self._positions):
             lift = r20 * x + r21 * y + r22 * z
             arm = (r00 * x + r01 * y + r02 * z + dx, r10 * x + r11 * y + r12 * z + dy, lift + dz)
             depth = self._ground_height(base, arm) - height - lift
@@ -95,10 +103,11 @@ class Tyres:
 
     def lift_off(self) -> None:
         """The robot has been lifted: nothing is bent any more."""
-        self._bristles = [[0.0, 0.0] for _ in robot.WHEELS]
+        self._bristles = [[0.0, 0.0] for _ in WHEELS]
 
     def _ground_height(self, base: BaseState, arm: Vector) -> float:
-        return self._ground.height_m(base.position[0] + arm[0], base.position[1] + arm[1]) if self._ground else 0.0
+        ground = self._surface.ground
+        return ground.height_m(base.position[0] + arm[0], base.position[1] + arm[1]) if ground else 0.0
 
     def _wrench(self, index: int, base: BaseState, plane: _WheelPlane, arm: Vector, depth: float) -> tuple:
         """Force and torque at a wheel's centre, in world; arm is the way from base_link to its lowest point."""
@@ -112,7 +121,7 @@ class Tyres:
         along_y = vy + oz * ex - ox * ez + spin * (az * hx - ax * hz)
         rolling, side = self._friction_force(index, along_x * cos + along_y * sin, along_y * cos - along_x * sin, load)
         fx, fy = rolling * cos - side * sin, rolling * sin + side * cos
-        resistance = -parameters.rolling_resistance * load * robot.WHEEL_RADIUS_M * max(
+        resistance = -parameters.rolling_resistance * load * self._radius_m * max(
             -1.0, min(1.0, spin / ROLLING_FADE_RADPS))
         return (fx, fy, load, hy * load - hz * fy + resistance * ax, hz * fx - hx * load + resistance * ay,
                 hx * fy - hy * fx + resistance * az)
@@ -120,7 +129,7 @@ class Tyres:
     def _friction_force(self, index: int, slip: float, side_slip: float, load: float) -> List[float]:
         """Force along and across the rolling direction for the slip speeds in m/s."""
         parameters, bristle = self._parameters, self._bristles[index]
-        limit = self._friction * load
+        limit = self._surface.friction * load
         along, across = bristle[0] + slip * self._step_s, bristle[1] + side_slip * self._step_s
         longest = limit / parameters.bristle_stiffness_npm
         length = sqrt(along * along + across * across)

@@ -13,7 +13,7 @@ import mujoco
 from mtr_core.parameters import ParameterSet, number
 
 from ..sensors.readings import WheelOdometry
-from . import robot
+from .robot import WHEELS, RobotModel
 
 INTEGRAL_GAIN_PER_S = 6.0
 INTEGRAL_LIMIT_RADPS = 3.0
@@ -48,15 +48,15 @@ class BaseParameters(ParameterSet):
 class Wheels:
     """Drives the four wheel servos and reads their encoders."""
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, parameters: BaseParameters):
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, robot: RobotModel, parameters: BaseParameters):
         self._data, self._parameters = data, parameters
         self._step_s = model.opt.timestep
-        self._dofs = [int(model.joint(name).dofadr[0]) for name in robot.WHEELS]
-        self._angles = [int(model.joint(name).qposadr[0]) for name in robot.WHEELS]
-        self._servos = [model.actuator(name).id for name in robot.WHEELS]
-        self._integrals = [0.0] * len(robot.WHEELS)
-        self._radius_m = robot.WHEEL_RADIUS_M * (1.0 + parameters.radius_error)
-        self._half_track_m = robot.HALF_TRACK_M * parameters.separation_multiplier
+        self._dofs = [int(model.joint(name).dofadr[0]) for name in WHEELS]
+        self._angles = [int(model.joint(name).qposadr[0]) for name in WHEELS]
+        self._servos = [model.actuator(name).id for name in WHEELS]
+        self._integrals = [0.0] * len(WHEELS)
+        self._radius_m = robot.wheel_radius_m * (1.0 + parameters.radius_error)
+        self._half_track_m = robot.half_track_m * parameters.separation_multiplier
         self._wanted = (0.0, 0.0)
         self._silent_s = math.inf
         self._linear = self._angular = 0.0

@@ -3,15 +3,15 @@
 import math
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Dict, NamedTuple, Optional, Tuple
+from typing import Dict, Optional, Tuple
 
 import mujoco
 import numpy as np
 
 from mtr_core.parameters import ParameterSet, number
+from mtr_description.mounts import Mount
 
 from ..noise import stream
-from ..physics import robot
 from ..physics.base_state import BaseState
 from .readings import Scan
 from .scan_errors import ScanErrors, with_errors
@@ -33,7 +33,7 @@ class LidarParameters(ParameterSet):
         rotation_s: one turn; the period of the scans.
         range_min_m, range_max_m: nearest and farthest that is seen.
         noise_m: 1 sigma of each range.
-        height_m: of its plane above the ground.
+        height_m: of its plane above the ground; None: where its mount is.
         roll_rad, pitch_rad: of its mounting, which nobody knows of; positive pitch looks down ahead.
         errors: beyond white noise.
     """
@@ -44,7 +44,7 @@ class LidarParameters(ParameterSet):
     range_min_m: float = number(0.1, 0.0, 1.0, "m")
     range_max_m: float = number(30.0, 1.0, 100.0, "m")
     noise_m: float = number(0.01, 0.0, 0.1, "m")
-    height_m: float = number(robot.LIDAR_HEIGHT_M, 0.1, 1.0, "m")
+    height_m: Optional[float] = None
     roll_rad: float = number(0.0, -0.1, 0.1, "rad")
     pitch_rad: float = number(0.0, -0.1, 0.1, "rad")
     errors: ScanErrors = field(default_factory=ScanErrors)
@@ -60,13 +60,6 @@ class LidarParameters(ParameterSet):
         return self.field_of_view_rad / (self.beams - 1)
 
 
-class Mount(NamedTuple):
-    """Where a LiDAR is in base_link: x in m, yaw in rad."""
-
-    x_m: float
-    yaw_rad: float
-
-
 class LidarFault(Enum):
     """What a LiDAR may do instead of working; FROZEN gives the last ranges again and again, with new stamps."""
 
@@ -76,7 +69,7 @@ class LidarFault(Enum):
 
 
 class Lidar:
-    """One LiDAR on the robot's middle line.
+    """One LiDAR.
 
     A sweep is cast in slices; each is cast in the physics step that is nearest in time to its middle.
 
@@ -89,8 +82,8 @@ class Lidar:
         self._model, self._data, self._parameters, self.fault = model, data, parameters, LidarFault.NONE
         seed, name = noise
         self._noise, self._error_noise = stream(seed, name), stream(seed, f"{name}_errors")
-        self._place = (mount.x_m, 0.0, parameters.height_m - robot.BASE_HEIGHT_M)
-        self._rays = _rays(parameters, mount.yaw_rad)
+        self._place = mount.position
+        self._rays = _rays(parameters, mount)
         self._slices, delays = _slices(parameters, model.opt.timestep)
         # How a ray turns by the time of its beam for each rad/s that the robot turns.
         self._turns = delays[:, np.newaxis] * np.stack(
@@ -128,14 +121,14 @@ class Lidar:
                     parameters.range_max_m, self._last)
 
 
-def _rays(parameters: LidarParameters, yaw_rad: float) -> np.ndarray:
+def _rays(parameters: LidarParameters, mount: Mount) -> np.ndarray:
     """Unit vectors of all beams in base_link; the mounting is turned by yaw, then pitch, then roll."""
     angles = parameters.angle_increment_rad * np.arange(parameters.beams) - parameters.field_of_view_rad / 2.0
     x, y = np.cos(angles), np.sin(angles)
-    roll, pitch = parameters.roll_rad, parameters.pitch_rad
+    roll, pitch = mount.roll_rad + parameters.roll_rad, mount.pitch_rad + parameters.pitch_rad
     y, z = y * math.cos(roll), y * math.sin(roll)
     x, z = x * math.cos(pitch) + z * math.sin(pitch), z * math.cos(pitch) - x * math.sin(pitch)
-    cos, sin = math.cos(yaw_rad), math.sin(yaw_rad)
+    cos, sin = math.cos(mount.yaw_rad), math.sin(mount.yaw_rad)
     return np.stack([cos * x - sin * y, sin * x + cos * y, z], axis=1)
 
 

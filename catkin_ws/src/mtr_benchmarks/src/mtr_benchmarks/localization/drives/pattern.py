@@ -4,11 +4,12 @@ import math
 from typing import Iterator, List, NamedTuple, Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
-from mtr_simulation.physics import robot
+from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.site.car_shape import CarShape
 
 from .legs import Leg, LiftLeg, PathLeg, Point, StandLeg, StraightLeg, TurnLeg
 
+ROBOT = shipped_robot()
 LOOP_DISTANCE_M, LOOP_SPEED_MPS = 1.6, 0.5
 TRANSFER_DISTANCE_M, TRANSFER_SPEED_MPS = 2.2, 0.8
 AXIS_SPEED_MPS, RADIAL_SPEED_MPS = 0.5, 0.5
@@ -100,7 +101,7 @@ def _axis(shape: CarShape, here: Point, direction: float) -> Tuple[List[DrivePie
     """Approach, stand, retreat backwards, stand."""
     x, y = edge(shape, direction)
     cos, sin = math.cos(direction), math.sin(direction)
-    far, near = ((x + (distance + robot.KEY_X_M) * cos, y + (distance + robot.KEY_X_M) * sin)
+    far, near = ((x + (distance + ROBOT.key.x_m) * cos, y + (distance + ROBOT.key.x_m) * sin)
                  for distance in (AXIS_FAR_M, AXIS_NEAR_M))
     legs: List[Leg] = [StraightLeg(near, AXIS_SPEED_MPS), StandLeg(STAND_S),
                        StraightLeg(far, AXIS_SPEED_MPS, True), StandLeg(STAND_S)]

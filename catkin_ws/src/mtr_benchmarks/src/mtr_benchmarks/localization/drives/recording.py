@@ -14,11 +14,12 @@ from mtr_core import names
 from mtr_core.se2 import Pose2
 from mtr_msgs.msg import MappingOrder
 from mtr_simulation import conversions
-from mtr_simulation.physics import robot
+from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.sensors.imu import ImuParameters
 from mtr_simulation.sensors.readings import Sensors
 from mtr_simulation.true_state import TrueState
 
+ROBOT = shipped_robot()
 BAG, TRUTH, META = "drive.bag", "truth.csv", "meta.json"
 TRUTH_COLUMNS = ("stamp_s", "car_x_m", "car_y_m", "car_heading_rad", "world_x_m", "world_y_m", "world_heading_rad",
                  "key_x_m", "key_y_m", "linear_mps", "angular_radps", "tilt_rad", "standing", "segment")
@@ -52,9 +53,9 @@ class Recording:
 
     def mounts(self, time_ns: int) -> None:
         """Where LiDARs and IMU are, as robot_state_publisher says it."""
-        z = self._lidar_height_m - robot.BASE_HEIGHT_M
-        frames = ((names.FRONT_LIDAR, robot.FRONT_LIDAR_X_M, z, robot.FRONT_LIDAR_YAW_RAD),
-                  (names.REAR_LIDAR, robot.REAR_LIDAR_X_M, z, robot.REAR_LIDAR_YAW_RAD), (names.IMU, 0.0, 0.0, 0.0))
+        z = self._lidar_height_m - ROBOT.base_height_m
+        frames = ((names.FRONT_LIDAR, ROBOT.front_lidar.x_m, z, ROBOT.front_lidar.yaw_rad),
+                  (names.REAR_LIDAR, ROBOT.rear_lidar.x_m, z, ROBOT.rear_lidar.yaw_rad), (names.IMU, 0.0, 0.0, 0.0))
         transforms = []
         for frame, x, height, yaw in frames:
             each = TransformStamped(child_frame_id=frame, transform=Transform())
@@ -83,7 +84,7 @@ class Recording:
     def truth(self, truth: TrueState, segment: int) -> None:
         """Where the robot really is; the key as if the robot stood level."""
         car, world = truth.car_from_base, truth.world_from_base
-        key_x, key_y = car.apply(robot.KEY_X_M, 0.0)
+        key_x, key_y = car.apply(ROBOT.key.x_m, 0.0)
         standing = abs(truth.linear_mps) < STANDING_MPS and abs(truth.angular_radps) < STANDING_RADPS
         self._rows.writerow([f"{truth.time_ns * 1e-9:.3f}", *(f"{value:.6f}" for value in (
             car.x, car.y, car.heading, world.x, world.y, world.heading, key_x, key_y, truth.linear_mps,

@@ -9,10 +9,11 @@ import rosbag
 
 from mtr_core import names
 from mtr_core.arrays import FloatArray
-from mtr_simulation.physics import robot
+from mtr_simulation.physics.robot import shipped_robot
 
-MOUNTS = {names.FRONT_SCAN: (robot.FRONT_LIDAR_X_M, robot.FRONT_LIDAR_YAW_RAD),
-          names.REAR_SCAN: (robot.REAR_LIDAR_X_M, robot.REAR_LIDAR_YAW_RAD)}
+ROBOT = shipped_robot()
+MOUNTS = {names.FRONT_SCAN: (ROBOT.front_lidar.x_m, ROBOT.front_lidar.yaw_rad),
+          names.REAR_SCAN: (ROBOT.rear_lidar.x_m, ROBOT.rear_lidar.yaw_rad)}
 
 
 class Sweep(NamedTuple):

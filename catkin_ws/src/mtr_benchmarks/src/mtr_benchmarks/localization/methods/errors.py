@@ -7,11 +7,12 @@ import numpy as np
 
 from mtr_core.arrays import BoolArray, FloatArray
 from mtr_core.se2 import Pose2
-from mtr_simulation.physics import robot
+from mtr_simulation.physics.robot import shipped_robot
 
 from ..drives.pose_track import PoseTrack, at, compose, wrapped
 from ..drives.truth import DriveTruth
 
+ROBOT = shipped_robot()
 NAN = math.nan
 
 
@@ -61,7 +62,7 @@ def errors_of(track: PoseTrack, car: MeasuredCar, truth: DriveTruth) -> PoseErro
 
 def keys(poses: FloatArray) -> FloatArray:
     """Positions (n, 2) of the key for poses of base_link."""
-    return poses[:, :2] + robot.KEY_X_M * np.stack([np.cos(poses[:, 2]), np.sin(poses[:, 2])], axis=1)
+    return poses[:, :2] + ROBOT.key.x_m * np.stack([np.cos(poses[:, 2]), np.sin(poses[:, 2])], axis=1)
 
 
 def joined(covariances: FloatArray, car: MeasuredCar, poses_in_car: FloatArray) -> FloatArray:
