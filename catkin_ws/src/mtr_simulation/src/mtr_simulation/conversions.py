@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import io
 import math
+from typing import List, Sequence
 
 import numpy as np
 from genpy import Message
@@ -83,7 +84,7 @@ class ImuMessage:
 class OdometryMessage:
     """Fills one Odometry message."""
 
-    def __init__(self, frame: str, variances: tuple = ODOMETRY_VARIANCES):
+    def __init__(self, frame: str, variances: Sequence[float] = ODOMETRY_VARIANCES):
         self._message = Odometry()
         self._message.header.frame_id, self._message.child_frame_id = frame, names.BASE
         self._message.pose.covariance = self._message.twist.covariance = _diagonal(variances)
@@ -126,8 +127,9 @@ def firmware_message(state: State) -> FirmwareState:
     return seal(FirmwareState(*state, 0))
 
 
-def _diagonal(values: tuple) -> list:
-    return np.diag(values).reshape(-1).tolist()
+def _diagonal(values: Sequence[float]) -> List[float]:
+    diagonal: List[float] = np.diag(values).reshape(-1).tolist()
+    return diagonal
 
 
 def yaw_quaternion(heading_rad: float) -> Quaternion:

@@ -164,7 +164,7 @@ class Output:
         time_ns = sensors.time_ns
         for publisher, scan, frame in ((self._front, sensors.front_scan, names.FRONT_LIDAR),
                                        (self._rear, sensors.rear_scan, names.REAR_LIDAR)):
-            if scan and publisher.get_num_connections():
+            if scan and publisher is not None and publisher.get_num_connections():
                 publisher.publish(conversions.scan_message(scan, frame))
         if LIDAR.last_at(time_ns) == time_ns and self._truth.get_num_connections():
             self._truth.publish(self._truth_message.fill(world.truth))
@@ -178,7 +178,19 @@ class NodeWatcher(Watcher):
     """Logs, and keeps the output from filling the buffers of a node that does not read."""
 
     def __init__(self, output: Output):
-        self.warn, self.dropped, self.returned = rospy.logwarn, output.mute, output.unmute
+        self._output = output
+
+    def warn(self, sentence: str) -> None:
+        """Log it."""
+        rospy.logwarn("%s", sentence)
+
+    def dropped(self, name: str) -> None:
+        """Say no more to that node."""
+        self._output.mute(name)
+
+    def returned(self, name: str) -> None:
+        """Speak to it again."""
+        self._output.unmute(name)
 
 
 def main() -> int:

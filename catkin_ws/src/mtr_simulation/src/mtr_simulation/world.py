@@ -1,6 +1,6 @@
 """Robot, firmware and Car together, one tick at a time."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Any, Optional, Set, Tuple
+from typing import Any, Optional, Set
 
 from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS
 
@@ -14,22 +14,7 @@ from .sensors.readings import Sensors
 from .sim import Sim, SimParameters
 from .site.scenario import named_scenario
 from .true_state import TrueState
-from .truth.log import TruthLog
-
-Point = Tuple[float, float, float]
-
-
-class NoTruthLog:
-    """Takes true events and writes them nowhere."""
-
-    def lock_event(self, event: str, time_ns: int, key_xyz: Point) -> None:
-        """Nothing."""
-
-    def press(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
-        """Nothing."""
-
-    def close(self) -> None:
-        """Nothing."""
+from .truth.log import EventLog, NoTruthLog, TruthLog
 
 
 class World:
@@ -51,7 +36,7 @@ class World:
         self.firmware.start(SIMULATION_START_NS)
         self.truth: TrueState = self.sim.truth()
         self.contacts: Set[str] = set()
-        self._truth_log = TruthLog(parameters.truth_dir) if parameters.truth_dir else NoTruthLog()
+        self._truth_log: EventLog = TruthLog(parameters.truth_dir) if parameters.truth_dir else NoTruthLog()
         self._port: Optional[SlcanPort] = None
         self._car: Optional[SimulatedCar] = None
         if parameters.car_port_link:

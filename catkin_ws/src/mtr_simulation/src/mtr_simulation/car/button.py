@@ -33,7 +33,7 @@ class ButtonContact:
             self._closed, self._reported = None, False
             return bounced
         if self._closed is None:
-            self._closed = Closing(time_ns, tuple(key_xyz), False)
+            self._closed = Closing(time_ns, key_xyz, False)
         if self._reported or time_ns - self._closed.time_ns < self._needed_ns:
             return None
         self._reported = True

@@ -25,7 +25,7 @@ class MemoryCanPort(CanPort):
         frames: everything sent, in order.
     """
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.frames: List[Frame] = []
 
     def poll(self) -> None:

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from typing import Optional, Tuple
 
-from mtr_simulation.truth.log import TruthLog
-
+from ..truth.log import EventLog
 from .button import ButtonContact, Closing
 from .can_port import CanPort
 from .ecu import BodyEcu, Command, LockState, PassiveEntry, Source
@@ -24,7 +23,7 @@ class SimulatedCar:
         ecu: the body ECU, to look at its state.
     """
 
-    def __init__(self, seed: int, parameters: CarParameters, port: CanPort, truth_log: TruthLog):
+    def __init__(self, seed: int, parameters: CarParameters, port: CanPort, truth_log: EventLog):
         correlation_m = parameters.shadow_correlation_m
         self.ecu = BodyEcu(parameters.boot_ms * 1_000_000)
         self._port = port

@@ -5,7 +5,7 @@ Everything repeats, so each distinct frame goes through cantools once and comes 
 # SPDX-License-Identifier: Apache-2.0
 import functools
 import pathlib
-from typing import Iterator, NamedTuple
+from typing import Any, Iterator, NamedTuple, Tuple
 
 import cantools
 
@@ -32,7 +32,7 @@ class CarFrames:
 
     def __init__(self, ecu: BodyEcu):
         self._ecu = ecu
-        self._database = cantools.database.load_file(str(DBC_PATH))
+        self._database: Any = cantools.database.load_file(str(DBC_PATH))
         self._encode = functools.lru_cache(maxsize=4096)(self._encode_once)
         messages = self._database.messages
         self._every = sorted((m.frame_id, m.name, m.cycle_time * 1_000_000 // PERIOD_NS) for m in messages)
@@ -47,7 +47,7 @@ class CarFrames:
                 if number % every == 0:
                     yield Frame(can_id, self._encode(name, *self._values(name, number // every, time_ns)), time_ns)
 
-    def _values(self, name: str, count: int, time_ns: int):
+    def _values(self, name: str, count: int, time_ns: int) -> Tuple[float, ...]:
         if name == LOCK_MESSAGE:
             ecu = self._ecu
             changed = int(ecu.has_just_changed(time_ns))
@@ -56,6 +56,6 @@ class CarFrames:
             return (0, 1, count % 16)
         return (0, 12.6)
 
-    def _encode_once(self, name: str, *values) -> bytes:
+    def _encode_once(self, name: str, *values: float) -> bytes:
         message = self._database.get_message_by_name(name)
         return bytes(message.encode({signal.name: value for signal, value in zip(message.signals, values)}))

@@ -10,7 +10,7 @@ import select
 import termios
 import threading
 import tty
-from typing import Union
+from typing import Tuple, Union
 
 from mtr_core.errors import ConfigurationError
 
@@ -143,7 +143,8 @@ class SlcanPort(CanPort):
             self._master = self._slave = -1
 
 
-def _open_terminal():
+def _open_terminal() -> Tuple[int, int]:
+    """Master and slave of a raw terminal."""
     master, slave = pty.openpty()
     tty.setraw(slave)
     os.set_blocking(master, False)

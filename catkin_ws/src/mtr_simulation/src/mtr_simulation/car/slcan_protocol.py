@@ -51,7 +51,7 @@ class SlcanAdapter:
         transmitted: frames that the host sent to the bus.
     """
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.is_open = False
         self.stamps = False
         self.bus_off = False

@@ -136,7 +136,7 @@ class Barrier:
 
     def _give_up(self, name: str, time_ns: int) -> None:
         node = self._nodes[name]
-        if node.stamp_ns >= time_ns:
+        if node.stamp_ns is not None and node.stamp_ns >= time_ns:
             self._watcher.warn(f"{node.sent - node.received} messages of node {name} were lost on their way to the "
                                "simulator; time goes on without them.")
             node.received = node.sent

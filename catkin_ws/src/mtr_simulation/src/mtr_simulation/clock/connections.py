@@ -28,7 +28,7 @@ class Connection(NamedTuple):
 
 def wanted(system_state: List[List[Tuple[str, List[str]]]]) -> Set[Connection]:
     """Connections that there should be, from the master's getSystemState."""
-    publishers, subscribers = dict(map(tuple, system_state[0])), dict(map(tuple, system_state[1]))
+    publishers, subscribers = ({topic: nodes for topic, nodes in side} for side in system_state[:2])
     return {Connection(topic, source, sink) for topic in publishers.keys() & subscribers.keys()
             if topic not in IGNORED_TOPICS for source in publishers[topic] for sink in subscribers[topic]
             if source != sink}
@@ -41,13 +41,13 @@ def outgoing(node: str, bus_info: List[List[Any]]) -> Set[Connection]:
 
 def missing(master_uri: str, caller: str) -> Set[Connection]:
     """Connections of the running graph that are not there; nodes that have ended without a word are left out."""
-    master = xmlrpc.client.ServerProxy(master_uri)
+    master: Any = xmlrpc.client.ServerProxy(master_uri)
     connections = wanted(master.getSystemState(caller)[2])
     alive: Set[str] = set()
     served: Set[Connection] = set()
     for node in {name for connection in connections for name in (connection.publisher, connection.subscriber)}:
         try:
-            api = xmlrpc.client.ServerProxy(master.lookupNode(caller, node)[2])
+            api: Any = xmlrpc.client.ServerProxy(master.lookupNode(caller, node)[2])
             served |= outgoing(node, api.getBusInfo(caller)[2])
         except CALL_ERRORS:
             continue

@@ -85,19 +85,24 @@ class EmulatedFirmware:
             self._port.close()
         self._board.stop()
 
+    def _open_port(self) -> SerialPort:
+        if self._port is None:
+            raise EmulationError("The emulated board has not been started.")
+        return self._port
+
     def _write(self) -> None:
         data = b"".join(self.session.outbox)
         self.session.outbox.clear()
         self._sent += len(data)
         while data:
-            data = data[self._port.write(data):]
+            data = data[self._open_port().write(data):]
 
     def _read(self, total: int) -> bytes:
         """Everything up to that many bytes since the start; a pseudo-terminal delivers a little later."""
-        pieces = []
+        pieces, port = [], self._open_port()
         while self._received < total:
-            if not select.select([self._port.fd], [], [], ARRIVAL_LIMIT_MS * 1e-3)[0]:
+            if not select.select([port.fd], [], [], ARRIVAL_LIMIT_MS * 1e-3)[0]:
                 raise EmulationError(f"The emulated firmware sent {total} bytes, of which {self._received} came.")
-            pieces.append(self._port.read())
+            pieces.append(port.read())
             self._received += len(pieces[-1])
         return b"".join(pieces)

@@ -17,7 +17,7 @@ class Lift:
         speed_mps: positive upwards.
     """
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.height_m = 0.0
         self.speed_mps = 0.0
         self._target_m: Optional[float] = None

@@ -41,12 +41,12 @@ class Presser:
         servo_us: pulse widths of lock and unlock servo.
     """
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.servo_us: Tuple[float, float] = (RELEASED_US, RELEASED_US)
         self._order: Optional[PressOrder] = None
         self._start_ns = 0
         self._release_ns: Optional[int] = None
-        self._from_us = self.servo_us
+        self._from_us: Tuple[float, float] = self.servo_us
 
     @property
     def is_busy(self) -> bool:

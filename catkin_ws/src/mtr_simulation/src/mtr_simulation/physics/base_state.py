@@ -34,7 +34,8 @@ class BaseState(NamedTuple):
 def base_state(position: List[float], quaternion: List[float], velocity: List[float], spin: List[float]) -> BaseState:
     """State from a free joint's coordinates; spin is the angular velocity in base_link."""
     rotation = matrix_of(quaternion)
-    return BaseState(tuple(position), rotation, tuple(velocity), rotate(rotation, *spin))
+    (x, y, z), (along, aside, up) = position, velocity
+    return BaseState((x, y, z), rotation, (along, aside, up), rotate(rotation, *spin))
 
 
 def matrix_of(quaternion: List[float]) -> Matrix:

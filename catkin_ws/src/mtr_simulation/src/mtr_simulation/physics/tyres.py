@@ -109,7 +109,7 @@ class Tyres:
         ground = self._surface.ground
         return ground.height_m(base.position[0] + arm[0], base.position[1] + arm[1]) if ground else 0.0
 
-    def _wrench(self, index: int, base: BaseState, plane: _WheelPlane, arm: Vector, depth: float) -> tuple:
+    def _wrench(self, index: int, base: BaseState, plane: _WheelPlane, arm: Vector, depth: float) -> Tuple[float, ...]:
         """Force and torque at a wheel's centre, in world; arm is the way from base_link to its lowest point."""
         parameters = self._parameters
         (vx, vy, vz), (ox, oy, oz) = base.velocity, base.angular_velocity

@@ -61,7 +61,7 @@ class Wheels:
         self._silent_s = math.inf
         self._linear = self._angular = 0.0
         self._ticks = [0.0, 0.0]
-        self._pose = [0.0, 0.0, 0.0]
+        self._pose = (0.0, 0.0, 0.0)
 
     def command(self, linear_mps: float, angular_radps: float) -> None:
         """Take a new velocity command; one that is not finite is ignored."""
@@ -93,9 +93,9 @@ class Wheels:
         self._ticks = ticks
         distance, turn = 0.5 * (left + right), (right - left) / (2.0 * self._half_track_m)
         x, y, heading = self._pose
-        self._pose = [x + distance * math.cos(heading + turn / 2.0), y + distance * math.sin(heading + turn / 2.0),
-                      heading + turn]
-        return WheelOdometry(*self._pose, distance / period_s, turn / period_s)
+        x, y = x + distance * math.cos(heading + turn / 2.0), y + distance * math.sin(heading + turn / 2.0)
+        self._pose = (x, y, heading + turn)
+        return WheelOdometry(x, y, heading + turn, distance / period_s, turn / period_s)
 
     def _count(self) -> List[float]:
         """Encoder ticks of the left and the right side, in metres as the base believes them."""

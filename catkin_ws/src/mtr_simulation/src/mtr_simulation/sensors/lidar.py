@@ -8,6 +8,7 @@ from typing import Dict, Optional, Tuple
 import mujoco
 import numpy as np
 
+from mtr_core.arrays import FloatArray
 from mtr_core.parameters import ParameterSet, number
 from mtr_description.mounts import Mount
 
@@ -91,7 +92,7 @@ class Lidar:
         self._distances = np.zeros(parameters.beams)
         self._geoms = np.zeros(parameters.beams, dtype=np.int32)
         self._excluded = model.body("base_link").id
-        self._last: Optional[np.ndarray] = None
+        self._last: Optional[FloatArray] = None
 
     def cast(self, base: BaseState, step: int) -> None:
         """Cast the beams of one physics step of the sweep; step counts from the sweep's start."""
@@ -121,7 +122,7 @@ class Lidar:
                     parameters.range_max_m, self._last)
 
 
-def _rays(parameters: LidarParameters, mount: Mount) -> np.ndarray:
+def _rays(parameters: LidarParameters, mount: Mount) -> FloatArray:
     """Unit vectors of all beams in base_link; the mounting is turned by yaw, then pitch, then roll."""
     angles = parameters.angle_increment_rad * np.arange(parameters.beams) - parameters.field_of_view_rad / 2.0
     x, y = np.cos(angles), np.sin(angles)
@@ -132,7 +133,7 @@ def _rays(parameters: LidarParameters, mount: Mount) -> np.ndarray:
     return np.stack([cos * x - sin * y, sin * x + cos * y, z], axis=1)
 
 
-def _slices(parameters: LidarParameters, step_s: float) -> Tuple[Dict[int, Tuple[int, int]], np.ndarray]:
+def _slices(parameters: LidarParameters, step_s: float) -> Tuple[Dict[int, Tuple[int, int]], FloatArray]:
     """Half-open range of beams by the physics step that casts them, and each beam's time after that step."""
     times = np.arange(parameters.beams) * parameters.time_increment_s
     steps_per_slice = max(1, round(SLICE_S / step_s))

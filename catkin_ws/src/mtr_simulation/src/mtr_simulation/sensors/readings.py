@@ -4,6 +4,8 @@ from typing import NamedTuple, Optional, Tuple
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
+
 Vector = Tuple[float, float, float]
 
 
@@ -20,7 +22,7 @@ class Scan(NamedTuple):
     scan_time_s: float
     range_min_m: float
     range_max_m: float
-    ranges_m: np.ndarray
+    ranges_m: FloatArray
 
 
 class ImuReading(NamedTuple):

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
 from mtr_core.parameters import ParameterSet, number
 
 # A step from one beam to the next beyond this is the edge of something.
@@ -29,7 +30,7 @@ class ScanErrors(ParameterSet):
     echo_share: float = number(0.0, 0.0, 0.2, "(share)")
 
 
-def with_errors(ranges_m: np.ndarray, errors: ScanErrors, noise: np.random.Generator) -> np.ndarray:
+def with_errors(ranges_m: FloatArray, errors: ScanErrors, noise: np.random.Generator) -> FloatArray:
     """Ranges of one sweep with these errors; infinity is a beam that sees nothing."""
     seen = ranges_m + errors.range_bias_m
     if errors.mixed_pixel_share:
@@ -43,7 +44,7 @@ def with_errors(ranges_m: np.ndarray, errors: ScanErrors, noise: np.random.Gener
     return seen
 
 
-def _mixed(ranges_m: np.ndarray, share: float, noise: np.random.Generator) -> np.ndarray:
+def _mixed(ranges_m: FloatArray, share: float, noise: np.random.Generator) -> FloatArray:
     """Some of the beams at an edge fall on both sides of it and return what is between."""
     after = np.append(ranges_m[1:], ranges_m[-1])
     both = np.isfinite(ranges_m) & np.isfinite(after)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import csv
 import pathlib
-from typing import Tuple, Union
+from typing import Protocol, Tuple, Union
 
 from mtr_core.errors import ConfigurationError
 
@@ -10,6 +10,32 @@ FILE_NAME = "truth_events.csv"
 HEADER = ("event", "robot_time_s", "key_x_m", "key_y_m", "key_z_m", "accepted")
 
 Point = Tuple[float, float, float]
+
+
+class EventLog(Protocol):
+    """Takes the true events."""
+
+    def lock_event(self, event: str, time_ns: int, key_xyz: Point) -> None:
+        """The locks moved; event is unlocked or locked."""
+
+    def press(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
+        """A button's contact closed at time_ns."""
+
+    def close(self) -> None:
+        """No more comes."""
+
+
+class NoTruthLog:
+    """Takes true events and writes them nowhere."""
+
+    def lock_event(self, event: str, time_ns: int, key_xyz: Point) -> None:
+        """Nothing."""
+
+    def press(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
+        """Nothing."""
+
+    def close(self) -> None:
+        """Nothing."""
 
 
 class TruthLog:
@@ -42,5 +68,5 @@ class TruthLog:
         """Close the file; safe to call twice."""
         self._file.close()
 
-    def _write(self, event: str, time_ns: int, key_xyz: Point, accepted) -> None:
+    def _write(self, event: str, time_ns: int, key_xyz: Point, accepted: Union[int, str]) -> None:
         self._writer.writerow([event, f"{time_ns / 1e9:.9f}", *(f"{value:.6f}" for value in key_xyz), accepted])

@@ -77,8 +77,10 @@ def read_key_press(path: pathlib.Path) -> List[MeasuredEvent]:
 
 
 def _measured(row: Dict[str, str], path: pathlib.Path, line: str, event: str, prefix: str) -> MeasuredEvent:
-    numbers = (_number(row, f"{prefix}{name}", path) for name in ("robot_time_s", "distance_m", "uncertainty_m"))
-    return MeasuredEvent(line, event, row[f"{prefix}status"], *numbers, row.get("side", ""), (0.0, 0.0))
+    time_s, distance_m, uncertainty_m = (_number(row, f"{prefix}{name}", path)
+                                         for name in ("robot_time_s", "distance_m", "uncertainty_m"))
+    return MeasuredEvent(line, event, row[f"{prefix}status"], time_s, distance_m, uncertainty_m, row.get("side", ""),
+                         (0.0, 0.0))
 
 
 def _rows(path: pathlib.Path, columns: Iterable[str]) -> Iterator[Dict[str, str]]:
@@ -93,7 +95,7 @@ def _rows(path: pathlib.Path, columns: Iterable[str]) -> Iterator[Dict[str, str]
         yield row
 
 
-def _reader(path: pathlib.Path) -> csv.DictReader:
+def _reader(path: pathlib.Path) -> "csv.DictReader[str]":
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:

@@ -3,6 +3,7 @@
 import csv
 import json
 import pathlib
+from dataclasses import replace
 from types import TracebackType
 from typing import Any, Dict, Optional, Type
 
@@ -12,14 +13,14 @@ from tf2_msgs.msg import TFMessage
 
 from mtr_core import names
 from mtr_core.se2 import Pose2
+from mtr_description.shipped import shipped_geometry
 from mtr_msgs.msg import MappingOrder
 from mtr_simulation import conversions
-from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.sensors.imu import ImuParameters
 from mtr_simulation.sensors.readings import Sensors
 from mtr_simulation.true_state import TrueState
 
-ROBOT = shipped_robot()
+KEY = shipped_geometry().key()
 BAG, TRUTH, META = "drive.bag", "truth.csv", "meta.json"
 TRUTH_COLUMNS = ("stamp_s", "car_x_m", "car_y_m", "car_heading_rad", "world_x_m", "world_y_m", "world_heading_rad",
                  "key_x_m", "key_y_m", "linear_mps", "angular_radps", "tilt_rad", "standing", "segment")
@@ -53,15 +54,15 @@ class Recording:
 
     def mounts(self, time_ns: int) -> None:
         """Where LiDARs and IMU are, as robot_state_publisher says it."""
-        z = self._lidar_height_m - ROBOT.base_height_m
-        frames = ((names.FRONT_LIDAR, ROBOT.front_lidar.x_m, z, ROBOT.front_lidar.yaw_rad),
-                  (names.REAR_LIDAR, ROBOT.rear_lidar.x_m, z, ROBOT.rear_lidar.yaw_rad), (names.IMU, 0.0, 0.0, 0.0))
+        geometry = shipped_geometry()
+        mounts = [replace(geometry.mount(frame), z_m=self._lidar_height_m - geometry.base_height_m())
+                  for frame in (names.FRONT_LIDAR, names.REAR_LIDAR)]
         transforms = []
-        for frame, x, height, yaw in frames:
-            each = TransformStamped(child_frame_id=frame, transform=Transform())
+        for mount in (*mounts, geometry.mount(names.IMU)):
+            each = TransformStamped(child_frame_id=mount.frame, transform=Transform())
             each.header.frame_id, each.header.stamp = names.BASE, conversions.stamp(time_ns)
-            each.transform.translation.x, each.transform.translation.z = x, height
-            each.transform.rotation = conversions.yaw_quaternion(yaw)
+            each.transform.translation.x, each.transform.translation.z = mount.x_m, mount.z_m
+            each.transform.rotation = conversions.yaw_quaternion(mount.yaw_rad)
             transforms.append(each)
         self._write("/tf_static", TFMessage(transforms), time_ns)
 
@@ -84,7 +85,7 @@ class Recording:
     def truth(self, truth: TrueState, segment: int) -> None:
         """Where the robot really is; the key as if the robot stood level."""
         car, world = truth.car_from_base, truth.world_from_base
-        key_x, key_y = car.apply(ROBOT.key.x_m, 0.0)
+        key_x, key_y = car.apply(KEY.x_m, 0.0)
         standing = abs(truth.linear_mps) < STANDING_MPS and abs(truth.angular_radps) < STANDING_RADPS
         self._rows.writerow([f"{truth.time_ns * 1e-9:.3f}", *(f"{value:.6f}" for value in (
             car.x, car.y, car.heading, world.x, world.y, world.heading, key_x, key_y, truth.linear_mps,

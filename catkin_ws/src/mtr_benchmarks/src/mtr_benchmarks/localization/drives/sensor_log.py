@@ -9,11 +9,10 @@ import rosbag
 
 from mtr_core import names
 from mtr_core.arrays import FloatArray
-from mtr_simulation.physics.robot import shipped_robot
+from mtr_description.shipped import shipped_geometry
 
-ROBOT = shipped_robot()
-MOUNTS = {names.FRONT_SCAN: (ROBOT.front_lidar.x_m, ROBOT.front_lidar.yaw_rad),
-          names.REAR_SCAN: (ROBOT.rear_lidar.x_m, ROBOT.rear_lidar.yaw_rad)}
+MOUNTS = {topic: shipped_geometry().mount(frame).level()
+          for topic, frame in ((names.FRONT_SCAN, names.FRONT_LIDAR), (names.REAR_SCAN, names.REAR_LIDAR))}
 
 
 class Sweep(NamedTuple):
@@ -44,7 +43,7 @@ def read_sensors(bag: pathlib.Path) -> SensorLog:
             elif topic == names.IMU_DATA:
                 gyro.append((stamp, message.angular_velocity.z))
             else:
-                sweeps.append(_sweep(message, stamp, *MOUNTS[topic]))
+                sweeps.append(_sweep(message, stamp, MOUNTS[topic].x, MOUNTS[topic].heading))
     return SensorLog(np.array(wheels), np.array(gyro), sorted(sweeps, key=lambda sweep: float(sweep.stamps_s[0])))
 
 
