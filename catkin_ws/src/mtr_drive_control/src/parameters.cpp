@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/parameters.hpp"
 
-#include "mtr_drive_control/collision_parameters.hpp"
+#include "mtr_drive_control/collision/collision_parameters.hpp"
 
 namespace mtr_drive_control {
 

@@ -3,13 +3,11 @@
 import pathlib
 from xml.etree import ElementTree
 
-import mujoco
 import pytest
 import yaml
 
 from mtr_core import names
 from mtr_description.shipped import shipped_geometry, shipped_urdf
-from mtr_simulation.physics.robot import WHEELS
 
 PACKAGE = pathlib.Path(__file__).resolve().parents[2]
 
@@ -32,11 +30,6 @@ def test_each_link_but_the_base_hangs_on_one_joint(root):
 @pytest.mark.parametrize("frame", [names.BASE, names.FRONT_LIDAR, names.REAR_LIDAR, names.IMU, names.KEY])
 def test_frame_of_the_sensor_messages_exists(root, frame):
     assert link(root, frame) is not None
-
-
-def test_urdf_loads_in_the_physics_engine():
-    model = mujoco.MjModel.from_xml_string(shipped_urdf())
-    assert {model.joint(index).name for index in range(model.njnt)} == {"lift", *(f"{name}_wheel" for name in WHEELS)}
 
 
 def test_root_has_no_inertia_because_kdl_cannot_use_it(root):

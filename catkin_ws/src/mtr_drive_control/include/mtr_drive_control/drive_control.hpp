@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mtr_core/problem.hpp"
-#include "mtr_drive_control/collision_stop.hpp"
+#include "mtr_drive_control/collision/collision_stop.hpp"
 #include "mtr_drive_control/motion_locks.hpp"
 #include "mtr_drive_control/parameters.hpp"
 #include "mtr_drive_control/velocity_limiter.hpp"

@@ -20,9 +20,8 @@ KEY_AT_LOWER_STOP_M, KEY_AT_UPPER_STOP_M = 0.35, 1.55
 
 
 def default(name):
-    """Default value of a parameter in the C++ headers."""
-    text = "".join((HEADERS / header).read_text(encoding="utf-8")
-                   for header in ("parameters.hpp", "collision_parameters.hpp"))
+    """Default value of a parameter in the C++ header."""
+    text = (HEADERS / "parameters.hpp").read_text(encoding="utf-8")
     return float(re.search(rf"double {name} = (-?[\d.]+);", text).group(1))
 
 

@@ -87,7 +87,8 @@ SENTENCES = {"goal not a number": "not a number", "goal infinite": "not a number
 
 @pytest.mark.parametrize("case", SENTENCES)
 def test_sentence_says_what_is_wrong_with_the_input(case):
-    assert SENTENCES[case] in MotionPlanner(MotionParameters(), FOOTPRINT, InlineExecutor()).step(BAD[case]).message.text
+    planner = MotionPlanner(MotionParameters(), FOOTPRINT, InlineExecutor())
+    assert SENTENCES[case] in planner.step(BAD[case]).message.text
 
 
 def test_input_that_turns_bad_in_mid_motion_gives_zero_at_once_and_goes_on_from_the_measured_speed():

@@ -1,11 +1,12 @@
 """The simulated robot is the one of its URDF."""
 # SPDX-License-Identifier: Apache-2.0
+import mujoco
 import pytest
 
 from mtr_core.errors import ConfigurationError
 from mtr_description.robot_geometry import RobotGeometry
 from mtr_description.shipped import shipped_urdf
-from mtr_simulation.physics.robot import robot_model, shipped_robot
+from mtr_simulation.physics.robot import WHEELS, robot_model, shipped_robot
 from mtr_simulation.sim import Sim, SimParameters
 from mtr_simulation.site.scenario import named_scenario
 
@@ -13,6 +14,11 @@ from mtr_simulation.site.scenario import named_scenario
 def robot_with(old, new):
     assert old in shipped_urdf()
     return robot_model(RobotGeometry(shipped_urdf().replace(old, new)))
+
+
+def test_urdf_itself_loads_in_the_physics_engine():
+    model = mujoco.MjModel.from_xml_string(shipped_urdf())
+    assert {model.joint(index).name for index in range(model.njnt)} == {"lift", *(f"{name}_wheel" for name in WHEELS)}
 
 
 def test_shipped_robot_stands_on_its_wheels():

@@ -1,7 +1,7 @@
 /// @file
 /// Wiring of drive control: topics to the core and back.
 // SPDX-License-Identifier: Apache-2.0
-#include "mtr_drive_control/node.hpp"
+#include "mtr_drive_control/ros/node.hpp"
 
 #include <geometry_msgs/Twist.h>
 

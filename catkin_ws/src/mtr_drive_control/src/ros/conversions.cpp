@@ -1,7 +1,7 @@
 /// @file
 /// ROS messages to plain types and back.
 // SPDX-License-Identifier: Apache-2.0
-#include "mtr_drive_control/conversions.hpp"
+#include "mtr_drive_control/ros/conversions.hpp"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 /// @file
 /// Path of an even stop along a circle.
 // SPDX-License-Identifier: Apache-2.0
-#include "mtr_drive_control/stopping_path.hpp"
+#include "mtr_drive_control/collision/stopping_path.hpp"
 
 namespace mtr_drive_control {
 

@@ -1,7 +1,7 @@
 /// @file
 /// Cells of the ground near the robot.
 // SPDX-License-Identifier: Apache-2.0
-#include "mtr_drive_control/ground_memory.hpp"
+#include "mtr_drive_control/collision/ground_memory.hpp"
 
 #include <algorithm>
 

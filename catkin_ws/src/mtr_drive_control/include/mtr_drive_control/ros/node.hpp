@@ -15,9 +15,9 @@
 #include "mtr_core/parameter_reader.hpp"
 #include "mtr_core/tick_input.hpp"
 #include "mtr_core/ticker.hpp"
-#include "mtr_drive_control/conversions.hpp"
 #include "mtr_drive_control/drive_control.hpp"
-#include "mtr_drive_control/zone_markers.hpp"
+#include "mtr_drive_control/ros/conversions.hpp"
+#include "mtr_drive_control/ros/zone_markers.hpp"
 
 namespace mtr_drive_control {
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "mtr_drive_control/collision/sweep.hpp"
 #include "mtr_drive_control/robot_shape.hpp"
-#include "mtr_drive_control/sweep.hpp"
 
 namespace mtr_drive_control {
 

@@ -1,7 +1,7 @@
 /// @file
 /// The zone that must be free, and what happens when it is not.
 // SPDX-License-Identifier: Apache-2.0
-#include "mtr_drive_control/collision_stop.hpp"
+#include "mtr_drive_control/collision/collision_stop.hpp"
 
 #include "problems.hpp"
 

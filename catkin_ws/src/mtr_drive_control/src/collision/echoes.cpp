@@ -1,7 +1,7 @@
 /// @file
 /// Clusters of echoes: their size tells rain from things and things from surfaces.
 // SPDX-License-Identifier: Apache-2.0
-#include "mtr_drive_control/echoes.hpp"
+#include "mtr_drive_control/collision/echoes.hpp"
 
 #include <algorithm>
 #include <map>

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mtr_drive_control/echoes.hpp"
+#include "mtr_drive_control/collision/echoes.hpp"
 
 namespace mtr_drive_control {
 

@@ -1,7 +1,7 @@
 /// @file
 /// Faults of a LiDAR that show in its sweeps.
 // SPDX-License-Identifier: Apache-2.0
-#include "mtr_drive_control/sweep.hpp"
+#include "mtr_drive_control/collision/sweep.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 /// @file
 /// Drawing of the stopping zone.
 // SPDX-License-Identifier: Apache-2.0
-#include "mtr_drive_control/zone_markers.hpp"
+#include "mtr_drive_control/ros/zone_markers.hpp"
 
 #include <visualization_msgs/MarkerArray.h>
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "mtr_core/problem.hpp"
-#include "mtr_drive_control/stopping_path.hpp"
-#include "mtr_drive_control/surroundings.hpp"
+#include "mtr_drive_control/collision/stopping_path.hpp"
+#include "mtr_drive_control/collision/surroundings.hpp"
 
 namespace mtr_drive_control {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "mtr_core/problem.hpp"
-#include "mtr_drive_control/collision_parameters.hpp"
-#include "mtr_drive_control/ground_memory.hpp"
+#include "mtr_drive_control/collision/collision_parameters.hpp"
+#include "mtr_drive_control/collision/ground_memory.hpp"
 
 namespace mtr_drive_control {
 

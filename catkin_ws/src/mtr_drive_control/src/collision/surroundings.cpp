@@ -1,7 +1,7 @@
 /// @file
 /// Sweeps and odometry to obstacles in base_link.
 // SPDX-License-Identifier: Apache-2.0
-#include "mtr_drive_control/surroundings.hpp"
+#include "mtr_drive_control/collision/surroundings.hpp"
 
 #include "problems.hpp"
 
