@@ -27,7 +27,7 @@ from .parameters import RefinementParameters
 from .poses import PoseMode, RobotPose
 from .scan import Scan
 from .surfels import surfels_from
-from .survey.survey import SurfaceMap
+from .survey.surface_map import SurfaceMap
 
 MARKER_HEIGHT_M = 0.05
 MARKER_TYPES = {MarkerKind.LOOP: Marker.LINE_STRIP, MarkerKind.SEGMENTS: Marker.LINE_LIST,

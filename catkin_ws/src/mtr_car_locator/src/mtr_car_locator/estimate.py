@@ -11,7 +11,7 @@ from mtr_core.states import CarState, Result
 from .measure.car_fit import CarFit
 from .rectangle import Point, Rectangle
 from .scan import Scan
-from .survey.survey import MapPhase, SurfaceMap
+from .survey.surface_map import MapPhase, SurfaceMap
 from .watch.self_check import CheckReport
 
 NO_MOTION = Pose2(0.0, 0.0, 0.0)

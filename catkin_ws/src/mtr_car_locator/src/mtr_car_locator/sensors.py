@@ -19,7 +19,7 @@ from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 from .conversions import robot_pose_from, scan_from, scan_mounts, surface_map_from
 from .locator import CarLocator
 from .scan import Scan
-from .survey.survey import SurfaceMap
+from .survey.surface_map import SurfaceMap
 
 # A scan bears its first beam's time and is there when the sweep has ended; the pose of its last beam is there too then.
 SCAN_LAG_NS = 100 * MILLISECOND_NS

@@ -11,8 +11,8 @@ from mtr_car_locator.locator import CarLocator
 from mtr_car_locator.parameters import LocatorParameters
 from mtr_car_locator.poses import PoseHistory, PoseMode, RobotPose
 from mtr_car_locator.scan import Scan, returns_in_map
+from mtr_car_locator.survey.surface_map import MapPhase, SurfaceMap
 from mtr_car_locator.survey.surfel_grid import SurfelGrid
-from mtr_car_locator.survey.survey import MapPhase, SurfaceMap
 from mtr_core.problems import Problem
 from mtr_core.requests import NO_GOAL, Goal, GoalReport, Waypoint
 from mtr_core.se2 import Pose2, wrap_angle

@@ -26,7 +26,7 @@ from mtr_car_locator.estimate import Estimate, LocatorTask, result_at
 from mtr_car_locator.find.fit import fit_car
 from mtr_car_locator.offline import FilesUnusable
 from mtr_car_locator.poses import PoseMode
-from mtr_car_locator.survey.survey import MapPhase
+from mtr_car_locator.survey.surface_map import MapPhase
 from mtr_car_locator.watch.self_check import CheckReport
 from mtr_core import names
 from mtr_core.conversions import waypoint_message

@@ -17,7 +17,7 @@ from locator_simulation import (
 )
 
 from mtr_car_locator.parameters import DataSheet, LocatorParameters
-from mtr_car_locator.survey.survey import MapPhase
+from mtr_car_locator.survey.surface_map import MapPhase
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 

@@ -1,13 +1,10 @@
 """One mapping of the Car: the way round it, and the Car from what localization made of it."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
-import enum
-from dataclasses import dataclass
 from typing import Optional, Sequence, Tuple
 
 from mtr_core import names
-from mtr_core.arrays import FloatArray
-from mtr_core.problems import NO_PROBLEM, Problem
+from mtr_core.problems import Problem
 from mtr_core.requests import CAR_LOCATOR, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
@@ -23,36 +20,8 @@ from ..poses import PoseHistory, PoseMode, RobotPose
 from ..scan import Scan, returns_in_map
 from ..surfels import Surfels
 from .ring import Ring
+from .surface_map import MapPhase, SurfaceMap
 from .surfel_grid import SurfelGrid
-
-
-class MapPhase(enum.IntEnum):
-    """What localization's mapper shall do, as in MappingOrder."""
-
-    IDLE = 0
-    COLLECT = 1
-    FREEZE = 2
-
-
-@dataclass(frozen=True)
-class SurfaceMap:
-    """Localization's adjusted map.
-
-    Attributes:
-        map_id: of the survey that it was made for.
-        revision: poses that say so are in it.
-        key_frames: rows (time in s, x, y, heading) of base_link.
-        message: why it is not valid.
-        range_bias_m: constant error of the LiDARs' ranges, which the surfels are free of.
-    """
-
-    map_id: int
-    revision: int
-    valid: bool
-    surfels: Surfels
-    key_frames: FloatArray
-    message: Problem = NO_PROBLEM
-    range_bias_m: float = 0.0
 
 
 class Survey:
@@ -61,7 +30,7 @@ class Survey:
     Attributes:
         map_id: number of the map that localization shall make.
         prior: where the Car should be.
-        car: what is known of the Car so far, the prior before the first look.
+        car: what is known of the Car so far, the prior before it was seen.
         was_seen: True when car comes from points.
         fit: the Car, once it was found.
         surfels: what it was found among.
@@ -124,14 +93,14 @@ class Survey:
                 self._way.add(seen, scan.base_from_lidar)
 
     def advance(self, now_s: float, robot: RobotPose, result: Result) -> None:
-        """Lay the way round after the first look; later go on to the next place.
+        """Lay the way round once the Car is seen; later go on to the next place.
 
-        result: what the motion planner says of the present place.
+        result: of the motion planner at the present place.
         """
         if self._begun_s is None:
             self._begun_s = now_s
         if self._ring is None:
-            self._look_first(now_s - self._begun_s, robot)
+            self._find_first(now_s - self._begun_s, robot)
         elif not self._ring.is_finished:
             self._go_on(self._ring, now_s, robot, result)
 
@@ -142,7 +111,7 @@ class Survey:
         if self._frozen_since_s is None:
             self._frozen_since_s = now_s
         if not self._is_mapped and robot.mode is PoseMode.DEAD_RECKONING:
-            # A localization that makes no map, wheels and gyro alone: what the locator has seen itself must do.
+            # A localization of wheels and gyro alone makes no map: what the locator has seen itself must do.
             self._fit(self._grid.surfels(robot.position_sigma_m))
         elif surfaces is not None and surfaces.map_id == self.map_id:
             if not surfaces.valid:
@@ -157,7 +126,7 @@ class Survey:
         if is_settled or robot.pose.distance_to(ring.place(self.car)) <= self._parameters.arrival_m:
             ring.pass_place()
             with contextlib.suppress(NotLocated):
-                self._look(robot)
+                self._find(robot)
             self._begin_leg()
         elif result is not Result.BLOCKED:
             self._blocked_since_s = None
@@ -175,19 +144,19 @@ class Survey:
         self.surfels = surfels
         self.fit = fit_car(surfels, self.prior, self._parameters, close_up)
 
-    def _look_first(self, since_s: float, robot: RobotPose) -> None:
+    def _find_first(self, since_s: float, robot: RobotPose) -> None:
         """Begin the way round once the Car is seen: nobody goes round what may stand elsewhere."""
         if since_s < self._parameters.look_first_s:
             return
         try:
-            self._look(robot)
+            self._find(robot)
         except NotLocated:
             if since_s >= self._parameters.look_limit_s:
                 raise
             return
         self._ring = Ring(robot.pose, self.car, self._parameters.ring_distance_m)
 
-    def _look(self, robot: RobotPose) -> None:
+    def _find(self, robot: RobotPose) -> None:
         """A better idea of the Car for the rest of the way; NotLocated when the points give none."""
         self.car = rough_car(self._grid.surfels(robot.position_sigma_m), self.prior, self._parameters)
         self.was_seen = True
