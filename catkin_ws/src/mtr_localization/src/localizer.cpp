@@ -1,283 +1,177 @@
 /// @file
-/// The filter's steps, with an answer to every fault of the sensors' data.
+/// One step of localization, from one wheel sample to the next.
 // SPDX-License-Identifier: Apache-2.0
-#include "mtr_localization/localizer.hpp"
+#include "localizer.hpp"
 
-#include <cmath>
-#include <utility>
-
-#include "mtr_localization/interruption.hpp"
-#include "mtr_localization/map_names.hpp"
+#include "mtr_surfel_map/adjustment/map_adjustment.hpp"
+#include "scans/deskew.hpp"
 
 namespace mtr_localization {
 namespace {
 
-// Wheel motion over an interruption up to which the robot is taken not to have moved.
-constexpr double kUnmovedM = 0.01;
-constexpr double kUnmovedRad = 0.02;
-// Gyro rate at rest up to which it can be a bias, rad/s: 4 sigma of the bias at switch-on.
-constexpr double kLargestBiasRadps = 0.2;
+// Without a scan for so long, the LiDARs are taken to be silent: seven sweeps of 25 Hz, three of 10 Hz.
+constexpr std::int64_t kSilentNs = 300'000'000;
+// What the growing map adds to the uncertainty of the place where the frozen one is entered.
+constexpr double kEntrySigmaM = 0.02;
+constexpr double kEntrySigmaRad = 0.005;
 
-// Between two tilts of different places or headings.
-constexpr double kLevelEveryM = 0.3;
-constexpr double kLevelEveryRad = 0.3;
+double square(double value) { return value * value; }
 
-double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-9; }
+Mapper::Adjust adjustment_with(const Parameters& parameters) {
+  return [adjustment = parameters.adjustment](const std::vector<KeyFrame>& key_frames) {
+    return mtr_surfel_map::adjust(key_frames, adjustment);
+  };
+}
 
 }  // namespace
 
-Localizer::Localizer(const LocalizerParameters& parameters)
-    : parameters_(parameters),
-      history_(PoseFilter(parameters.motion), 0),
-      keeper_(parameters),
-      standstill_(parameters.motion) {
-  check(parameters.motion);
-  check(parameters.tracking);
-  check(parameters.adjustment);
-  message_ = "Stand still: measuring the gyro's bias.";
+Localizer::Localizer(const Parameters& parameters)
+    : PoseSource(parameters, adjustment_with(parameters)), tracker_(parameters.tracking) {}
+
+Estimate Localizer::step(const GatedSample& sample) {
+  const std::int64_t now_ns = sample.wheels.stamp_ns;
+
+  // Predict by wheels and gyro.
+  const std::string loss = odometry().predict(sample, gyro(), tracker_.has_map());
+  if (!loss.empty()) {
+    lose(loss);
+  }
+  mapper().travel(history().newest().input, tracker_.lost());
+
+  // Begin a map when one is ordered, and enter it when it is adjusted.
+  if (mapper().begins(now_ns)) {
+    begin_map();
+  }
+  if (const AdjustedMap* adjusted = mapper().finish(now_ns)) {
+    enter(*adjusted);
+  }
+
+  // Correct by what has been seen meanwhile.
+  correct_by_scans();
+  correct_by_satellites();
+  return estimate();
 }
 
-std::vector<Estimate> Localizer::add_imu(const ImuSample& sample) {
-  if (!gyro_.add(sample)) {
-    restart_ = "The time of the IMU went backwards.";
-  }
-  return process_pending();
-}
-
-std::vector<Estimate> Localizer::add_wheels(const WheelSample& sample) {
-  if (newest_wheels_ns_ == sample.stamp_ns) {
-    return {};
-  }
-  if (newest_wheels_ns_ && sample.stamp_ns < *newest_wheels_ns_) {
-    pending_.clear();
-    emitted_ns_.reset();
-    restart_ = "The time of the wheel odometry went backwards.";
-  }
-  newest_wheels_ns_ = sample.stamp_ns;
-  pending_.push_back(sample);
-  return process_pending();
-}
-
-std::vector<Estimate> Localizer::check_silence(std::int64_t now_ns) {
-  if (!newest_wheels_ns_) {
-    return not_older_than_emitted({refused(now_ns, "Waiting for wheel odometry.")});
-  }
-  if (now_ns - *newest_wheels_ns_ > gap_limit_ns()) {
-    return not_older_than_emitted({refused(now_ns, "Wheel odometry is silent, or its stamps are old.")});
-  }
-  return {};
-}
-
-std::vector<Estimate> Localizer::process_pending() {
-  std::vector<Estimate> estimates;
-  while (!pending_.empty()) {
-    const WheelSample& wheels = pending_.front();
-    if (gyro_.newest_heard_ns().value_or(0) >= wheels.stamp_ns) {
-      estimates.push_back(process(wheels));
-    } else if (*newest_wheels_ns_ - wheels.stamp_ns > gap_limit_ns()) {
-      estimates.push_back(refused(wheels.stamp_ns, "The IMU is silent."));
-    } else {
-      break;
+bool Localizer::correct_by_scans() {
+  const std::vector<ScanSet> sets = scans().take_due(history());
+  for (const ScanSet& set : sets) {
+    const ScanPoints scan = deskew(set, history());
+    const Judgement judgement = tracker_.judge(set, history());
+    if (judgement == Judgement::kAgrees) {
+      correct(set.step, scan);
+    } else if (judgement == Judgement::kLost) {
+      relocalize(set, scan);
     }
-    pending_.pop_front();
-  }
-  return not_older_than_emitted(std::move(estimates));
-}
-
-Estimate Localizer::process(const WheelSample& wheels) {
-  if (!wheels.is_finite()) {
-    return refused(wheels.stamp_ns, "Wheel odometry is not a finite number.");
-  }
-  if (!gyro_.covers(wheels.stamp_ns)) {
-    return refused(wheels.stamp_ns,
-                   gyro_.newest_is_good() ? "Waiting for the IMU." : "The IMU's rate is not a number.");
-  }
-  std::string interruption = std::exchange(restart_, "");
-  if (last_ && interruption.empty()) {
-    interruption = interruption_between(*last_, wheels, gyro_, gap_limit_ns());
-  }
-  if (last_ && interruption.empty()) {
-    history_.advance(wheels.stamp_ns, input_since_last(wheels));
-  } else {
-    if (last_) {
-      interrupt(interruption, wheels);
-    }
-    history_.restart(filter(), wheels.stamp_ns, history_.newest().odom);
-  }
-  last_ = wheels;
-  gyro_.forget_before(wheels.stamp_ns);
-  if (keeper_.advance(history_, standstill_.standing())) {
-    navsat_.clear();
-    if (state_ == MotionState::kLost) {
-      state_ = MotionState::kTracking;
-      message_.clear();
+    last_scan_ns_ = scan.stamp_ns;
+    if (!tracker_.lost()) {
+      map(set.step, scan);
     }
   }
-  const std::string contradiction = navsat_.use_due(keeper_.tracker(), history_);
+  return !sets.empty();
+}
+
+void Localizer::correct(std::size_t step, const ScanPoints& scan) {
+  ScanMatch match = tracker_.match(scan, history().at(step).filter);
+  if (!tracker_.accept(match)) {
+    return;
+  }
+  if (match.contradicts(history().at(step).filter.pose_covariance())) {
+    // It was pushed, or slid: the prior's covariance does not know of that.
+    const Eigen::Matrix3d surprise = match.shift().cwiseAbs2().asDiagonal();
+    history().change(step, [&](PoseFilter& filter) { filter.add_pose_noise(surprise); });
+    match = tracker_.match(scan, history().at(step).filter);
+  }
+  history().change(step, [&](PoseFilter& filter) { filter.correct(match.correction); });
+}
+
+void Localizer::relocalize(const ScanSet& set, const ScanPoints& scan) {
+  if (const auto found = tracker_.relocalize(set, scan, history())) {
+    history().change(set.step, [&](PoseFilter& filter) { filter.set_pose(found->pose, found->covariance); });
+  }
+}
+
+void Localizer::map(std::size_t step, const ScanPoints& scan) {
+  const FilterStep& here = history().at(step);
+  const KeyFrame* frame =
+      mapper().add({scan, here.filter.pose(), here.odom, odometry().standing(), here.filter.gyro_bias_sigma_radps()});
+  if (frame != nullptr) {
+    tracker_.extend(*frame);
+  }
+}
+
+void Localizer::correct_by_satellites() {
+  const std::string contradiction = gnss_.use_due(tracker_, history());
   if (!contradiction.empty()) {
-    keeper_.lose(contradiction);
+    tracker_.lose(contradiction);
   }
-  return estimate_at(wheels.stamp_ns);
 }
 
-FilterInput Localizer::input_since_last(const WheelSample& wheels) {
-  FilterInput input;
-  input.motion.duration_s = seconds(wheels.stamp_ns - last_->stamp_ns);
-  const double gyro_rate = gyro_.rate_at(wheels.stamp_ns);
-  standstill_.update(wheels, rate_for_standstill(gyro_rate));
-  input.slope = slope_at(wheels, input.motion.duration_s);
-  if (state_ == MotionState::kInterrupted && !standstill_.resting()) {
-    lose(message_);
-  }
-  if (state_ == MotionState::kLost) {
-    return input;
-  }
-  if (standstill_.standing()) {
-    input.kind = FilterInput::Kind::kStand;
-    input.motion.gyro_angle_rad = gyro_rate * input.motion.duration_s;
-  } else if (state_ == MotionState::kTracking) {
-    input.kind = FilterInput::Kind::kMove;
-    input.motion.distance_m = wheels.distance_since(*last_);
-    input.motion.gyro_angle_rad = gyro_.integral(last_->stamp_ns, wheels.stamp_ns);
-  }
-  if (standstill_.standing_s() >= parameters_.motion.bias_time_s) {
-    state_ = MotionState::kTracking;
-    message_.clear();
-  }
-  return input;
+void Localizer::begin_map() {
+  tracker_.begin_map(history().newest());
+  history().change_newest([](PoseFilter& filter) { filter.consider_sources(0); });
+  history().forget_past();
+  odometry().begin_map();
+  gnss_.clear();
 }
 
-Eigen::Vector2d Localizer::slope_at(const WheelSample& wheels, double duration_s) {
-  tilt_.advance(duration_s, gyro_.sample_at(wheels.stamp_ns), wheels.linear_mps, standstill_.standing());
-  const PoseVector& odom = history_.newest().odom;
-  const PoseVector moved = relative(leveled_odom_, odom);
-  if (moved.head<2>().norm() > kLevelEveryM || std::abs(moved.z()) > kLevelEveryRad) {
-    level_.add(odom.z(), tilt_.slope());
-    leveled_odom_ = odom;
-  }
-  return level_.relative(odom.z(), tilt_.slope());
-}
-
-double Localizer::rate_for_standstill(double gyro_rate_radps) const {
-  // As long as the bias is unknown, only a rate beyond any bias betrays a turn.
-  const bool bias_unknown = state_ == MotionState::kStarting && std::abs(gyro_rate_radps) <= kLargestBiasRadps;
-  return bias_unknown ? 0.0 : filter().corrected_rate(gyro_rate_radps);
-}
-
-void Localizer::interrupt(const std::string& reason, const WheelSample& wheels) {
-  const double moved_m = std::hypot(wheels.x_m - last_->x_m, wheels.y_m - last_->y_m);
-  const double turned_rad = std::remainder(wheels.heading_rad - last_->heading_rad, 2.0 * M_PI);
-  const bool unmoved = moved_m <= kUnmovedM && std::abs(turned_rad) <= kUnmovedRad;
-  if (state_ == MotionState::kTracking && standstill_.standing() && unmoved) {
-    state_ = MotionState::kInterrupted;
-    message_ = reason;
-  } else if (state_ == MotionState::kTracking || (state_ == MotionState::kInterrupted && !unmoved)) {
-    lose(reason);
-  }
-  standstill_.reset();
+void Localizer::enter(const AdjustedMap& map) {
+  // The way from the last key frame on, as tracked, leads from its adjusted pose into the adjusted map.
+  const PoseVector since = relative(key_frames().back().pose, filter().pose());
+  const PoseVector pose = compose(map.key_frames.back().pose, since);
+  Eigen::Matrix3d covariance = map.pose_covariances.back();
+  covariance.diagonal() += Eigen::Vector3d(square(kEntrySigmaM), square(kEntrySigmaM), square(kEntrySigmaRad));
+  history().change_newest([&](PoseFilter& filter) { filter.set_pose(pose, covariance); });
+  const int sources = tracker_.enter(map, history().newest());
+  history().change_newest([sources](PoseFilter& filter) { filter.consider_sources(sources); });
+  history().forget_past();
 }
 
 void Localizer::lose(const std::string& reason) {
-  if (keeper_.tracker().state() == ScanTracker::State::kNoMap) {
-    state_ = MotionState::kLost;
-    message_ = "Position lost: " + reason + " Map the Car again.";
-  } else {
-    state_ = MotionState::kTracking;
-    message_.clear();
-    const bool is_mapping = keeper_.tracker().state() == ScanTracker::State::kMapping;
-    keeper_.lose("Position lost: " + reason +
-                 (is_mapping ? " Map the Car again." : " Searching near the last position."));
-  }
-}
-
-bool Localizer::use_scans() {
-  return !parameters_.lockstep && last_ && keeper_.use_sweeps(history_, standstill_.standing());
-}
-
-void Localizer::set_external(std::int64_t stamp_ns, const PoseVector& map_from_odom) {
-  external_ns_ = stamp_ns;
-  external_ = map_from_odom;
-  keeper_.set_external(map_from_odom);
+  const bool is_mapping = tracker_.state() == ScanTracker::State::kMapping;
+  tracker_.lose("Position lost: " + reason +
+                (is_mapping ? " Map the Car again." : " Searching near the last position."));
 }
 
 PoseVector Localizer::map_from_odom() const {
-  if (parameters_.external) {
-    return external_;
-  }
-  return compose(filter().pose(), relative(history_.newest().odom, PoseVector::Zero()));
+  return compose(filter().pose(), relative(history().newest().odom, PoseVector::Zero()));
 }
 
-std::string Localizer::why_not_valid(std::int64_t stamp_ns) const {
-  if (state_ != MotionState::kTracking) {
-    return message_;
-  }
-  if (parameters_.external) {
-    const bool is_fresh = external_ns_ && seconds(stamp_ns - *external_ns_) <= parameters_.tracking.external_timeout_s;
-    return is_fresh ? "" : "Waiting for map to odom from the other localization.";
-  }
-  return keeper_.tracker().lost_reason();
+PoseFigures Localizer::figures() const {
+  PoseFigures figures = PoseSource::figures();
+  figures.tracking = tracker_.figures();
+  figures.gnss = gnss_.figures();
+  return figures;
+}
+
+Estimate Localizer::estimate() const {
+  const bool is_tracking = odometry().state() == MotionState::kTracking;
+  const std::int64_t stamp_ns = history().newest().stamp_ns;
+  Estimate estimate = answer(stamp_ns, is_tracking ? tracker_.lost_reason() : odometry().problem());
+  const bool is_blind = tracker_.has_map() && stamp_ns - last_scan_ns_ > kSilentNs;
+  estimate.degenerate = tracker_.degenerate() || is_blind;
+  return estimate;
+}
+
+Estimate Localizer::pose_at(std::int64_t stamp_ns) const {
+  const bool is_mapping = tracker_.state() == ScanTracker::State::kMapping;
+  const Eigen::Matrix3d drift = is_mapping ? mapper().drift_covariance() : Eigen::Matrix3d::Zero();
+  Estimate estimate = estimate_of(stamp_ns, filter().pose(), filter().pose_covariance() + drift);
+  estimate.mode = mode();
+  return estimate;
 }
 
 PoseMode Localizer::mode() const {
-  if (state_ == MotionState::kLost || keeper_.tracker().lost()) {
+  if (odometry().state() == MotionState::kLost || tracker_.lost()) {
     return PoseMode::kLost;
   }
-  switch (keeper_.tracker().state()) {
+  switch (tracker_.state()) {
     case ScanTracker::State::kMapping:
       return PoseMode::kMapping;
     case ScanTracker::State::kLocalized:
       return PoseMode::kLocalized;
     default:
-      return parameters_.external && external_ns_ ? PoseMode::kLocalized : PoseMode::kDeadReckoning;
+      return PoseMode::kDeadReckoning;
   }
 }
-
-Estimate Localizer::estimate_at(std::int64_t stamp_ns) const {
-  Estimate estimate = refused(stamp_ns, why_not_valid(stamp_ns));
-  estimate.valid = estimate.message.empty();
-  estimate.degenerate = keeper_.degenerate(stamp_ns);
-  estimate.speed_mps = filter().corrected_speed(last_->linear_mps);
-  estimate.yaw_rate_radps = filter().corrected_rate(gyro_.rate_at(stamp_ns));
-  return estimate;
-}
-
-Estimate Localizer::refused(std::int64_t stamp_ns, const std::string& message) const {
-  Estimate estimate;
-  estimate.stamp_ns = stamp_ns;
-  estimate.mode = mode();
-  estimate.map_revision = keeper_.revision();
-  PoseVector pose = filter().pose();
-  Eigen::Matrix3d covariance = filter().pose_covariance() + keeper_.map_covariance();
-  if (parameters_.external) {
-    pose = compose(external_, history_.newest().odom);
-    const double position = parameters_.tracking.external_position_sigma_m;
-    const double heading = parameters_.tracking.external_heading_sigma_rad;
-    covariance = Eigen::Vector3d(position * position, position * position, heading * heading).asDiagonal();
-  }
-  estimate.x_m = pose.x();
-  estimate.y_m = pose.y();
-  estimate.heading_rad = pose.z();
-  Eigen::Map<Eigen::Matrix3d>(estimate.covariance.data()) = covariance;
-  Eigen::Map<Eigen::Vector3d>(estimate.odom.data()) = history_.newest().odom;
-  if (last_) {
-    estimate.wheel_odom = {last_->x_m, last_->y_m, last_->heading_rad};
-  }
-  estimate.message = message;
-  return estimate;
-}
-
-std::vector<Estimate> Localizer::not_older_than_emitted(std::vector<Estimate> estimates) {
-  // Late data after a spell of silence: it counts for the pose, but consumers have already heard of later times.
-  std::vector<Estimate> newer;
-  for (Estimate& estimate : estimates) {
-    if (!emitted_ns_ || estimate.stamp_ns > *emitted_ns_) {
-      emitted_ns_ = estimate.stamp_ns;
-      newer.push_back(std::move(estimate));
-    }
-  }
-  return newer;
-}
-
-std::int64_t Localizer::gap_limit_ns() const { return std::llround(parameters_.motion.gap_limit_s * 1e9); }
 
 }  // namespace mtr_localization

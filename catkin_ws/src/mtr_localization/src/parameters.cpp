@@ -1,24 +1,16 @@
 /// @file
-/// Check of the parameters of localization.
+/// Check of the ranges.
 // SPDX-License-Identifier: Apache-2.0
-#include "mtr_localization/parameters.hpp"
-
-#include "mtr_localization/tracking_parameters.hpp"
+#include "parameters.hpp"
 
 namespace mtr_localization {
-namespace {
 
-template <typename Rows, typename P>
-void check_rows(const Rows& rows, const P& parameters) {
-  for (const auto& row : rows) {
-    mtr_core::check_range(row.name, parameters.*(row.member), row.low, row.high, row.unit);
-  }
+void check(const Parameters& parameters) {
+  for_each_group(parameters, [](const auto& rows, const auto& group) {
+    for (const auto& row : rows) {
+      mtr_core::check_range(row.name, group.*(row.member), row.low, row.high, row.unit);
+    }
+  });
 }
-
-}  // namespace
-
-void check(const Parameters& parameters) { check_rows(kRows, parameters); }
-
-void check(const TrackingParameters& parameters) { check_rows(kTrackingRows, parameters); }
 
 }  // namespace mtr_localization

@@ -1,7 +1,7 @@
 /// @file
 /// Distance driven by wheel odometry.
 // SPDX-License-Identifier: Apache-2.0
-#include "mtr_localization/samples.hpp"
+#include "samples.hpp"
 
 #include <cmath>
 

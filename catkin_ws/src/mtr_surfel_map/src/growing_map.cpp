@@ -15,7 +15,7 @@ namespace {
 constexpr double kCellM = 0.05;
 // Cells on either side that tell the direction of the surface: 0.1 m, less than a car's rounded corner.
 constexpr int kNeighbours = 2;
-constexpr int kLeastCells = 4;
+constexpr int kMinCells = 4;
 // Narrower than this share of its length, squared, a neighbourhood is a line.
 constexpr double kFlatness = 0.15;
 // Sigma of a mean of some beams, and of the pose that they were seen from.
@@ -97,7 +97,7 @@ Surfel GrowingMap::surfel_of(const Cell& cell) const {
   mean /= hits;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(square / hits - mean * mean.transpose());
   // Round a corner, or a post, there is no line: such a cell holds the range of what sees it and nothing else.
-  const bool is_line = cells >= kLeastCells && axes.eigenvalues()[0] < kFlatness * axes.eigenvalues()[1];
+  const bool is_line = cells >= kMinCells && axes.eigenvalues()[0] < kFlatness * axes.eigenvalues()[1];
   const Eigen::Vector2d towards_viewer = -cell.seen_along.normalized();
   Eigen::Vector2d normal = is_line ? Eigen::Vector2d(axes.eigenvectors().col(0)) : towards_viewer;
   if (normal.dot(towards_viewer) < 0.0) {

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kMarginM = 0.5;
 // A stray return far away must not exhaust the memory.
-constexpr double kFarthestM = 60.0;
-constexpr int kFewestHits = 2;
+constexpr double kMaxM = 60.0;
+constexpr int kMinHits = 2;
 // Of a surface at rest, some beams pass beside: its cell is wider than it.
 constexpr double kHitShare = 0.25;
 
@@ -29,7 +29,7 @@ std::vector<Beam> beams_of(const AdjustedMap& map) {
   std::vector<Beam> beams;
   for (const KeyFrame& frame : map.key_frames) {
     for (const ScanPoint& point : frame.scan.points) {
-      if (point.range_m < kFarthestM) {
+      if (point.range_m < kMaxM) {
         beams.push_back({transformed(frame.pose, point.position - point.range_m * point.direction),
                          transformed(frame.pose, point.position - map.range_bias_m * point.direction)});
       }
@@ -81,7 +81,7 @@ OccupancyGrid occupancy_of(const AdjustedMap& map) {
     ++hits[last];
   }
   for (std::size_t i = 0; i < grid.cells.size(); ++i) {
-    if (hits[i] >= kFewestHits && hits[i] >= kHitShare * visits[i]) {
+    if (hits[i] >= kMinHits && hits[i] >= kHitShare * visits[i]) {
       grid.cells[i] = OccupancyGrid::kOccupied;
     } else if (visits[i] > hits[i]) {
       grid.cells[i] = OccupancyGrid::kFree;

@@ -15,7 +15,7 @@ namespace {
 // About the length of a surfel, so that one lies in few cells and a cell holds few.
 constexpr double kCellM = 0.25;
 // Cells along one side at most: a stray surfel far away must not exhaust the memory.
-constexpr double kMostCells = 1500.0;
+constexpr double kMaxCells = 1500.0;
 // A beam that meets the surface at more than 84 degrees from the normal says nothing about it.
 constexpr double kGrazing = 0.1;
 // Beside its ends a surface goes on: neighbours leave gaps of this size between them.
@@ -53,7 +53,7 @@ void SurfelMap::choose_grid() {
     high = high.cwiseMax(surfel.position + Eigen::Vector2d::Constant(surfel.length_m));
   }
   origin_ = low;
-  cell_m_ = std::max(kCellM, (high - low).maxCoeff() / kMostCells);
+  cell_m_ = std::max(kCellM, (high - low).maxCoeff() / kMaxCells);
   size_ = in_cells(high).array().floor().cast<int>() + 1;
 }
 
@@ -93,11 +93,11 @@ std::optional<SurfelMatch> SurfelMap::match(const Eigen::Vector2d& point, double
   if (!point.allFinite()) {
     return std::nullopt;
   }
-  const Eigen::Array2d reach = Eigen::Array2d::Constant(max_distance_m / cell_m_);
+  const Eigen::Array2d radius = Eigen::Array2d::Constant(max_distance_m / cell_m_);
   const Eigen::Array2d middle = in_cells(point).array();
   // Limited before the conversion: a point far away must not overflow it.
-  const Eigen::Vector2i low = (middle - reach).max(0.0).min(size_.array().cast<double>()).floor().cast<int>();
-  const Eigen::Vector2i high = (middle + reach).min(size_.array().cast<double>() - 1.0).max(-1.0).floor().cast<int>();
+  const Eigen::Vector2i low = (middle - radius).max(0.0).min(size_.array().cast<double>()).floor().cast<int>();
+  const Eigen::Vector2i high = (middle + radius).min(size_.array().cast<double>() - 1.0).max(-1.0).floor().cast<int>();
   std::optional<SurfelMatch> best;
   double nearest = max_distance_m;
   for (int y = low.y(); y <= high.y(); ++y) {

@@ -1,7 +1,7 @@
 /// @file
 /// Topics of a bag as events in the order of their stamps.
 // SPDX-License-Identifier: Apache-2.0
-#include "bag_reader.hpp"
+#include "replay/bag_reader.hpp"
 
 #include <mtr_msgs/MappingOrder.h>
 #include <nav_msgs/Odometry.h>
@@ -16,7 +16,7 @@
 
 #include "mtr_core/clock.hpp"
 #include "mtr_core/names.hpp"
-#include "mtr_localization/conversions.hpp"
+#include "ros/conversions.hpp"
 
 namespace mtr_localization::replay {
 namespace {
@@ -112,7 +112,7 @@ void BagReader::read_fix(const rosbag::MessageInstance& message) {
   const sensor_msgs::NavSatFix::ConstPtr fix = message_of<sensor_msgs::NavSatFix>(message);
   try {
     const auto mount = frames_.lookupTransform(names::kBase, fix->header.frame_id, ros::Time(0));
-    const NavsatSample sample = navsat_sample_of(*fix, pose_of(mount.transform).head<2>());
+    const GnssFix sample = gnss_fix_of(*fix, pose_of(mount.transform).head<2>());
     wait(sample.stamp_ns, sample);
   } catch (const tf2::TransformException&) {
     // The bag does not say where the antenna is: of no use.

@@ -14,15 +14,15 @@
 #include <utility>
 #include <variant>
 
-#include "mtr_localization/conversions.hpp"
-#include "mtr_localization/map_builder.hpp"
-#include "mtr_localization/samples.hpp"
-#include "mtr_localization/sweep.hpp"
-#include "options.hpp"
+#include "mapping/mapper.hpp"
+#include "replay/options.hpp"
+#include "ros/conversions.hpp"
+#include "samples.hpp"
+#include "scans/sweep.hpp"
 
 namespace mtr_localization::replay {
 
-using Event = std::variant<ImuSample, MapOrder, NavsatSample, Sweep, WheelSample>;
+using Event = std::variant<ImuSample, MapOrder, GnssFix, Sweep, WheelSample>;
 
 /// Messages in the order of the times at which each was complete, whatever order they were recorded in.
 class BagReader {

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <exception>
 
-#include "options.hpp"
-#include "replay.hpp"
-#include "result_files.hpp"
+#include "replay/options.hpp"
+#include "replay/replay.hpp"
+#include "replay/result_files.hpp"
 
 int main(int argc, char** argv) {
   using namespace mtr_localization::replay;

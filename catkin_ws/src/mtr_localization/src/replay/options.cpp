@@ -1,7 +1,7 @@
 /// @file
 /// Parsing of the command line.
 // SPDX-License-Identifier: Apache-2.0
-#include "options.hpp"
+#include "replay/options.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -43,12 +43,10 @@ void set_parameter(Options& options, const std::string& assignment) {
   }
   const std::string name = assignment.substr(0, sign);
   const double value = number_of(assignment.substr(sign + 1), "Parameter " + name);
-  LocalizerParameters& localizer = options.localizer;
-  // Noise of a range is one parameter to a person, whoever uses it.
-  bool is_known = set(kRows, localizer.motion, name, value);
-  is_known = set(kTrackingRows, localizer.tracking, name, value) || is_known;
-  is_known = set(mtr_surfel_map::kAdjustmentRows, localizer.adjustment, name, value) || is_known;
-  is_known = set(kMountingRows, options.mounting, name, value) || is_known;
+  // One name may stand in several groups: noise of a sensor is one parameter to a person, whoever uses it.
+  bool is_known = set(kMountingRows, options.mounting, name, value);
+  for_each_group(options.parameters,
+                 [&](const auto& rows, auto& group) { is_known = set(rows, group, name, value) || is_known; });
   if (!is_known) {
     throw std::runtime_error("Parameter " + name + " is unknown; see the package's README.");
   }
@@ -58,7 +56,7 @@ void set_parameter(Options& options, const std::string& assignment) {
 
 Options parse(const std::vector<std::string>& arguments) {
   Options options;
-  options.localizer.lockstep = true;
+  options.parameters.lockstep = true;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string& argument = arguments[i];
     const auto next = [&]() -> const std::string& {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "mtr_localization/localizer_parameters.hpp"
+#include "parameters.hpp"
 
 namespace mtr_localization::replay {
 
@@ -38,7 +38,7 @@ struct Options {
   bool front_only = false;
   /// Time of the bag's stamps at which the way round the Car ends; without it by the bag's orders, or when it closes.
   std::optional<std::int64_t> loop_end_ns;
-  LocalizerParameters localizer;
+  Parameters parameters;
   Mounting mounting;
 };
 

@@ -1,7 +1,7 @@
 /// @file
 /// Events to the localizer, its answers to the result.
 // SPDX-License-Identifier: Apache-2.0
-#include "replay.hpp"
+#include "replay/replay.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -23,7 +23,7 @@ double cpu_s(clockid_t clock) {
 }
 
 /// CPU time of the calling thread since it was made.
-class Watch {
+class CpuTimer {
  public:
   double elapsed_s() const { return cpu_s(CLOCK_THREAD_CPUTIME_ID) - begun_s_; }
 
@@ -36,7 +36,7 @@ class Watch {
 Result Replay::run() {
   const auto begun = std::chrono::steady_clock::now();
   const double process_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID);
-  const Watch thread;
+  const CpuTimer thread;
   reader_.open();
   Event event;
   while (reader_.next(event)) {
@@ -44,8 +44,8 @@ Result Replay::run() {
   }
   result_.adjustment_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - process_s - thread.elapsed_s();
   finish_map();
-  result_.sweeps_refused = localizer_.keeper().sweeps().refused();
-  result_.sweeps_used = localizer_.keeper().sweeps().used();
+  result_.sweeps_refused = localizer_.figures().scans_refused;
+  result_.sweeps_used = localizer_.scans_used();
   result_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return std::move(result_);
 }
@@ -56,18 +56,16 @@ void Replay::take(ImuSample sample) {
   result_.trajectory.insert(result_.trajectory.end(), late.begin(), late.end());
 }
 
-void Replay::take(NavsatSample fix) { localizer_.add_fix(fix); }
+void Replay::take(GnssFix fix) { localizer_.add_fix(fix); }
 
-void Replay::take(MapOrder order) { localizer_.set_order(order); }
+void Replay::take(MapOrder order) { localizer_.add_order(order); }
 
 void Replay::take(Sweep sweep) {
   ++result_.sweeps;
   const std::int64_t stamp_ns = sweep.stamp_ns;
-  const Watch watch;
-  if (!localizer_.add_scan(std::move(sweep))) {
-    note(localizer_.keeper().sweeps().problem(), stamp_ns);
-  }
-  result_.tracking_s += watch.elapsed_s();
+  const CpuTimer timer;
+  note(localizer_.add_scan(std::move(sweep)), stamp_ns);
+  result_.tracking_s += timer.elapsed_s();
 }
 
 void Replay::take(WheelSample sample) {
@@ -75,11 +73,11 @@ void Replay::take(WheelSample sample) {
   if (!reader_.has_orders()) {
     give_order(sample.stamp_ns);
   }
-  const Watch watch;
+  const CpuTimer timer;
   const std::vector<Estimate> estimates = localizer_.add_wheels(sample);
-  const double elapsed_s = watch.elapsed_s();
+  const double elapsed_s = timer.elapsed_s();
   result_.tracking_s += elapsed_s;
-  result_.longest_ms = std::max(result_.longest_ms, 1e3 * elapsed_s);
+  result_.max_ms = std::max(result_.max_ms, 1e3 * elapsed_s);
   for (const Estimate& estimate : estimates) {
     note(estimate.message, estimate.stamp_ns);
     result_.trajectory.push_back(estimate);
@@ -95,12 +93,11 @@ void Replay::take(WheelSample sample) {
 
 void Replay::give_order(std::int64_t now_ns) {
   MapOrder order{now_ns, kMapCarId, MapOrder::Phase::kCollect};
-  const bool is_closed =
-      options_.loop_end_ns ? now_ns >= *options_.loop_end_ns : loop_.closes(localizer_.keeper().builder().key_frames());
+  const bool is_closed = options_.loop_end_ns ? now_ns >= *options_.loop_end_ns : loop_.closes(localizer_.key_frames());
   if (is_closed) {
     order.phase = MapOrder::Phase::kFreeze;
   }
-  localizer_.set_order(order);
+  localizer_.add_order(order);
 }
 
 void Replay::finish_map() {
@@ -108,7 +105,7 @@ void Replay::finish_map() {
     return;
   }
   // The bag ended before its map was due: what there is shows at least what is missing.
-  result_.map.map = mtr_surfel_map::adjust(localizer_.keeper().builder().key_frames(), options_.localizer.adjustment);
+  result_.map.map = mtr_surfel_map::adjust(localizer_.key_frames(), options_.parameters.adjustment);
   note(result_.map.map.valid ? "The bag ends before the map takes effect." : result_.map.map.message,
        result_.trajectory.empty() ? 0 : result_.trajectory.back().stamp_ns);
 }

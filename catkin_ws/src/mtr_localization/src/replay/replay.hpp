@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "bag_reader.hpp"
-#include "loop_watch.hpp"
-#include "mtr_localization/localizer.hpp"
-#include "options.hpp"
+#include "localizer.hpp"
+#include "replay/bag_reader.hpp"
+#include "replay/loop_detector.hpp"
+#include "replay/options.hpp"
 
 namespace mtr_localization::replay {
 
@@ -21,7 +21,7 @@ struct Result {
   std::vector<Estimate> trajectory;
   /// The last map that was made; without any, invalid and with the reason.
   MapResult map;
-  /// Sentences of the localizer with the stamp at which each was first heard.
+  /// Sentences of the localizer with the stamp at which each was said first.
   std::map<std::string, std::int64_t> messages;
   int imu_samples = 0;
   int wheel_samples = 0;
@@ -30,7 +30,7 @@ struct Result {
   int sweeps_used = 0;
   /// CPU time of tracking, and the longest between wheel odometry and its pose.
   double tracking_s = 0.0;
-  double longest_ms = 0.0;
+  double max_ms = 0.0;
   /// CPU time of the adjustment.
   double adjustment_s = 0.0;
   double wall_s = 0.0;
@@ -39,7 +39,7 @@ struct Result {
 /// Feeds one bag; takes the bag's orders, or collects from the start and freezes when the path closes.
 class Replay {
  public:
-  explicit Replay(const Options& options) : options_(options), reader_(options), localizer_(options.localizer) {}
+  explicit Replay(const Options& options) : options_(options), reader_(options), localizer_(options.parameters) {}
 
   /// Throws std::runtime_error with one sentence when the bag cannot be used.
   Result run();
@@ -47,7 +47,7 @@ class Replay {
  private:
   void take(ImuSample sample);
   void take(MapOrder order);
-  void take(NavsatSample fix);
+  void take(GnssFix fix);
   void take(Sweep sweep);
   void take(WheelSample sample);
   void give_order(std::int64_t now_ns);
@@ -57,7 +57,7 @@ class Replay {
   Options options_;
   BagReader reader_;
   Localizer localizer_;
-  LoopWatch loop_;
+  LoopDetector loop_;
   Result result_;
   bool has_map_ = false;
 };

@@ -1,7 +1,7 @@
 /// @file
 /// CSV of the poses, JSON of the figures, and the map's own files.
 // SPDX-License-Identifier: Apache-2.0
-#include "result_files.hpp"
+#include "replay/result_files.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -10,8 +10,8 @@
 #include <iomanip>
 #include <stdexcept>
 
-#include "mtr_localization/conversions.hpp"
 #include "mtr_surfel_map/map_files.hpp"
+#include "ros/conversions.hpp"
 
 namespace mtr_localization::replay {
 namespace {
@@ -80,7 +80,7 @@ void write_summary(const Result& result, const std::string& bag, const std::stri
        << ",\n  \"surfels\": " << map.surfels.size() << ",\n  \"range_bias_m\": " << map.range_bias_m
        << ",\n  \"range_bias_sigma_m\": " << map.range_bias_sigma_m
        << ",\n  \"cpu_ms_per_scan\": " << (result.sweeps_used > 0 ? 1e3 * result.tracking_s / result.sweeps_used : 0.0)
-       << ",\n  \"worst_latency_ms\": " << result.longest_ms << ",\n  \"adjustment_cpu_s\": " << result.adjustment_s
+       << ",\n  \"worst_latency_ms\": " << result.max_ms << ",\n  \"adjustment_cpu_s\": " << result.adjustment_s
        << ",\n  \"wall_s\": " << result.wall_s << ",\n";
   write_messages(file, result);
   file << "}\n";

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "replay.hpp"
+#include "replay/replay.hpp"
 
 namespace mtr_localization::replay {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "mtr_localization/localizer.hpp"
+#include "localizer.hpp"
 
 namespace mtr_localization {
 
@@ -52,7 +52,7 @@ class LocalizerFixture : public ::testing::Test {
     }
   }
 
-  Localizer localizer{LocalizerParameters{}};
+  Localizer localizer{Parameters{}};
   WheelSample wheels{1'000'000'000, 0.0, 0.0, 0.0, 0.0, 0.0};
   double gyro_bias_radps = 0.01;
   Estimate newest;

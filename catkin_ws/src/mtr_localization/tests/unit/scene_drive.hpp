@@ -1,5 +1,5 @@
 /// @file
-/// A robot with noisy wheels, gyro and LiDAR that drives through a scene and feeds a localizer.
+/// A robot with noisy wheels, gyro and LiDAR that drives through a scene and feeds a source_->
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,11 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 #include <vector>
 
-#include "mtr_localization/localizer.hpp"
-#include "mtr_localization/map_names.hpp"
+#include "localizer.hpp"
+#include "map_names.hpp"
 #include "mtr_surfel_map/testing/synthetic_world.hpp"
 
 namespace mtr_localization {
@@ -53,8 +54,11 @@ inline constexpr double kFieldRad = 4.7;
 /// Truth is in the scene's frame; `map_truth` is where the robot is in the frame map, which begins at its start.
 class SceneDrive {
  public:
-  SceneDrive(synthetic::World scene, LocalizerParameters parameters, unsigned seed = 1)
-      : world(std::move(scene)), localizer(in_lockstep(parameters)), random_(seed) {
+  SceneDrive(synthetic::World scene, const Parameters& parameters, unsigned seed = 1)
+      : SceneDrive(std::move(scene), std::make_unique<Localizer>(in_lockstep(parameters)), seed) {}
+
+  SceneDrive(synthetic::World scene, std::unique_ptr<PoseSource> source, unsigned seed = 1)
+      : world(std::move(scene)), source_(std::move(source)), random_(seed) {
     poses_.assign(3, truth);
   }
 
@@ -79,7 +83,7 @@ class SceneDrive {
     return result ? *result : MapResult{};
   }
 
-  void order(std::uint64_t map_car_id, MapOrder::Phase phase) { localizer.set_order({now_ns, map_car_id, phase}); }
+  void order(std::uint64_t map_car_id, MapOrder::Phase phase) { source_->add_order({now_ns, map_car_id, phase}); }
 
   Estimate drive(double linear_mps, double angular_radps, double duration_s) {
     for (long step = std::lround(duration_s / kTickS); step > 0; --step) {
@@ -96,8 +100,7 @@ class SceneDrive {
     poses_.erase(poses_.begin());
     poses_.push_back(truth);
     if (now_ns % (2 * kTickNs) == 0 && lidar_works && now_ns > 3 * kTickNs) {
-      const bool is_good = localizer.add_scan(sweep());
-      EXPECT_TRUE(is_good) << localizer.keeper().sweeps().problem();
+      EXPECT_EQ(source_->add_scan(sweep()), "");
     }
     feel(linear_mps, angular_radps);
   }
@@ -119,9 +122,15 @@ class SceneDrive {
   double position_error_m() const { return error().head<2>().norm(); }
   double position_sigma_m() const { return std::sqrt(newest.covariance[0] + newest.covariance[4]); }
 
+  static Parameters in_lockstep(Parameters parameters) {
+    parameters.lockstep = true;
+    return parameters;
+  }
+
+  PoseSource& localizer() { return *source_; }
+
   synthetic::World world;
   PoseVector truth{4.2, -2.8, M_PI_2};
-  Localizer localizer;
   std::int64_t now_ns = 1'000'000'000;
   bool lidar_works = true;
   double range_bias_m = 0.0;
@@ -135,11 +144,6 @@ class SceneDrive {
   int lost_ticks = 0;
 
  private:
-  static LocalizerParameters in_lockstep(LocalizerParameters parameters) {
-    parameters.lockstep = true;
-    return parameters;
-  }
-
   double noise(double sigma) { return sigma * normal_(random_); }
 
   void feel(double linear_mps, double angular_radps) {
@@ -150,8 +154,8 @@ class SceneDrive {
     wheels_.heading_rad += 1.4 * angular_radps * kTickS;
     wheels_.linear_mps = linear_mps;
     wheels_.angular_radps = angular_radps;
-    take(localizer.add_imu({now_ns, angular_radps + 0.003 + noise(1e-3)}));
-    take(localizer.add_wheels(wheels_));
+    take(source_->add_imu({now_ns, angular_radps + 0.003 + noise(1e-3)}));
+    take(source_->add_wheels(wheels_));
   }
 
   void take(const std::vector<Estimate>& estimates) {
@@ -159,7 +163,7 @@ class SceneDrive {
       newest = estimate;
       lost_ticks += estimate.mode == PoseMode::kLost ? 1 : 0;
     }
-    if (auto map = localizer.take_map()) {
+    if (auto map = source_->take_map()) {
       result = std::move(map);
     }
   }
@@ -207,6 +211,7 @@ class SceneDrive {
     return uniform_(random_) < rain ? std::min(range, 0.3 + 5.0 * uniform_(random_)) : range;
   }
 
+  std::unique_ptr<PoseSource> source_;
   std::mt19937 random_;
   std::normal_distribution<double> normal_{0.0, 1.0};
   std::uniform_real_distribution<double> uniform_{0.0, 1.0};

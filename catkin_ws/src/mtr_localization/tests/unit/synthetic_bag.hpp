@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "mtr_localization/map_names.hpp"
+#include "map_names.hpp"
 #include "mtr_surfel_map/testing/synthetic_world.hpp"
 
 namespace mtr_localization {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "mtr_localization/key_frame_selector.hpp"
+#include "mapping/key_frame_selector.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -37,33 +37,33 @@ class Robot {
     for (int i = 0; i < kSteps; ++i) {
       odom_ += PoseVector(distance_m / kSteps, 0.0, turn_rad / kSteps);
       selector_.travel(distance_m / kSteps, turn_rad / kSteps);
-      look(false);
+      scan(false);
     }
   }
 
   void stand(int scans) {
     for (int i = 0; i < scans; ++i) {
-      look(true);
+      scan(true);
     }
   }
 
   const std::vector<KeyFrame>& frames() const { return frames_; }
 
  private:
-  void look(bool standing) {
+  void scan(bool standing) {
     stamp_ns_ += kPeriodNs;
-    View view;
-    view.scan = wall(random_, stamp_ns_);
-    view.pose = odom_ + PoseVector(5.0, 0.0, 0.0);
-    view.odom = odom_;
-    view.standing = standing;
-    view.gyro_bias_sigma_radps = 1e-4;
-    if (const auto frame = selector_.add(view)) {
+    KeyFrameCandidate candidate;
+    candidate.scan = wall(random_, stamp_ns_);
+    candidate.pose = odom_ + PoseVector(5.0, 0.0, 0.0);
+    candidate.odom = odom_;
+    candidate.standing = standing;
+    candidate.gyro_bias_sigma_radps = 1e-4;
+    if (const auto frame = selector_.add(candidate)) {
       frames_.push_back(*frame);
     }
   }
 
-  KeyFrameSelector selector_{Parameters{}};
+  KeyFrameSelector selector_{SensorParameters{}};
   PoseVector odom_ = PoseVector::Zero();
   std::int64_t stamp_ns_ = 0;
   std::mt19937 random_{1};
@@ -125,9 +125,9 @@ TEST(KeyFrameSelector, MotionIsLessCertainAfterMoreOfIt) {
   EXPECT_GT(turning(2, 2), straight(2, 2));
 }
 
-TEST(SweepMean, SomebodyWhoPassesIsLeftOut) {
+TEST(ScanMean, SomebodyWhoPassesIsLeftOut) {
   std::mt19937 random(2);
-  SweepMean mean;
+  ScanMean mean;
   for (int i = 0; i < 10; ++i) {
     ScanPoints scan = wall(random, i);
     if (i % 3 == 0) {
@@ -141,9 +141,9 @@ TEST(SweepMean, SomebodyWhoPassesIsLeftOut) {
   }
 }
 
-TEST(SweepMean, BeamThatSeldomReturnsIsLeftOut) {
+TEST(ScanMean, BeamThatSeldomReturnsIsLeftOut) {
   std::mt19937 random(2);
-  SweepMean mean;
+  ScanMean mean;
   for (int i = 0; i < 10; ++i) {
     ScanPoints scan = wall(random, i);
     scan.points.resize(i < 4 ? 202 : 201);

@@ -64,7 +64,7 @@ TEST_F(LocalizerTest, HeadingFollowsTheGyroAndNotTheSlippingWheels) {
 
 TEST_F(LocalizerTest, OrderOfArrivalDoesNotMatter) {
   drive(0.0, 0.0, 2.0);
-  Localizer other{LocalizerParameters{}};
+  Localizer other{Parameters{}};
   WheelSample still{1'000'000'000, 0.0, 0.0, 0.0, 0.0, 0.0};
   Estimate other_newest;
   for (int step = 0; step < 100; ++step) {
@@ -78,7 +78,7 @@ TEST_F(LocalizerTest, OrderOfArrivalDoesNotMatter) {
 }
 
 TEST_F(LocalizerTest, ImuAheadOfTheWheelsDoesNotChangeTheEstimate) {
-  Localizer other{LocalizerParameters{}};
+  Localizer other{Parameters{}};
   std::vector<WheelSample> sent;
   for (int step = 0; step < 120; ++step) {
     step_once(0.0, 0.0);

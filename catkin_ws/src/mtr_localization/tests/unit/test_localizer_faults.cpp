@@ -145,12 +145,12 @@ TEST_F(LocalizerFaultTest, DataThatComesLateButCompleteIsCountedAndNotSentWithOl
 }
 
 TEST(LocalizerWithoutData, SaysThatItWaitsForWheelOdometry) {
-  Localizer localizer{LocalizerParameters{}};
+  Localizer localizer{Parameters{}};
   EXPECT_EQ(localizer.check_silence(1'000'000'000).at(0).message, "Waiting for wheel odometry.");
 }
 
 TEST(LocalizerWithoutData, OdometryBeforeTheFirstImuSampleIsNotValid) {
-  Localizer localizer{LocalizerParameters{}};
+  Localizer localizer{Parameters{}};
   localizer.add_wheels({1'000'000'000, 0.0, 0.0, 0.0, 0.0, 0.0});
   const auto estimates = localizer.add_imu({1'040'000'000, 0.0});
   ASSERT_EQ(estimates.size(), 1u);

@@ -22,7 +22,7 @@ class LocalizerLostTest : public ::testing::Test {
     return time_s;
   }
 
-  SceneDrive robot{scenes::lot(), {}};
+  SceneDrive robot{scenes::lot(), Parameters{}};
 };
 
 TEST_F(LocalizerLostTest, KidnappedRobotSaysSoWithinTwoSeconds) {
@@ -65,7 +65,7 @@ TEST_F(LocalizerLostTest, PoseThatIsTooUncertainIsSearchedForAndNeverCalledValid
   EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
   for (int tick = 0; tick < 300; ++tick) {
     robot.tick(0.0, 0.0);
-    EXPECT_FALSE(robot.newest.valid && robot.position_sigma_m() > LocalizerParameters{}.tracking.lost_sigma_m);
+    EXPECT_FALSE(robot.newest.valid && robot.position_sigma_m() > Parameters{}.tracking.lost_sigma_m);
   }
 }
 
@@ -124,7 +124,7 @@ class LocalizerLostWhileMappingTest : public ::testing::Test {
     robot.world = scene;
   }
 
-  SceneDrive robot{scenes::lot(), {}};
+  SceneDrive robot{scenes::lot(), Parameters{}};
 };
 
 TEST_F(LocalizerLostWhileMappingTest, WheelsAndGyroLeadOverAShortStretchThatDoesNotAgree) {
@@ -167,6 +167,17 @@ TEST_F(LocalizerLostWhileMappingTest, WayRoundThatEndsLostGivesNoMap) {
   EXPECT_NE(robot.result->map.message.find("lost on the way round"), std::string::npos) << robot.result->map.message;
 }
 
+TEST(LocalizerLost, RobotThatDrivesRightAfterASilenceSaysWhatWasSilent) {
+  SceneDrive robot(scenes::lot(), Parameters{});
+  robot.map();
+  robot.drive(0.0, 0.0, 2.0);
+  robot.now_ns += 300'000'000;
+  robot.drive(0.0, 0.0, 0.1);
+  const Estimate lost = robot.drive(0.3, 0.0, 0.1);
+  EXPECT_EQ(lost.mode, PoseMode::kLost);
+  EXPECT_NE(lost.message.find("Wheel odometry was silent"), std::string::npos) << lost.message;
+}
+
 TEST(LocalizerLost, TwoPlacesThatLookAlikeAreNotGuessedBetween) {
   // Two equal boxes 2.5 m apart and nothing else: either can be the one in view.
   synthetic::World scene;
@@ -201,11 +212,11 @@ TEST(LocalizerLost, TwoPlacesThatLookAlikeAreNotGuessedBetween) {
       points.points.push_back({range * direction, direction, range});
     }
   }
-  PoseSearch search(TrackingParameters{}, map);
-  const PoseSearch::Look look{sweep, points, PoseVector::Zero()};
-  search.begin({2.0, 0.0, M_PI}, look);
+  Relocalization search(TrackingParameters{}, map);
+  const SearchView view{sweep, points, PoseVector::Zero()};
+  search.begin({2.0, 0.0, M_PI}, view);
   for (int i = 0; i < 200; ++i) {
-    EXPECT_FALSE(search.advance(look).has_value());
+    EXPECT_FALSE(search.advance(view).has_value());
   }
 }
 

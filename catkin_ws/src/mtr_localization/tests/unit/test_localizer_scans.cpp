@@ -1,13 +1,14 @@
 /// @file
 /// Mapping and localization with scans of synthetic scenes.
 // SPDX-License-Identifier: Apache-2.0
+#include "external_pose.hpp"
 #include "scene_drive.hpp"
 
 namespace mtr_localization {
 namespace {
 
 TEST(LocalizerScans, WayRoundTheCarGivesAMapAndAPoseToACentimetre) {
-  SceneDrive robot(scenes::lot(), {});
+  SceneDrive robot(scenes::lot(), Parameters{});
   const MapResult result = robot.map(7);
   ASSERT_TRUE(result.map.valid) << result.map.message;
   EXPECT_EQ(result.map_car_id, 7u);
@@ -31,7 +32,7 @@ TEST(LocalizerScans, ErrorsAgreeWithTheCovarianceOverManyDrives) {
   double squares = 0.0;
   int samples = 0;
   for (unsigned seed = 1; seed <= 8; ++seed) {
-    SceneDrive robot(seed % 2 ? scenes::lot() : scenes::open(), {}, seed);
+    SceneDrive robot(seed % 2 ? scenes::lot() : scenes::open(), Parameters{}, seed);
     ASSERT_TRUE(robot.map().map.valid);
     for (int leg = 0; leg < 3; ++leg) {
       robot.drive(-0.5, 0.1, 2.0);
@@ -49,7 +50,7 @@ TEST(LocalizerScans, ErrorsAgreeWithTheCovarianceOverManyDrives) {
 }
 
 TEST(LocalizerScans, ConstantRangeErrorCostsMillimetres) {
-  SceneDrive robot(scenes::lot(), {});
+  SceneDrive robot(scenes::lot(), Parameters{});
   robot.range_bias_m = 0.02;
   ASSERT_TRUE(robot.map().map.valid);
   robot.drive(-0.5, 0.0, 4.0);
@@ -58,7 +59,7 @@ TEST(LocalizerScans, ConstantRangeErrorCostsMillimetres) {
 }
 
 TEST(LocalizerScans, PersonsRoundTheRobotDoNotMoveThePose) {
-  SceneDrive robot(scenes::lot(), {});
+  SceneDrive robot(scenes::lot(), Parameters{});
   ASSERT_TRUE(robot.map().map.valid);
   const Eigen::Vector2d here = robot.truth.head<2>();
   robot.persons = {here + Eigen::Vector2d(-1.5, 0.5), here + Eigen::Vector2d(-1.0, -1.2),
@@ -72,7 +73,7 @@ TEST(LocalizerScans, PersonsRoundTheRobotDoNotMoveThePose) {
 }
 
 TEST(LocalizerScans, RainDoesNotHinderMappingNorLocalization) {
-  SceneDrive robot(scenes::lot(), {});
+  SceneDrive robot(scenes::lot(), Parameters{});
   robot.rain = 0.05;
   ASSERT_TRUE(robot.map().map.valid);
   robot.drive(-0.5, 0.0, 2.0);
@@ -81,7 +82,7 @@ TEST(LocalizerScans, RainDoesNotHinderMappingNorLocalization) {
 }
 
 TEST(LocalizerScans, OtherCarThatLeavesDoesNotMoveThePose) {
-  SceneDrive robot(scenes::lot(), {});
+  SceneDrive robot(scenes::lot(), Parameters{});
   ASSERT_TRUE(robot.map().map.valid);
   robot.world.resize(robot.world.size() - 4);
   robot.drive(-0.5, 0.0, 3.0);
@@ -90,7 +91,7 @@ TEST(LocalizerScans, OtherCarThatLeavesDoesNotMoveThePose) {
 }
 
 TEST(LocalizerScans, CarBehindTheRobotIsDegenerateAndInTheEndLost) {
-  LocalizerParameters parameters;
+  Parameters parameters;
   parameters.tracking.lost_sigma_m = 0.03;
   SceneDrive robot(scenes::open(), parameters);
   ASSERT_TRUE(robot.map().map.valid);
@@ -107,7 +108,7 @@ TEST(LocalizerScans, CarBehindTheRobotIsDegenerateAndInTheEndLost) {
 }
 
 TEST(LocalizerScans, SilentLidarLeavesDeadReckoningWithGrowingUncertainty) {
-  SceneDrive robot(scenes::lot(), {});
+  SceneDrive robot(scenes::lot(), Parameters{});
   ASSERT_TRUE(robot.map().map.valid);
   const double before = robot.position_sigma_m();
   robot.lidar_works = false;
@@ -119,7 +120,7 @@ TEST(LocalizerScans, SilentLidarLeavesDeadReckoningWithGrowingUncertainty) {
 }
 
 TEST(LocalizerScans, FreezeWithoutAWayRoundGivesNoMapAndKeepsThePose) {
-  SceneDrive robot(scenes::lot(), {});
+  SceneDrive robot(scenes::lot(), Parameters{});
   robot.drive(0.0, 0.0, 2.0);
   robot.order(1, MapOrder::Phase::kCollect);
   robot.drive(0.5, 0.0, 2.0);
@@ -134,29 +135,29 @@ TEST(LocalizerScans, FreezeWithoutAWayRoundGivesNoMapAndKeepsThePose) {
 }
 
 TEST(LocalizerScans, MapTakesEffectAtTheOrdersTimeAndTheDelay) {
-  SceneDrive robot(scenes::lot(), {});
+  SceneDrive robot(scenes::lot(), Parameters{});
   const MapResult result = robot.map();
   // Frozen 3 s before the end of mapping; 2 s later it takes effect.
   EXPECT_EQ(result.stamp_ns, robot.now_ns - 1'000'000'000);
 }
 
 TEST(LocalizerScans, PausedMappingTakesNoKeyFramesAndGoesOn) {
-  SceneDrive robot(scenes::lot(), {});
+  SceneDrive robot(scenes::lot(), Parameters{});
   robot.drive(0.0, 0.0, 2.0);
   robot.order(1, MapOrder::Phase::kCollect);
   robot.drive(0.5, 0.0, 2.0);
   robot.order(1, MapOrder::Phase::kIdle);
   robot.drive(0.5, 0.0, 0.2);
-  const std::size_t paused = robot.localizer.keeper().builder().key_frames().size();
+  const std::size_t paused = robot.localizer().key_frames().size();
   robot.drive(0.5, 0.0, 1.8);
-  EXPECT_EQ(robot.localizer.keeper().builder().key_frames().size(), paused);
+  EXPECT_EQ(robot.localizer().key_frames().size(), paused);
   robot.order(1, MapOrder::Phase::kCollect);
   robot.drive(0.5, 0.0, 1.0);
-  EXPECT_GT(robot.localizer.keeper().builder().key_frames().size(), paused);
+  EXPECT_GT(robot.localizer().key_frames().size(), paused);
 }
 
 TEST(LocalizerScans, SecondMappingGivesTheNextRevision) {
-  SceneDrive robot(scenes::lot(), {});
+  SceneDrive robot(scenes::lot(), Parameters{});
   ASSERT_TRUE(robot.map(1).map.valid);
   const MapResult second = robot.map(2);
   ASSERT_TRUE(second.map.valid) << second.map.message;
@@ -164,16 +165,16 @@ TEST(LocalizerScans, SecondMappingGivesTheNextRevision) {
   EXPECT_EQ(robot.newest.map_revision, 2u);
 }
 
-TEST(LocalizerScans, MapFromPosesFromElsewhereIsNotAdjusted) {
-  LocalizerParameters parameters;
-  parameters.external = true;
-  SceneDrive robot(scenes::lot(), parameters);
+TEST(ExternalPose, MapFromPosesFromElsewhereIsNotAdjusted) {
+  std::optional<StampedPose> map_from_odom;
+  SceneDrive robot(scenes::lot(), std::make_unique<ExternalPose>(SceneDrive::in_lockstep({}), ExternalParameters{},
+                                                                 [&] { return map_from_odom; }));
   robot.drive(0.0, 0.0, 2.0);
   EXPECT_FALSE(robot.newest.valid);
   EXPECT_EQ(robot.newest.message, "Waiting for map to odom from the other localization.");
   robot.order(1, MapOrder::Phase::kCollect);
   for (int step = 0; step < 500; ++step) {
-    robot.localizer.set_external(robot.now_ns, {1.0, 2.0, 0.0});
+    map_from_odom = StampedPose{robot.now_ns, {1.0, 2.0, 0.0}};
     robot.tick(0.5, 0.0);
   }
   EXPECT_TRUE(robot.newest.valid) << robot.newest.message;

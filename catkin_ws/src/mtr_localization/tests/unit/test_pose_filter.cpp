@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "mtr_localization/pose_filter.hpp"
+#include "motion/pose_filter.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -68,7 +68,7 @@ class NoisyDrive {
     }
   }
 
-  Parameters parameters_;
+  SensorParameters parameters_;
   PoseFilter reckoning_{parameters_};
   std::mt19937 random_;
   std::normal_distribution<double> normal_{0.0, 1.0};
@@ -94,7 +94,7 @@ TEST(PoseFilter, ErrorsOfManyNoisyDrivesAgreeWithTheCovariance) {
 }
 
 TEST(PoseFilter, CovarianceGrowsWithTheDistance) {
-  PoseFilter reckoning{Parameters{}};
+  PoseFilter reckoning{SensorParameters{}};
   double last = 0.0;
   for (int metre = 0; metre < 5; ++metre) {
     reckoning.move({2.0, 1.0, 0.0});
@@ -104,18 +104,18 @@ TEST(PoseFilter, CovarianceGrowsWithTheDistance) {
 }
 
 TEST(PoseFilter, StandingStillDoesNotMoveThePoseAndMeasuresTheBias) {
-  PoseFilter reckoning{Parameters{}};
+  PoseFilter reckoning{SensorParameters{}};
   for (int step = 0; step < 50; ++step) {
     reckoning.stand(kStepS, 0.013);
   }
   EXPECT_EQ(reckoning.x_m(), 0.0);
   EXPECT_EQ(reckoning.heading_rad(), 0.0);
   EXPECT_NEAR(reckoning.gyro_bias_radps(), 0.013, 1e-5);
-  EXPECT_NEAR(reckoning.gyro_bias_sigma_radps(), Parameters{}.gyro_noise_radps_per_sqrt_hz, 1e-4);
+  EXPECT_NEAR(reckoning.gyro_bias_sigma_radps(), SensorParameters{}.gyro_noise_radps_per_sqrt_hz, 1e-4);
 }
 
 TEST(PoseFilter, ArcOfAQuarterCircleEndsAtItsRadius) {
-  PoseFilter reckoning{Parameters{}};
+  PoseFilter reckoning{SensorParameters{}};
   constexpr int kSteps = 500;
   for (int step = 0; step < kSteps; ++step) {
     reckoning.move({kStepS, 2.0 * M_PI_2 / kSteps, M_PI_2 / kSteps});
@@ -126,7 +126,7 @@ TEST(PoseFilter, ArcOfAQuarterCircleEndsAtItsRadius) {
 }
 
 TEST(PoseFilter, HeadingStaysWithinHalfATurn) {
-  PoseFilter reckoning{Parameters{}};
+  PoseFilter reckoning{SensorParameters{}};
   reckoning.move({1.0, 0.0, 3.0});
   reckoning.move({1.0, 0.0, 1.0});
   EXPECT_NEAR(reckoning.heading_rad(), 4.0 - 2.0 * M_PI, 1e-12);

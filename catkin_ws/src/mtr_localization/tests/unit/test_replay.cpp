@@ -9,11 +9,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "../../src/replay/loop_watch.hpp"
-#include "../../src/replay/options.hpp"
-#include "../../src/replay/replay.hpp"
-#include "../../src/replay/result_files.hpp"
-#include "mtr_localization/map_names.hpp"
+#include "map_names.hpp"
+#include "replay/loop_detector.hpp"
+#include "replay/options.hpp"
+#include "replay/replay.hpp"
+#include "replay/result_files.hpp"
 #include "synthetic_bag.hpp"
 
 namespace mtr_localization::replay {
@@ -65,8 +65,8 @@ TEST(ReplayOptions, EverythingIsUnderstood) {
   EXPECT_EQ(options.bag, "a.bag");
   EXPECT_EQ(options.folder, "there");
   EXPECT_TRUE(options.front_only);
-  EXPECT_TRUE(options.localizer.lockstep);
-  EXPECT_EQ(options.localizer.adjustment.surface_sigma_m, 0.006);
+  EXPECT_TRUE(options.parameters.lockstep);
+  EXPECT_EQ(options.parameters.adjustment.surface_sigma_m, 0.006);
   EXPECT_EQ(options.mounting.rear_lidar_x_m, -0.3);
   EXPECT_EQ(options.loop_end_ns, 12'500'000'000);
 }
@@ -146,8 +146,8 @@ std::vector<KeyFrame> frames_at(const std::vector<Eigen::Vector2d>& places) {
   return frames;
 }
 
-TEST(LoopWatch, WayRoundClosesWhenItComesBack) {
-  LoopWatch watch;
+TEST(LoopDetector, WayRoundClosesWhenItComesBack) {
+  LoopDetector watch;
   std::vector<Eigen::Vector2d> places;
   for (int degrees = 0; degrees <= 355; degrees += 5) {
     places.emplace_back(4.0 * std::cos(degrees * M_PI / 180.0), 3.0 * std::sin(degrees * M_PI / 180.0));
@@ -156,8 +156,8 @@ TEST(LoopWatch, WayRoundClosesWhenItComesBack) {
   }
 }
 
-TEST(LoopWatch, WayOutAndBackIsNoLoop) {
-  LoopWatch watch;
+TEST(LoopDetector, WayOutAndBackIsNoLoop) {
+  LoopDetector watch;
   std::vector<Eigen::Vector2d> places;
   for (int i = 0; i <= 40; ++i) {
     places.emplace_back(0.3 * std::min(i, 40 - i), 0.0);

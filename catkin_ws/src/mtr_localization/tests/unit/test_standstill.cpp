@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "mtr_localization/standstill.hpp"
+#include "motion/standstill.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -21,7 +21,7 @@ class StandstillTest : public ::testing::Test {
     detector.update({stamp_ns, 0.0, 0.0, 0.0, linear, angular}, gyro_rate);
   }
 
-  StandstillDetector detector{Parameters{}};
+  StandstillDetector detector{SensorParameters{}};
   std::int64_t stamp_ns = 0;
 };
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "mtr_localization/ground_level.hpp"
-#include "mtr_localization/map_names.hpp"
-#include "mtr_localization/sweep_points.hpp"
-#include "mtr_localization/tilt_filter.hpp"
-#include "mtr_localization/view_agreement.hpp"
+#include "map_names.hpp"
+#include "motion/ground_level.hpp"
+#include "motion/tilt_filter.hpp"
+#include "scans/deskew.hpp"
+#include "tracking/agreement.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -34,7 +34,7 @@ Sweep sweep_of_range(float range_m) {
 }
 
 FilterHistory leaning(const Eigen::Vector2d& slope) {
-  FilterHistory history(PoseFilter(Parameters{}), 0);
+  FilterHistory history(PoseFilter(SensorParameters{}), 0);
   FilterInput input;
   input.slope = slope;
   history.advance(kStepNs, input);
@@ -97,22 +97,19 @@ TEST(GroundLevel, BiasAndSlopeOfTheGroundAreToldApartByDrivingRound) {
   EXPECT_NEAR((level.relative(1.0, shown) - own).norm(), 0.0, 0.0005);
 }
 
-TEST(SweepPoints, LeaningRobotKeepsItsPointsWhereALevelOneSeesThem) {
+TEST(Deskew, LeaningRobotKeepsItsPointsWhereALevelOneSeesThem) {
   Sweep sweep = sweep_of_range(3.0F);
   sweep.mount_height_m = 0.24;
-  ScanPoints scan{kStepNs, {}};
-  append_points(sweep, leaning({0.03, 0.0}), scan);
+  const ScanPoints scan = deskew({{sweep}, 1}, leaning({0.03, 0.0}));
   ASSERT_EQ(scan.points.size(), 101u);
   EXPECT_NEAR(scan.points[50].position.x(), 3.0 * std::cos(0.03) - 0.24 * 0.03, 1e-5);
   EXPECT_NEAR(scan.points[50].rise_m, 0.09, 1e-9);
 }
 
-TEST(SweepPoints, WhatALeaningRobotSeesNearTheGroundIsLeftOut) {
-  ScanPoints down{kStepNs, {}};
-  append_points(sweep_of_range(10.0F), leaning({-0.03, 0.0}), down);
+TEST(Deskew, WhatALeaningRobotSeesNearTheGroundIsLeftOut) {
+  const ScanPoints down = deskew({{sweep_of_range(10.0F)}, 1}, leaning({-0.03, 0.0}));
   EXPECT_TRUE(down.points.empty());
-  ScanPoints up{kStepNs, {}};
-  append_points(sweep_of_range(10.0F), leaning({0.03, 0.0}), up);
+  const ScanPoints up = deskew({{sweep_of_range(10.0F)}, 1}, leaning({0.03, 0.0}));
   EXPECT_EQ(up.points.size(), 101u);
 }
 

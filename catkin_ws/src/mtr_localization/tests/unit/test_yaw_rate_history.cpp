@@ -1,11 +1,11 @@
 /// @file
-/// Look-up and integration of the gyro's rate.
+/// Retrieval and integration of the gyro's rate.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "mtr_localization/yaw_rate_history.hpp"
+#include "motion/yaw_rate_history.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -45,14 +45,14 @@ TEST_F(YawRateHistoryTest, OnlyTimesBetweenSamplesAreCovered) {
 
 TEST_F(YawRateHistoryTest, SampleThatIsNotANumberIsHeardButNotKept) {
   history.add({400 * kMs, std::numeric_limits<double>::quiet_NaN()});
-  EXPECT_EQ(history.newest_heard_ns(), 400 * kMs);
+  EXPECT_EQ(history.newest_received_ns(), 400 * kMs);
   EXPECT_FALSE(history.newest_is_good());
   EXPECT_FALSE(history.covers(400 * kMs));
 }
 
 TEST_F(YawRateHistoryTest, StampBeforeTheLastOneBeginsAnew) {
   EXPECT_FALSE(history.add({50 * kMs, 2.0}));
-  EXPECT_EQ(history.newest_heard_ns(), 50 * kMs);
+  EXPECT_EQ(history.newest_received_ns(), 50 * kMs);
   EXPECT_FALSE(history.covers(200 * kMs));
 }
 

@@ -11,19 +11,19 @@ namespace mtr_surfel_map {
 namespace {
 
 // A way round a Car at 1 m gives some 60 key-frames.
-constexpr std::size_t kFewestKeyFrames = 10;
+constexpr std::size_t kMinKeyFrames = 10;
 // The Car alone gives 50 to 150 surfels.
-constexpr std::size_t kFewestSurfels = 20;
+constexpr std::size_t kMinSurfels = 20;
 // Of the last key-frame's surfels, those that were seen when the robot was here before: a share, for beside a Car alone
 // a key-frame of a noisy LiDAR sees fewer than ten long ones; and enough to hold a pose.
 constexpr double kSharedShare = 0.4;
-constexpr int kFewestSharedSurfels = 3;
+constexpr int kMinSharedSurfels = 3;
 // A return is a path of this many times the closing distance, so that a robot that stands or shuffles has not closed.
-constexpr double kLeastLoop = 4.0;
+constexpr double kMinLoop = 4.0;
 // Sizes of differences in sigmas, and share of outliers, that no scene with right sensors has shown.
-constexpr double kLargestRatio = 3.0;
-constexpr double kLargestMotionRatio = 20.0;
-constexpr double kLargestOutlierShare = 0.3;
+constexpr double kMaxRatio = 3.0;
+constexpr double kMaxMotionRatio = 20.0;
+constexpr double kMaxOutlierShare = 0.3;
 
 template <typename... Numbers>
 std::string text(const char* format, Numbers... numbers) {
@@ -57,12 +57,12 @@ bool is_closed(const std::vector<KeyFrame>& frames, const std::vector<Observatio
                double closing_distance_m) {
   const int last = static_cast<int>(frames.size()) - 1;
   const std::set<int> seen_last = surfels_seen_by(last, observations);
-  const double wanted = std::max<double>(kFewestSharedSurfels, kSharedShare * static_cast<double>(seen_last.size()));
+  const double wanted = std::max<double>(kMinSharedSurfels, kSharedShare * static_cast<double>(seen_last.size()));
   double path_m = 0.0;
   for (int i = last - 1; i >= 0; --i) {
     path_m += (frames[i + 1].pose - frames[i].pose).head<2>().norm();
     const double distance_m = (frames[last].pose - frames[i].pose).head<2>().norm();
-    if (path_m > kLeastLoop * closing_distance_m && distance_m < closing_distance_m &&
+    if (path_m > kMinLoop * closing_distance_m && distance_m < closing_distance_m &&
         shared(seen_last, surfels_seen_by(i, observations)) >= wanted) {
       return true;
     }
@@ -73,9 +73,9 @@ bool is_closed(const std::vector<KeyFrame>& frames, const std::vector<Observatio
 }  // namespace
 
 std::string problem_with(const std::vector<KeyFrame>& key_frames) {
-  if (key_frames.size() < kFewestKeyFrames) {
+  if (key_frames.size() < kMinKeyFrames) {
     return text("Only %zu key-frames were taken, %zu are needed: drive round the Car.", key_frames.size(),
-                kFewestKeyFrames);
+                kMinKeyFrames);
   }
   if (!std::all_of(key_frames.begin(), key_frames.end(), is_finite)) {
     return "A key-frame contains values that are no numbers.";
@@ -83,25 +83,25 @@ std::string problem_with(const std::vector<KeyFrame>& key_frames) {
   return "";
 }
 
-std::string verdict(const Adjustment& state, const std::vector<Observation>& observations, const Fit& fit,
-                    const AdjustmentParameters& parameters) {
-  if (state.surfels.size() < kFewestSurfels) {
+std::string problem_with(const Adjustment& state, const std::vector<Observation>& observations, const Fit& fit,
+                         const AdjustmentParameters& parameters) {
+  if (state.surfels.size() < kMinSurfels) {
     return text("The LiDARs saw only %zu pieces of surface, %zu are needed: is the Car in view?", state.surfels.size(),
-                kFewestSurfels);
+                kMinSurfels);
   }
   if (!is_closed(state.key_frames, observations, parameters.closing_distance_m)) {
     return text("The way round the Car was not closed: it must end within %.1f m of where it passed before.",
                 parameters.closing_distance_m);
   }
-  if (fit.surface_ratio > kLargestRatio) {
+  if (fit.surface_ratio > kMaxRatio) {
     return text("What the LiDARs saw from different places disagrees by %.1f times its uncertainty.",
                 fit.surface_ratio);
   }
-  if (fit.outlier_share > kLargestOutlierShare) {
+  if (fit.outlier_share > kMaxOutlierShare) {
     return text("%.0f %% of what the LiDARs saw does not fit the map: did something large move?",
                 100.0 * fit.outlier_share);
   }
-  if (fit.motion_ratio > kLargestMotionRatio) {
+  if (fit.motion_ratio > kMaxMotionRatio) {
     return text("Wheels and gyro disagree with the LiDARs by %.1f times their uncertainty.", fit.motion_ratio);
   }
   return "";

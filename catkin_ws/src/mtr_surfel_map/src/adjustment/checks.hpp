@@ -15,7 +15,7 @@ namespace mtr_surfel_map {
 std::string problem_with(const std::vector<KeyFrame>& key_frames);
 
 /// One sentence on why the adjusted map cannot be trusted; empty when it can.
-std::string verdict(const Adjustment& state, const std::vector<Observation>& observations, const Fit& fit,
-                    const AdjustmentParameters& parameters);
+std::string problem_with(const Adjustment& state, const std::vector<Observation>& observations, const Fit& fit,
+                         const AdjustmentParameters& parameters);
 
 }  // namespace mtr_surfel_map

@@ -32,17 +32,17 @@ constexpr std::array<Round, 4> kCoarse{{
     {0.6, 0.2, 0.06, 0.15},
     {0.4, 0.1, 0.04, 0.10},
 }};
-constexpr double kLargestFineSurfelM = 0.4;
-constexpr double kSmallestFineSurfelM = 0.1;
+constexpr double kMaxFineSurfelM = 0.4;
+constexpr double kMinFineSurfelM = 0.1;
 // In sigmas of a range: surfaces at rest are no thicker, and returns from them lie no farther off.
 constexpr double kFineThickness = 2.0;
 constexpr double kFineGate = 5.0;
-constexpr int kMostFineRounds = 6;
+constexpr int kMaxFineRounds = 6;
 // Places that move less in a round are where they belong.
 constexpr double kSettledM = 0.0003;
 // Error of the range bias by what looks like one: a tilted plane that meets leaning sides nearer or farther. Measured
 // with 1 degree of tilt and sides that lean by 1 in 5.
-constexpr double kLeastBiasSigmaM = 0.003;
+constexpr double kMinBiasSigmaM = 0.003;
 // Error of a surfel's place by its shape, in errors of one view by it: views from all sides share a part of it.
 constexpr double kShapeShare = 0.5;
 // Parts of the largest square by which the grid is shifted from round to round: a surface that a border cuts in one
@@ -50,7 +50,7 @@ constexpr double kShapeShare = 0.5;
 constexpr double kShift = 0.38;
 
 Round fine_round(const AdjustmentParameters& parameters) {
-  return {kLargestFineSurfelM, kSmallestFineSurfelM, kFineThickness * parameters.range_noise_m,
+  return {kMaxFineSurfelM, kMinFineSurfelM, kFineThickness * parameters.range_noise_m,
           kFineGate * parameters.range_noise_m};
 }
 
@@ -118,13 +118,13 @@ AdjustedMap result_of(const Adjustment& state, const std::vector<Observation>& o
     }
   }
   map.range_bias_m = state.range_bias_m;
-  map.range_bias_sigma_m = std::hypot(factor * uncertainty.range_bias_m, kLeastBiasSigmaM);
-  map.message = verdict(state, observations, fit, parameters);
+  map.range_bias_sigma_m = std::hypot(factor * uncertainty.range_bias_m, kMinBiasSigmaM);
+  map.message = problem_with(state, observations, fit, parameters);
   map.valid = map.message.empty();
   return map;
 }
 
-AdjustedMap refused(const std::vector<KeyFrame>& key_frames, const std::string& message) {
+AdjustedMap no_map(const std::vector<KeyFrame>& key_frames, const std::string& message) {
   AdjustedMap map;
   map.key_frames = key_frames;
   map.pose_covariances.assign(key_frames.size(), Eigen::Matrix3d::Zero());
@@ -138,7 +138,7 @@ AdjustedMap adjust(const std::vector<KeyFrame>& key_frames, const AdjustmentPara
   check(parameters);
   const std::string problem = problem_with(key_frames);
   if (!problem.empty()) {
-    return refused(key_frames, problem);
+    return no_map(key_frames, problem);
   }
   Adjustment state;
   state.key_frames = key_frames;
@@ -146,7 +146,7 @@ AdjustedMap adjust(const std::vector<KeyFrame>& key_frames, const AdjustmentPara
   for (const Round& round : kCoarse) {
     do_round(state, round, number++, parameters);
   }
-  for (int fine = 0; fine < kMostFineRounds; ++fine) {
+  for (int fine = 0; fine < kMaxFineRounds; ++fine) {
     if (do_round(state, fine_round(parameters), number++, parameters) < kSettledM) {
       break;
     }

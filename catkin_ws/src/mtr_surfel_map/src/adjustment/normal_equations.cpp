@@ -10,7 +10,7 @@ namespace mtr_surfel_map {
 namespace {
 
 // Information that holds a place to less than a nanometre, and leaves the equations well conditioned.
-constexpr double kHeld = 1e14;
+constexpr double kFixed = 1e14;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void NormalEquations::add_prior(Eigen::Index separate, double value, double sigm
   own_gradient_(1, separate) += value / (sigma * sigma);
 }
 
-void NormalEquations::hold(Eigen::Index place) { joint_(place, place) += kHeld; }
+void NormalEquations::fix(Eigen::Index place) { joint_(place, place) += kFixed; }
 
 /// Of a separate pair as if the joint unknowns were known; 0 without any information.
 Eigen::Matrix2d NormalEquations::own_covariance(Eigen::Index separate) const {

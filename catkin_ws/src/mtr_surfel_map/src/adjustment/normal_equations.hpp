@@ -62,7 +62,7 @@ class NormalEquations {
   void add_prior(Eigen::Index separate, double value, double sigma);
 
   /// Fixes a joint unknown.
-  void hold(Eigen::Index place);
+  void fix(Eigen::Index place);
 
   /// Change that makes the sum of squares least.
   Step solve() const;

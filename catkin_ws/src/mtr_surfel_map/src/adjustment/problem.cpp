@@ -11,7 +11,7 @@
 namespace mtr_surfel_map {
 namespace {
 
-constexpr int kMostSteps = 4;
+constexpr int kMaxSteps = 4;
 // A step that moves no place by more ends the steps: the next association changes more than another step would.
 constexpr double kSettledM = 0.0001;
 constexpr double kOutlierSigmas = 4.0;
@@ -43,7 +43,7 @@ NormalEquations equations_of(const Adjustment& state, const std::vector<Observat
   equations.add(prior(state.wheel_scale, parameters.wheel_scale_sigma, layout.wheel_scale()));
   equations.add(prior(state.gyro_scale, parameters.gyro_scale_sigma, layout.gyro_scale()));
   for (const Eigen::Index place : {0, 1, 2}) {
-    equations.hold(Layout::pose(0) + place);
+    equations.fix(Layout::pose(0) + place);
   }
   return equations;
 }
@@ -80,7 +80,7 @@ double median(std::vector<double> values) {
 
 double solve(Adjustment& state, const std::vector<Observation>& observations, const AdjustmentParameters& parameters) {
   double largest_m = 0.0;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     const double moved_m = take(equations_of(state, observations, parameters).solve(), state);
     largest_m = std::max(largest_m, moved_m);
     if (moved_m < kSettledM) {

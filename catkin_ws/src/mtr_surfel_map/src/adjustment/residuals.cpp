@@ -17,11 +17,11 @@ namespace {
 constexpr double kSurfaceKernel = 2.0;
 constexpr double kMotionKernel = 3.0;
 // Of a motion without motion: swinging of the mast, steps of the encoders.
-constexpr double kLeastMotionSigmaM = 0.0005;
-constexpr double kLeastMotionSigmaRad = 0.0002;
+constexpr double kMinMotionSigmaM = 0.0005;
+constexpr double kMinMotionSigmaRad = 0.0002;
 
 Eigen::Matrix3d motion_covariance_of(const KeyFrame& frame, double factor) {
-  const Eigen::Vector3d least(kLeastMotionSigmaM, kLeastMotionSigmaM, kLeastMotionSigmaRad);
+  const Eigen::Vector3d least(kMinMotionSigmaM, kMinMotionSigmaM, kMinMotionSigmaRad);
   return factor * factor * (frame.motion_covariance + Eigen::Matrix3d(least.cwiseAbs2().asDiagonal()));
 }
 

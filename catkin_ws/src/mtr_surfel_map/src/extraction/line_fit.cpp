@@ -12,8 +12,8 @@
 namespace mtr_surfel_map {
 namespace {
 
-constexpr int kFewestPoints = 6;
-constexpr std::size_t kFewestKeyFrames = 3;
+constexpr int kMinPoints = 6;
+constexpr std::size_t kMinKeyFrames = 3;
 // Parts of a line of which each must lie on it.
 constexpr std::size_t kParts = 8;
 // Standard errors by which a part must be off: by chance, one of eight parts is in 1 of 2000 lines.
@@ -66,16 +66,16 @@ double unevenness_m(SeenPointIterator first, SeenPointIterator last, const Line&
 }
 
 bool is_enough(SeenPointIterator first, SeenPointIterator last) {
-  if (std::distance(first, last) < kFewestPoints) {
+  if (std::distance(first, last) < kMinPoints) {
     return false;
   }
   std::vector<int> places;
-  for (SeenPointIterator point = first; point != last && places.size() < kFewestKeyFrames; ++point) {
+  for (SeenPointIterator point = first; point != last && places.size() < kMinKeyFrames; ++point) {
     if (std::find(places.begin(), places.end(), point->key_frame) == places.end()) {
       places.push_back(point->key_frame);
     }
   }
-  return places.size() >= kFewestKeyFrames;
+  return places.size() >= kMinKeyFrames;
 }
 
 }  // namespace mtr_surfel_map

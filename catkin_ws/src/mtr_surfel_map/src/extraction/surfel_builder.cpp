@@ -15,7 +15,7 @@ namespace {
 // Cosine of the angle up to which two surfels may be one surface: 30 degrees.
 constexpr double kSameDirection = 0.87;
 // Distance of a surface's points from it, in largest root mean squares.
-constexpr double kReach = 2.5;
+constexpr double kGate = 2.5;
 // Distance between the two parts of a surface along which a border runs, in the same unit: what the border cuts off of
 // a normal distribution has its mean within 4 sigma of the rest's, and a surface is 2 sigma thick at most.
 constexpr double kApart = 2.0;
@@ -41,11 +41,11 @@ std::vector<Surfel> without_doubles(std::vector<Surfel> surfels, double apart_m)
 }
 
 /// The surfels through all points near them, also through those in the next square.
-std::vector<Surfel> refitted(const std::vector<Surfel>& surfels, const SeenPoints& points, double reach_m) {
+std::vector<Surfel> refitted(const std::vector<Surfel>& surfels, const SeenPoints& points, double gate_m) {
   const SurfelMap map(surfels);
   std::vector<SeenPoints> near(surfels.size());
   for (const SeenPoint& point : points) {
-    const std::optional<SurfelMatch> match = map.match(point.position, reach_m, point.direction);
+    const std::optional<SurfelMatch> match = map.match(point.position, gate_m, point.direction);
     if (match) {
       near[static_cast<std::size_t>(match->surfel - map.surfels().data())].push_back(point);
     }
@@ -67,7 +67,7 @@ std::vector<Surfel> refitted(const std::vector<Surfel>& surfels, const SeenPoint
 
 std::vector<Surfel> build_surfels(const SeenPoints& points, const SurfelShape& shape) {
   const std::vector<Surfel> found = without_doubles(search_surfels(points, shape), kApart * shape.thickness_m);
-  return refitted(found, points, kReach * shape.thickness_m);
+  return refitted(found, points, kGate * shape.thickness_m);
 }
 
 }  // namespace mtr_surfel_map

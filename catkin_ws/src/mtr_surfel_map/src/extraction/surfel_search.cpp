@@ -17,13 +17,13 @@ constexpr double kElongation = 2.0;
 // Standard error of that direction at most, as the points scatter.
 constexpr double kDirectionErrorRad = 0.1;
 // What is seen at more than 75 degrees from its normal on average is the smeared edge of something.
-constexpr double kLeastFacing = 0.25;
+constexpr double kMinFacing = 0.25;
 // By how much parts of a line may be off: beyond, views of one end and of the other disagree by more than
 // AdjustmentParameters::surface_sigma_m.
-constexpr double kLargestUnevennessM = 0.003;
+constexpr double kMaxUnevennessM = 0.003;
 
 /// The points as one surface element, or why not.
-struct Verdict {
+struct SquareFit {
   bool divide = false;
   std::optional<Surfel> surfel;
 };
@@ -42,26 +42,26 @@ class Search {
     const Iterator turned =
         std::partition(first, last, [&](const SeenPoint& point) { return line.normal.dot(point.direction) < 0.0; });
     const bool divisible = side_m > 1.5 * shape_.smallest_m;
-    const Verdict front = judge(first, turned, divisible);
-    const Verdict back = judge(turned, last, divisible);
+    const SquareFit front = judge(first, turned, divisible);
+    const SquareFit back = judge(turned, last, divisible);
     if (front.divide || back.divide) {
       divide(first, last, corner, side_m / 2.0);
       return;
     }
-    for (const Verdict& verdict : {front, back}) {
-      if (verdict.surfel) {
-        found_.push_back(*verdict.surfel);
+    for (const SquareFit& fit : {front, back}) {
+      if (fit.surfel) {
+        found_.push_back(*fit.surfel);
       }
     }
   }
 
  private:
-  Verdict judge(Iterator first, Iterator last, bool divisible) const {
+  SquareFit judge(Iterator first, Iterator last, bool divisible) const {
     if (!is_enough(first, last)) {
       return {};
     }
     const Line line = line_through(first, last);
-    if (line.thickness_m > shape_.thickness_m || (divisible && unevenness_m(first, last, line) > kLargestUnevennessM)) {
+    if (line.thickness_m > shape_.thickness_m || (divisible && unevenness_m(first, last, line) > kMaxUnevennessM)) {
       return {divisible, std::nullopt};
     }
     return {false, surfel_along(line, static_cast<int>(std::distance(first, last)))};
@@ -89,7 +89,7 @@ class Search {
 std::optional<Surfel> surfel_along(const Line& line, int hits) {
   const double elongation = line.spread_m / std::max(line.thickness_m, 1e-9);
   const double direction_error_rad = 1.0 / (elongation * std::sqrt(static_cast<double>(hits)));
-  if (elongation < kElongation || direction_error_rad > kDirectionErrorRad || line.facing < kLeastFacing) {
+  if (elongation < kElongation || direction_error_rad > kDirectionErrorRad || line.facing < kMinFacing) {
     return std::nullopt;
   }
   return Surfel{line.middle, line.normal, line.length_m(), 0.0, hits};

@@ -89,7 +89,7 @@ class Drive {
         move(loop.truth[i - 1], loop.truth[i], frame);
         frame.pose = compose(loop.key_frames.back().pose, frame.motion);
       }
-      frame.scan = look(loop.world, loop.truth[i], 0.5 * static_cast<double>(i));
+      frame.scan = scan(loop.world, loop.truth[i], 0.5 * static_cast<double>(i));
       frame.scan.stamp_ns = frame.stamp_ns;
       loop.key_frames.push_back(frame);
     }
@@ -114,7 +114,7 @@ class Drive {
     frame.motion = motion + factor * PoseVector(draw(slip_m), draw(slip_m), draw(turn_rad));
   }
 
-  ScanPoints look(World world, const PoseVector& robot, double time_s) {
+  ScanPoints scan(World world, const PoseVector& robot, double time_s) {
     if (options_.person) {
       add_post(world, -3.0, -8.0 + 0.9 * time_s, 0.08);
       add_post(world, -2.8, -7.8 + 0.9 * time_s, 0.08);

@@ -50,34 +50,35 @@ struct RandomSystem {
 };
 
 /// All but the last separate pair, which no residual holds.
-constexpr Eigen::Index kHeld = kUnknowns - 2;
+constexpr Eigen::Index kFixed = kUnknowns - 2;
 
 /// The same of the separate pairs, one below the other.
-Eigen::VectorXd held(const Eigen::Matrix2Xd& separate) {
-  return Eigen::Map<const Eigen::VectorXd>(separate.data(), kHeld - kJoint);
+Eigen::VectorXd fixed(const Eigen::Matrix2Xd& separate) {
+  return Eigen::Map<const Eigen::VectorXd>(separate.data(), kFixed - kJoint);
 }
 
 TEST(NormalEquations, StepIsThatOfTheWholeSystem) {
   const RandomSystem system;
   const Step step = system.equations.solve();
-  const Eigen::VectorXd whole = -system.information.topLeftCorner(kHeld, kHeld).inverse() * system.gradient.head(kHeld);
+  const Eigen::VectorXd whole =
+      -system.information.topLeftCorner(kFixed, kFixed).inverse() * system.gradient.head(kFixed);
   EXPECT_TRUE(step.joint.isApprox(whole.head(kJoint), 1e-9));
-  EXPECT_TRUE(held(step.separate).isApprox(whole.tail(kHeld - kJoint), 1e-9));
+  EXPECT_TRUE(fixed(step.separate).isApprox(whole.tail(kFixed - kJoint), 1e-9));
   EXPECT_EQ(step.separate.col(kSeparate - 1).norm(), 0.0);
 }
 
 TEST(NormalEquations, VariancesAreThoseOfTheWholeSystem) {
   const RandomSystem system;
-  const Eigen::MatrixXd whole = system.information.topLeftCorner(kHeld, kHeld).inverse();
+  const Eigen::MatrixXd whole = system.information.topLeftCorner(kFixed, kFixed).inverse();
   const Eigen::MatrixXd joint = system.equations.joint_covariance();
   EXPECT_TRUE(joint.isApprox(whole.topLeftCorner(kJoint, kJoint), 1e-9));
   const Eigen::Matrix2Xd separate = system.equations.separate_variances(joint);
-  EXPECT_TRUE(held(separate).isApprox(whole.diagonal().tail(kHeld - kJoint), 1e-9));
+  EXPECT_TRUE(fixed(separate).isApprox(whole.diagonal().tail(kFixed - kJoint), 1e-9));
 }
 
 TEST(NormalEquations, HeldUnknownDoesNotMove) {
   RandomSystem system;
-  system.equations.hold(3);
+  system.equations.fix(3);
   EXPECT_LT(std::abs(system.equations.solve().joint[3]), 1e-9);
 }
 

@@ -1,0 +1,69 @@
+/// @file
+/// With localization:=external: the pose in map is another program's, by the transform from map to odom.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mtr_core/parameter.hpp"
+#include "pose_source.hpp"
+
+namespace mtr_localization {
+
+/// Sigmas of the other program's pose, 1 standard deviation, and how old map -> odom may be.
+struct ExternalParameters {
+  double external_position_sigma_m = 0.05;
+  double external_heading_sigma_rad = 0.02;
+  double external_timeout_s = 1.0;
+};
+
+using ExternalRow = mtr_core::ParameterRow<ExternalParameters>;
+
+/// Range and unit of each parameter.
+inline constexpr std::array<ExternalRow, 3> kExternalRows{{
+    {"external_position_sigma_m", &ExternalParameters::external_position_sigma_m, 0.001, 10.0, "m"},
+    {"external_heading_sigma_rad", &ExternalParameters::external_heading_sigma_rad, 0.0001, 1.0, "rad"},
+    {"external_timeout_s", &ExternalParameters::external_timeout_s, 0.05, 60.0, "s"},
+}};
+
+/// Where odom is in map, at which time.
+struct StampedPose {
+  std::int64_t stamp_ns = 0;
+  PoseVector pose = PoseVector::Zero();
+};
+
+/// The transform and the odometry make the pose; scans are collected at those poses for a map of surfaces only.
+class ExternalPose : public PoseSource {
+ public:
+  /// Newest pose of odom in map, or none as long as nobody says it.
+  using LookUp = std::function<std::optional<StampedPose>()>;
+
+  ExternalPose(const Parameters& parameters, const ExternalParameters& own, LookUp look_up);
+
+  /// The other program may use satellites; this one does not.
+  bool add_fix(const GnssFix&) override { return true; }
+  const std::vector<Surfel>& surfels() const override { return no_surfels_; }
+  PoseVector map_from_odom() const override;
+  bool owns_map_frame() const override { return false; }
+
+ protected:
+  Estimate step(const GatedSample& sample) override;
+  bool correct_by_scans() override;
+  Estimate pose_at(std::int64_t stamp_ns) const override;
+
+ private:
+  void look_up();
+  std::string problem_at(std::int64_t stamp_ns) const;
+
+  ExternalParameters own_;
+  LookUp look_up_;
+  std::optional<StampedPose> map_from_odom_;
+  std::vector<Surfel> no_surfels_;
+};
+
+}  // namespace mtr_localization

@@ -1,0 +1,42 @@
+/// @file
+/// What fixes of a satellite receiver do to the pose.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <string>
+
+#include "figures.hpp"
+#include "gnss/gnss_frame.hpp"
+#include "motion/filter_history.hpp"
+#include "tracking/tracker.hpp"
+
+namespace mtr_localization {
+
+/// A receiver is a sensor that errs by centimetres to metres for minutes: LiDARs that hold the pose are better. So a
+/// fix corrects only a pose that is twice as uncertain as itself, which a row of fixes with one error cannot make too
+/// sure, and several fixes far from the pose mean that it is lost.
+class GnssMonitor {
+ public:
+  /// False: refused, because it is not a position, says not how uncertain it is, or is too uncertain.
+  bool add(const GnssFix& fix);
+
+  /// Another map begins.
+  void clear();
+
+  /// Uses the fixes that are due at the history's newest step; one sentence when they say that the pose is wrong.
+  std::string use_due(const ScanTracker& tracker, FilterHistory& history);
+
+  const GnssFigures& figures() const { return figures_; }
+
+ private:
+  std::string use(const GnssFix& fix, const ScanTracker& tracker, FilterHistory& history);
+  std::string compare(const GnssFix& fix, const GnssPosition& seen, FilterHistory& history);
+
+  std::deque<GnssFix> waiting_;
+  GnssFrame frame_;
+  GnssFigures figures_;
+  int contradictions_ = 0;
+};
+
+}  // namespace mtr_localization

@@ -1,0 +1,49 @@
+/// @file
+/// Localization of the project's own: wheels, gyro, scans and satellites in one filter, on a map that it makes itself.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gnss/gnss_monitor.hpp"
+#include "pose_source.hpp"
+#include "tracking/tracker.hpp"
+
+namespace mtr_localization {
+
+/// Map is where the robot started, until a map is frozen: then its first key frame stays in place.
+class Localizer : public PoseSource {
+ public:
+  explicit Localizer(const Parameters& parameters);
+
+  bool add_fix(const GnssFix& fix) override { return gnss_.add(fix); }
+  const std::vector<Surfel>& surfels() const override { return tracker_.surfaces().surfels(); }
+  PoseVector map_from_odom() const override;
+  bool owns_map_frame() const override { return true; }
+  PoseFigures figures() const override;
+  using PoseSource::filter;
+
+ protected:
+  Estimate step(const GatedSample& sample) override;
+  bool correct_by_scans() override;
+  Estimate pose_at(std::int64_t stamp_ns) const override;
+
+ private:
+  void correct(std::size_t step, const ScanPoints& scan);
+  void relocalize(const ScanSet& set, const ScanPoints& scan);
+  void map(std::size_t step, const ScanPoints& scan);
+  void correct_by_satellites();
+  void begin_map();
+  void enter(const AdjustedMap& map);
+  void lose(const std::string& reason);
+  Estimate estimate() const;
+  PoseMode mode() const;
+
+  ScanTracker tracker_;
+  GnssMonitor gnss_;
+  std::int64_t last_scan_ns_ = 0;
+};
+
+}  // namespace mtr_localization

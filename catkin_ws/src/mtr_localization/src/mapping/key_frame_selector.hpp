@@ -1,0 +1,55 @@
+/// @file
+/// Chooses which scans become key-frames.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+
+#include "map_names.hpp"
+#include "mapping/scan_mean.hpp"
+#include "parameters.hpp"
+
+namespace mtr_localization {
+
+/// A scan that may become a key-frame.
+struct KeyFrameCandidate {
+  ScanPoints scan;
+  PoseVector pose = PoseVector::Zero();
+  /// Base_link in odom.
+  PoseVector odom = PoseVector::Zero();
+  bool standing = false;
+  double gyro_bias_sigma_radps = 0.0;
+};
+
+/// A key-frame every few decimetres or degrees, and one wherever the robot comes to rest, which is the mean of several
+/// scans.
+class KeyFrameSelector {
+ public:
+  explicit KeyFrameSelector(const SensorParameters& parameters) : parameters_(parameters) {}
+
+  /// The next candidate is the first of a map.
+  void restart();
+
+  /// The robot moved so far along its path and turned so much.
+  void travel(double distance_m, double angle_rad);
+
+  /// Takes the next candidate; the key-frame that it completes, if any.
+  std::optional<KeyFrame> add(const KeyFrameCandidate& candidate);
+
+ private:
+  bool is_due(const KeyFrameCandidate& candidate, double every_m, double every_rad) const;
+  KeyFrame key_frame_of(const KeyFrameCandidate& candidate);
+  Eigen::Matrix3d motion_covariance(double duration_s, double gyro_bias_sigma_radps) const;
+
+  SensorParameters parameters_;
+  /// Base_link in odom and time of the last key-frame.
+  std::optional<PoseVector> last_odom_;
+  std::int64_t last_ns_ = 0;
+  double distance_m_ = 0.0;
+  double turned_rad_ = 0.0;
+  ScanMean resting_;
+};
+
+}  // namespace mtr_localization

@@ -1,0 +1,115 @@
+/// @file
+/// Order, gaps and jumps of the samples.
+// SPDX-License-Identifier: Apache-2.0
+#include "motion/input_gate.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace mtr_localization {
+namespace {
+
+// No base of this class is faster: such an odometry was reset, not driven.
+constexpr double kMaxWheelsMps = 3.0;
+// The odometry's noise, however short the interval is.
+constexpr double kJitterM = 0.01;
+
+double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-9; }
+
+std::string with_number(const char* format, double number) {
+  char text[120];
+  std::snprintf(text, sizeof(text), format, number);
+  return text;
+}
+
+}  // namespace
+
+InputGate::InputGate(double gap_limit_s) : gap_limit_ns_(std::llround(gap_limit_s * 1e9)) {}
+
+void InputGate::add_imu(const ImuSample& sample) {
+  if (!gyro_.add(sample)) {
+    restart_ = "The time of the IMU went backwards.";
+  }
+}
+
+void InputGate::add_wheels(const WheelSample& sample) {
+  if (newest_wheels_ns_ == sample.stamp_ns) {
+    return;
+  }
+  if (newest_wheels_ns_ && sample.stamp_ns < *newest_wheels_ns_) {
+    pending_.clear();
+    emitted_ns_.reset();
+    restart_ = "The time of the wheel odometry went backwards.";
+  }
+  newest_wheels_ns_ = sample.stamp_ns;
+  pending_.push_back(sample);
+}
+
+std::optional<GatedSample> InputGate::next() {
+  if (pending_.empty()) {
+    return std::nullopt;
+  }
+  const WheelSample wheels = pending_.front();
+  const bool has_imu = gyro_.newest_received_ns().value_or(0) >= wheels.stamp_ns;
+  if (!has_imu && *newest_wheels_ns_ - wheels.stamp_ns <= gap_limit_ns_) {
+    return std::nullopt;
+  }
+  pending_.pop_front();
+  GatedSample sample{wheels, has_imu ? problem_with(wheels) : "The IMU is silent.", ""};
+  if (sample.problem.empty()) {
+    sample.interruption = interruption_before(wheels);
+    last_used_ = wheels;
+  }
+  return sample;
+}
+
+std::string InputGate::problem_with(const WheelSample& wheels) const {
+  if (!wheels.is_finite()) {
+    return "Wheel odometry is not a finite number.";
+  }
+  if (!gyro_.covers(wheels.stamp_ns)) {
+    return gyro_.newest_is_good() ? "Waiting for the IMU." : "The IMU's rate is not a number.";
+  }
+  return "";
+}
+
+std::string InputGate::interruption_before(const WheelSample& wheels) {
+  std::string restart = std::exchange(restart_, "");
+  if (!restart.empty() || !last_used_) {
+    return restart;
+  }
+  const std::int64_t wheel_gap_ns = wheels.stamp_ns - last_used_->stamp_ns;
+  if (wheel_gap_ns > gap_limit_ns_) {
+    return with_number("Wheel odometry was silent for %.2f s.", seconds(wheel_gap_ns));
+  }
+  const std::int64_t imu_gap_ns = gyro_.longest_gap_ns(last_used_->stamp_ns, wheels.stamp_ns);
+  if (imu_gap_ns > gap_limit_ns_) {
+    return with_number("The IMU was silent for %.2f s.", seconds(imu_gap_ns));
+  }
+  const double distance_m = std::hypot(wheels.x_m - last_used_->x_m, wheels.y_m - last_used_->y_m);
+  if (distance_m > kMaxWheelsMps * seconds(wheel_gap_ns) + kJitterM) {
+    return with_number("Wheel odometry jumped by %.2f m.", distance_m);
+  }
+  return "";
+}
+
+std::string InputGate::silence(std::int64_t now_ns) const {
+  if (!newest_wheels_ns_) {
+    return "Waiting for wheel odometry.";
+  }
+  return now_ns - *newest_wheels_ns_ > gap_limit_ns_ ? "Wheel odometry is silent, or its stamps are old." : "";
+}
+
+std::vector<Estimate> InputGate::in_order(std::vector<Estimate> estimates) {
+  std::vector<Estimate> newer;
+  for (Estimate& estimate : estimates) {
+    if (!emitted_ns_ || estimate.stamp_ns > *emitted_ns_) {
+      emitted_ns_ = estimate.stamp_ns;
+      newer.push_back(std::move(estimate));
+    }
+  }
+  return newer;
+}
+
+}  // namespace mtr_localization

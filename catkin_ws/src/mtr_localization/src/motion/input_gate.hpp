@@ -1,0 +1,63 @@
+/// @file
+/// Wheels and gyro joined by their stamps; what is late, silent or makes no sense is told apart from what can be used.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "motion/yaw_rate_history.hpp"
+#include "samples.hpp"
+
+namespace mtr_localization {
+
+/// A wheel sample whose turn has come.
+struct GatedSample {
+  WheelSample wheels;
+  /// One sentence on why it cannot be used; empty when it can.
+  std::string problem;
+  /// One sentence when wheels or gyro were silent or jumped since the last sample that could be used; else empty.
+  std::string interruption;
+};
+
+/// Gives each wheel sample as soon as IMU data reaches its stamp; the order in which the two arrive does not matter.
+class InputGate {
+ public:
+  /// @param gap_limit_s a longer gap in either is an interruption
+  explicit InputGate(double gap_limit_s);
+
+  void add_imu(const ImuSample& sample);
+  void add_wheels(const WheelSample& sample);
+
+  /// The next wheel sample, unless it still waits for the IMU.
+  std::optional<GatedSample> next();
+
+  /// The sample has been used: the gyro's rates before it are not needed any more.
+  void release(const GatedSample& sample) { gyro_.forget_before(sample.wheels.stamp_ns); }
+
+  /// One sentence while wheel odometry is silent; else empty.
+  std::string silence(std::int64_t now_ns) const;
+
+  /// Those that are newer than all before: late data counts for the pose, but consumers already know of later times.
+  std::vector<Estimate> in_order(std::vector<Estimate> estimates);
+
+  const YawRateHistory& gyro() const { return gyro_; }
+
+ private:
+  std::string problem_with(const WheelSample& wheels) const;
+  std::string interruption_before(const WheelSample& wheels);
+
+  std::int64_t gap_limit_ns_;
+  YawRateHistory gyro_;
+  std::deque<WheelSample> pending_;
+  std::optional<WheelSample> last_used_;
+  std::optional<std::int64_t> newest_wheels_ns_;
+  std::optional<std::int64_t> emitted_ns_;
+  /// Why the next sample does not continue what was before.
+  std::string restart_;
+};
+
+}  // namespace mtr_localization

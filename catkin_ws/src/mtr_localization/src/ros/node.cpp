@@ -1,0 +1,149 @@
+/// @file
+/// Wiring of localization: topics to the source of poses.
+// SPDX-License-Identifier: Apache-2.0
+#include "ros/node.hpp"
+
+#include <nav_msgs/Odometry.h>
+#include <rosgraph_msgs/Clock.h>
+#include <sensor_msgs/Imu.h>
+
+#include <utility>
+
+#include "localizer.hpp"
+#include "mtr_core/clock.hpp"
+#include "mtr_core/names.hpp"
+#include "ros/conversions.hpp"
+
+namespace mtr_localization {
+namespace {
+
+namespace names = mtr_core::names;
+
+constexpr double kPeriodS = static_cast<double>(mtr_core::kLocalization.period_ns) * 1e-9;
+
+template <typename M, typename Callback>
+ros::Subscriber subscribe(ros::NodeHandle& node, const char* topic, Callback callback) {
+  return node.subscribe<M>(
+      topic, 100, [callback](const typename M::ConstPtr& message) { callback(*message); }, ros::VoidConstPtr(),
+      ros::TransportHints().tcpNoDelay());
+}
+
+/// Where another program has odom in map.
+std::optional<StampedPose> map_from_odom_in(const tf2_ros::Buffer& frames) {
+  try {
+    const auto transform = frames.lookupTransform(names::kMap, names::kOdom, ros::Time(0));
+    return StampedPose{mtr_core::to_ns(transform.header.stamp), pose_of(transform.transform)};
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+NodeParameters Node::read(mtr_core::ParameterReader& reader) {
+  NodeParameters parameters;
+  for_each_group(parameters.localization,
+                 [&reader](const auto& rows, auto& group) { reader.read_numbers(rows, group); });
+  reader.read_numbers(kExternalRows, parameters.external);
+  reader.read("publish_odom_tf", parameters.publish_odom_tf);
+  reader.read("pose_source", parameters.pose_source, {"own", "external"});
+  return parameters;
+}
+
+std::unique_ptr<PoseSource> Node::pose_source_of(NodeParameters parameters) const {
+  parameters.localization.lockstep = mtr_core::is_simulated();
+  if (parameters.pose_source == "external") {
+    return std::make_unique<ExternalPose>(parameters.localization, parameters.external,
+                                          [this] { return map_from_odom_in(frames_); });
+  }
+  return std::make_unique<Localizer>(parameters.localization);
+}
+
+Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
+    : listener_(frames_),
+      source_(pose_source_of(parameters)),
+      outputs_(node, parameters.publish_odom_tf),
+      front_(node, Lidar::kFront, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
+      rear_(node, Lidar::kRear, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
+      gnss_(node, frames_, [this](const GnssFix& fix) { return source_->add_fix(fix); }),
+      orders_received_(mtr_core::kCarLocator, mtr_core::kClockStep.period_ns, input_waiting()),
+      orders_(subscribe<mtr_msgs::MappingOrder>(node, names::kMappingOrder,
+                                                [this](const auto& message) { receive_order(message); })),
+      imu_(subscribe<sensor_msgs::Imu>(
+          node, names::kImuData, [this](const auto& message) { publish(source_->add_imu(imu_sample_of(message))); })),
+      wheels_(subscribe<nav_msgs::Odometry>(
+          node, names::kWheelOdometry, [this](const auto& message) { waiting_.push_back(wheel_sample_of(message)); })) {
+  subscribe_to_time(node);
+}
+
+void Node::spin() {
+  while (mtr_core::run_callbacks(mtr_core::kShutdownCheckS)) {
+    answer_waiting();
+  }
+}
+
+void Node::answer_waiting() {
+  while (!waiting_.empty()) {
+    const WheelSample wheels = waiting_.front();
+    waiting_.pop_front();
+    answer(wheels);
+  }
+}
+
+void Node::subscribe_to_time(ros::NodeHandle& node) {
+  if (mtr_core::is_simulated()) {
+    // By the simulated clock's own steps, so that silence is noticed at the same instant on any machine.
+    clock_ = node.subscribe<rosgraph_msgs::Clock>(
+        "/clock", 1,
+        [this](const rosgraph_msgs::Clock::ConstPtr& message) {
+          publish(source_->check_silence(mtr_core::to_ns(message->clock)));
+        },
+        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  } else {
+    timer_ = node.createWallTimer(ros::WallDuration(kPeriodS), [this](const ros::WallTimerEvent&) {
+      publish(source_->check_silence(mtr_core::to_ns(ros::Time::now())));
+    });
+  }
+}
+
+void Node::receive_sweep(Sweep sweep) {
+  if (!mtr_core::is_simulated()) {
+    // A node that was woken late has received both at once: the wheels came first.
+    answer_waiting();
+  }
+  const std::int64_t end_ns = sweep.end_ns();
+  const std::string problem = source_->add_scan(std::move(sweep));
+  if (!problem.empty() && problem != scan_problem_) {
+    ROS_WARN("%s It is not used; %d were refused so far.", problem.c_str(), source_->figures().scans_refused);
+  }
+  scan_problem_ = problem;
+  const WorkLoad::Timer timer;
+  // On the robot's own clock a scan is used at once; the next pose comes with the next wheel odometry.
+  if (source_->use_scans()) {
+    load_.add(timer.elapsed_ms(), 1);
+    if (source_->owns_map_frame()) {
+      outputs_.publish_map_from_odom(end_ns, source_->map_from_odom());
+    }
+  }
+}
+
+void Node::receive_order(const mtr_msgs::MappingOrder& message) {
+  const MapOrder order = order_of(message);
+  orders_received_.add(order.stamp_ns, order.stamp_ns);
+  source_->add_order(order);
+}
+
+void Node::answer(const WheelSample& wheels) {
+  front_.wait_until_due(wheels.stamp_ns);
+  rear_.wait_until_due(wheels.stamp_ns);
+  if (orders_.getNumPublishers() > 0) {
+    orders_received_.at(wheels.stamp_ns);
+  }
+  const int scans_before = source_->scans_used();
+  const WorkLoad::Timer timer;
+  const std::vector<Estimate> estimates = source_->add_wheels(wheels);
+  load_.add(timer.elapsed_ms(), source_->scans_used() - scans_before);
+  publish(estimates);
+}
+
+}  // namespace mtr_localization

@@ -1,0 +1,76 @@
+/// @file
+/// Localization as a ROS node.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <mtr_msgs/MappingOrder.h>
+#include <ros/ros.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "external_pose.hpp"
+#include "mtr_core/parameter_reader.hpp"
+#include "mtr_core/samples.hpp"
+#include "pose_source.hpp"
+#include "ros/gnss_input.hpp"
+#include "ros/outputs.hpp"
+#include "ros/scan_input.hpp"
+#include "ros/work_load.hpp"
+
+namespace mtr_localization {
+
+/// Parameters from the parameter server.
+struct NodeParameters {
+  Parameters localization;
+  /// Where the pose comes from: own, or another program.
+  std::string pose_source = "own";
+  ExternalParameters external;
+  /// Publish odom -> base_link; false when the base does so itself.
+  bool publish_odom_tf = true;
+};
+
+/// Answers each wheel odometry message; needs no tick of its own.
+class Node {
+ public:
+  /// Throws mtr_core::ConfigurationError.
+  static NodeParameters read(mtr_core::ParameterReader& reader);
+
+  Node(ros::NodeHandle& node, const NodeParameters& parameters);
+
+  /// Returns at shutdown.
+  void spin();
+
+ private:
+  std::unique_ptr<PoseSource> pose_source_of(NodeParameters parameters) const;
+  void subscribe_to_time(ros::NodeHandle& node);
+  void receive_sweep(Sweep sweep);
+  void receive_order(const mtr_msgs::MappingOrder& message);
+  void answer(const WheelSample& wheels);
+  void answer_waiting();
+  void publish(const std::vector<Estimate>& estimates) { outputs_.publish(*source_, estimates, load_); }
+
+  tf2_ros::Buffer frames_;
+  tf2_ros::TransformListener listener_;
+  std::unique_ptr<PoseSource> source_;
+  WorkLoad load_;
+  Outputs outputs_;
+  ScanInput front_;
+  ScanInput rear_;
+  GnssInput gnss_;
+  mtr_core::Samples<std::int64_t> orders_received_;
+  ros::Subscriber orders_;
+  ros::Subscriber imu_;
+  ros::Subscriber wheels_;
+  ros::Subscriber clock_;
+  ros::WallTimer timer_;
+  std::deque<WheelSample> waiting_;
+  std::string scan_problem_;
+};
+
+}  // namespace mtr_localization

@@ -1,0 +1,94 @@
+/// @file
+/// Estimates and maps to topics.
+// SPDX-License-Identifier: Apache-2.0
+#include "ros/outputs.hpp"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+
+#include "mtr_core/clock.hpp"
+#include "mtr_core/names.hpp"
+#include "ros/conversions.hpp"
+#include "ros/diagnostics.hpp"
+#include "ros/map_messages.hpp"
+
+namespace mtr_localization {
+
+namespace names = mtr_core::names;
+
+Outputs::Outputs(ros::NodeHandle& node, bool publish_odom_tf)
+    : publish_odom_tf_(publish_odom_tf),
+      poses_(node.advertise<mtr_msgs::LocalizedPose>(names::kLocalizedPose, 50)),
+      surfaces_(node.advertise<mtr_msgs::SurfaceMap>(names::kSurfaceMap, 1, true)),
+      grids_(node.advertise<nav_msgs::OccupancyGrid>(names::kMapGrid, 1, true)),
+      markers_(node.advertise<visualization_msgs::MarkerArray>(names::kLocalizationMarkers, 1)),
+      diagnostics_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {}
+
+void Outputs::publish(PoseSource& source, const std::vector<Estimate>& estimates, const WorkLoad& load) {
+  if (const auto result = source.take_map()) {
+    publish_map(*result, source.owns_map_frame());
+  }
+  for (const Estimate& estimate : estimates) {
+    poses_.publish(message_of(estimate));
+    publish_transforms(estimate, source.owns_map_frame());
+    publish_each_second(source, estimate, load);
+    log(source, estimate);
+  }
+}
+
+void Outputs::publish_map(const MapResult& result, bool with_grid) {
+  surfaces_.publish(message_of(result));
+  if (!result.map.valid) {
+    ROS_WARN("The key-frames gave no map. %s", result.map.message.c_str());
+    return;
+  }
+  if (with_grid) {
+    grids_.publish(grid_message_of(result));
+  }
+  ROS_INFO("Map %u: %zu surfaces of %zu key-frames, range bias %.1f mm.", result.revision, result.map.surfels.size(),
+           result.map.key_frames.size(), 1e3 * result.map.range_bias_m);
+}
+
+void Outputs::publish_map_from_odom(std::int64_t stamp_ns, const PoseVector& map_from_odom) {
+  transforms_.sendTransform(transform_message(
+      stamp_ns, {names::kMap, names::kOdom, map_from_odom.x(), map_from_odom.y(), map_from_odom.z()}));
+}
+
+void Outputs::publish_transforms(const Estimate& estimate, bool with_map) {
+  const auto& odom = publish_odom_tf_ ? estimate.odom : estimate.wheel_odom;
+  std::vector<geometry_msgs::TransformStamped> messages;
+  if (with_map) {
+    messages.push_back(map_from_odom_message(estimate, odom));
+  }
+  if (publish_odom_tf_) {
+    messages.push_back(transform_message(estimate.stamp_ns, {names::kOdom, names::kBase, odom[0], odom[1], odom[2]}));
+  }
+  transforms_.sendTransform(messages);
+}
+
+void Outputs::publish_each_second(const PoseSource& source, const Estimate& estimate, const WorkLoad& load) {
+  const std::int64_t second = estimate.stamp_ns / mtr_core::kSecondNs;
+  if (second == published_second_) {
+    return;
+  }
+  published_second_ = second;
+  diagnostics_.publish(diagnostics_of(source.figures(), estimate, load));
+  if (markers_.getNumSubscribers() > 0) {
+    markers_.publish(markers_of(source, estimate));
+  }
+}
+
+void Outputs::log(const PoseSource& source, const Estimate& estimate) {
+  if (estimate.message == message_) {
+    return;
+  }
+  message_ = estimate.message;
+  if (message_.empty()) {
+    ROS_INFO("Tracking; gyro bias %.5f rad/s.", source.figures().gyro_bias_radps);
+  } else if (source.motion_state() == MotionState::kStarting) {
+    ROS_INFO("%s", message_.c_str());
+  } else {
+    ROS_WARN("%s", message_.c_str());
+  }
+}
+
+}  // namespace mtr_localization

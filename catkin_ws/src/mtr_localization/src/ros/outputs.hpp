@@ -1,0 +1,45 @@
+/// @file
+/// Publishers of localization: poses, transforms, maps, diagnostics, markers and the log.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/ros.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pose_source.hpp"
+#include "ros/work_load.hpp"
+
+namespace mtr_localization {
+
+class Outputs {
+ public:
+  /// @param publish_odom_tf also odom -> base_link, which else the base publishes itself
+  Outputs(ros::NodeHandle& node, bool publish_odom_tf);
+
+  /// A new map before the first pose that is in it, then the estimates.
+  void publish(PoseSource& source, const std::vector<Estimate>& estimates, const WorkLoad& load);
+  /// Between two estimates: where the newest scan puts odom.
+  void publish_map_from_odom(std::int64_t stamp_ns, const PoseVector& map_from_odom);
+
+ private:
+  void publish_map(const MapResult& result, bool with_grid);
+  void publish_transforms(const Estimate& estimate, bool with_map);
+  void publish_each_second(const PoseSource& source, const Estimate& estimate, const WorkLoad& load);
+  void log(const PoseSource& source, const Estimate& estimate);
+
+  bool publish_odom_tf_;
+  ros::Publisher poses_;
+  ros::Publisher surfaces_;
+  ros::Publisher grids_;
+  ros::Publisher markers_;
+  ros::Publisher diagnostics_;
+  tf2_ros::TransformBroadcaster transforms_;
+  std::int64_t published_second_ = -1;
+  std::string message_;
+};
+
+}  // namespace mtr_localization

@@ -1,0 +1,78 @@
+/// @file
+/// Order, completeness and grouping of sweeps.
+// SPDX-License-Identifier: Apache-2.0
+#include "scans/scan_queue.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace mtr_localization {
+namespace {
+
+// A driver whose time jumps back farther was started anew.
+constexpr std::int64_t kRestartNs = 1'000'000'000;
+// Without wheel odometry nothing is used; then the oldest are dropped.
+constexpr std::size_t kMaxWaiting = 20;
+// On the robot's clock a sweep does not wait for the wheels' next message, which comes within 20 ms: over so short a
+// time a robot that brakes with 2.5 m/s2 is less than 1 mm from where it would be at constant velocity.
+constexpr std::int64_t kExtrapolatedNs = 25'000'000;
+
+}  // namespace
+
+std::string ScanQueue::add(Sweep sweep) {
+  const std::string problem = problem_with(sweep);
+  if (!problem.empty()) {
+    ++refused_;
+    return problem;
+  }
+  newest_ns_[static_cast<std::size_t>(sweep.lidar)] = sweep.stamp_ns;
+  // Equal stamps stand in the order of the LiDARs, so that it does not matter whose message comes first.
+  const auto place = std::upper_bound(waiting_.begin(), waiting_.end(), sweep, [](const Sweep& a, const Sweep& b) {
+    return std::make_pair(a.stamp_ns, a.lidar) < std::make_pair(b.stamp_ns, b.lidar);
+  });
+  waiting_.insert(place, std::move(sweep));
+  if (waiting_.size() > kMaxWaiting) {
+    waiting_.pop_front();
+    ++refused_;
+  }
+  return "";
+}
+
+std::string ScanQueue::problem_with(const Sweep& sweep) const {
+  const std::string problem = sweep.problem();
+  if (!problem.empty()) {
+    return problem;
+  }
+  const auto& newest_ns = newest_ns_[static_cast<std::size_t>(sweep.lidar)];
+  const bool is_restart = newest_ns && sweep.stamp_ns < *newest_ns - kRestartNs;
+  return newest_ns && sweep.stamp_ns <= *newest_ns && !is_restart ? "A scan is not newer than the one before." : "";
+}
+
+std::int64_t ScanQueue::due_ns(const Sweep& sweep) const {
+  return lag_ns_ ? sweep.end_ns() + *lag_ns_ : sweep.last_beam_ns() - kExtrapolatedNs;
+}
+
+std::vector<ScanSet> ScanQueue::take_due(const FilterHistory& history) {
+  std::vector<ScanSet> sets;
+  std::deque<Sweep> later;
+  for (Sweep& sweep : waiting_) {
+    if (due_ns(sweep) > history.newest().stamp_ns) {
+      later.push_back(std::move(sweep));
+    } else if (sweep.stamp_ns < history.oldest().stamp_ns) {
+      // It came too late, or while the pose was set anew.
+      ++refused_;
+    } else {
+      const std::int64_t middle_ns = sweep.stamp_ns + (sweep.last_beam_ns() - sweep.stamp_ns) / 2;
+      const std::size_t step = history.nearest(middle_ns);
+      if (sets.empty() || sets.back().step != step) {
+        sets.push_back({{}, step});
+      }
+      sets.back().sweeps.push_back(std::move(sweep));
+      ++used_;
+    }
+  }
+  waiting_ = std::move(later);
+  return sets;
+}
+
+}  // namespace mtr_localization

@@ -1,0 +1,196 @@
+/// @file
+/// Ranges that a map lets expect, drawn surfel by surfel, against those of a sweep.
+// SPDX-License-Identifier: Apache-2.0
+#include "tracking/agreement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "map_names.hpp"
+
+namespace mtr_localization {
+namespace {
+
+constexpr int kBins = 720;
+constexpr double kBinsPerRad = kBins / (2.0 * M_PI);
+// One beam of three is enough to tell.
+constexpr double kBeamStepRad = 0.015;
+constexpr double kNothing = std::numeric_limits<double>::infinity();
+// Surfaces met at less than 6 degrees are not expected to be seen.
+constexpr double kGrazing = 0.1;
+// Of each metre of range, for the pose's heading and the width of a bin on slanting surfaces.
+constexpr double kTolerancePerM = 0.02;
+// What is met so far above or below the LiDAR's own height need not be what the map shows: sills and bumpers are about
+// as high.
+constexpr double kSameHeightM = 0.1;
+// The heights at which a surface has been met are known so well: bumps of the ground, and the tilt's error.
+constexpr double kRiseToleranceM = 0.02;
+constexpr double kTiltSigmaRad = 0.003;
+// Surfaces so far aside, in bins, are not compared any more: 10 degrees.
+constexpr int kMaxAside = 20;
+
+int bin_of(double angle_rad) {
+  const int bin = static_cast<int>(std::floor(angle_rad * kBinsPerRad)) % kBins;
+  return bin < 0 ? bin + kBins : bin;
+}
+
+/// Nearest surface in each direction from one place.
+class ExpectedView {
+ public:
+  ExpectedView(const Eigen::Vector2d& eye, const std::vector<Surfel>& surfels, double range_max_m)
+      : ranges_(kBins, kNothing), surfels_(kBins, nullptr) {
+    for (const Surfel& surfel : surfels) {
+      draw(surfel, surfel.position - eye, range_max_m);
+    }
+  }
+
+  double nearest(int bin) const { return ranges_[index_of(bin)]; }
+
+  /// No beam has met the surface there at the height at which this one would.
+  bool is_at_new_height(int bin, double climb) const {
+    const Surfel& surfel = *surfels_[index_of(bin)];
+    const double rise_m = climb * nearest(bin);
+    const double tolerance_m = kRiseToleranceM + kTiltSigmaRad * nearest(bin);
+    return rise_m < surfel.lowest_rise_m - tolerance_m || rise_m > surfel.highest_rise_m + tolerance_m;
+  }
+
+ private:
+  static std::size_t index_of(int bin) { return static_cast<std::size_t>((bin % kBins + kBins) % kBins); }
+
+  void draw(const Surfel& surfel, const Eigen::Vector2d& offset, double range_max_m) {
+    const double distance = offset.norm();
+    const double facing = -surfel.normal.dot(offset) / distance;
+    if (facing < kGrazing || distance > range_max_m) {
+      return;
+    }
+    const double middle = std::atan2(offset.y(), offset.x());
+    const double half_width = std::atan2(0.5 * surfel.length_m * facing, distance);
+    const int first = static_cast<int>(std::floor((middle - half_width) * kBinsPerRad));
+    const int last = static_cast<int>(std::floor((middle + half_width) * kBinsPerRad));
+    for (int bin = first; bin <= last; ++bin) {
+      if (distance < nearest(bin)) {
+        ranges_[index_of(bin)] = distance;
+        surfels_[index_of(bin)] = &surfel;
+      }
+    }
+  }
+
+  std::vector<double> ranges_;
+  std::vector<const Surfel*> surfels_;
+};
+
+/// One beam.
+struct Beam {
+  int bin;
+  Eigen::Vector2d eye;
+  Eigen::Vector2d direction;
+  double shown;
+  /// Rise per metre.
+  double climb;
+
+  /// So far away the beam is at another height than the map.
+  bool is_off_plane_at(double range) const { return std::abs(climb) > kSameHeightM / range; }
+};
+
+/// What is expected round a beam, as far aside as a surface may be off.
+struct Surroundings {
+  bool agrees = false;
+  /// Nothing is expected somewhere there.
+  bool has_gap = false;
+};
+
+Surroundings look_around(const ExpectedView& view, const Beam& beam, double tolerance_m) {
+  const double nearest = std::min(beam.shown, view.nearest(beam.bin));
+  const double aside_rad = nearest < kNothing ? (tolerance_m + kTolerancePerM * nearest) / nearest : 0.0;
+  const int aside = std::clamp(static_cast<int>(std::ceil(aside_rad * kBinsPerRad)), 1, kMaxAside);
+  Surroundings found;
+  for (int bin = beam.bin - aside; bin <= beam.bin + aside; ++bin) {
+    const double range = view.nearest(bin);
+    if (range == kNothing) {
+      found.has_gap = true;
+    } else if (std::abs(range - beam.shown) <= tolerance_m + kTolerancePerM * range) {
+      found.agrees = true;
+    }
+  }
+  return found;
+}
+
+/// What the beam shows is on the map, although behind something that was met at another height.
+bool is_on_surface(const SurfelMap& map, const Beam& beam, double tolerance_m) {
+  return beam.shown < kNothing &&
+         map.match(beam.eye + beam.shown * beam.direction, tolerance_m + kTolerancePerM * beam.shown, beam.direction);
+}
+
+void count(const ExpectedView& view, const SurfelMap& map, const Beam& beam, double tolerance_m, Agreement& agreement) {
+  const double expected = view.nearest(beam.bin);
+  const Surroundings around = look_around(view, beam, tolerance_m);
+  const bool agrees = around.agrees || is_on_surface(map, beam, tolerance_m);
+  if (expected == kNothing) {
+    const bool is_known = beam.shown == kNothing || agrees;
+    agreement.unknown += is_known || beam.is_off_plane_at(beam.shown) ? 0 : 1;
+  } else if (agrees) {
+    ++agreement.seen;
+  } else if (beam.is_off_plane_at(std::min(beam.shown, expected))) {
+    // It looks over or under what is expected, or at the ground before it.
+    return;
+  } else if (beam.shown > expected && view.is_at_new_height(beam.bin, beam.climb)) {
+    // The same, by less: bumpers and sills end a few centimetres beside the LiDAR's plane.
+    return;
+  } else if (beam.shown < expected) {
+    ++agreement.hidden;
+  } else if (around.has_gap) {
+    ++agreement.passed;
+  } else {
+    ++(beam.shown == kNothing ? agreement.missing : agreement.beyond);
+  }
+}
+
+}  // namespace
+
+Agreement& Agreement::operator+=(const Agreement& other) {
+  seen += other.seen;
+  hidden += other.hidden;
+  beyond += other.beyond;
+  missing += other.missing;
+  passed += other.passed;
+  unknown += other.unknown;
+  return *this;
+}
+
+double Agreement::share_of_expected() const {
+  // Where nothing is seen of what is expected, its edges excuse nothing.
+  const int excused = std::min(passed, seen);
+  return expected() > 0 ? static_cast<double>(seen) / (expected() - excused) : 1.0;
+}
+
+double Agreement::share_of_returns() const {
+  const int returns = seen + hidden + beyond + unknown;
+  return returns > 0 ? static_cast<double>(seen) / returns : (expected() > 0 ? 0.0 : 1.0);
+}
+
+Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap& map, double tolerance_m) {
+  const PoseVector eye = compose(view.pose, sweep.mount);
+  const ExpectedView expected(eye.head<2>(), map.surfels(), sweep.range_max_m);
+  Agreement agreement;
+  const auto beams = static_cast<int>(sweep.ranges_m.size());
+  const int stride = std::max(1, static_cast<int>(kBeamStepRad / std::abs(sweep.angle_increment_rad)));
+  const double turn = view.turned_at_last_beam_rad - view.turned_at_first_beam_rad;
+  for (int beam = 0; beam < beams; beam += stride) {
+    const double turned = view.turned_at_first_beam_rad + turn * beam / beams;
+    const double angle = eye.z() + turned + sweep.angle_min_rad + beam * sweep.angle_increment_rad;
+    const double measured = sweep.ranges_m[static_cast<std::size_t>(beam)];
+    if (!(measured >= sweep.range_min_m && measured > 0.0)) {
+      // No number, or too near to tell (REP-117): it says nothing.
+      continue;
+    }
+    const double shown = measured <= sweep.range_max_m ? measured : kNothing;
+    const double angle_in_base = sweep.mount.z() + sweep.angle_min_rad + beam * sweep.angle_increment_rad;
+    const double climb = view.slope.dot(Eigen::Vector2d(std::cos(angle_in_base), std::sin(angle_in_base)));
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    count(expected, map, {bin_of(angle), eye.head<2>(), direction, shown, climb}, tolerance_m, agreement);
+  }
+  return agreement;
+}
+
+}  // namespace mtr_localization

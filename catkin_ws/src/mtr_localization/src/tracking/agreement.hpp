@@ -1,0 +1,51 @@
+/// @file
+/// Whether a sweep shows what a map lets expect at a pose.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "map_names.hpp"
+#include "scans/sweep.hpp"
+
+namespace mtr_localization {
+
+/// Beams by what they show.
+struct Agreement {
+  /// The expected surface.
+  int seen = 0;
+  /// Something in front of it.
+  int hidden = 0;
+  /// Something behind it: the surface is not there.
+  int beyond = 0;
+  /// Nothing, where a surface is expected: it is not there, or the LiDAR looks over or under it.
+  int missing = 0;
+  /// Nothing, or something behind it, beside an edge of the surface: the beam may just pass.
+  int passed = 0;
+  /// Something where the map has nothing.
+  int unknown = 0;
+
+  Agreement& operator+=(const Agreement& other);
+  /// Beams that meet what the map shows, or should.
+  int expected() const { return seen + hidden + beyond + missing + passed; }
+  /// Share of the expected view that is seen, 0 to 1; 1 when nothing is expected.
+  double share_of_expected() const;
+  /// Share of the returns that the map explains, 0 to 1; without returns 1 when none is expected, else 0.
+  double share_of_returns() const;
+};
+
+/// Pose of base_link in the map when a sweep was taken, and how far it turned meanwhile.
+struct ViewPose {
+  PoseVector pose;
+  double turned_at_first_beam_rad = 0.0;
+  double turned_at_last_beam_rad = 0.0;
+  /// Rise of base_link's x and y axes per metre.
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+};
+
+/// Draws the map as the LiDAR would see it and compares. Where the robot's tilt makes the LiDAR look over or under
+/// what the map shows, or at the ground, a beam that does not show the expected surface says nothing.
+/// @param tolerance_m what a surface may be off to count as seen
+Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap& map, double tolerance_m);
+
+}  // namespace mtr_localization

@@ -1,0 +1,82 @@
+/// @file
+/// What a beam says of a pose beside the ends of the map's surfaces.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tracking/agreement.hpp"
+
+namespace mtr_localization {
+namespace {
+
+constexpr float kNothing = std::numeric_limits<float>::infinity();
+
+/// A narrow fan ahead, of 1 rad, whose beams show this.
+Sweep fan(float range_m) {
+  Sweep sweep;
+  sweep.angle_min_rad = -0.5;
+  sweep.angle_max_rad = 0.5;
+  sweep.angle_increment_rad = 0.01;
+  sweep.range_min_m = 0.1;
+  sweep.range_max_m = 30.0;
+  sweep.ranges_m.assign(101, range_m);
+  return sweep;
+}
+
+class ViewAgreementTest : public ::testing::Test {
+ protected:
+  Agreement seen(const Sweep& sweep) const { return agreement_of(sweep, ViewPose{PoseVector::Zero()}, tyre, 0.1); }
+
+  /// A tyre 5 m ahead, as wide as the tolerance on both sides of its middle.
+  SurfelMap tyre{{{{5.0, 0.0}, {-1.0, 0.0}, 0.4, 0.002, 50}}};
+};
+
+TEST_F(ViewAgreementTest, TyreWhereItIsExpectedAgreesAndNothingBesideItContradicts) {
+  Sweep sweep = fan(kNothing);
+  for (std::size_t beam = 46; beam <= 54; ++beam) {
+    sweep.ranges_m[beam] = 5.0F;
+  }
+  const Agreement agreement = seen(sweep);
+  EXPECT_GT(agreement.seen, 3);
+  EXPECT_EQ(agreement.unknown, 0);
+  EXPECT_DOUBLE_EQ(agreement.share_of_expected(), 1.0);
+}
+
+TEST_F(ViewAgreementTest, KnownWallBehindWhatIsExpectedIsSeen) {
+  EXPECT_GT(seen(fan(8.0F)).beyond + seen(fan(8.0F)).passed, 3);
+  // A fan of 8 m meets a wall of short pieces, each at a right angle to its beam.
+  std::vector<Surfel> surfels = tyre.surfels();
+  for (double angle = -0.5; angle <= 0.5; angle += 0.02) {
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    surfels.push_back({8.0 * direction, -direction, 0.2, 0.002, 50});
+  }
+  tyre = SurfelMap(surfels);
+  EXPECT_EQ(seen(fan(8.0F)).beyond + seen(fan(8.0F)).passed, 0);
+  EXPECT_GT(seen(fan(7.0F)).hidden, 20);
+}
+
+TEST_F(ViewAgreementTest, SomethingBesideTheEndOfASurfaceDoesNotAgreeWithNothing) {
+  const Agreement agreement = seen(fan(2.0F));
+  EXPECT_EQ(agreement.seen, 0);
+  EXPECT_GT(agreement.hidden, 3);
+  EXPECT_GT(agreement.unknown, 20);
+}
+
+TEST_F(ViewAgreementTest, EdgesExcuseNothingWhenNothingIsSeen) {
+  const Agreement agreement = seen(fan(kNothing));
+  EXPECT_GT(agreement.passed, 3);
+  EXPECT_DOUBLE_EQ(agreement.share_of_expected(), 0.0);
+}
+
+TEST_F(ViewAgreementTest, SurfaceAsFarAsideAsItMayBeOffIsSeen) {
+  Sweep sweep = fan(kNothing);
+  for (std::size_t beam = 47; beam <= 56; ++beam) {
+    sweep.ranges_m[beam] = 5.0F;
+  }
+  EXPECT_EQ(seen(sweep).unknown, 0);
+  EXPECT_DOUBLE_EQ(seen(sweep).share_of_expected(), 1.0);
+}
+
+}  // namespace
+}  // namespace mtr_localization
