@@ -44,7 +44,7 @@ class PoseSource {
   /// Answer to an order to freeze the map, each once.
   std::optional<MapResult> take_map() { return mapper_.take_result(); }
   const std::vector<KeyFrame>& key_frames() const { return mapper_.key_frames(); }
-  /// Of the map that is tracked.
+  /// Surfaces of the map that is tracked.
   virtual const std::vector<Surfel>& surfels() const = 0;
 
   /// Pose of odom in map at the newest wheel sample.

@@ -17,7 +17,7 @@ struct ImuSample {
   double yaw_rate_radps;
   /// About base_link x and y.
   Eigen::Vector2d tilt_rate_radps = Eigen::Vector2d::Zero();
-  /// Of the accelerometer; +9.81 in z when level and at rest. Zero: there is none.
+  /// What the accelerometer shows; +9.81 in z when level and at rest. Zero: there is none.
   Eigen::Vector3d force_mps2 = Eigen::Vector3d::Zero();
 };
 
@@ -39,7 +39,7 @@ struct WheelSample {
 /// Fix of a satellite receiver.
 struct GnssFix {
   std::int64_t stamp_ns;
-  /// Of the antenna, WGS-84.
+  /// Position of the antenna, WGS-84.
   double latitude_rad;
   double longitude_rad;
   /// Horizontal, in the worst direction; 0: the receiver does not say.

@@ -11,7 +11,7 @@
 namespace mtr_surfel_map {
 namespace {
 
-// Of map_server: occupied is black, free is nearly white, unknown in between.
+// Shades of map_server: occupied is black, free is nearly white, unknown in between.
 constexpr char kBlack = 0;
 constexpr char kWhite = static_cast<char>(254);
 constexpr char kGrey = static_cast<char>(205);

@@ -16,7 +16,7 @@ constexpr double kMarginM = 0.5;
 // A stray return far away must not exhaust the memory.
 constexpr double kMaxM = 60.0;
 constexpr int kMinHits = 2;
-// Of a surface at rest, some beams pass beside: its cell is wider than it.
+// Some beams pass beside a surface at rest: its cell is wider than it.
 constexpr double kHitShare = 0.25;
 
 /// A beam in map.

@@ -20,7 +20,7 @@ constexpr double kMaxCells = 1500.0;
 constexpr double kGrazing = 0.1;
 // Beside its ends a surface goes on: neighbours leave gaps of this size between them.
 constexpr double kGapM = 0.02;
-// Of half the length, the part that counts as the middle: a line of sight passes an edge unhindered.
+// This part of half the length counts as the middle: a line of sight passes an edge unhindered.
 constexpr double kMiddle = 0.6;
 
 Eigen::Vector2d along(const Surfel& surfel) { return {-surfel.normal.y(), surfel.normal.x()}; }

@@ -1,5 +1,5 @@
 /// @file
-/// Distance, angle and rest since the last key-frame.
+/// Distance, angle and rest since the last key frame.
 // SPDX-License-Identifier: Apache-2.0
 #include "mapping/key_frame_selector.hpp"
 
@@ -10,10 +10,11 @@
 namespace mtr_localization {
 namespace {
 
-// While driving: each piece of surface is then seen some ten times at each of the distances that occur.
+// A key frame while driving comes so often: each piece of surface is then seen some ten times at each of the distances
+// that occur.
 constexpr double kEveryM = 0.3;
 constexpr double kEveryRad = 0.25;
-// Before a place of rest is worth a key-frame of its own.
+// A place of rest so far from the last key frame is worth one of its own.
 constexpr double kRestEveryM = 0.1;
 constexpr double kRestEveryRad = 0.1;
 // Scans of one place: 0.4 s at 25 Hz, after which the surfaces' own errors count more than the LiDAR's noise.
@@ -82,7 +83,7 @@ Eigen::Matrix3d KeyFrameSelector::motion_covariance(double duration_s, double gy
                          square(gyro_bias_sigma_radps * duration_s) +
                          square(parameters_.gyro_scale_sigma * turned_rad_);
   const double turning = square(parameters_.turn_slip_m_per_sqrt_rad) * turned_rad_;
-  // Without the wheels' scale: it is common to all motions and an unknown of the adjustment.
+  // The wheels' scale is left out: it is common to all motions and an unknown of the adjustment.
   const double along = square(parameters_.slip_m_per_sqrt_m) * distance_m_;
   // Across: slip of the tyres, and the mean heading on the way.
   const double across = along + heading * square(0.5 * distance_m_);

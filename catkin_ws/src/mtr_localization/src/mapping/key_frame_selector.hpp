@@ -1,5 +1,5 @@
 /// @file
-/// Chooses which scans become key-frames.
+/// Chooses which scans become key frames.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace mtr_localization {
 
-/// A scan that may become a key-frame.
+/// A scan that may become a key frame.
 struct KeyFrameCandidate {
   ScanPoints scan;
   PoseVector pose = PoseVector::Zero();
@@ -23,7 +23,7 @@ struct KeyFrameCandidate {
   double gyro_bias_sigma_radps = 0.0;
 };
 
-/// A key-frame every few decimetres or degrees, and one wherever the robot comes to rest, which is the mean of several
+/// A key frame every few decimetres or degrees, and one wherever the robot comes to rest, which is the mean of several
 /// scans.
 class KeyFrameSelector {
  public:
@@ -35,7 +35,7 @@ class KeyFrameSelector {
   /// The robot moved so far along its path and turned so much.
   void travel(double distance_m, double angle_rad);
 
-  /// Takes the next candidate; the key-frame that it completes, if any.
+  /// Takes the next candidate; the key frame that it completes, if any.
   std::optional<KeyFrame> add(const KeyFrameCandidate& candidate);
 
  private:
@@ -44,7 +44,7 @@ class KeyFrameSelector {
   Eigen::Matrix3d motion_covariance(double duration_s, double gyro_bias_sigma_radps) const;
 
   SensorParameters parameters_;
-  /// Base_link in odom and time of the last key-frame.
+  /// Base_link in odom and time of the last key frame.
   std::optional<PoseVector> last_odom_;
   std::int64_t last_ns_ = 0;
   double distance_m_ = 0.0;

@@ -11,11 +11,11 @@
 namespace mtr_localization {
 namespace {
 
-// Before anything is measured, 1 sigma: 5 mg of bias after calibration (data sheets of MEMS accelerometers), and car
-// parks that drain at 1 to 2 %.
+// What is known before anything is measured, 1 sigma: 5 mg of bias after calibration (data sheets of MEMS
+// accelerometers), and car parks that drain at 1 to 2 %.
 constexpr double kBiasSigma = 0.005;
 constexpr double kGroundSigma = 0.015;
-// Of one tilt against the plane, at least: 0.1 deg.
+// One tilt against the plane is no surer than this: 0.1 deg.
 constexpr double kMinSigma = 0.002;
 // The last 300 count: 100 m of way.
 constexpr double kKept = 1.0 - 1.0 / 300.0;

@@ -13,7 +13,7 @@ constexpr double kUnmovedM = 0.01;
 constexpr double kUnmovedRad = 0.02;
 // Gyro rate at rest up to which it can be a bias, rad/s: 4 sigma of the bias at switch-on.
 constexpr double kMaxBiasRadps = 0.2;
-// Between two tilts of different places or headings.
+// The ground's level is learned from tilts of places or headings that differ so much.
 constexpr double kLevelEveryM = 0.3;
 constexpr double kLevelEveryRad = 0.3;
 

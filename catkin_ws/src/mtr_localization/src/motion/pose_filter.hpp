@@ -66,7 +66,7 @@ class PoseFilter {
 
   /// x (m), y (m), heading (rad) within (-pi, pi].
   Eigen::Vector3d pose() const;
-  /// Of the pose without lasting errors: what the next scan is weighed against.
+  /// Covariance of the pose without lasting errors: what the next scan is weighed against.
   Eigen::Matrix3d prior_covariance() const { return covariance_.topLeftCorner<3, 3>(); }
   double x_m() const { return state_[kX]; }
   double y_m() const { return state_[kY]; }
@@ -82,7 +82,7 @@ class PoseFilter {
   /// True speed for a speed that the wheels show.
   double corrected_speed(double wheel_speed_mps) const;
 
-  /// Of x (m), y (m), heading (rad), with lasting errors.
+  /// Covariance of x (m), y (m), heading (rad), with lasting errors.
   Eigen::Matrix3d pose_covariance() const;
 
  private:

@@ -23,7 +23,7 @@ class TiltFilter {
   void measure_bias(double duration_s, const Eigen::Vector2d& rise_rate);
 
   Eigen::Vector2d slope_ = Eigen::Vector2d::Zero();
-  /// Of the slope's rates.
+  /// Bias of the slope's rates.
   Eigen::Vector2d bias_ = Eigen::Vector2d::Zero();
   double bias_time_s_ = 0.0;
   double speed_mps_ = 0.0;

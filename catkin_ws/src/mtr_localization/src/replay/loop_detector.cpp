@@ -12,7 +12,7 @@ namespace {
 
 // The way back to the first place ends beside it: as near as the Car locator's places are approached, and some more.
 constexpr double kReturnedM = 0.8;
-// Of the direction of motion; a way out and back, or round a corner and back, turns less.
+// Turn of the direction of motion; a way out and back, or round a corner and back, turns less.
 constexpr double kTurnedRad = 0.9 * 2.0 * M_PI;
 
 bool is_loop(const std::vector<KeyFrame>& frames, std::size_t last) {

@@ -10,7 +10,7 @@
 
 namespace mtr_localization::replay {
 
-/// Watches the key-frames as they come.
+/// Watches the key frames as they come.
 class LoopDetector {
  public:
   /// True once the path has come back to where it was and turned a full turn on the way.

@@ -13,7 +13,7 @@
 namespace mtr_localization::replay {
 namespace {
 
-// Of the map that is made when the bag has no orders.
+// The map that is made when the bag has no orders bears this id.
 constexpr std::uint64_t kMapCarId = 1;
 
 double cpu_s(clockid_t clock) {

@@ -22,7 +22,7 @@ struct Sweep {
   std::int64_t stamp_ns = 0;
   /// Pose of the LiDAR in base_link.
   PoseVector mount = PoseVector::Zero();
-  /// Of the LiDAR above base_link.
+  /// Height of the LiDAR above base_link.
   double mount_height_m = 0.0;
   double angle_min_rad = 0.0;
   double angle_max_rad = 0.0;

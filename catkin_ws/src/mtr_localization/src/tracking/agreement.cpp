@@ -19,7 +19,7 @@ constexpr double kBeamStepRad = 0.015;
 constexpr double kNothing = std::numeric_limits<double>::infinity();
 // Surfaces met at less than 6 degrees are not expected to be seen.
 constexpr double kGrazing = 0.1;
-// Of each metre of range, for the pose's heading and the width of a bin on slanting surfaces.
+// Tolerance per metre of range, for the pose's heading and the width of a bin on slanting surfaces.
 constexpr double kTolerancePerM = 0.02;
 // What is met so far above or below the LiDAR's own height need not be what the map shows: sills and bumpers are about
 // as high.

@@ -14,7 +14,7 @@ namespace mtr_localization {
 namespace {
 
 constexpr int kMaxIterations = 6;
-// Below these the pose is as good as found.
+// A smaller step means that the pose is as good as found.
 constexpr double kSmallStepM = 1e-4;
 constexpr double kSmallTurnRad = 2e-5;
 // Points this many sigma off count half (Cauchy's kernel; 2.385 for 95 % efficiency, Holland and Welsch 1977).
@@ -92,7 +92,7 @@ void ScanMatcher::for_each_match(const PoseVector& pose, const ScanPoints& scan,
     const Eigen::Vector2d& normal = match->surfel->normal;
     const Eigen::Vector3d slope(normal.x(), normal.y(), lever.x() * normal.y() - lever.y() * normal.x());
     const double along = normal.dot(direction);
-    // As long as the robot stands or the map lasts, and alike for all beams on one surface.
+    // This error stays as long as the robot stands or the map lasts, and is alike for all beams on one surface.
     const double lasting = std::hypot(match->surfel->sigma_m, match->surfel->lean_sigma * point.rise_m);
     const double variance = square(parameters_.range_sigma_m * along) +
                             square(parameters_.beam_angle_sigma_rad * point.range_m) * (1.0 - square(along)) +

@@ -26,7 +26,7 @@ struct PosePrior {
   PoseVector pose = PoseVector::Zero();
   /// As the filter weighs it.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
-  /// With lasting errors: bounds the search for surfaces.
+  /// The same with lasting errors: it bounds the search for surfaces.
   Eigen::Matrix3d full_covariance = Eigen::Matrix3d::Identity();
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Choice of key-frames, and the mean of scans at rest.
+/// Choice of key frames, and the mean of scans at rest.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ ScanPoints wall(std::mt19937& random, std::int64_t stamp_ns) {
   return scan;
 }
 
-/// A robot that drives along x and the key-frames that come of it.
+/// A robot that drives along x and the key frames that come of it.
 class Robot {
  public:
   void drive(double distance_m, double turn_rad = 0.0) {

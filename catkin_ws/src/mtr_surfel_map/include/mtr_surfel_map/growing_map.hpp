@@ -12,7 +12,7 @@
 
 namespace mtr_surfel_map {
 
-/// Points of key-frames in square cells, and surfels made of neighbouring cells. Good enough to track against for one
+/// Points of key frames in square cells, and surfels made of neighbouring cells. Good enough to track against for one
 /// way round the Car; the adjusted map takes its place.
 class GrowingMap {
  public:
@@ -20,7 +20,7 @@ class GrowingMap {
   void insert(const PoseVector& pose, const ScanPoints& scan);
   bool empty() const { return cells_.empty(); }
 
-  /// Of all cells that more than one beam met; each as its neighbourhood was when a beam met it last.
+  /// Surfels of all cells that more than one beam met; each as its neighbourhood was when a beam met it last.
   std::vector<Surfel> surfels() const;
 
  private:

@@ -15,7 +15,7 @@ namespace mtr_surfel_map {
 /// One surfel a line: x_m, y_m, normal_rad, length_m, sigma_m, hits.
 void write_surfaces(const AdjustedMap& map, const std::string& path);
 
-/// One key-frame a line: stamp_s, x_m, y_m, heading_rad, nine numbers of the covariance row by row, returns, standing.
+/// One key frame a line: stamp_s, x_m, y_m, heading_rad, nine numbers of the covariance row by row, returns, standing.
 void write_key_frames(const AdjustedMap& map, const std::string& path);
 
 /// Image and description as map_server reads and writes them: folder/map.pgm and folder/map.yaml.

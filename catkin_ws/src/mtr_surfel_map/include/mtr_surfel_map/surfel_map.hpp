@@ -14,7 +14,7 @@ namespace mtr_surfel_map {
 /// The surface element that a point lies on.
 struct SurfelMatch {
   const Surfel* surfel;
-  /// Of the point from the surface, positive on the side of the normal.
+  /// Distance of the point from the surface, positive on the side of the normal.
   double distance_along_normal_m;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// What tracking hands to mapping and mapping hands back: key-frames in, surface elements out.
+/// What tracking hands to mapping and mapping hands back: key frames in, surface elements out.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -34,7 +34,7 @@ struct KeyFrame {
   std::int64_t stamp_ns = 0;
   PoseVector pose = PoseVector::Zero();
   ScanPoints scan;
-  /// Motion since the previous key-frame by wheels and gyro, in base_link of the previous one, and its covariance.
+  /// Motion since the previous key frame by wheels and gyro, in base_link of the previous one, and its covariance.
   PoseVector motion = PoseVector::Zero();
   Eigen::Matrix3d motion_covariance = Eigen::Matrix3d::Identity();
   /// The robot stood still; the scan may be the mean of several.
@@ -65,12 +65,12 @@ struct Surfel {
   double lean_sigma = kLeanSigma;
 };
 
-/// Result of the adjustment of all key-frames.
+/// Result of the adjustment of all key frames.
 struct AdjustedMap {
-  /// False: the key-frames gave no map that can be trusted; see message.
+  /// False: the key frames gave no map that can be trusted; see message.
   bool valid = false;
   std::vector<Surfel> surfels;
-  /// As given, with adjusted poses.
+  /// The key frames as given, with adjusted poses.
   std::vector<KeyFrame> key_frames;
   std::vector<Eigen::Matrix3d> pose_covariances;
   /// Constant error of the LiDAR's range, which the surfels are free of, and its 1 sigma.

@@ -10,12 +10,12 @@
 namespace mtr_surfel_map {
 namespace {
 
-// A way round a Car at 1 m gives some 60 key-frames.
+// A way round a Car at 1 m gives some 60 key frames.
 constexpr std::size_t kMinKeyFrames = 10;
 // The Car alone gives 50 to 150 surfels.
 constexpr std::size_t kMinSurfels = 20;
-// Of the last key-frame's surfels, those that were seen when the robot was here before: a share, for beside a Car alone
-// a key-frame of a noisy LiDAR sees fewer than ten long ones; and enough to hold a pose.
+// Surfels of the last key frame that were seen when the robot was here before: a share, for beside a Car alone
+// a key frame of a noisy LiDAR sees fewer than ten long ones; and enough to hold a pose.
 constexpr double kSharedShare = 0.4;
 constexpr int kMinSharedSurfels = 3;
 // A return is a path of this many times the closing distance, so that a robot that stands or shuffles has not closed.

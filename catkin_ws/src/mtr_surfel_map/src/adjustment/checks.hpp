@@ -1,5 +1,5 @@
 /// @file
-/// Whether key-frames can give a map, and whether a map can be trusted.
+/// Whether key frames can give a map, and whether a map can be trusted.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace mtr_surfel_map {
 
-/// One sentence on why no map can be made of the key-frames; empty when one can.
+/// One sentence on why no map can be made of the key frames; empty when one can.
 std::string problem_with(const std::vector<KeyFrame>& key_frames);
 
 /// One sentence on why the adjusted map cannot be trusted; empty when it can.

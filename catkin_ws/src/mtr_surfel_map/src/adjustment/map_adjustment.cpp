@@ -34,7 +34,7 @@ constexpr std::array<Round, 4> kCoarse{{
 }};
 constexpr double kMaxFineSurfelM = 0.4;
 constexpr double kMinFineSurfelM = 0.1;
-// In sigmas of a range: surfaces at rest are no thicker, and returns from them lie no farther off.
+// Sizes in sigmas of a range: surfaces at rest are no thicker, and returns from them lie no farther off.
 constexpr double kFineThickness = 2.0;
 constexpr double kFineGate = 5.0;
 constexpr int kMaxFineRounds = 6;
@@ -82,7 +82,7 @@ std::vector<Observation> finish(Adjustment& state, const AdjustmentParameters& p
   return observations;
 }
 
-/// With the beams of all views, and the heights at which they met the surfels.
+/// The surfels with the beams of all views, and the heights at which they met the surfels.
 std::vector<Surfel> as_seen(std::vector<Surfel> surfels, const std::vector<Observation>& observations) {
   for (Surfel& surfel : surfels) {
     surfel.hits = 0;

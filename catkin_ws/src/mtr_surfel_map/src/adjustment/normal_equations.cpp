@@ -28,7 +28,7 @@ void NormalEquations::add_prior(Eigen::Index separate, double value, double sigm
 
 void NormalEquations::fix(Eigen::Index place) { joint_(place, place) += kFixed; }
 
-/// Of a separate pair as if the joint unknowns were known; 0 without any information.
+/// Covariance of a separate pair as if the joint unknowns were known; 0 without any information.
 Eigen::Matrix2d NormalEquations::own_covariance(Eigen::Index separate) const {
   const Eigen::Matrix2d& information = own_[static_cast<std::size_t>(separate)];
   return information.determinant() > 0.0 ? Eigen::Matrix2d(information.inverse()) : Eigen::Matrix2d::Zero();

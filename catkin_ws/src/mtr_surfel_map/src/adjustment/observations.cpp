@@ -16,7 +16,7 @@ namespace {
 // Distance from the surface, in parts of the gate, at which a return still has a quarter of its weight.
 constexpr double kHalfway = 0.5;
 
-/// Weighted sums over one key-frame's returns from one surfel.
+/// Weighted sums over one key frame's returns from one surfel.
 struct Sums {
   double weight = 0.0;
   double variance = 0.0;
@@ -28,14 +28,14 @@ struct Sums {
   int beams = 0;
 };
 
-/// Of one return along the normal, m^2: range and direction of its beam.
+/// Variance of one return along the normal, m^2: range and direction of its beam.
 double variance_of(const ScanPoint& point, double cosine, double range_noise_m, double bearing_sigma_rad) {
   const double along = range_noise_m * cosine;
   const double across = bearing_sigma_rad * point.range_m * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   return along * along + across * across;
 }
 
-/// Collects the views of one key-frame at a time.
+/// Collects the views of one key frame at a time.
 class Collector {
  public:
   Collector(const SurfelMap& map, double gate_m, const AdjustmentParameters& parameters)

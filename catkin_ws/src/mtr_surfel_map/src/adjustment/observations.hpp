@@ -1,5 +1,5 @@
 /// @file
-/// Which surface element each key-frame saw where.
+/// Which surface element each key frame saw where.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace mtr_surfel_map {
 
-/// One key-frame's view of one surfel: the mean of its returns from there, in base_link.
+/// One key frame's view of one surfel: the mean of its returns from there, in base_link.
 struct Observation {
   int key_frame;
   int surfel;

@@ -20,7 +20,7 @@ struct Fit {
   /// Share of the views that lie more than 4 sigma off.
   double outlier_share = 0.0;
   /// Root mean square of the differences between wheels and gyro and the poses, in the sigmas that the
-  /// key-frames say.
+  /// key frames say.
   double motion_ratio = 0.0;
 };
 

@@ -16,7 +16,7 @@ namespace {
 // for motions.
 constexpr double kSurfaceKernel = 2.0;
 constexpr double kMotionKernel = 3.0;
-// Of a motion without motion: swinging of the mast, steps of the encoders.
+// A motion without motion is no surer than this: swinging of the mast, steps of the encoders.
 constexpr double kMinMotionSigmaM = 0.0005;
 constexpr double kMinMotionSigmaRad = 0.0002;
 

@@ -21,7 +21,7 @@ struct Adjustment {
   double wheel_scale = 0.0;
   /// True turn over the gyro's turn, less 1.
   double gyro_scale = 0.0;
-  /// By how much the sigmas of wheels and gyro are larger than the key-frames say.
+  /// By how much the sigmas of wheels and gyro are larger than the key frames say.
   double motion_factor = 1.0;
 };
 
@@ -42,7 +42,7 @@ inline Layout layout_of(const Adjustment& state) { return {static_cast<Eigen::In
 /// is -1 / sigma, by its lean -rise / sigma.
 Residual<1, 4> surface_residual(const Adjustment& state, const Observation& seen);
 
-/// Motion from the key-frame before to this one against that of wheels and gyro; by both poses and the scales of
+/// Motion from the key frame before to this one against that of wheels and gyro; by both poses and the scales of
 /// wheels and gyro.
 Residual<3, 8> motion_residual(const Adjustment& state, std::size_t key_frame);
 

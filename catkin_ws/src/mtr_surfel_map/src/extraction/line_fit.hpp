@@ -27,7 +27,7 @@ using SeenPointIterator = SeenPoints::const_iterator;
 /// Line through points.
 struct Line {
   Eigen::Vector2d middle;
-  /// Towards the side from which most points were seen.
+  /// It points to the side from which most points were seen.
   Eigen::Vector2d normal;
   /// Root mean square distance of the points from the middle along the line, and from the line.
   double spread_m;
@@ -36,7 +36,7 @@ struct Line {
   double facing;
 
   Eigen::Vector2d along() const { return {-normal.y(), normal.x()}; }
-  /// Of a line over which the points are spread evenly.
+  /// Length of a line over which the points are spread evenly.
   double length_m() const;
 };
 

@@ -27,7 +27,7 @@ bool is_double_of(const Surfel& surfel, const Surfel& other, double apart_m) {
          std::abs(along.dot(offset)) < other.length_m / 2.0;
 }
 
-/// Of surfels that lie on each other, as where a square's border runs along a surface, the one with the most points.
+/// Keeps of surfels that lie on each other, as where a square's border runs along a surface, the one with most points.
 std::vector<Surfel> without_doubles(std::vector<Surfel> surfels, double apart_m) {
   std::stable_sort(surfels.begin(), surfels.end(), [](const Surfel& a, const Surfel& b) { return a.hits > b.hits; });
   std::vector<Surfel> kept;

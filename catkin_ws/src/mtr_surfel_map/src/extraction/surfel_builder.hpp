@@ -11,7 +11,7 @@
 
 namespace mtr_surfel_map {
 
-/// Straight pieces of surface, each seen from at least three key-frames and fitted to all points near it.
+/// Straight pieces of surface, each seen from at least three key frames and fitted to all points near it.
 std::vector<Surfel> build_surfels(const SeenPoints& points, const SurfelShape& shape);
 
 }  // namespace mtr_surfel_map

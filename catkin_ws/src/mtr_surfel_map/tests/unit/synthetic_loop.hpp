@@ -1,5 +1,5 @@
 /// @file
-/// Key-frames of a robot that drives round the Car in a synthetic scene, with the true poses.
+/// Key frames of a robot that drives round the Car in a synthetic scene, with the true poses.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,7 +24,7 @@ struct LoopOptions {
   double wheel_scale = 0.003;
   /// Of the gyro: true turn over its turn, less 1.
   double gyro_scale = 0.0;
-  /// Noise of wheels and gyro against what the key-frames claim.
+  /// Noise of wheels and gyro against what the key frames claim.
   double motion_noise_factor = 1.0;
   /// Of the LiDAR's plane on uneven ground, 1 sigma at each place; the Car's sides lean inwards by 1 in 5.
   double tilt_sigma_rad = 0.0;

@@ -1,5 +1,5 @@
 /// @file
-/// Key-frames of which no map can be made, or none that can be trusted.
+/// Key frames of which no map can be made, or none that can be trusted.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// @file
-/// Makes one map of all key-frames of a way round the Car.
+/// Makes one map of all key frames of a way round the Car.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace mtr_surfel_map {
 
-/// Poses of all key-frames, surfaces, the LiDAR's range bias and the scales of wheels and gyro, adjusted together;
-/// the first key-frame stays where it was.
+/// Poses of all key frames, surfaces, the LiDAR's range bias and the scales of wheels and gyro, adjusted together;
+/// the first key frame stays where it was.
 ///
 /// In rounds from coarse to fine: surfaces are made of all returns, each view is assigned to a surface, and poses and
 /// surfaces move to where all agree best. Takes one core; the same input gives the same result.

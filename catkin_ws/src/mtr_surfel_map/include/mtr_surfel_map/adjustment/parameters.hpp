@@ -1,5 +1,5 @@
 /// @file
-/// Parameters of the adjustment of key-frames: how far each measurement is trusted and what a map must show, SI units.
+/// Parameters of the adjustment of key frames: how far each measurement is trusted and what a map must show, SI units.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,7 +20,7 @@ struct AdjustmentParameters {
   double bearing_sigma_rad = 0.001;
   /// How far one view of a surface element is off by its shape: curvature, edges, tilt of the LiDAR's plane.
   double surface_sigma_m = 0.004;
-  /// Common error of the wheels' distances in the key-frames' motions.
+  /// Common error of the wheels' distances in the key frames' motions.
   double wheel_scale_sigma = 0.005;
   /// The same of the gyro's turns; its source is in parameters.hpp.
   double gyro_scale_sigma = 0.001;
