@@ -15,11 +15,6 @@
 
 namespace mtr_core {
 
-/// A producer that lets a simulated tick wait longer than this (wall time) is taken for dead: nobody waits for it any
-/// more until it speaks again, and the consumer sees its sample grow old.
-inline constexpr double kProducerLostAfterWallS = 4.0;
-inline constexpr std::size_t kKeptSamples = 64;
-
 /// How a single-threaded consumer waits for a sample.
 struct Waiting {
   /// Runs callbacks (which may call Samples::add), blocking at most that many seconds; false on shutdown.

@@ -47,3 +47,9 @@ CAR_LOCATOR = slot(100, 60)
 
 # Time at which a simulated clock starts; no tick lies before it. Not zero: ROS takes zero for "no time yet".
 SIMULATION_START_NS = 1_000 * MILLISECOND_NS
+
+# A producer that lets a simulated tick wait longer than this (wall time) is taken for dead: nobody waits for it any
+# more until it speaks again, and the consumer sees its sample grow old.
+PRODUCER_LOST_AFTER_WALL_S = 4.0
+# A consumer keeps so many of a producer's samples.
+KEPT_SAMPLES = 64

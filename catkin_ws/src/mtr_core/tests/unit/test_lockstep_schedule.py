@@ -1,49 +1,42 @@
-"""The C++ headers of mtr_core repeat the schedule and the names of its Python word for word."""
+"""The C++ headers of names and schedule, as they are made at build time."""
 # SPDX-License-Identifier: Apache-2.0
 import re
-from pathlib import Path
 
-from mtr_core import names, schedule
-from mtr_core.lockstep import samples
+import pytest
 
-HEADERS = Path(__file__).resolve().parents[2] / "include" / "mtr_core"
-
-
-def python_name(cpp_name):
-    """kMotionPlanner as MOTION_PLANNER."""
-    return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", cpp_name[1:]).upper()
+from mtr_core import cpp_headers, names, schedule
+from mtr_core.schedule import Slot
 
 
-def header(name):
-    return (HEADERS / name).read_text(encoding="utf-8")
+@pytest.mark.parametrize("python_name, cpp_name", [("MAP", "kMap"), ("IMU_DATA", "kImuData")])
+def test_names_follow_the_style_of_cpp(python_name, cpp_name):
+    assert cpp_headers.cpp_name(python_name) == cpp_name
 
 
-def cpp_slots():
-    found = re.findall(r"constexpr Slot (k\w+) = slot\((\d+)(?:, (\d+))?\);", header("schedule.hpp"))
-    return {python_name(name): schedule.slot(int(period), int(phase or 0)) for name, period, phase in found}
+def test_every_name_has_a_constant_of_its_own():
+    found = dict(re.findall(r'constexpr char (k\w+)\[\] = "([^"]+)";', cpp_headers.names_header()))
+    texts = {name: value for name, value in vars(names).items() if name.isupper()}
+    assert found == {cpp_headers.cpp_name(name): value for name, value in texts.items()}
+    assert len(found) == len(texts) and found["kWheelCommand"] == names.WHEEL_COMMAND
 
 
-def cpp_names():
-    return {python_name(name): value
-            for name, value in re.findall(r'constexpr char (k\w+)\[\] = "([^"]+)";', header("names.hpp"))}
+def test_every_slot_has_its_period_and_phase():
+    found = re.findall(r"constexpr Slot (k\w+)\{(\d+), (\d+)\};", cpp_headers.schedule_header())
+    slots = {name: value for name, value in vars(schedule).items() if isinstance(value, Slot)}
+    assert {name: Slot(int(period), int(phase)) for name, period, phase in found} == {
+        cpp_headers.cpp_name(name): value for name, value in slots.items()}
 
 
-def test_every_slot_of_the_schedule_is_the_same_in_cpp():
-    assert cpp_slots() == {name: value for name, value in vars(schedule).items() if isinstance(value, schedule.Slot)}
+def test_limits_of_waiting_and_the_start_are_in_the_schedule():
+    text = cpp_headers.schedule_header()
+    assert f"kSimulationStartNs = {schedule.SIMULATION_START_NS};" in text
+    assert f"kProducerLostAfterWallS = {schedule.PRODUCER_LOST_AFTER_WALL_S};" in text
+    assert f"kKeptSamples = {schedule.KEPT_SAMPLES};" in text
 
 
-def test_simulation_starts_at_the_same_time_in_cpp():
-    milliseconds = re.search(r"kSimulationStartNs = ([\d']+) \* kMillisecondNs", header("schedule.hpp")).group(1)
-    assert int(milliseconds.replace("'", "")) * schedule.MILLISECOND_NS == schedule.SIMULATION_START_NS
-
-
-def test_every_name_in_cpp_is_that_of_mtr_core():
-    found = cpp_names()
-    assert "WHEEL_COMMAND" in found
-    assert found == {name: getattr(names, name) for name in found}
-
-
-def test_limits_of_waiting_are_the_same_in_cpp():
-    text = header("samples.hpp")
-    assert float(re.search(r"kProducerLostAfterWallS = ([\d.]+);", text).group(1)) == samples.PRODUCER_LOST_AFTER_WALL_S
-    assert int(re.search(r"kKeptSamples = (\d+);", text).group(1)) == samples.KEPT_SAMPLES
+def test_headers_that_would_not_change_are_not_written_again(tmp_path):
+    cpp_headers.write(tmp_path)
+    before = {path: path.stat().st_mtime_ns for path in tmp_path.iterdir()}
+    cpp_headers.write(tmp_path)
+    assert {path.name for path in before} == {"names.hpp", "schedule.hpp"}
+    assert {path: path.stat().st_mtime_ns for path in tmp_path.iterdir()} == before

@@ -5,16 +5,12 @@ import threading
 import time
 from typing import Callable, Generic, List, Optional, TypeVar
 
-from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS, Slot
+from mtr_core.schedule import CLOCK_STEP, KEPT_SAMPLES, PRODUCER_LOST_AFTER_WALL_S, SIMULATION_START_NS, Slot
 
 T = TypeVar("T")
 
-# A producer that lets a simulated tick wait longer than this (wall time) is taken for dead: nobody waits for it any
-# more until it speaks again, and the consumer sees its sample grow old.
-PRODUCER_LOST_AFTER_WALL_S = 4.0
 # A consumer that has not come back by then (wall time) gets the next sample all the same.
 UNWANTED_LIMIT_WALL_S = 1.0
-KEPT_SAMPLES = 64
 
 
 class Samples(Generic[T]):

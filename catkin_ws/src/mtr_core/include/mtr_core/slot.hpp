@@ -1,5 +1,5 @@
 /// @file
-/// Ticks of the periodic nodes, mirrored from mtr_core/schedule.py; a unit test compares the two.
+/// Ticks of a periodic producer; who has which is in schedule.hpp, made from mtr_core/schedule.py.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -30,21 +30,5 @@ struct Slot {
 constexpr Slot slot(std::int64_t period_ms, std::int64_t phase_ms = 0) {
   return {period_ms * kMillisecondNs, phase_ms * kMillisecondNs};
 }
-
-inline constexpr Slot kClockStep = slot(20);
-inline constexpr Slot kSensors = slot(20);
-inline constexpr Slot kLocalization = slot(20);
-inline constexpr Slot kDriveControl = slot(20);
-inline constexpr Slot kMotionPlanner = slot(40);
-inline constexpr Slot kLidar = slot(40);
-inline constexpr Slot kFirmware = slot(40);
-inline constexpr Slot kControllerInput = slot(40);
-inline constexpr Slot kDispatcher = slot(100);
-inline constexpr Slot kStateMachine = slot(100, 20);
-inline constexpr Slot kPeripherals = slot(100, 40);
-inline constexpr Slot kCarLocator = slot(100, 60);
-
-/// Time at which a simulated clock starts; no tick lies before it.
-inline constexpr std::int64_t kSimulationStartNs = 1'000 * kMillisecondNs;
 
 }  // namespace mtr_core

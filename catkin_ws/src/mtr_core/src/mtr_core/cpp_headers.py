@@ -1,0 +1,67 @@
+"""Writes the C++ headers of the names and the schedule from their Python tables, at build time.
+
+Usage: python -m mtr_core.cpp_headers FOLDER
+"""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+import sys
+from typing import Any, Dict, List
+
+from mtr_core import names, schedule
+from mtr_core.schedule import Slot
+
+HEAD = """/// @file
+/// {brief} Made from mtr_core/{source}; not to be edited.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+"""
+
+
+def names_header() -> str:
+    """Every topic, frame and parameter of names.py as a constant."""
+    lines = [f'inline constexpr char {cpp_name(name)}[] = "{value}";' for name, value in constants(names, str).items()]
+    return _header("Names of topics, frames and parameters.", "names.py", "mtr_core::names", lines)
+
+
+def schedule_header() -> str:
+    """Every slot, and the limits of waiting, of schedule.py as a constant."""
+    lines = [f"inline constexpr Slot {cpp_name(name)}{{{slot.period_ns}, {slot.phase_ns}}};"
+             for name, slot in constants(schedule, Slot).items()]
+    lines += [
+        f"inline constexpr std::int64_t kSimulationStartNs = {schedule.SIMULATION_START_NS};",
+        f"inline constexpr double kProducerLostAfterWallS = {schedule.PRODUCER_LOST_AFTER_WALL_S};",
+        f"inline constexpr std::size_t kKeptSamples = {schedule.KEPT_SAMPLES};",
+    ]
+    text = _header("Ticks of the periodic nodes, ns of the ROS clock.", "schedule.py", "mtr_core", lines)
+    return text.replace("#pragma once\n", "#pragma once\n\n#include <cstddef>\n#include <cstdint>\n\n"
+                                          '#include "mtr_core/slot.hpp"\n', 1)
+
+
+def constants(module: Any, kind: type) -> Dict[str, Any]:
+    """Constants of a module by name, in the order of its text."""
+    return {name: value for name, value in vars(module).items() if name.isupper() and isinstance(value, kind)}
+
+
+def cpp_name(python_name: str) -> str:
+    """MOTION_PLANNER as kMotionPlanner."""
+    return "k" + "".join(word.capitalize() for word in python_name.split("_"))
+
+
+def write(folder: pathlib.Path) -> None:
+    """Both headers; a file that would not change is left alone, so that nothing is compiled for it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, text in (("names.hpp", names_header()), ("schedule.hpp", schedule_header())):
+        path = folder / name
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+
+
+def _header(brief: str, source: str, namespace: str, lines: List[str]) -> str:
+    body = "\n".join(lines)
+    return (HEAD.format(brief=brief, source=source) + f"namespace {namespace} {{\n\n{body}\n\n"
+            f"}}  // namespace {namespace}\n")
+
+
+if __name__ == "__main__":
+    write(pathlib.Path(sys.argv[1]))
