@@ -4,8 +4,8 @@ import threading
 
 import pytest
 
-from mtr_core.lockstep.samples import KEPT_SAMPLES, PRODUCER_LOST_AFTER_WALL_S, Samples
-from mtr_core.schedule import MILLISECOND_NS, MOTION_PLANNER, SENSORS
+from mtr_core.lockstep.samples import Samples
+from mtr_core.schedule import KEPT_SAMPLES, MILLISECOND_NS, MOTION_PLANNER, PRODUCER_LOST_AFTER_WALL_S, SENSORS
 
 
 def ms(time_ms):

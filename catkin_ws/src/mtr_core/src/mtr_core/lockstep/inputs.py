@@ -4,10 +4,10 @@ from typing import Any, Optional
 
 import rospy
 
-from mtr_core.schedule import CLOCK_STEP, Slot
+from mtr_core.schedule import CLOCK_STEP, PRODUCER_LOST_AFTER_WALL_S, Slot
 
 from . import clock
-from .samples import PRODUCER_LOST_AFTER_WALL_S, Samples
+from .samples import Samples
 
 # Tests that silence many producers set less patience; the C++ nodes read the same parameter.
 PATIENCE_PARAMETER = "/lockstep_patience_s"
