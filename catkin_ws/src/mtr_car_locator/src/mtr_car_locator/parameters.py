@@ -49,17 +49,17 @@ class DataSheet(ParameterSet):
 
 @dataclass(frozen=True)
 class RefinementParameters(ParameterSet):
-    """When the Car is looked at again, what changes its frame, and what the self-check allows.
+    """When the Car is observed again, what changes its frame, and what the self-check allows.
 
     Attributes:
-        look_s: scans of one look, taken while the robot stands.
+        look_s: scans of one observation, taken while the robot stands.
         refine_least_m: a smaller shift of the Car does not change its frame.
         refine_least_rad: the same for its turn.
         refine_most_m: a larger shift is not a correction: the Car was moved.
         refine_most_rad: the same for its turn.
         check_limit_m: shift of the Car's centre or side at which the self-check fails.
         check_limit_rad: turn of the Car at which it fails.
-        check_distance_m: distance from the Car at which the self-check looks.
+        check_distance_m: distance from the Car at which the self-check observes it.
     """
 
     look_s: float = number(0.4, 0.1, 5.0, "s")
@@ -87,7 +87,7 @@ class LocatorParameters(ParameterSet):
         ring_distance_m: distance from the Car at which the robot goes round it.
         arrival_m: so close to a place of the ring the robot is sent to the next one.
         blocked_limit_s: waited for an obstacle on the way round, before the robot goes round the other way.
-        look_first_s: standing look at the Car before the way round it is laid.
+        look_first_s: observation of the Car, standing, before the way round it is laid.
         look_limit_s: the Car has to be seen from the starting place by then.
         map_limit_s: localization has to have adjusted its map by then.
         rear_lidar: the robot has one.

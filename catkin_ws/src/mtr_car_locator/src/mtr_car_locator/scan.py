@@ -13,7 +13,7 @@ from .poses import PoseHistory
 
 @dataclass(frozen=True)
 class Scan:
-    """One sweep; start_s is the first beam's time, base_from_lidar the mounting of the LiDAR."""
+    """One sweep; start_s is the first beam's time, ranges_m (n,), base_from_lidar the mounting of the LiDAR."""
 
     start_s: float
     beam_period_s: float

@@ -29,7 +29,7 @@ class DesiredMotion:
 
 @dataclass(frozen=True)
 class RobotState:
-    """Where the robot is in map, and how it moves."""
+    """Where base_link is in map, and how it moves; message: why the pose is not valid."""
 
     stamp_s: float
     valid: bool

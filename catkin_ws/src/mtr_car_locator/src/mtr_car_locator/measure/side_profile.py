@@ -31,7 +31,7 @@ TOP_M, SHAPE_SIGMA_M, MIN_BUMPER_BINS = 0.01, 0.001, 8
 
 @dataclass(frozen=True)
 class SideProfile:
-    """Mean distance outwards of each bin along a side, in the order of the bins, with the mean's 1 sigma."""
+    """Mean distance outwards of each bin along a side, in their order, with the mean's 1 sigma; (n,) each, in m."""
 
     number: IntArray
     level: FloatArray

@@ -22,14 +22,22 @@ class CurvePiece:
 
 @dataclass(frozen=True)
 class Curve:
-    """Samples at equal distances along the way; headings are directions of travel."""
+    """Samples (n,) at equal distances along the way, in the frame of the plan.
+
+    Attributes:
+        step_m: distance between two samples.
+        x, y: m.
+        heading: direction of travel, rad, without jumps of a whole turn.
+        curvature: 1/m, positive to the left of travel.
+        bend: change of curvature, 1/m2.
+    """
 
     step_m: float
     x: FloatArray
     y: FloatArray
     heading: FloatArray
     curvature: FloatArray
-    bend: FloatArray  # change of curvature, 1/m2
+    bend: FloatArray
 
     @property
     def length(self) -> float:

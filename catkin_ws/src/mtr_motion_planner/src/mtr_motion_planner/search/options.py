@@ -25,7 +25,7 @@ SIGNS = {Direction.ANY: (1, -1), Direction.FORWARD: (1,), Direction.BACKWARD: (-
 
 @dataclass(frozen=True)
 class StraightPiece:
-    """Straight piece at the start or at the goal; sign -1: backwards, 0: none."""
+    """Straight piece of a length in m at the start or at the goal; sign -1: backwards, 0: none."""
 
     sign: int = 0
     length: float = 0.0

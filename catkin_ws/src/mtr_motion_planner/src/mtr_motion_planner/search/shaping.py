@@ -30,7 +30,7 @@ SMALL_TURN_RAD, MIN_TURN_RAD = 0.35, 0.002
 
 @dataclass(frozen=True)
 class Start:
-    """Pose in the direction of travel, and how the robot moves there; curvature is that of its present curve."""
+    """Pose in the direction of travel, the speed there in m/s, and the curvature of the present curve in 1/m."""
 
     pose: Pose2
     speed: float = 0.0
@@ -42,9 +42,9 @@ class RouteShape:
     """What a route is to look like.
 
     Attributes:
-        first, last: signed radii of the turns out of the start and into the end; 0: on the spot.
-        way_out: straight piece before the first turn.
-        run_in: straight piece after the last one.
+        first, last: signed radii of the turns out of the start and into the end, m; 0: on the spot.
+        way_out: straight piece before the first turn, m.
+        run_in: straight piece after the last one, m.
         ring: what it turns about, None to go straight from the first turn to the last.
         side: 1 to have the ring to the left.
     """

@@ -17,7 +17,7 @@ class PlanRefused(ProblemError):
 
 @dataclass(frozen=True)
 class Moving:
-    """Pose of the robot and its velocity."""
+    """Pose of the turn centre in the frame of the plan, and the robot's velocity."""
 
     pose: Pose2
     linear_mps: float = 0.0

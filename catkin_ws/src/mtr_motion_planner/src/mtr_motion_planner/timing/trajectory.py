@@ -14,12 +14,16 @@ from .speeds import SAMPLE_S
 
 @dataclass(frozen=True)
 class Reference:
-    """Pose and velocity to have at an instant."""
+    """Pose and velocity to have at an instant.
+
+    Attributes:
+        way: since the motion's beginning, m, or on the spot rad.
+    """
 
     pose: Pose2
     linear_mps: float
     angular_radps: float
-    way: float  # m or, on the spot, rad since the motion's beginning
+    way: float
 
 
 class Trajectory:
@@ -28,7 +32,9 @@ class Trajectory:
     Attributes:
         duration_s: until the robot is to stand.
         length_m: way of the turn centre.
-        ways, poses, linear, angular: at each sample; poses are rows of x, y, heading.
+        ways: (n,) m, or on the spot rad, since the beginning.
+        poses: (n, 3) x, y in m and heading in rad of the turn centre, in the frame of the plan.
+        linear, angular: (n,) m/s, backwards negative, and rad/s.
     """
 
     def __init__(self, ways: FloatArray, poses: FloatArray, linear: FloatArray, angular: FloatArray, length_m: float):
