@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations clean \
-	bench bench-motion bench-localization firmware flash bare-root docs
+	bench bench-motion bench-localization firmware flash bare-root docs tidy
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -63,6 +63,9 @@ test: setup build ## Lint, layer test, unit tests, firmware, rostest suites and 
 
 lint: setup build ## Only the lint
 	@$(RUN) python setup/run_tests.py lint
+
+tidy: setup build ## Look for defects in all C++ with clang-tidy; some minutes. TIDY="words of paths" looks at less
+	@$(RUN) python setup/tidy.py $(TIDY)
 
 unit: setup build ## Only the tests that need no ROS master
 	@$(RUN) python setup/run_tests.py lint unit gtest

@@ -18,7 +18,7 @@ mkdir -p out catkin_ws/{build,devel,logs} .setup
 touch {out,catkin_ws/build,catkin_ws/devel,catkin_ws/logs}/CATKIN_IGNORE
 cd catkin_ws
 catkin config --init --source-space .. --cmake-args "-DPYTHON_EXECUTABLE=$top/.venv/bin/python" -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-  -Wno-dev --no-warn-unused-cli >/dev/null
+  -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -Wno-dev --no-warn-unused-cli >/dev/null
 log=$top/.setup/build.log
 echo "Building the workspace"
 if ! catkin build --no-status --no-notify -j2 >"$log" 2>&1; then

@@ -42,7 +42,7 @@ def main(wanted: List[str]) -> int:
 
 
 def lint() -> Counts:
-    """Style, unused code and the Python version of the robot; formatting of the C++."""
+    """Style, types and the robot's Python version; of the C++ formatting, and defects where it was changed."""
     python = [str(path) for path in tracked("*.py") + node_scripts()]
     robot = [path for path in python if "/operator_gui/" not in path and "/setup/" not in path]
     cpp = [str(path) for path in tracked("*.cpp") + tracked("*.hpp")]
@@ -50,6 +50,7 @@ def lint() -> Counts:
         "ruff": ["ruff", "check", "--quiet", *python],
         "python-3.8": ["vermin", "--quiet", "-t=3.8-", "--no-tips", "--violations", *robot],
         "clang-format": ["clang-format", "--dry-run", "-Werror", *cpp],
+        "clang-tidy": [sys.executable, "setup/tidy.py", "--changed"],
         "mypy": [sys.executable, "-m", "mypy"],
         "mypy-operator": [sys.executable, "-m", "mypy", "--config-file", "operator_gui/mypy.ini"],
         "catkin-lint": ["/usr/bin/catkin_lint", "--quiet", "-W1", *map(str, PACKAGES)],

@@ -27,7 +27,7 @@ int cell_of(double coordinate_m) { return static_cast<int>(std::floor(coordinate
 double centre_of(int cell) { return (cell + 0.5) * kCellM; }
 Point centre_of(const Point& point) { return {centre_of(cell_of(point.x_m)), centre_of(cell_of(point.y_m))}; }
 std::size_t index_of(int column, int row) {
-  return static_cast<std::size_t>((row & (kSide - 1)) * kSide + (column & (kSide - 1)));
+  return static_cast<std::size_t>(row & (kSide - 1)) * kSide + static_cast<std::size_t>(column & (kSide - 1));
 }
 
 }  // namespace
