@@ -9,10 +9,8 @@ import pytest
 from project import TOP, package_folders, package_name, tracked
 
 MAX_MODULES = 16
-# Folders that their owners are splitting.
-STILL_LARGE: FrozenSet[str] = frozenset({
-    "catkin_ws/src/mtr_simulation/src/mtr_simulation",
-    "firmware/logic"})
+# Folders that are larger: the firmware's logic, 18 headers of which half a dozen are a line's constants or a record.
+STILL_LARGE: FrozenSet[str] = frozenset({"firmware/logic"})
 
 # A library of C++ decides; nodes around it know ROS, and so do libraries with these ends.
 LIBRARY = re.compile(r"add_library\((\S+) ([^)]*)\)")
