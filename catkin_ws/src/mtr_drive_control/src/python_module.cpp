@@ -120,9 +120,11 @@ PYBIND11_MODULE(mtr_drive_control_core, module) {
   py::class_<DriveControl>(module, "DriveControl")
       .def(py::init([](const std::string& urdf, bool rear_lidar, const py::dict& limits, const py::dict& collision,
                        double period_s) {
-             return DriveControl(parameters_of<Parameters>(kRows, limits),
-                                 parameters_of<CollisionParameters>(kCollisionRows, collision),
-                                 shape_of(mtr_description::RobotGeometry(urdf), rear_lidar), period_s);
+             const mtr_description::RobotGeometry geometry(urdf);
+             const auto parameters = parameters_of<Parameters>(kRows, limits);
+             check_balance(parameters, geometry);
+             return DriveControl(parameters, parameters_of<CollisionParameters>(kCollisionRows, collision),
+                                 shape_of(geometry, rear_lidar), period_s);
            }),
            py::arg("urdf"), py::arg("rear_lidar") = true, py::arg("limits") = py::dict(),
            py::arg("collision") = py::dict(), py::arg("period_s") = 0.02)

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/robot_shape.hpp"
 
+#include <cmath>
+
 #include "mtr_core/names.hpp"
 
 namespace mtr_drive_control {
@@ -30,7 +32,34 @@ LidarMount lidar_of(const Mount& mount, double ahead_rad) {
   return {mount.x_m, mount.y_m, mount.yaw_rad};
 }
 
+// Lengths are measured, and masses weighed, to this; the limit of tipping changes by 4 % at most.
+constexpr double kAgreementM = 0.005;
+
+/// The parameter has to be what the URDF says, within the tolerance.
+void check_agreement(const std::string& name, double value, double described, const std::string& unit) {
+  const double low = described - kAgreementM;
+  const double high = described + kAgreementM;
+  if (!(value >= low && value <= high)) {
+    throw mtr_core::ConfigurationError("Parameter " + name + " is " + mtr_core::with_unit(value, unit) +
+                                       "; allowed by the robot_description is " +
+                                       mtr_core::range_text(low, high, unit) + ".");
+  }
+}
+
 }  // namespace
+
+void check_balance(const Parameters& parameters, const mtr_description::RobotGeometry& geometry) {
+  const mtr_description::KeyMount key = geometry.key();
+  const mtr_description::CentreOfMass low = geometry.centre_of_mass(0.0);
+  const double raised_m = geometry.centre_of_mass(key.lift_travel_m).height_m - low.height_m;
+  const double rise = raised_m / key.lift_travel_m;
+  const mtr_description::Wheels wheels = geometry.wheels();
+  check_agreement("centre_of_mass_m", parameters.centre_of_mass_m, low.height_m - rise * key.min_height_m, "m");
+  check_agreement("centre_of_mass_rise", parameters.centre_of_mass_rise, rise, "(ratio)");
+  check_agreement("tip_lever_along_m", parameters.tip_lever_along_m, 0.5 * wheels.base_m - std::abs(low.x_m), "m");
+  check_agreement("tip_lever_across_m", parameters.tip_lever_across_m, 0.5 * wheels.track_m - std::abs(low.y_m), "m");
+  check_agreement("key_raised_m", parameters.key_raised_m, key.max_height_m(), "m");
+}
 
 RobotShape shape_of(const mtr_description::RobotGeometry& geometry, bool has_rear_lidar) {
   RobotShape shape{footprint_of(geometry.footprint()), lidar_of(geometry.mount(mtr_core::names::kFrontLidar), 0.0),

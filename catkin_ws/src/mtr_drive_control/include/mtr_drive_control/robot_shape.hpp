@@ -7,6 +7,7 @@
 
 #include "mtr_description/robot_geometry.hpp"
 #include "mtr_drive_control/geometry.hpp"
+#include "mtr_drive_control/parameters.hpp"
 
 namespace mtr_drive_control {
 
@@ -31,5 +32,9 @@ struct RobotShape {
 
 /// From the URDF; throws mtr_core::ConfigurationError for a footprint or a LiDAR that cannot be served.
 RobotShape shape_of(const mtr_description::RobotGeometry& geometry, bool has_rear_lidar);
+
+/// Throws mtr_core::ConfigurationError when what the parameters say of the centre of mass, the wheels and the raised
+/// key contradicts the URDF.
+void check_balance(const Parameters& parameters, const mtr_description::RobotGeometry& geometry);
 
 }  // namespace mtr_drive_control

@@ -73,6 +73,7 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
   if (parameters.rear_lidar) {
     rear_.emplace(node, names::kRearScan, names::kRearLidar);
   }
+  check_balance(parameters.limits, mtr_description::described_robot());
   listen_to_locks(node, parameters.e_stop_topics);
   log_limits(parameters);
 }

@@ -79,6 +79,19 @@ def test_robot_that_cannot_be_served_is_refused(wrong, sentence):
     assert str(refused.value) == sentence
 
 
+@pytest.mark.parametrize("limits, sentence", [
+    ({"centre_of_mass_m": 0.3}, "Parameter centre_of_mass_m is 0.3 m; allowed by the robot_description is 0.261287 to "
+                                "0.271287 m."),
+    ({"key_raised_m": 1.2}, "Parameter key_raised_m is 1.2 m; allowed by the robot_description is 1.545 to 1.555 m."),
+    ({"tip_lever_across_m": 0.25}, "Parameter tip_lever_across_m is 0.25 m; allowed by the robot_description is 0.1815 "
+                                   "to 0.1915 m."),
+])
+def test_parameter_that_contradicts_the_urdf_is_refused(limits, sentence):
+    with pytest.raises(RuntimeError) as refused:
+        core.DriveControl(shipped_urdf(), limits=limits)
+    assert str(refused.value) == sentence
+
+
 def test_rear_lidar_that_is_not_there_is_not_asked_for():
     urdf = shipped_urdf().replace('"rear_lidar"', '"box"')
     core.DriveControl(urdf, rear_lidar=False)
