@@ -50,15 +50,12 @@ class LocalizationMap(unittest.TestCase):
         cls.pose = Listener(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION)
         cls.surfaces, cls.grids = Collector(names.SURFACE_MAP, SurfaceMap), Collector(names.MAP_GRID, OccupancyGrid)
         cls.transforms, cls.log = Collector("/tf", TFMessage), Collector("/rosout", Log)
-        cls.frames, cls.others = tf2_ros.StaticTransformBroadcaster(), tf2_ros.TransformBroadcaster()
+        cls.others = tf2_ros.TransformBroadcaster()
         cls.time = ScriptedTime([], [*cls.robot.speakers, cls.order], [cls.pose])
-        mount = TransformStamped(child_frame_id=names.FRONT_LIDAR)
-        mount.header.frame_id, mount.transform.rotation.w = names.BASE, 1.0
-        cls.frames.sendTransform(mount)
 
     def begin(self, **parameters):
         """Start a localization and stand still until its pose is valid or it says why not."""
-        self.node = NodeProcess("mtr_localization", "localization_node", "localization", **parameters)
+        self.node = NodeProcess("mtr_localization", "localization_node", "localization", rear_lidar=False, **parameters)
         self.robot.pose, self.robot.lidar.is_silent = START, False
         self.robot.lidar.message.header.frame_id = names.FRONT_LIDAR
         self.order.message = MappingOrder()
@@ -131,6 +128,10 @@ class LocalizationMap(unittest.TestCase):
         self.assertEqual(len(self._said("'nowhere'")), 1)
         self.robot.lidar.message.header.frame_id = names.FRONT_LIDAR
         self.assertFalse(self.advance(0.3).degenerate)
+
+    def test_robot_without_the_rear_lidar_that_it_shall_have_does_not_start(self):
+        self.node = NodeProcess("mtr_localization", "localization_node", "localization", rear_lidar=True)
+        self.assertEqual(self.node.exit_status(), 2)
 
     def test_with_external_the_pose_follows_the_others_transform_and_the_map_is_left_to_them(self):
         self.begin(pose_source="external")

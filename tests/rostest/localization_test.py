@@ -56,7 +56,7 @@ class Localization(unittest.TestCase):
         cls.time = ScriptedTime([], [cls.robot.gyro, cls.robot.wheels], [cls.pose])
 
     def setUp(self):
-        self.node = NodeProcess("mtr_localization", "localization_node", "localization")
+        self.node = NodeProcess("mtr_localization", "localization_node", "localization", rear_lidar=False)
         self.heard = []
         self.robot.gyro.is_silent = self.robot.wheels.is_silent = False
         self.robot.drive(0.0)

@@ -25,6 +25,11 @@ class NodeProcess:
         """What it has printed, when it ends by itself."""
         return self._process.communicate(timeout=END_LIMIT_S)[0]
 
+    def exit_status(self) -> int:
+        """How it has ended by itself."""
+        self.output()
+        return self._process.returncode
+
     def stop(self) -> None:
         """End it as Ctrl-C does, and when it hangs by force."""
         if self._process.poll() is None:

@@ -1,20 +1,19 @@
 /// @file
-/// Topic and tf to samples of the core.
+/// Topic to samples of the core.
 // SPDX-License-Identifier: Apache-2.0
 #include "ros/gnss_input.hpp"
-
-#include <tf2/exceptions.h>
 
 #include <utility>
 
 #include "mtr_core/names.hpp"
+#include "mtr_core/parameter.hpp"
 #include "ros/conversions.hpp"
 
 namespace mtr_localization {
 
 namespace names = mtr_core::names;
 
-GnssInput::GnssInput(ros::NodeHandle& node, const tf2_ros::Buffer& frames, std::function<bool(const GnssFix&)> take)
+GnssInput::GnssInput(ros::NodeHandle& node, const RobotFrames& frames, std::function<bool(const GnssFix&)> take)
     : frames_(frames),
       take_(std::move(take)),
       subscriber_(node.subscribe<sensor_msgs::NavSatFix>(
@@ -30,13 +29,11 @@ void GnssInput::receive(const sensor_msgs::NavSatFix& message) {
 }
 
 std::string GnssInput::problem_of(const sensor_msgs::NavSatFix& message) const {
-  const std::string& frame = message.header.frame_id;
   try {
-    const auto mount = frames_.lookupTransform(names::kBase, frame, ros::Time(0));
-    const GnssFix fix = gnss_fix_of(message, pose_of(mount.transform).head<2>());
+    const GnssFix fix = gnss_fix_of(message, frames_.antenna(message.header.frame_id).head<2>());
     return take_(fix) ? "" : "Its fixes are none, or they do not say that they are within 5 m (1 sigma).";
-  } catch (const tf2::TransformException&) {
-    return std::string("There is no transform from ") + names::kBase + " to '" + frame + "'.";
+  } catch (const mtr_core::ConfigurationError& error) {
+    return error.what();
   }
 }
 

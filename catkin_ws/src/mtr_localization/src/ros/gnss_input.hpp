@@ -5,27 +5,28 @@
 
 #include <ros/ros.h>
 #include <sensor_msgs/NavSatFix.h>
-#include <tf2_ros/buffer.h>
 
 #include <functional>
 #include <string>
 
+#include "ros/robot_frames.hpp"
 #include "samples.hpp"
 
 namespace mtr_localization {
 
-/// Subscription that gives fixes whose antenna is known by tf; says in one sentence why others are not used.
+/// Subscription that gives fixes whose antenna is in the robot's description; says in one sentence why others are not
+/// used.
 class GnssInput {
  public:
   /// @param take gets each fix; false: it is refused
-  GnssInput(ros::NodeHandle& node, const tf2_ros::Buffer& frames, std::function<bool(const GnssFix&)> take);
+  GnssInput(ros::NodeHandle& node, const RobotFrames& frames, std::function<bool(const GnssFix&)> take);
 
  private:
   void receive(const sensor_msgs::NavSatFix& message);
   /// Empty when the fix was taken.
   std::string problem_of(const sensor_msgs::NavSatFix& message) const;
 
-  const tf2_ros::Buffer& frames_;
+  const RobotFrames& frames_;
   std::function<bool(const GnssFix&)> take_;
   std::string problem_;
   ros::Subscriber subscriber_;

@@ -12,6 +12,7 @@
 #include "localizer.hpp"
 #include "mtr_core/clock.hpp"
 #include "mtr_core/names.hpp"
+#include "mtr_description/robot_description.hpp"
 #include "ros/conversions.hpp"
 
 namespace mtr_localization {
@@ -29,9 +30,9 @@ ros::Subscriber subscribe(ros::NodeHandle& node, const char* topic, Callback cal
 }
 
 /// Where another program has odom in map.
-std::optional<StampedPose> map_from_odom_in(const tf2_ros::Buffer& frames) {
+std::optional<StampedPose> map_from_odom_in(const tf2_ros::Buffer& transforms) {
   try {
-    const auto transform = frames.lookupTransform(names::kMap, names::kOdom, ros::Time(0));
+    const auto transform = transforms.lookupTransform(names::kMap, names::kOdom, ros::Time(0));
     return StampedPose{mtr_core::to_ns(transform.header.stamp), pose_of(transform.transform)};
   } catch (const tf2::TransformException&) {
     return std::nullopt;
@@ -46,6 +47,7 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
                  [&reader](const auto& rows, auto& group) { reader.read_numbers(rows, group); });
   reader.read_numbers(kExternalRows, parameters.external);
   reader.read("publish_odom_tf", parameters.publish_odom_tf);
+  reader.read("rear_lidar", parameters.rear_lidar);
   reader.read("pose_source", parameters.pose_source, {"own", "external"});
   return parameters;
 }
@@ -54,13 +56,14 @@ std::unique_ptr<PoseSource> Node::pose_source_of(NodeParameters parameters) cons
   parameters.localization.lockstep = mtr_core::is_simulated();
   if (parameters.pose_source == "external") {
     return std::make_unique<ExternalPose>(parameters.localization, parameters.external,
-                                          [this] { return map_from_odom_in(frames_); });
+                                          [this] { return map_from_odom_in(transforms_); });
   }
   return std::make_unique<Localizer>(parameters.localization);
 }
 
 Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
-    : listener_(frames_),
+    : frames_(mtr_description::described_robot(), parameters.rear_lidar),
+      listener_(transforms_),
       source_(pose_source_of(parameters)),
       outputs_(node, parameters.publish_odom_tf),
       front_(node, Lidar::kFront, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),

@@ -20,6 +20,7 @@
 #include "pose_source.hpp"
 #include "ros/gnss_input.hpp"
 #include "ros/outputs.hpp"
+#include "ros/robot_frames.hpp"
 #include "ros/scan_input.hpp"
 #include "ros/work_load.hpp"
 
@@ -31,6 +32,8 @@ struct NodeParameters {
   /// Where the pose comes from: own, or another program.
   std::string pose_source = "own";
   ExternalParameters external;
+  /// False: the robot has none, and its description need not either.
+  bool rear_lidar = true;
   /// Publish odom -> base_link; false when the base does so itself.
   bool publish_odom_tf = true;
 };
@@ -41,6 +44,7 @@ class Node {
   /// Throws mtr_core::ConfigurationError.
   static NodeParameters read(mtr_core::ParameterReader& reader);
 
+  /// Throws mtr_core::ConfigurationError when the robot's description lacks a LiDAR, or has it where it cannot serve.
   Node(ros::NodeHandle& node, const NodeParameters& parameters);
 
   /// Returns at shutdown.
@@ -55,7 +59,8 @@ class Node {
   void answer_waiting();
   void publish(const std::vector<Estimate>& estimates) { outputs_.publish(*source_, estimates, load_); }
 
-  tf2_ros::Buffer frames_;
+  RobotFrames frames_;
+  tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_;
   std::unique_ptr<PoseSource> source_;
   WorkLoad load_;

@@ -20,6 +20,7 @@ from tf2_msgs.msg import TFMessage
 
 from mtr_benchmarks.harness.probe import cpu_s
 from mtr_core import names
+from mtr_description.shipped import shipped_urdf
 from mtr_msgs.msg import LocalizedPose, MappingOrder
 
 KINDS = {names.FRONT_SCAN: LaserScan, names.REAR_SCAN: LaserScan, names.IMU_DATA: Imu, names.WHEEL_ODOMETRY: Odometry,
@@ -137,6 +138,7 @@ def recorded(path: str) -> Iterator[RecordedMessage]:
 def main(path: str, measured_s: float) -> int:
     """Measure; always 0, or an error that says what did not work."""
     rospy.init_node("localization_probe")
+    rospy.set_param(names.ROBOT_DESCRIPTION, shipped_urdf())
     node = subprocess.Popen([roslib.packages.find_node("mtr_localization", "localization_node")[0],
                              "__name:=localization"], stdout=subprocess.DEVNULL)
     try:

@@ -1,0 +1,34 @@
+/// @file
+/// Where sensors sit on the robot, by its description.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "mtr_description/robot_geometry.hpp"
+#include "ros/conversions.hpp"
+
+namespace mtr_localization {
+
+/// Mounts of the frames that messages name, each asked for once.
+class RobotFrames {
+ public:
+  /// Throws mtr_core::ConfigurationError unless the LiDARs sit upright and level on the robot.
+  /// @param has_rear_lidar false: the robot has none, and its description need not either
+  RobotFrames(const mtr_description::RobotGeometry& geometry, bool has_rear_lidar);
+
+  /// Mount of a LiDAR that is upright and level; null after a warning, once for each frame, when it is not.
+  const Mount* lidar(const std::string& frame);
+  /// Mount of any sensor; throws mtr_core::ConfigurationError.
+  PoseVector antenna(const std::string& frame) const;
+
+ private:
+  Mount level_mount(const std::string& frame) const;
+
+  mtr_description::RobotGeometry geometry_;
+  std::map<std::string, std::optional<Mount>> lidars_;
+};
+
+}  // namespace mtr_localization
