@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations clean \
-	bench bench-motion bench-localization firmware flash bare-root docs tidy
+	bench bench-motion bench-localization firmware flash bare-root docs tidy mutants
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -78,6 +78,10 @@ rostest: setup build ## Only the rostest suites
 
 system: setup build ## Only the tests of the whole stack
 	@$(RUN) python setup/run_tests.py system
+
+mutants: setup build ## Mutation tests of the pure cores; MUTANTS takes options, see tests/mutation
+	@$(RUN) python -m pip install --quiet --no-warn-conflicts --upgrade --target out/mutants/tools -r tests/mutation/requirements.txt
+	@$(RUN) python tests/mutation/run.py $(MUTANTS)
 
 # What a stranger's machine shall do: the targets of BARE, in a root that has only git, make and sudo.
 BARE ?= test

@@ -34,8 +34,11 @@ def installed() -> Set[str]:
     found = set()
     for path in (TOP / "setup").glob("debian-*packages.txt"):
         found |= {line for line in path.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")}
-    required = (TOP / "setup" / "python-requirements.txt").read_text(encoding="utf-8")
-    return found | {f"pip:{name}" for name in re.findall(r"^([\w-]+)==", required, re.MULTILINE)}
+    # The second one is installed by `make mutants` alone.
+    for path in (TOP / "setup" / "python-requirements.txt", TOP / "tests" / "mutation" / "requirements.txt"):
+        required = path.read_text(encoding="utf-8")
+        found |= {f"pip:{name}" for name in re.findall(r"^([\w-]+)==", required, re.MULTILINE)}
+    return found
 
 
 def started_by_python(path: pathlib.Path) -> Set[str]:
@@ -131,8 +134,8 @@ def test_the_program_is_here_after_the_set_up(program):
 # Module -> package that has it, where that is not python3-<module>.
 MODULE_PACKAGES = {
     "PyQt5": "python3-pyqt5", "can": "pip:python-can", "cantools": "pip:cantools", "catkin_pkg": "catkin",
-    "google": "python3-protobuf", "mujoco": "pip:mujoco", "roscpp": "python3-roscpp-msg",
-    "urdf_parser_py": "pip:urdf-parser-py", "xacro": "pip:xacro",
+    "cosmic_ray": "pip:cosmic-ray", "google": "python3-protobuf", "mujoco": "pip:mujoco",
+    "roscpp": "python3-roscpp-msg", "urdf_parser_py": "pip:urdf-parser-py", "xacro": "pip:xacro",
 }
 
 

@@ -173,3 +173,34 @@ def test_parameter_out_of_range_is_a_sentence(bad):
 def test_two_inputs_on_one_index_are_an_error(bad):
     with pytest.raises(ConfigurationError, match="must differ"):
         Parameters(**bad)
+
+
+def test_ends_of_the_allowed_times_are_still_allowed():
+    controller = Controller(PARAMETERS)
+    controller.take(DRIVING, 0.0)
+    assert not controller.step(PARAMETERS.silent_after_s).lock_reason
+    controller.take(DRIVING, PARAMETERS.frozen_after_s)
+    assert not controller.step(PARAMETERS.frozen_after_s).lock_reason
+
+
+def test_message_from_the_future_is_of_a_lost_controller():
+    controller = Controller(PARAMETERS)
+    controller.take(IDLE, 1.0)
+    assert controller.step(0.5).lock_reason
+
+
+def test_emergency_stop_is_released_when_the_time_is_up():
+    controller = Controller(PARAMETERS)
+    controller.take(Joy(sticks(), buttons(E_STOP)), 0.0)
+    for now_s in (1.0, 1.0 + PARAMETERS.release_after_s):
+        controller.take(Joy(sticks(), buttons(SHARE, OPTIONS)), now_s)
+        outcome = controller.step(now_s)
+    assert not outcome.lock_reason
+
+
+def test_deflection_of_the_dead_zone_counts():
+    assert velocity(PARAMETERS, sticks(PARAMETERS.dead_zone), SLOW).linear_mps > 0.0
+
+
+def test_button_beyond_the_last_one_is_released():
+    assert velocity(PARAMETERS, sticks(1.0), (0,) * FAST_BUTTON) == RELEASED

@@ -243,3 +243,25 @@ def test_confirmations_change_with_command_result_and_press(core):
     pressed = core.confirmed(Inputs(NOW_S, peripherals=PeripheralsState(presses=[PressReport(id=1)])))
     checked = core.confirmed(Inputs(NOW_S, check=CarCheck(id=1, state=2)))
     assert taken not in (before, reached, pressed, checked)
+
+
+@pytest.mark.parametrize("broken", [{"x": math.nan}, {"covariance": [math.inf] + 8 * [0.0]}], ids=["pose", "sigma"])
+def test_pose_or_uncertainty_that_is_not_a_number_is_no_pose(core, broken):
+    pose, car = LocalizedPose(valid=True, **broken), CarEstimate(state=CarEstimate.LOCATED)
+    state = status(core, pose=pose, car=car).state
+    assert not state.pose_valid and not state.HasField("x") and not state.HasField("position_sigma_m")
+
+
+def test_accuracy_is_whole_centimetres_as_far_as_the_field_reaches(core):
+    car = CarEstimate(state=CarEstimate.LOCATED)
+    poses = [LocalizedPose(valid=True, covariance=[sigma_m ** 2] + 8 * [0.0]) for sigma_m in (1.0, 1e9)]
+    assert [status(core, pose=pose, car=car).state.localization_accuracy for pose in poses] == [100, 2 ** 31 - 1]
+
+
+def test_car_that_nobody_has_located_is_not_mapped(core):
+    assert not status(core).car.mapped
+
+
+@pytest.mark.parametrize("battery, level", [(0.9, 90), (1.5, 100), (-0.5, 0)])
+def test_charge_is_a_percentage_between_0_and_100(core, battery, level):
+    assert status(core, peripherals=PeripheralsState(alive=True, battery=battery)).state.battery_level == level

@@ -10,7 +10,7 @@ from mtr_core.requests import Press, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_dispatcher.command import Command
 from mtr_dispatcher.parameters import Parameters
-from mtr_dispatcher.session import Session, Verdict, is_same
+from mtr_dispatcher.session import REMEMBERED_SESSIONS, Session, Verdict, is_same
 
 NEWEST_STATUS = 10
 
@@ -177,3 +177,69 @@ def test_repetition_asks_for_the_same(session):
     assert is_same(before, session.desired(100.5))
     assert not is_same(before, session.desired(102.0))
     assert not is_same(None, before)
+
+
+ACCEPTED = {
+    "speed": {"max_speed_mps": 2.0},
+    "height": {"key_height_m": 0.0},
+    "corner": {"waypoint": waypoint(-100.0, 100.0, 4.0 * math.pi)},
+    "one-button-as-softly-as-can-be": {"press": Press(1, 1, (1,), 0.0, 0.0)},
+    "eight-buttons-as-firmly-and-long-as-can-be": {"press": Press(1, 1, (1, 2, 3, 4, 5, 6, 7, 8), 1.0, 10.0)},
+}
+
+
+@pytest.mark.parametrize("content", ACCEPTED.values(), ids=ACCEPTED)
+def test_ends_of_the_allowed_ranges_are_acceptable(session, content):
+    assert take(session, command(**content)) is Verdict.TAKEN
+
+
+@pytest.mark.parametrize("press", [Press(1, 1, (1, 0)), Press(1, 1, tuple(range(1, 10))), Press(1, 1, (1,), -0.1),
+                                   Press(1, 1, (1,), 0.5, -0.1)],
+                         ids=["button-zero", "nine-buttons", "strength-below-zero", "duration-below-zero"])
+def test_press_just_outside_what_is_allowed_is_refused(session, press):
+    assert take(session, command(press=press)) is Verdict.REFUSED
+
+
+def test_without_orders_their_numbers_are_zero(session):
+    take(session, command())
+    assert (session.desired(100.0).map_order, session.desired(100.0).check_order) == (0, 0)
+
+
+def test_answer_of_the_former_application_does_not_count_for_the_next(session):
+    assert session.answered_status_id == 0
+    take(session, command(1))
+    take(session, command(1, 2, end_session=True))
+    take(session, replace(command(2), seen_status_id=0))
+    assert session.answered_status_id == 0
+
+
+def test_command_as_old_as_allowed_is_taken(session):
+    assert take(session, command(seen_s=99.0)) is Verdict.TAKEN
+
+
+def test_goodbye_needs_no_new_id(session):
+    take(session, command(1, 3))
+    assert take(session, command(1, 3, end_session=True)) is Verdict.ENDED
+
+
+def test_goodbye_is_not_a_command_when_it_is_repeated_without_its_flag(session):
+    take(session, command(1, 3))
+    take(session, command(1, 4, end_session=True))
+    assert take(session, command(1, 4)) is Verdict.OUTDATED
+
+
+def test_silent_application_is_followed_by_another_after_the_limit_only(session):
+    take(session, command(1))
+    assert take(session, command(2, seen_s=103.0), 103.0) is Verdict.FOREIGN
+    assert take(session, command(2, seen_s=103.1), 103.1) is Verdict.TAKEN
+
+
+def test_the_last_sixteen_applications_are_remembered(session):
+    for session_id in range(1, REMEMBERED_SESSIONS + 1):
+        take(session, command(session_id))
+        take(session, command(session_id, 2, end_session=True))
+    assert take(session, command(1)) is Verdict.OUTDATED
+    take(session, command(99))
+    take(session, command(99, 2, end_session=True))
+    assert take(session, command(2)) is Verdict.OUTDATED
+    assert take(session, command(1)) is Verdict.TAKEN

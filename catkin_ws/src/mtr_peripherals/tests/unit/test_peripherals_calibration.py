@@ -60,3 +60,18 @@ def test_value_out_of_range_is_a_sentence(bad):
 def test_node_reads_parameters_and_calibration_from_one_namespace():
     parameters = parameters_from({"firmware_silent_after_s": 2, "default_hold_s": 0.8}, Parameters)
     assert parameters == Parameters(firmware_silent_after_s=2.0, calibration=Calibration(default_hold_s=0.8))
+
+
+def test_ends_of_the_allowed_ranges_are_allowed():
+    assert (CALIBRATION.strength(0.0), CALIBRATION.strength(1.0)) == (0.0, 1.0)
+
+
+def test_small_negative_duration_is_refused():
+    with pytest.raises(RequestRefused):
+        CALIBRATION.hold_ms(-0.5)
+
+
+def test_mount_has_at_least_one_servo():
+    assert Calibration(button_of_servo=(3,)).servos([3]) == 1
+    with pytest.raises(ConfigurationError, match="button_of_servo"):
+        Calibration(button_of_servo=())

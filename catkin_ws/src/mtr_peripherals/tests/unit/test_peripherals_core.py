@@ -233,3 +233,20 @@ def test_calibration_is_ended_when_its_person_is_silent_or_another_is_in_control
     outcome = core.step(inputs, CALIBRATING, START)
     assert math.isnan(outcome.lift_height_m)
     assert word in outcome.message.text
+
+
+def test_without_a_report_the_lift_is_shown_at_its_lower_stop(core):
+    assert core.step(LIVE, None, START).lift_now_m == 0.0
+
+
+def test_calibration_below_the_nominal_stop_asks_for_no_negative_height(core):
+    outcome = core.step(Inputs(calibrates=True), replace(CALIBRATING, lift_height_m=-0.02), START)
+    assert outcome.lift_height_m == 0.0
+
+
+def test_press_fails_later_than_its_time_to_hold_and_three_seconds(core):
+    firmware = FakeFirmware()
+    firmware.deaf = 1000
+    inputs = desired(press=replace(PRESS, duration_s=0.2))
+    assert not run(core, inputs, firmware, 33).results
+    assert run(core, inputs, firmware, 1, 33).results

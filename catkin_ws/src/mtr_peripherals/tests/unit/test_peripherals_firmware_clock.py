@@ -62,3 +62,41 @@ def test_instant_near_a_report_is_mapped_with_it():
     clock = FirmwareClock()
     stamp = clock.observe(1_000, 500 * SECOND)
     assert clock.robot_ns(WRAP_US - 1_000, stamp) == stamp - 2 * MS
+
+
+@pytest.mark.parametrize("share, wraps", [(0.45, 0), (0.55, -1)])
+def test_nearest_instant_is_less_than_half_a_wrap_away(share, wraps):
+    time_us = int(share * WRAP_US)
+    assert nearest_unwrapped_ns(time_us, 0) == (time_us + wraps * WRAP_US) * 1000
+
+
+def test_instant_of_a_clock_that_starts_elsewhere_is_mapped_by_its_start():
+    clock = SharedClock(5_000_000)
+    assert clock.robot_ns(6_000_000, SECOND) == SECOND
+
+
+def test_instant_is_mapped_though_the_robots_clock_is_hours_ahead():
+    clock = FirmwareClock()
+    stamp = clock.observe(2_000_000, 10_000 * SECOND)
+    assert clock.robot_ns(1_000_000, stamp) == stamp - SECOND
+
+
+def observed(*reports):
+    """How often the firmware was taken for restarted after these (time us, arrival ns)."""
+    clock = FirmwareClock()
+    for time_us, arrival_ns in reports:
+        clock.observe(time_us, arrival_ns)
+    return clock.restarts
+
+
+def test_report_that_comes_twice_is_no_restart():
+    assert observed((1_000_000, SECOND), (1_000_000, SECOND + MS)) == 0
+
+
+def test_clock_that_steps_back_a_little_has_started_again():
+    assert observed((500_000, SECOND), (100_000, SECOND + 200 * MS)) == 1
+
+
+@pytest.mark.parametrize("late_ns, restarts", [(SECOND, 0), (SECOND + MS, 1)])
+def test_report_that_is_more_than_a_second_late_is_of_a_firmware_that_has_started_again(late_ns, restarts):
+    assert observed((1_000_000, SECOND), (2_000_000, 2 * SECOND + late_ns)) == restarts

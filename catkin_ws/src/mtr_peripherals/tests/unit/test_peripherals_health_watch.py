@@ -55,3 +55,18 @@ def test_calibration_lost_after_it_was_repaired_is_said_again():
     assert watch.sentence(Health(calibration_copies=1), 0.0)
     assert watch.sentence(GOOD, 20.0) == ""
     assert watch.sentence(Health(calibration_copies=1), 40.0)
+
+
+@pytest.mark.parametrize("counter", ["refused_commands", "checksum_errors", "skipped_frames"])
+def test_any_counter_that_steps_back_tells_of_a_reset(counter):
+    others = {"refused_commands": 5, "checksum_errors": 5, "skipped_frames": 5}
+    watch = watching(Health(**{**others, counter: 9}))
+    text = watch.sentence(Health(**{**others, counter: 2}), 1.0)
+    assert "2 " in text and "5 " in text
+
+
+def test_quiet_time_is_counted_from_the_last_sentence():
+    watch = watching()
+    assert watch.sentence(Health(checksum_errors=1), 100.0)
+    assert watch.sentence(Health(checksum_errors=2), 100.0 + QUIET_S - 0.1) == ""
+    assert watch.sentence(Health(checksum_errors=2), 100.0 + QUIET_S)

@@ -6,7 +6,7 @@ import pytest
 
 from mtr_description.shipped import shipped_geometry
 from mtr_peripherals.calibration import RequestRefused
-from mtr_peripherals.key_lift import KeyLift
+from mtr_peripherals.key_lift import HEIGHT_ROUNDING_M, KeyLift
 
 LIFT = KeyLift(shipped_geometry().key())
 
@@ -28,3 +28,7 @@ def test_height_out_of_range_is_refused_with_the_range(key_m):
 
 def test_key_is_as_far_above_its_lowest_place_as_the_lift_above_its_stop():
     assert LIFT.key_height_m(0.65) == pytest.approx(1.0)
+
+
+def test_height_that_is_off_by_what_rounding_makes_is_that_of_the_stop():
+    assert LIFT.height_m(LIFT.key_height_m(0.0) - HEIGHT_ROUNDING_M) == 0.0

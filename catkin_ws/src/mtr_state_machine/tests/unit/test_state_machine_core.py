@@ -319,3 +319,73 @@ def test_car_that_was_moved_stops_the_robot_with_the_locators_sentence(following
     moved = Problem("car_locator.moved", "The Car was moved, by 15 cm.", (("shift_cm", "15"),))
     decision = following.step(seen(car=Car(CarState.FAILED, message=moved)))
     assert (decision.state, decision.lock_reason) == (State.FAULT, moved)
+
+
+def test_machine_that_has_done_nothing_confirms_nothing(machine):
+    decision = machine.step(seen(desired=DesiredState()))
+    assert (decision.session_id, decision.waypoint_id, decision.map_car_id, decision.check_car_id) == (0, 0, 0, 0)
+
+
+def test_part_that_is_as_old_as_allowed_is_well(machine):
+    assert machine.step(seen(age_s={part: 0.5 for part in Part})).state is not State.STARTING
+
+
+def test_car_locator_that_had_failed_before_the_first_tick_is_a_fault(machine):
+    assert machine.step(seen(car=Car(CarState.FAILED))).state is State.FAULT
+
+
+def test_first_check_of_a_session_is_taken(following):
+    decision = following.step(seen(car=LOOKING, desired=replace(WANTS, check_car_id=1)))
+    assert (decision.state, decision.check_car_id) == (State.CHECKING_CAR, 1)
+
+
+def test_mapping_order_that_is_withdrawn_is_no_new_one(following):
+    order = replace(WANTS, map_car_id=3)
+    following.step(seen(car=LOCATED, desired=order))
+    following.step(seen(car=replace(LOCATED, map_car_id=3), desired=order))
+    assert following.step(seen(car=replace(LOCATED, map_car_id=3))).state is State.FOLLOWING_WAYPOINT
+
+
+def test_mapping_order_during_the_fault_of_a_part_is_not_confirmed(following):
+    ill = seen(car=LOCATED, desired=replace(WANTS, map_car_id=4), complaint=LOST)
+    assert following.step(ill).map_car_id == 0
+
+
+def test_new_waypoint_given_while_a_part_has_failed_is_not_yet_another_attempt_to_map(mapping):
+    failed, another = Car(CarState.FAILED), replace(WANTS, waypoint=replace(WAYPOINT, id=8))
+    assert mapping.step(seen(car=failed)).state is State.FAULT
+    assert mapping.step(seen(car=failed, desired=another, complaint=LOST)).state is State.FAULT
+    assert mapping.step(seen(car=failed, desired=replace(another, stop=True))).state is State.FAULT
+    assert mapping.step(seen(car=failed, desired=another)).state is State.MAPPING_CAR
+
+
+@pytest.mark.parametrize("car", [Car(CarState.UNKNOWN, message=Problem("car_locator.looks", "Looks.")),
+                                 Car(CarState.FAILED)])
+def test_car_that_is_lost_without_a_reason_is_a_fault_that_says_what_to_do(following, car):
+    assert "map the Car again" in following.step(seen(car=car)).message.text
+
+
+ROUND_IT = Problem("car_locator.goes_round", "Goes round the Car.")
+NO_WAY = Problem("motion_planner.no_way", "No way.")
+
+
+@pytest.mark.parametrize("result, shown", [(Result.REFUSED, NO_WAY), (Result.BLOCKED, NO_WAY),
+                                           (Result.PENDING, ROUND_IT)])
+def test_while_mapping_the_operator_reads_what_keeps_the_robot_from_its_goal_or_what_the_locator_does(
+        mapping, result, shown):
+    car = replace(COLLECTING, message=ROUND_IT)
+    decision = mapping.step(seen(car=car))
+    assert mapping.step(seen(car=car, motion=reported(decision, result, NO_WAY))).message == shown
+    other = GoalReport(replace(decision.goal, attempt=99).id, result, NO_WAY)
+    assert mapping.step(seen(car=car, motion=other)).message == ROUND_IT
+
+
+def test_while_following_what_the_locator_says_is_not_shown(following):
+    assert not following.step(seen(car=replace(LOCATED, message=ROUND_IT))).message
+
+
+def test_while_checking_the_operator_reads_of_this_check_only(checking):
+    running = CheckReport(4, Check.RUNNING, ROUND_IT)
+    assert checking.step(seen(car=LOOKING, desired=ORDERS_CHECK, check=running)).message == ROUND_IT
+    earlier = checking.step(seen(car=LOOKING, desired=ORDERS_CHECK, check=replace(running, id=3)))
+    assert earlier.message and earlier.message != ROUND_IT
