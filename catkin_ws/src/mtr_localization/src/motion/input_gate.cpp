@@ -83,7 +83,7 @@ std::string InputGate::interruption_before(const WheelSample& wheels) {
   if (wheel_gap_ns > gap_limit_ns_) {
     return with_number("Wheel odometry was silent for %.2f s.", seconds(wheel_gap_ns));
   }
-  const std::int64_t imu_gap_ns = gyro_.longest_gap_ns(last_used_->stamp_ns, wheels.stamp_ns);
+  const std::int64_t imu_gap_ns = gyro_.max_gap_ns(last_used_->stamp_ns, wheels.stamp_ns);
   if (imu_gap_ns > gap_limit_ns_) {
     return with_number("The IMU was silent for %.2f s.", seconds(imu_gap_ns));
   }

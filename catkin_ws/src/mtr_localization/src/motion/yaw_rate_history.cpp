@@ -47,14 +47,14 @@ double YawRateHistory::integral(std::int64_t from_ns, std::int64_t to_ns) const 
   return angle_rad;
 }
 
-std::int64_t YawRateHistory::longest_gap_ns(std::int64_t from_ns, std::int64_t to_ns) const {
-  std::int64_t longest_ns = 0;
+std::int64_t YawRateHistory::max_gap_ns(std::int64_t from_ns, std::int64_t to_ns) const {
+  std::int64_t max_ns = 0;
   for (std::size_t i = 1; i < samples_.size(); ++i) {
     if (samples_[i].stamp_ns > from_ns && samples_[i - 1].stamp_ns < to_ns) {
-      longest_ns = std::max(longest_ns, samples_[i].stamp_ns - samples_[i - 1].stamp_ns);
+      max_ns = std::max(max_ns, samples_[i].stamp_ns - samples_[i - 1].stamp_ns);
     }
   }
-  return longest_ns;
+  return max_ns;
 }
 
 void YawRateHistory::forget_before(std::int64_t time_ns) {

@@ -37,7 +37,7 @@ class YawRateHistory {
   double integral(std::int64_t from_ns, std::int64_t to_ns) const;
 
   /// Longest time without a sample between two covered times, ns.
-  std::int64_t longest_gap_ns(std::int64_t from_ns, std::int64_t to_ns) const;
+  std::int64_t max_gap_ns(std::int64_t from_ns, std::int64_t to_ns) const;
 
   /// Drops what is not needed for times from the given one on.
   void forget_before(std::int64_t time_ns);

@@ -47,16 +47,16 @@ Result replayed(const std::string& bag, std::vector<std::string> more = {}) {
 
 /// Largest distance of a valid pose in the frozen map from the truth, m. Map begins at the first true pose.
 double largest_error_m(const Result& result, const std::vector<PoseVector>& truth) {
-  double largest_m = 0.0;
+  double max_m = 0.0;
   for (const Estimate& pose : result.trajectory) {
     if (pose.mode == PoseMode::kLocalized) {
       const auto step =
           static_cast<std::size_t>(std::llround((static_cast<double>(pose.stamp_ns) * 1e-9 - 1.0) / 0.02));
       const PoseVector expected = relative(truth.front(), truth.at(step));
-      largest_m = std::max(largest_m, std::hypot(pose.x_m - expected.x(), pose.y_m - expected.y()));
+      max_m = std::max(max_m, std::hypot(pose.x_m - expected.x(), pose.y_m - expected.y()));
     }
   }
-  return largest_m;
+  return max_m;
 }
 
 TEST(ReplayOptions, EverythingIsUnderstood) {

@@ -63,8 +63,8 @@ TEST_F(YawRateHistoryTest, RepeatedStampIsIgnored) {
 
 TEST_F(YawRateHistoryTest, LongestGapIsFoundBetweenTheTimesAsked) {
   history.add({900 * kMs, 1.0});
-  EXPECT_EQ(history.longest_gap_ns(100 * kMs, 300 * kMs), 100 * kMs);
-  EXPECT_EQ(history.longest_gap_ns(100 * kMs, 400 * kMs), 600 * kMs);
+  EXPECT_EQ(history.max_gap_ns(100 * kMs, 300 * kMs), 100 * kMs);
+  EXPECT_EQ(history.max_gap_ns(100 * kMs, 400 * kMs), 600 * kMs);
 }
 
 TEST_F(YawRateHistoryTest, ForgettingKeepsWhatCoversTheTime) {

@@ -17,8 +17,8 @@ namespace {
 
 /// Sizes of one round, in m.
 struct Round {
-  double largest_surfel_m;
-  double smallest_surfel_m;
+  double max_surfel_m;
+  double min_surfel_m;
   /// Root mean square distance of points from a surface that still counts as one.
   double thickness_m;
   /// Distance from a surface up to which a point is taken to lie on it.
@@ -55,9 +55,9 @@ Round fine_round(const AdjustmentParameters& parameters) {
 }
 
 std::vector<Surfel> surfels_of(const Adjustment& state, const Round& round, int number) {
-  const double shift = std::fmod(kShift * number, 1.0) * round.largest_surfel_m;
+  const double shift = std::fmod(kShift * number, 1.0) * round.max_surfel_m;
   return build_surfels(points_in_map(state.key_frames, state.range_bias_m),
-                       {round.largest_surfel_m, round.smallest_surfel_m, round.thickness_m, {shift, shift}});
+                       {round.max_surfel_m, round.min_surfel_m, round.thickness_m, {shift, shift}});
 }
 
 std::vector<Observation> observe(const Adjustment& state, double gate_m, const AdjustmentParameters& parameters) {

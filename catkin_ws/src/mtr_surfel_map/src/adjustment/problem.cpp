@@ -51,13 +51,13 @@ NormalEquations equations_of(const Adjustment& state, const std::vector<Observat
 /// Returns the largest motion of a place.
 double take(const Step& step, Adjustment& state) {
   const Layout layout = layout_of(state);
-  double largest_m = 0.0;
+  double max_m = 0.0;
   for (std::size_t i = 1; i < state.key_frames.size(); ++i) {
     PoseVector& pose = state.key_frames[i].pose;
     const Eigen::Vector3d change = step.joint.segment<3>(Layout::pose(static_cast<Eigen::Index>(i)));
     pose += change;
     pose[2] = wrapped(pose[2]);
-    largest_m = std::max(largest_m, change.head<2>().norm());
+    max_m = std::max(max_m, change.head<2>().norm());
   }
   for (std::size_t i = 0; i < state.surfels.size(); ++i) {
     const Eigen::Vector2d change = step.separate.col(static_cast<Eigen::Index>(i));
@@ -67,7 +67,7 @@ double take(const Step& step, Adjustment& state) {
   state.range_bias_m += step.joint[layout.range_bias()];
   state.wheel_scale += step.joint[layout.wheel_scale()];
   state.gyro_scale += step.joint[layout.gyro_scale()];
-  return largest_m;
+  return max_m;
 }
 
 double median(std::vector<double> values) {
@@ -79,15 +79,15 @@ double median(std::vector<double> values) {
 }  // namespace
 
 double solve(Adjustment& state, const std::vector<Observation>& observations, const AdjustmentParameters& parameters) {
-  double largest_m = 0.0;
+  double max_m = 0.0;
   for (int i = 0; i < kMaxSteps; ++i) {
     const double moved_m = take(equations_of(state, observations, parameters).solve(), state);
-    largest_m = std::max(largest_m, moved_m);
+    max_m = std::max(max_m, moved_m);
     if (moved_m < kSettledM) {
       break;
     }
   }
-  return largest_m;
+  return max_m;
 }
 
 Fit fit_of(const Adjustment& state, const std::vector<Observation>& observations) {

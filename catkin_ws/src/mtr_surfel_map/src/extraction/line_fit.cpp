@@ -55,14 +55,14 @@ double unevenness_m(SeenPointIterator first, SeenPointIterator last, const Line&
     sums[index] += line.normal.dot(offset);
     ++counts[index];
   }
-  double largest_m = 0.0;
+  double max_m = 0.0;
   for (std::size_t i = 0; i < kParts; ++i) {
     if (counts[i] > 0.0) {
       const double chance_m = kSignificance * line.thickness_m / std::sqrt(counts[i]);
-      largest_m = std::max(largest_m, std::abs(sums[i]) / counts[i] - chance_m);
+      max_m = std::max(max_m, std::abs(sums[i]) / counts[i] - chance_m);
     }
   }
-  return largest_m;
+  return max_m;
 }
 
 bool is_enough(SeenPointIterator first, SeenPointIterator last) {

@@ -41,7 +41,7 @@ class Search {
     const Line line = line_through(first, last);
     const Iterator turned =
         std::partition(first, last, [&](const SeenPoint& point) { return line.normal.dot(point.direction) < 0.0; });
-    const bool divisible = side_m > 1.5 * shape_.smallest_m;
+    const bool divisible = side_m > 1.5 * shape_.min_m;
     const SquareFit front = judge(first, turned, divisible);
     const SquareFit back = judge(turned, last, divisible);
     if (front.divide || back.divide) {
@@ -97,7 +97,7 @@ std::optional<Surfel> surfel_along(const Line& line, int hits) {
 
 std::vector<Surfel> search_surfels(SeenPoints points, const SurfelShape& shape) {
   const auto cell_of = [&](const SeenPoint& point) -> Eigen::Array2d {
-    return ((point.position - shape.origin) / shape.largest_m).array().floor();
+    return ((point.position - shape.origin) / shape.max_m).array().floor();
   };
   const auto before = [&](const SeenPoint& a, const SeenPoint& b) {
     const Eigen::Array2d first = cell_of(a);
@@ -109,8 +109,8 @@ std::vector<Surfel> search_surfels(SeenPoints points, const SurfelShape& shape) 
   Search search(shape, found);
   for (Iterator first = points.begin(); first != points.end();) {
     const Iterator last = std::upper_bound(first, points.end(), *first, before);
-    const Eigen::Vector2d corner = shape.origin + (cell_of(*first) * shape.largest_m).matrix();
-    search.square(first, last, corner, shape.largest_m);
+    const Eigen::Vector2d corner = shape.origin + (cell_of(*first) * shape.max_m).matrix();
+    search.square(first, last, corner, shape.max_m);
     first = last;
   }
   return found;

@@ -15,8 +15,8 @@ namespace mtr_surfel_map {
 /// What counts as a surface element.
 struct SurfelShape {
   /// Side of the largest and smallest square that is searched for one.
-  double largest_m;
-  double smallest_m;
+  double max_m;
+  double min_m;
   /// Root mean square distance of its points from it at most.
   double thickness_m;
   /// Where the grid of squares begins: another choice cuts surfaces elsewhere.

@@ -166,7 +166,7 @@ inline Loop drive(const LoopOptions& options) { return Drive(options).run(); }
 /// Largest and root mean square distance of poses from the truth, in m and rad.
 struct PoseErrors {
   double rms_m = 0.0;
-  double largest_m = 0.0;
+  double max_m = 0.0;
   double rms_rad = 0.0;
 };
 
@@ -176,7 +176,7 @@ inline PoseErrors errors_of(const std::vector<KeyFrame>& frames, const std::vect
     const PoseVector error = relative(truth[i], frames[i].pose);
     errors.rms_m += error.head<2>().squaredNorm() / static_cast<double>(frames.size());
     errors.rms_rad += error[2] * error[2] / static_cast<double>(frames.size());
-    errors.largest_m = std::max(errors.largest_m, error.head<2>().norm());
+    errors.max_m = std::max(errors.max_m, error.head<2>().norm());
   }
   errors.rms_m = std::sqrt(errors.rms_m);
   errors.rms_rad = std::sqrt(errors.rms_rad);

@@ -31,7 +31,7 @@ double largest_error_m(const LoopOptions& options) {
   const Loop loop = drive(options);
   const AdjustedMap map = map_of(loop);
   EXPECT_TRUE(map.valid) << map.message;
-  return map.valid ? errors_of(map.key_frames, loop.truth).largest_m : std::numeric_limits<double>::infinity();
+  return map.valid ? errors_of(map.key_frames, loop.truth).max_m : std::numeric_limits<double>::infinity();
 }
 
 /// Mean of squared errors over their variances, per degree of freedom.
@@ -46,7 +46,7 @@ double nees_of(const AdjustedMap& map, const std::vector<PoseVector>& truth) {
 }
 
 TEST(MapAdjustment, PosesInALotAreTrueToMillimetres) {
-  EXPECT_GT(errors_of(drive({}).key_frames, drive({}).truth).largest_m, 0.03);
+  EXPECT_GT(errors_of(drive({}).key_frames, drive({}).truth).max_m, 0.03);
   EXPECT_LT(largest_error_m(in("lot")), 0.005);
 }
 
@@ -97,7 +97,7 @@ TEST(MapAdjustment, RangeBiasIsFoundAndTakenOff) {
     const AdjustedMap map = map_of(loop);
     EXPECT_NEAR(map.range_bias_m, bias_m, 2.0 * map.range_bias_sigma_m);
     EXPECT_LT(map.range_bias_sigma_m, 0.005);
-    EXPECT_LT(errors_of(map.key_frames, loop.truth).largest_m, 0.02);
+    EXPECT_LT(errors_of(map.key_frames, loop.truth).max_m, 0.02);
     for (const Surfel& surfel : map.surfels) {
       EXPECT_LT(synthetic::distance_from(loop.world, surfel.position), 0.02);
     }
@@ -160,10 +160,10 @@ TEST(MapAdjustment, DriftOfDecimetresIsBroughtTogether) {
   options.motion_noise_factor = 6.0;
   options.seed = 2;
   const Loop loop = drive(options);
-  ASSERT_GT(errors_of(loop.key_frames, loop.truth).largest_m, 0.12);
+  ASSERT_GT(errors_of(loop.key_frames, loop.truth).max_m, 0.12);
   const AdjustedMap map = map_of(loop);
   ASSERT_TRUE(map.valid) << map.message;
-  EXPECT_LT(errors_of(map.key_frames, loop.truth).largest_m, 0.008);
+  EXPECT_LT(errors_of(map.key_frames, loop.truth).max_m, 0.008);
 }
 
 TEST(MapAdjustment, FirstKeyFrameStaysWhereItWas) {
