@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "problems.hpp"
 #include "scans/deskew.hpp"
 
 namespace mtr_localization {
@@ -21,7 +22,7 @@ AdjustedMap unadjusted(const std::vector<KeyFrame>& key_frames) {
   map.surfels = points.surfels();
   map.key_frames = key_frames;
   map.valid = !map.surfels.empty();
-  map.message = map.valid ? "Surfaces by poses from elsewhere, not adjusted." : "No scan has been seen.";
+  map.message = map.valid ? problems::kNotAdjusted() : problems::kNoScan();
   return map;
 }
 
@@ -61,13 +62,13 @@ bool ExternalPose::correct_by_scans() {
   return !sets.empty();
 }
 
-std::string ExternalPose::problem_at(std::int64_t stamp_ns) const {
+mtr_core::Problem ExternalPose::problem_at(std::int64_t stamp_ns) const {
   if (odometry().state() != MotionState::kTracking) {
     return odometry().problem();
   }
   const bool is_fresh =
       map_from_odom_ && static_cast<double>(stamp_ns - map_from_odom_->stamp_ns) * 1e-9 <= own_.external_timeout_s;
-  return is_fresh ? "" : "Waiting for map to odom from the other localization.";
+  return is_fresh ? mtr_core::Problem{} : problems::kWaitingForOther();
 }
 
 PoseVector ExternalPose::map_from_odom() const { return map_from_odom_ ? map_from_odom_->pose : PoseVector::Zero(); }

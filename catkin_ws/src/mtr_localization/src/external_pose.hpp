@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "mtr_core/parameter.hpp"
@@ -58,7 +57,7 @@ class ExternalPose : public PoseSource {
 
  private:
   void look_up();
-  std::string problem_at(std::int64_t stamp_ns) const;
+  mtr_core::Problem problem_at(std::int64_t stamp_ns) const;
 
   ExternalParameters own_;
   LookUp look_up_;

@@ -4,6 +4,7 @@
 #include "localizer.hpp"
 
 #include "mtr_surfel_map/adjustment/map_adjustment.hpp"
+#include "problems.hpp"
 #include "scans/deskew.hpp"
 
 namespace mtr_localization {
@@ -32,8 +33,7 @@ Estimate Localizer::step(const GatedSample& sample) {
   const std::int64_t now_ns = sample.wheels.stamp_ns;
 
   // Predict by wheels and gyro.
-  const std::string loss = odometry().predict(sample, gyro(), tracker_.has_map());
-  if (!loss.empty()) {
+  if (const mtr_core::Problem loss = odometry().predict(sample, gyro(), tracker_.has_map())) {
     lose(loss);
   }
   mapper().travel(history().newest().input, tracker_.lost());
@@ -100,8 +100,7 @@ void Localizer::map(std::size_t step, const ScanPoints& scan) {
 }
 
 void Localizer::correct_by_satellites() {
-  const std::string contradiction = gnss_.use_due(tracker_, history());
-  if (!contradiction.empty()) {
+  if (const mtr_core::Problem contradiction = gnss_.use_due(tracker_, history())) {
     tracker_.lose(contradiction);
   }
 }
@@ -126,10 +125,10 @@ void Localizer::enter(const AdjustedMap& map) {
   history().forget_past();
 }
 
-void Localizer::lose(const std::string& reason) {
+void Localizer::lose(const mtr_core::Problem& reason) {
   const bool is_mapping = tracker_.state() == ScanTracker::State::kMapping;
-  tracker_.lose("Position lost: " + reason +
-                (is_mapping ? " Map the Car again." : " Searching near the last position."));
+  const mtr_core::Sentence& sentence = is_mapping ? problems::kLost : problems::kSearching;
+  tracker_.lose(sentence({{"cause", reason}}));
 }
 
 PoseVector Localizer::map_from_odom() const {

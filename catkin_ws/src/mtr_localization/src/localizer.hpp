@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "gnss/gnss_monitor.hpp"
@@ -37,7 +36,7 @@ class Localizer : public PoseSource {
   void correct_by_satellites();
   void begin_map();
   void enter(const AdjustedMap& map);
-  void lose(const std::string& reason);
+  void lose(const mtr_core::Problem& reason);
   Estimate estimate() const;
   PoseMode mode() const;
 

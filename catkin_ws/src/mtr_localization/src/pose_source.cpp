@@ -37,7 +37,7 @@ std::vector<Estimate> PoseSource::add_wheels(const WheelSample& sample) {
 std::vector<Estimate> PoseSource::process() {
   std::vector<Estimate> estimates;
   while (const std::optional<GatedSample> sample = gate_.next()) {
-    if (sample->problem.empty()) {
+    if (!sample->problem) {
       estimates.push_back(step(*sample));
       gate_.release(*sample);
     } else {
@@ -48,8 +48,8 @@ std::vector<Estimate> PoseSource::process() {
 }
 
 std::vector<Estimate> PoseSource::check_silence(std::int64_t now_ns) {
-  const std::string silence = gate_.silence(now_ns);
-  if (silence.empty()) {
+  const mtr_core::Problem silence = gate_.silence(now_ns);
+  if (!silence) {
     return {};
   }
   return gate_.in_order({invalid(now_ns, silence)});
@@ -81,16 +81,16 @@ Estimate PoseSource::estimate_of(std::int64_t stamp_ns, const PoseVector& pose,
   return estimate;
 }
 
-Estimate PoseSource::invalid(std::int64_t stamp_ns, const std::string& problem) const {
+Estimate PoseSource::invalid(std::int64_t stamp_ns, const mtr_core::Problem& problem) const {
   Estimate estimate = pose_at(stamp_ns);
   estimate.message = problem;
   return estimate;
 }
 
-Estimate PoseSource::answer(std::int64_t stamp_ns, const std::string& problem) const {
+Estimate PoseSource::answer(std::int64_t stamp_ns, const mtr_core::Problem& problem) const {
   Estimate estimate = pose_at(stamp_ns);
   estimate.message = problem;
-  estimate.valid = problem.empty();
+  estimate.valid = !problem;
   estimate.speed_mps = odometry_.speed_mps();
   estimate.yaw_rate_radps = odometry_.yaw_rate_radps();
   return estimate;

@@ -81,11 +81,11 @@ class PoseSource {
   /// What all estimates have in common.
   Estimate estimate_of(std::int64_t stamp_ns, const PoseVector& pose, const Eigen::Matrix3d& covariance) const;
   /// The step's answer; valid unless there is a problem.
-  Estimate answer(std::int64_t stamp_ns, const std::string& problem) const;
+  Estimate answer(std::int64_t stamp_ns, const mtr_core::Problem& problem) const;
 
  private:
   std::vector<Estimate> process();
-  Estimate invalid(std::int64_t stamp_ns, const std::string& problem) const;
+  Estimate invalid(std::int64_t stamp_ns, const mtr_core::Problem& problem) const;
 
   Parameters parameters_;
   InputGate gate_;

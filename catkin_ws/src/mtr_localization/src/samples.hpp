@@ -6,7 +6,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <string>
+
+#include "mtr_core/problem.hpp"
 
 namespace mtr_localization {
 
@@ -72,7 +73,7 @@ struct Estimate {
   std::array<double, 3> odom{};
   std::array<double, 3> wheel_odom{};
   /// One sentence when not valid.
-  std::string message;
+  mtr_core::Problem message;
 };
 
 }  // namespace mtr_localization

@@ -6,9 +6,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "map_names.hpp"
+#include "problems.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -62,39 +62,39 @@ void GnssMonitor::clear() {
   figures_.residual_m = 0.0;
 }
 
-std::string GnssMonitor::use_due(const ScanTracker& tracker, FilterHistory& history) {
-  std::string problem;
+mtr_core::Problem GnssMonitor::use_due(const ScanTracker& tracker, FilterHistory& history) {
+  mtr_core::Problem problem;
   while (!waiting_.empty() && waiting_.front().stamp_ns + kLagNs <= history.newest().stamp_ns) {
     const GnssFix fix = waiting_.front();
     waiting_.pop_front();
     // One that is older than all that is remembered comes too late.
-    if (problem.empty() && fix.stamp_ns >= history.oldest().stamp_ns) {
+    if (!problem && fix.stamp_ns >= history.oldest().stamp_ns) {
       problem = use(fix, tracker, history);
     }
   }
   return problem;
 }
 
-std::string GnssMonitor::use(const GnssFix& fix, const ScanTracker& tracker, FilterHistory& history) {
+mtr_core::Problem GnssMonitor::use(const GnssFix& fix, const ScanTracker& tracker, FilterHistory& history) {
   if (tracker.lost() || tracker.state() == ScanTracker::State::kNoMap) {
     contradictions_ = 0;
-    return "";
+    return {};
   }
   const FilterStep& step = history.at(history.nearest(fix.stamp_ns));
   const std::optional<GnssPosition> seen = frame_.in_map(fix);
   if (seen && tracker.state() == ScanTracker::State::kLocalized) {
-    const std::string problem = compare(fix, *seen, history);
-    if (!problem.empty() || contradictions_ > 0) {
+    mtr_core::Problem problem = compare(fix, *seen, history);
+    if (problem || contradictions_ > 0) {
       return problem;
     }
   }
   if (!tracker.degenerate() && worst_sigma_m(step.filter.pose_covariance().topLeftCorner<2, 2>()) < kKnownSigmaM) {
     frame_.learn(fix, transformed(step.filter.pose(), fix.antenna));
   }
-  return "";
+  return {};
 }
 
-std::string GnssMonitor::compare(const GnssFix& fix, const GnssPosition& seen, FilterHistory& history) {
+mtr_core::Problem GnssMonitor::compare(const GnssFix& fix, const GnssPosition& seen, FilterHistory& history) {
   const std::size_t index = history.nearest(fix.stamp_ns);
   const PoseFilter& filter = history.at(index).filter;
   const Eigen::Vector2d residual = seen.position - transformed(filter.pose(), fix.antenna);
@@ -103,14 +103,10 @@ std::string GnssMonitor::compare(const GnssFix& fix, const GnssPosition& seen, F
   figures_.residual_m = residual.norm();
   if (figures_.residual_m > kFarM && figures_.residual_m > kFarInSigmas * std::hypot(seen.sigma_m, pose_sigma_m)) {
     if (++contradictions_ < kContradictions) {
-      return "";
+      return {};
     }
     contradictions_ = 0;
-    char text[140];
-    std::snprintf(text, sizeof(text),
-                  "Position lost: by satellites the robot is %.1f m from there. Searching near the last position.",
-                  figures_.residual_m);
-    return text;
+    return problems::kElsewhere({{"distance_m", figures_.residual_m}});
   }
   contradictions_ = 0;
   if (pose_sigma_m > kTwiceAsUncertain * seen.sigma_m) {
@@ -121,7 +117,7 @@ std::string GnssMonitor::compare(const GnssFix& fix, const GnssPosition& seen, F
     history.change(index, [&](PoseFilter& corrected) { corrected.correct(correction); });
     ++figures_.used;
   }
-  return "";
+  return {};
 }
 
 }  // namespace mtr_localization

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <deque>
-#include <string>
 
 #include "figures.hpp"
 #include "gnss/gnss_frame.hpp"
@@ -25,13 +24,13 @@ class GnssMonitor {
   void clear();
 
   /// Uses the fixes that are due at the history's newest step; one sentence when they say that the pose is wrong.
-  std::string use_due(const ScanTracker& tracker, FilterHistory& history);
+  mtr_core::Problem use_due(const ScanTracker& tracker, FilterHistory& history);
 
   const GnssFigures& figures() const { return figures_; }
 
  private:
-  std::string use(const GnssFix& fix, const ScanTracker& tracker, FilterHistory& history);
-  std::string compare(const GnssFix& fix, const GnssPosition& seen, FilterHistory& history);
+  mtr_core::Problem use(const GnssFix& fix, const ScanTracker& tracker, FilterHistory& history);
+  mtr_core::Problem compare(const GnssFix& fix, const GnssPosition& seen, FilterHistory& history);
 
   std::deque<GnssFix> waiting_;
   GnssFrame frame_;

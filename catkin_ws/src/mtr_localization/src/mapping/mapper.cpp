@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "problems.hpp"
+
 namespace mtr_localization {
 namespace {
 
@@ -101,7 +103,7 @@ const AdjustedMap* Mapper::finish(std::int64_t now_ns) {
   result_ = adjusting_.get();
   if (lost_travel_m_ > kMaxLostTravelM) {
     result_->map.valid = false;
-    result_->map.message = "The position was lost on the way round the Car, and the robot went on; map the Car again.";
+    result_->map.message = problems::kLostOnTheWay();
   }
   if (result_->map.valid) {
     revision_ = ++newest_revision_;

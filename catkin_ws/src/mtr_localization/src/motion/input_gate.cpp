@@ -4,8 +4,9 @@
 #include "motion/input_gate.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "problems.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -17,19 +18,13 @@ constexpr double kJitterM = 0.01;
 
 double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-9; }
 
-std::string with_number(const char* format, double number) {
-  char text[120];
-  std::snprintf(text, sizeof(text), format, number);
-  return text;
-}
-
 }  // namespace
 
 InputGate::InputGate(double gap_limit_s) : gap_limit_ns_(std::llround(gap_limit_s * 1e9)) {}
 
 void InputGate::add_imu(const ImuSample& sample) {
   if (!gyro_.add(sample)) {
-    restart_ = "The time of the IMU went backwards.";
+    restart_ = problems::kImuWentBack();
   }
 }
 
@@ -40,7 +35,7 @@ void InputGate::add_wheels(const WheelSample& sample) {
   if (newest_wheels_ns_ && sample.stamp_ns < *newest_wheels_ns_) {
     pending_.clear();
     emitted_ns_.reset();
-    restart_ = "The time of the wheel odometry went backwards.";
+    restart_ = problems::kWheelsWentBack();
   }
   newest_wheels_ns_ = sample.stamp_ns;
   pending_.push_back(sample);
@@ -56,49 +51,49 @@ std::optional<GatedSample> InputGate::next() {
     return std::nullopt;
   }
   pending_.pop_front();
-  GatedSample sample{wheels, has_imu ? problem_with(wheels) : "The IMU is silent.", ""};
-  if (sample.problem.empty()) {
+  GatedSample sample{wheels, has_imu ? problem_with(wheels) : problems::kImuSilent(), {}};
+  if (!sample.problem) {
     sample.interruption = interruption_before(wheels);
     last_used_ = wheels;
   }
   return sample;
 }
 
-std::string InputGate::problem_with(const WheelSample& wheels) const {
+mtr_core::Problem InputGate::problem_with(const WheelSample& wheels) const {
   if (!wheels.is_finite()) {
-    return "Wheel odometry is not a finite number.";
+    return problems::kWheelsNotFinite();
   }
   if (!gyro_.covers(wheels.stamp_ns)) {
-    return gyro_.newest_is_good() ? "Waiting for the IMU." : "The IMU's rate is not a number.";
+    return gyro_.newest_is_good() ? problems::kWaitingForImu() : problems::kImuNotANumber();
   }
-  return "";
+  return {};
 }
 
-std::string InputGate::interruption_before(const WheelSample& wheels) {
-  std::string restart = std::exchange(restart_, "");
-  if (!restart.empty() || !last_used_) {
+mtr_core::Problem InputGate::interruption_before(const WheelSample& wheels) {
+  mtr_core::Problem restart = std::exchange(restart_, {});
+  if (restart || !last_used_) {
     return restart;
   }
   const std::int64_t wheel_gap_ns = wheels.stamp_ns - last_used_->stamp_ns;
   if (wheel_gap_ns > gap_limit_ns_) {
-    return with_number("Wheel odometry was silent for %.2f s.", seconds(wheel_gap_ns));
+    return problems::kWheelsWereSilent({{"gap_s", seconds(wheel_gap_ns)}});
   }
   const std::int64_t imu_gap_ns = gyro_.max_gap_ns(last_used_->stamp_ns, wheels.stamp_ns);
   if (imu_gap_ns > gap_limit_ns_) {
-    return with_number("The IMU was silent for %.2f s.", seconds(imu_gap_ns));
+    return problems::kImuWasSilent({{"gap_s", seconds(imu_gap_ns)}});
   }
   const double distance_m = std::hypot(wheels.x_m - last_used_->x_m, wheels.y_m - last_used_->y_m);
   if (distance_m > kMaxWheelsMps * seconds(wheel_gap_ns) + kJitterM) {
-    return with_number("Wheel odometry jumped by %.2f m.", distance_m);
+    return problems::kWheelsJumped({{"distance_m", distance_m}});
   }
-  return "";
+  return {};
 }
 
-std::string InputGate::silence(std::int64_t now_ns) const {
+mtr_core::Problem InputGate::silence(std::int64_t now_ns) const {
   if (!newest_wheels_ns_) {
-    return "Waiting for wheel odometry.";
+    return problems::kWaitingForWheels();
   }
-  return now_ns - *newest_wheels_ns_ > gap_limit_ns_ ? "Wheel odometry is silent, or its stamps are old." : "";
+  return now_ns - *newest_wheels_ns_ > gap_limit_ns_ ? problems::kWheelsSilent() : mtr_core::Problem{};
 }
 
 std::vector<Estimate> InputGate::in_order(std::vector<Estimate> estimates) {

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "motion/yaw_rate_history.hpp"
+#include "mtr_core/problem.hpp"
 #include "samples.hpp"
 
 namespace mtr_localization {
@@ -17,10 +17,10 @@ namespace mtr_localization {
 /// A wheel sample whose turn has come.
 struct GatedSample {
   WheelSample wheels;
-  /// One sentence on why it cannot be used; empty when it can.
-  std::string problem;
-  /// One sentence when wheels or gyro were silent or jumped since the last sample that could be used; else empty.
-  std::string interruption;
+  /// Why it cannot be used; none when it can.
+  mtr_core::Problem problem;
+  /// Wheels or gyro were silent or jumped since the last sample that could be used.
+  mtr_core::Problem interruption;
 };
 
 /// Gives each wheel sample as soon as IMU data reaches its stamp; the order in which the two arrive does not matter.
@@ -38,8 +38,8 @@ class InputGate {
   /// The sample has been used: the gyro's rates before it are not needed any more.
   void release(const GatedSample& sample) { gyro_.forget_before(sample.wheels.stamp_ns); }
 
-  /// One sentence while wheel odometry is silent; else empty.
-  std::string silence(std::int64_t now_ns) const;
+  /// A problem while wheel odometry is silent.
+  mtr_core::Problem silence(std::int64_t now_ns) const;
 
   /// Those that are newer than all before: late data counts for the pose, but consumers already know of later times.
   std::vector<Estimate> in_order(std::vector<Estimate> estimates);
@@ -47,8 +47,8 @@ class InputGate {
   const YawRateHistory& gyro() const { return gyro_; }
 
  private:
-  std::string problem_with(const WheelSample& wheels) const;
-  std::string interruption_before(const WheelSample& wheels);
+  mtr_core::Problem problem_with(const WheelSample& wheels) const;
+  mtr_core::Problem interruption_before(const WheelSample& wheels);
 
   std::int64_t gap_limit_ns_;
   YawRateHistory gyro_;
@@ -57,7 +57,7 @@ class InputGate {
   std::optional<std::int64_t> newest_wheels_ns_;
   std::optional<std::int64_t> emitted_ns_;
   /// Why the next sample does not continue what was before.
-  std::string restart_;
+  mtr_core::Problem restart_;
 };
 
 }  // namespace mtr_localization

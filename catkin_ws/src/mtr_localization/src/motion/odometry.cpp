@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "problems.hpp"
+
 namespace mtr_localization {
 namespace {
 
@@ -20,13 +22,16 @@ constexpr double kLevelEveryRad = 0.3;
 }  // namespace
 
 Odometry::Odometry(const SensorParameters& parameters)
-    : parameters_(parameters), history_(PoseFilter(parameters), 0), standstill_(parameters) {}
+    : parameters_(parameters),
+      history_(PoseFilter(parameters), 0),
+      standstill_(parameters),
+      problem_(problems::kStandStill()) {}
 
-std::string Odometry::predict(const GatedSample& sample, const YawRateHistory& gyro, bool has_map) {
+mtr_core::Problem Odometry::predict(const GatedSample& sample, const YawRateHistory& gyro, bool has_map) {
   const WheelSample& wheels = sample.wheels;
-  std::string loss;
+  mtr_core::Problem loss;
   gyro_rate_radps_ = gyro.rate_at(wheels.stamp_ns);
-  if (last_ && sample.interruption.empty()) {
+  if (last_ && !sample.interruption) {
     standstill_.update(wheels, rate_for_standstill());
     if (state_ == MotionState::kInterrupted && !standstill_.resting()) {
       loss = lose(problem_, has_map);
@@ -80,12 +85,12 @@ double Odometry::rate_for_standstill() const {
   return bias_unknown ? 0.0 : filter().corrected_rate(gyro_rate_radps_);
 }
 
-std::string Odometry::interrupt(const GatedSample& sample, bool has_map) {
+mtr_core::Problem Odometry::interrupt(const GatedSample& sample, bool has_map) {
   const WheelSample& wheels = sample.wheels;
   const double moved_m = std::hypot(wheels.x_m - last_->x_m, wheels.y_m - last_->y_m);
   const double turned_rad = std::remainder(wheels.heading_rad - last_->heading_rad, 2.0 * M_PI);
   const bool unmoved = moved_m <= kUnmovedM && std::abs(turned_rad) <= kUnmovedRad;
-  std::string loss;
+  mtr_core::Problem loss;
   if (state_ == MotionState::kTracking && standstill_.standing() && unmoved) {
     state_ = MotionState::kInterrupted;
     problem_ = sample.interruption;
@@ -96,20 +101,20 @@ std::string Odometry::interrupt(const GatedSample& sample, bool has_map) {
   return loss;
 }
 
-std::string Odometry::lose(const std::string& reason, bool has_map) {
-  std::string loss = reason;
+mtr_core::Problem Odometry::lose(const mtr_core::Problem& reason, bool has_map) {
+  mtr_core::Problem loss = reason;
   if (has_map) {
     track();
     return loss;
   }
   state_ = MotionState::kLost;
-  problem_ = "Position lost: " + reason + " Map the Car again.";
-  return "";
+  problem_ = problems::kLost({{"cause", reason}});
+  return {};
 }
 
 void Odometry::track() {
   state_ = MotionState::kTracking;
-  problem_.clear();
+  problem_ = {};
 }
 
 void Odometry::begin_map() {

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string>
 
 #include "map_names.hpp"
 #include "motion/filter_history.hpp"
@@ -33,8 +32,8 @@ class Odometry {
   explicit Odometry(const SensorParameters& parameters);
 
   /// Goes on to a sample that can be used. @param gyro covers the time since the one before. @param has_map scans can
-  /// find a pose again. Returns the reason when they must: the robot moved unseen. Else empty.
-  std::string predict(const GatedSample& sample, const YawRateHistory& gyro, bool has_map);
+  /// find a pose again. Returns the reason when they must: the robot moved unseen.
+  mtr_core::Problem predict(const GatedSample& sample, const YawRateHistory& gyro, bool has_map);
 
   /// A new map begins here: a pose that was lost does not matter any more.
   void begin_map();
@@ -44,8 +43,8 @@ class Odometry {
   const PoseFilter& filter() const { return history_.newest().filter; }
 
   MotionState state() const { return state_; }
-  /// One sentence unless tracking.
-  const std::string& problem() const { return problem_; }
+  /// None while tracking.
+  const mtr_core::Problem& problem() const { return problem_; }
   bool standing() const { return standstill_.standing(); }
   /// A sample has been used.
   bool has_begun() const { return last_.has_value(); }
@@ -59,8 +58,8 @@ class Odometry {
   FilterInput input_since_last(const WheelSample& wheels, const YawRateHistory& gyro);
   Eigen::Vector2d slope_at(const WheelSample& wheels, const ImuSample& imu, double duration_s);
   double rate_for_standstill() const;
-  std::string interrupt(const GatedSample& sample, bool has_map);
-  std::string lose(const std::string& reason, bool has_map);
+  mtr_core::Problem interrupt(const GatedSample& sample, bool has_map);
+  mtr_core::Problem lose(const mtr_core::Problem& reason, bool has_map);
   void track();
 
   SensorParameters parameters_;
@@ -73,7 +72,7 @@ class Odometry {
   std::optional<WheelSample> last_;
   double gyro_rate_radps_ = 0.0;
   MotionState state_ = MotionState::kStarting;
-  std::string problem_ = "Stand still: measuring the gyro's bias.";
+  mtr_core::Problem problem_;
 };
 
 }  // namespace mtr_localization

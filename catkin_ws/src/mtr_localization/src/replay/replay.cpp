@@ -79,11 +79,11 @@ void Replay::take(WheelSample sample) {
   result_.tracking_s += elapsed_s;
   result_.max_ms = std::max(result_.max_ms, 1e3 * elapsed_s);
   for (const Estimate& estimate : estimates) {
-    note(estimate.message, estimate.stamp_ns);
+    note(estimate.message.text, estimate.stamp_ns);
     result_.trajectory.push_back(estimate);
   }
   if (auto map = localizer_.take_map()) {
-    note(map->map.message, map->stamp_ns);
+    note(map->map.message.text, map->stamp_ns);
     if (map->map.valid || !has_map_) {
       result_.map = std::move(*map);
       has_map_ = true;
@@ -106,7 +106,7 @@ void Replay::finish_map() {
   }
   // The bag ended before its map was due: what there is shows at least what is missing.
   result_.map.map = mtr_surfel_map::adjust(localizer_.key_frames(), options_.parameters.adjustment);
-  note(result_.map.map.valid ? "The bag ends before the map takes effect." : result_.map.map.message,
+  note(result_.map.map.valid ? "The bag ends before the map takes effect." : result_.map.map.message.text,
        result_.trajectory.empty() ? 0 : result_.trajectory.back().stamp_ns);
 }
 

@@ -76,7 +76,7 @@ void write_summary(const Result& result, const std::string& bag, const std::stri
        << ",\n  \"scans_refused\": " << result.sweeps_refused << ",\n  \"poses\": " << track.size()
        << ",\n  \"poses_valid\": " << valid << ",\n  \"map_valid\": " << (map.valid ? "true" : "false")
        << ",\n  \"map_revision\": " << result.map.revision << ",\n  \"map_from_s\": " << seconds(result.map.stamp_ns)
-       << ",\n  \"map_message\": " << quoted(map.message) << ",\n  \"key_frames\": " << map.key_frames.size()
+       << ",\n  \"map_message\": " << quoted(map.message.text) << ",\n  \"key_frames\": " << map.key_frames.size()
        << ",\n  \"surfels\": " << map.surfels.size() << ",\n  \"range_bias_m\": " << map.range_bias_m
        << ",\n  \"range_bias_sigma_m\": " << map.range_bias_sigma_m
        << ",\n  \"cpu_ms_per_scan\": " << (result.sweeps_used > 0 ? 1e3 * result.tracking_s / result.sweeps_used : 0.0)

@@ -117,7 +117,8 @@ mtr_msgs::LocalizedPose message_of(const Estimate& estimate) {
   std::copy(estimate.covariance.begin(), estimate.covariance.end(), message.covariance.begin());
   message.speed_mps = estimate.speed_mps;
   message.yaw_rate_radps = estimate.yaw_rate_radps;
-  message.message = estimate.message;
+  message.message = estimate.message.text;
+  message.problems = mtr_core::messages_of<mtr_msgs::Problem>(estimate.message);
   message.mode = mode_of(estimate.mode);
   message.degenerate = estimate.degenerate;
   message.map_revision = estimate.map_revision;

@@ -45,7 +45,7 @@ diagnostic_msgs::DiagnosticArray diagnostics_of(const PoseFigures& figures, cons
   const bool lost = estimate.mode == PoseMode::kLost;
   const bool warns = !estimate.valid || estimate.degenerate;
   status.level = lost ? DiagnosticStatus::ERROR : warns ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
-  status.message = estimate.valid ? text_of(estimate.mode) : estimate.message;
+  status.message = estimate.valid ? text_of(estimate.mode) : estimate.message.text;
   const auto& covariance = estimate.covariance;
   status.values = {key_value("position_sigma_m", std::sqrt(covariance[0] + covariance[4])),
                    key_value("heading_sigma_rad", std::sqrt(covariance[8])),

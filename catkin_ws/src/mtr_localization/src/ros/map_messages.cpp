@@ -110,7 +110,8 @@ mtr_msgs::SurfaceMap message_of(const MapResult& result) {
     message.key_frames.push_back(message_of(result.map.key_frames[i], result.map.pose_covariances[i]));
   }
   message.range_bias_m = result.map.range_bias_m;
-  message.message = result.map.message;
+  message.message = result.map.message.text;
+  message.problems = mtr_core::messages_of<mtr_msgs::Problem>(result.map.message);
   return message;
 }
 

@@ -38,7 +38,7 @@ void Outputs::publish(PoseSource& source, const std::vector<Estimate>& estimates
 void Outputs::publish_map(const MapResult& result, bool with_grid) {
   surfaces_.publish(message_of(result));
   if (!result.map.valid) {
-    ROS_WARN("The key-frames gave no map. %s", result.map.message.c_str());
+    ROS_WARN("The key-frames gave no map. %s", result.map.message.text.c_str());
     return;
   }
   if (with_grid) {
@@ -78,10 +78,10 @@ void Outputs::publish_each_second(const PoseSource& source, const Estimate& esti
 }
 
 void Outputs::log(const PoseSource& source, const Estimate& estimate) {
-  if (estimate.message == message_) {
+  if (estimate.message.text == message_) {
     return;
   }
-  message_ = estimate.message;
+  message_ = estimate.message.text;
   if (message_.empty()) {
     ROS_INFO("Tracking; gyro bias %.5f rad/s.", source.figures().gyro_bias_radps);
   } else if (source.motion_state() == MotionState::kStarting) {

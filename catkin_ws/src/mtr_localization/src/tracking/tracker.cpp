@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "map_names.hpp"
+#include "problems.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -27,12 +28,6 @@ constexpr double kMaxBridgedM = 2.0;
 constexpr double kStoodM = 0.05;
 // Sweeps that must agree, one after the other, with where wheels and gyro say the robot is.
 constexpr int kAgreementsToResume = 5;
-
-constexpr char kLost[] =
-    "Position lost: the LiDAR does not see what the map shows here. Searching near the last position.";
-// No search: beside a Car alone a map of half a way round has places that look alike.
-constexpr char kLostWhileMapping[] =
-    "Position lost: the LiDAR does not see what it saw on the way. Unless it does again, map the Car again.";
 
 double weakest_sigma_m(const Eigen::Matrix3d& information) {
   const Eigen::Vector3d scale(1.0, 1.0, 1.0 / kLeverM);
@@ -82,12 +77,12 @@ int ScanTracker::enter(const AdjustedMap& adjusted, const FilterStep& here) {
   return map_->sources.count + 1;
 }
 
-void ScanTracker::lose(const std::string& reason) {
+void ScanTracker::lose(const mtr_core::Problem& reason) {
   lose_sight(reason);
   is_reckoned_ = state_ == State::kMapping;
 }
 
-void ScanTracker::lose_sight(const std::string& reason) {
+void ScanTracker::lose_sight(const mtr_core::Problem& reason) {
   lost_reason_ = reason;
   degenerate_ = false;
   agreeing_ = 0;
@@ -95,7 +90,7 @@ void ScanTracker::lose_sight(const std::string& reason) {
 }
 
 void ScanTracker::find(const FilterStep& step) {
-  lost_reason_.clear();
+  lost_reason_ = {};
   agreed_ns_ = step.stamp_ns;
   agreed_odom_ = step.odom;
   search_.reset();
@@ -115,10 +110,11 @@ Judgement ScanTracker::judge(const ScanSet& set, const FilterHistory& history) {
     agreed_ns_ = step.stamp_ns;
     agreed_odom_ = step.odom;
   } else if (is_beyond_patience(all, step)) {
-    lose_sight(state_ == State::kMapping ? kLostWhileMapping : kLost);
+    // Nobody searches while mapping: beside a Car alone a map of half a way round has places that look alike.
+    lose_sight(state_ == State::kMapping ? problems::kOtherViewWhileMapping() : problems::kOtherView());
   }
   if (position_sigma_m(history.newest().filter) > parameters_.lost_sigma_m && state_ == State::kLocalized) {
-    lose_sight("Position lost: nothing of the map has been in view for too long. Searching near the last position.");
+    lose_sight(problems::kOutOfView());
   }
   if (lost()) {
     return Judgement::kLost;

@@ -32,9 +32,9 @@ class ScanTracker {
 
   State state() const { return state_; }
   bool has_map() const { return state_ != State::kNoMap; }
-  bool lost() const { return !lost_reason_.empty(); }
-  /// One sentence while lost.
-  const std::string& lost_reason() const { return lost_reason_; }
+  bool lost() const { return static_cast<bool>(lost_reason_); }
+  /// None unless lost.
+  const mtr_core::Problem& lost_reason() const { return lost_reason_; }
   /// The scans leave a direction free, or show something else.
   bool degenerate() const { return degenerate_; }
   const TrackingFigures& figures() const { return figures_; }
@@ -46,8 +46,8 @@ class ScanTracker {
   void extend(const KeyFrame& frame);
   /// Poses are in the adjusted map from a step on. Returns the number of its lasting error sources.
   int enter(const AdjustedMap& map, const FilterStep& here);
-  /// The robot may be anywhere near, whatever wheels and gyro say; the reason is a sentence.
-  void lose(const std::string& reason);
+  /// The robot may be anywhere near, whatever wheels and gyro say.
+  void lose(const mtr_core::Problem& reason);
 
   /// Whether the pose is the right one: so much of the expected view is seen. Knows from then on when it is lost.
   Judgement judge(const ScanSet& set, const FilterHistory& history);
@@ -61,7 +61,7 @@ class ScanTracker {
                                                   const FilterHistory& history);
 
  private:
-  void lose_sight(const std::string& reason);
+  void lose_sight(const mtr_core::Problem& reason);
   void find(const FilterStep& step);
   Agreement agreement(const ScanSet& set, const FilterHistory& history) const;
   bool agrees(const Agreement& all);
@@ -76,7 +76,7 @@ class ScanTracker {
   /// Replaced as a whole, never changed.
   std::unique_ptr<const ReferenceMap> map_ = std::make_unique<ReferenceMap>();
   std::optional<Relocalization> search_;
-  std::string lost_reason_;
+  mtr_core::Problem lost_reason_;
   /// While lost: wheels and gyro saw all of the motion.
   bool is_reckoned_ = false;
   /// When and where the view agreed last.

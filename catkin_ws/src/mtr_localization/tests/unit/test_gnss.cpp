@@ -106,7 +106,7 @@ TEST_F(GnssTest, WithoutLidarsTheReceiverKeepsThePose) {
   robot.lidar_works = false;
   go_on_for_long();
   EXPECT_GT(robot.localizer().figures().gnss.used, 0);
-  EXPECT_TRUE(robot.newest.valid) << robot.newest.message;
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
   EXPECT_LT(robot.position_error_m(), 3.0 * robot.position_sigma_m());
   EXPECT_LT(robot.position_sigma_m(), 0.15);
 }
@@ -130,8 +130,8 @@ TEST_F(GnssTest, ReceiverFarFromThePoseMeansThatItIsLost) {
   error = {0.0, 2.5};
   drive(0.0, 0.0, 1.0);
   EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
-  EXPECT_NE(robot.newest.message.find("by satellites the robot is 2.5 m from there"), std::string::npos)
-      << robot.newest.message;
+  EXPECT_NE(robot.newest.message.text.find("by satellites the robot is 2.5 m from there"), std::string::npos)
+      << robot.newest.message.text;
 }
 
 TEST_F(GnssTest, ShortReflectionsAndReceiversWithoutCorrectionsLoseNothing) {

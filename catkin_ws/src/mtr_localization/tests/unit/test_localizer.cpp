@@ -11,13 +11,13 @@ using LocalizerTest = LocalizerFixture;
 TEST_F(LocalizerTest, PoseIsNotValidBeforeTheBiasIsKnownAndSaysWhy) {
   const Estimate estimate = drive(0.0, 0.0, 1.4);
   EXPECT_FALSE(estimate.valid);
-  EXPECT_EQ(estimate.message, "Stand still: measuring the gyro's bias.");
+  EXPECT_EQ(estimate.message.text, "Stand still: measuring the gyro's bias.");
 }
 
 TEST_F(LocalizerTest, OneSecondOfStandstillAfterSettlingMakesThePoseValidAtTheOrigin) {
   const Estimate estimate = drive(0.0, 0.0, 1.54);
-  EXPECT_TRUE(estimate.valid) << estimate.message;
-  EXPECT_EQ(estimate.message, "");
+  EXPECT_TRUE(estimate.valid) << estimate.message.text;
+  EXPECT_EQ(estimate.message.text, "");
   EXPECT_EQ(estimate.x_m, 0.0);
   EXPECT_EQ(estimate.heading_rad, 0.0);
 }
@@ -98,7 +98,7 @@ TEST_F(LocalizerTest, StampsThatDifferAreJoined) {
     send_wheels();
     take(localizer.add_imu({wheels.stamp_ns + 7'000'000, gyro_bias_radps}));
   }
-  EXPECT_TRUE(newest.valid) << newest.message;
+  EXPECT_TRUE(newest.valid) << newest.message.text;
   EXPECT_EQ(newest.stamp_ns, wheels.stamp_ns);
   EXPECT_NEAR(newest.x_m, 1.0, 1e-3);
 }

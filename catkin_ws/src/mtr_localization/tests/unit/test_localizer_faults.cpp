@@ -26,8 +26,8 @@ TEST_F(LocalizerFaultTest, GapWhileMovingLosesThePoseForGoodWithoutAJump) {
   send_nothing_for(0.5, 0.3);
   const Estimate after = drive(0.5, 0.0, 1.0);
   EXPECT_FALSE(after.valid);
-  EXPECT_NE(after.message.find("Position lost: Wheel odometry was silent for 0.32 s."), std::string::npos)
-      << after.message;
+  EXPECT_NE(after.message.text.find("Position lost: Wheel odometry was silent for 0.32 s."), std::string::npos)
+      << after.message.text;
   EXPECT_EQ(after.x_m, before.x_m);
   EXPECT_FALSE(drive(0.0, 0.0, 5.0).valid);
 }
@@ -44,7 +44,7 @@ TEST_F(LocalizerFaultTest, GapAtStandstillIsOverAfterAnotherStandstill) {
   drive(0.0, 0.0, 1.0);
   send_nothing_for(0.0, 3.0);
   EXPECT_FALSE(drive(0.0, 0.0, 0.1).valid);
-  EXPECT_EQ(newest.message, "Wheel odometry was silent for 3.02 s.");
+  EXPECT_EQ(newest.message.text, "Wheel odometry was silent for 3.02 s.");
   EXPECT_TRUE(drive(0.0, 0.0, 2.0).valid);
   EXPECT_NEAR(newest.x_m, before.x_m, 1e-6);
 }
@@ -53,14 +53,14 @@ TEST_F(LocalizerFaultTest, RobotMovedDuringAGapThatBeganAtStandstillIsLost) {
   drive(0.0, 0.0, 1.0);
   send_nothing_for(0.5, 1.0);
   EXPECT_FALSE(drive(0.0, 0.0, 3.0).valid);
-  EXPECT_NE(newest.message.find("Position lost"), std::string::npos);
+  EXPECT_NE(newest.message.text.find("Position lost"), std::string::npos);
 }
 
 TEST_F(LocalizerFaultTest, RobotThatSetsOffBeforeAnInterruptionIsOverIsLost) {
   send_nothing_for(0.0, 1.0);
   drive(0.0, 0.0, 0.2);
   EXPECT_FALSE(drive(0.5, 0.0, 1.0).valid);
-  EXPECT_NE(newest.message.find("Position lost"), std::string::npos);
+  EXPECT_NE(newest.message.text.find("Position lost"), std::string::npos);
 }
 
 TEST_F(LocalizerFaultTest, SilentImuIsReportedWhileOdometryGoesOn) {
@@ -70,10 +70,11 @@ TEST_F(LocalizerFaultTest, SilentImuIsReportedWhileOdometryGoesOn) {
     send_wheels();
   }
   EXPECT_FALSE(newest.valid);
-  EXPECT_EQ(newest.message, "The IMU is silent.");
+  EXPECT_EQ(newest.message.text, "The IMU is silent.");
   EXPECT_EQ(estimates_received - before, 9);
   EXPECT_FALSE(drive(0.5, 0.0, 1.0).valid);
-  EXPECT_NE(newest.message.find("Position lost: The IMU was silent for 0.42 s."), std::string::npos) << newest.message;
+  EXPECT_NE(newest.message.text.find("Position lost: The IMU was silent for 0.42 s."), std::string::npos)
+      << newest.message.text;
 }
 
 TEST_F(LocalizerFaultTest, ImuRateThatIsNotANumberInvalidatesOnlyThatSample) {
@@ -82,7 +83,7 @@ TEST_F(LocalizerFaultTest, ImuRateThatIsNotANumberInvalidatesOnlyThatSample) {
   take(localizer.add_imu({wheels.stamp_ns, kNan}));
   send_wheels();
   EXPECT_FALSE(newest.valid);
-  EXPECT_EQ(newest.message, "The IMU's rate is not a number.");
+  EXPECT_EQ(newest.message.text, "The IMU's rate is not a number.");
   EXPECT_TRUE(drive(0.5, 0.0, 0.98).valid);
   EXPECT_NEAR(newest.x_m, 1.0, 1e-3);
 }
@@ -104,7 +105,7 @@ TEST_F(LocalizerFaultTest, WheelOdometryThatJumpsWhileMovingLosesThePose) {
   drive(0.5, 0.0, 1.0);
   wheels.x_m += 5.0;
   EXPECT_FALSE(drive(0.5, 0.0, 0.1).valid);
-  EXPECT_NE(newest.message.find("jumped by 5.01 m"), std::string::npos) << newest.message;
+  EXPECT_NE(newest.message.text.find("jumped by 5.01 m"), std::string::npos) << newest.message.text;
   EXPECT_NEAR(newest.x_m, 0.5, 1e-3);
 }
 
@@ -112,7 +113,7 @@ TEST_F(LocalizerFaultTest, TimeThatGoesBackwardsWhileMovingLosesThePose) {
   drive(0.5, 0.0, 1.0);
   wheels.stamp_ns = 500'000'000;
   EXPECT_FALSE(drive(0.5, 0.0, 1.0).valid);
-  EXPECT_NE(newest.message.find("went backwards"), std::string::npos) << newest.message;
+  EXPECT_NE(newest.message.text.find("went backwards"), std::string::npos) << newest.message.text;
   EXPECT_NEAR(newest.x_m, 0.5, 1e-3);
 }
 
@@ -131,7 +132,7 @@ TEST_F(LocalizerFaultTest, SilentOdometryGivesInvalidEstimatesAtTheClocksSteps) 
   ASSERT_EQ(estimates.size(), 1u);
   EXPECT_FALSE(estimates[0].valid);
   EXPECT_EQ(estimates[0].stamp_ns, wheels.stamp_ns + 220'000'000);
-  EXPECT_NE(estimates[0].message, "");
+  EXPECT_NE(estimates[0].message.text, "");
 }
 
 TEST_F(LocalizerFaultTest, DataThatComesLateButCompleteIsCountedAndNotSentWithOldStamps) {
@@ -140,13 +141,13 @@ TEST_F(LocalizerFaultTest, DataThatComesLateButCompleteIsCountedAndNotSentWithOl
   const int before = estimates_received;
   drive(0.5, 0.0, 0.4);
   EXPECT_EQ(estimates_received - before, 5);
-  EXPECT_TRUE(newest.valid) << newest.message;
+  EXPECT_TRUE(newest.valid) << newest.message.text;
   EXPECT_NEAR(newest.x_m, 0.2, 1e-3);
 }
 
 TEST(LocalizerWithoutData, SaysThatItWaitsForWheelOdometry) {
   Localizer localizer{Parameters{}};
-  EXPECT_EQ(localizer.check_silence(1'000'000'000).at(0).message, "Waiting for wheel odometry.");
+  EXPECT_EQ(localizer.check_silence(1'000'000'000).at(0).message.text, "Waiting for wheel odometry.");
 }
 
 TEST(LocalizerWithoutData, OdometryBeforeTheFirstImuSampleIsNotValid) {
@@ -154,7 +155,7 @@ TEST(LocalizerWithoutData, OdometryBeforeTheFirstImuSampleIsNotValid) {
   localizer.add_wheels({1'000'000'000, 0.0, 0.0, 0.0, 0.0, 0.0});
   const auto estimates = localizer.add_imu({1'040'000'000, 0.0});
   ASSERT_EQ(estimates.size(), 1u);
-  EXPECT_EQ(estimates[0].message, "Waiting for the IMU.");
+  EXPECT_EQ(estimates[0].message.text, "Waiting for the IMU.");
 }
 
 }  // namespace

@@ -29,14 +29,14 @@ TEST_F(LocalizerLostTest, KidnappedRobotSaysSoWithinTwoSeconds) {
   robot.carry(-1.0, -1.7, 0.6);
   EXPECT_LT(lost_after(3.0), 2.0);
   EXPECT_FALSE(robot.newest.valid);
-  EXPECT_NE(robot.newest.message.find("Position lost"), std::string::npos);
+  EXPECT_NE(robot.newest.message.text.find("Position lost"), std::string::npos);
 }
 
 TEST_F(LocalizerLostTest, KidnappedRobotFindsItselfAgain) {
   robot.carry(-1.0, -1.7, 0.6);
   lost_after(3.0);
   robot.drive(0.0, 0.0, 5.0);
-  EXPECT_EQ(robot.newest.mode, PoseMode::kLocalized) << robot.newest.message;
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLocalized) << robot.newest.message.text;
   EXPECT_TRUE(robot.newest.valid);
   EXPECT_LT(robot.position_error_m(), 0.02);
   EXPECT_LT(std::abs(robot.error().z()), 0.005);
@@ -50,7 +50,7 @@ TEST_F(LocalizerLostTest, LostPoseIsTheWheelsAndGyrosWhenTheViewIsTheExpectedOne
   robot.world = scene;
   // Sooner than a search could end.
   robot.drive(-0.5, 0.2, 0.4);
-  EXPECT_EQ(robot.newest.mode, PoseMode::kLocalized) << robot.newest.message;
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLocalized) << robot.newest.message.text;
   EXPECT_LT(robot.position_error_m(), 0.02);
 }
 
@@ -102,9 +102,9 @@ TEST_F(LocalizerLostTest, GapOfOdometryWhileMovingIsOverWhenTheScansTellThePose)
   robot.carry(0.0, -0.2, 0.0);
   robot.drive(-0.5, 0.0, 0.04);
   EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
-  EXPECT_NE(robot.newest.message.find("was silent for 0.42 s"), std::string::npos) << robot.newest.message;
+  EXPECT_NE(robot.newest.message.text.find("was silent for 0.42 s"), std::string::npos) << robot.newest.message.text;
   robot.drive(0.0, 0.0, 5.0);
-  EXPECT_TRUE(robot.newest.valid) << robot.newest.message;
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
   EXPECT_LT(robot.position_error_m(), 0.02);
 }
 
@@ -142,7 +142,7 @@ TEST_F(LocalizerLostWhileMappingTest, LongStretchIsLostAndGoesOnWhereTheViewAgre
   EXPECT_FALSE(robot.newest.valid);
   robot.drive(0.0, M_PI_2 / 2.0, 2.0);
   robot.drive(0.6, 0.0, 1.0);
-  EXPECT_EQ(robot.newest.mode, PoseMode::kMapping) << robot.newest.message;
+  EXPECT_EQ(robot.newest.mode, PoseMode::kMapping) << robot.newest.message.text;
   EXPECT_LT(robot.position_error_m(), 0.05);
 }
 
@@ -153,7 +153,7 @@ TEST_F(LocalizerLostWhileMappingTest, CarriedRobotStaysLostAndGuessesNothing) {
   EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
   robot.drive(0.0, 0.0, 4.0);
   EXPECT_FALSE(robot.newest.valid);
-  EXPECT_NE(robot.newest.message.find("map the Car again"), std::string::npos) << robot.newest.message;
+  EXPECT_NE(robot.newest.message.text.find("map the Car again"), std::string::npos) << robot.newest.message.text;
 }
 
 TEST_F(LocalizerLostWhileMappingTest, WayRoundThatEndsLostGivesNoMap) {
@@ -164,7 +164,8 @@ TEST_F(LocalizerLostWhileMappingTest, WayRoundThatEndsLostGivesNoMap) {
   robot.drive(0.0, 0.0, 3.0);
   ASSERT_TRUE(robot.result);
   EXPECT_FALSE(robot.result->map.valid);
-  EXPECT_NE(robot.result->map.message.find("lost on the way round"), std::string::npos) << robot.result->map.message;
+  EXPECT_NE(robot.result->map.message.text.find("lost on the way round"), std::string::npos)
+      << robot.result->map.message.text;
 }
 
 TEST(LocalizerLost, RobotThatDrivesRightAfterASilenceSaysWhatWasSilent) {
@@ -175,7 +176,7 @@ TEST(LocalizerLost, RobotThatDrivesRightAfterASilenceSaysWhatWasSilent) {
   robot.drive(0.0, 0.0, 0.1);
   const Estimate lost = robot.drive(0.3, 0.0, 0.1);
   EXPECT_EQ(lost.mode, PoseMode::kLost);
-  EXPECT_NE(lost.message.find("Wheel odometry was silent"), std::string::npos) << lost.message;
+  EXPECT_NE(lost.message.text.find("Wheel odometry was silent"), std::string::npos) << lost.message.text;
 }
 
 TEST(LocalizerLost, TwoPlacesThatLookAlikeAreNotGuessedBetween) {

@@ -10,7 +10,7 @@ namespace {
 TEST(LocalizerScans, WayRoundTheCarGivesAMapAndAPoseToACentimetre) {
   SceneDrive robot(scenes::lot(), Parameters{});
   const MapResult result = robot.map(7);
-  ASSERT_TRUE(result.map.valid) << result.map.message;
+  ASSERT_TRUE(result.map.valid) << result.map.message.text;
   EXPECT_EQ(result.map_car_id, 7u);
   EXPECT_EQ(result.revision, 1u);
   for (int leg = 0; leg < 4; ++leg) {
@@ -68,7 +68,7 @@ TEST(LocalizerScans, PersonsRoundTheRobotDoNotMoveThePose) {
     robot.persons[0].x() += 0.02;
     robot.tick(0.0, 0.0);
   }
-  EXPECT_TRUE(robot.newest.valid) << robot.newest.message;
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
   EXPECT_LT(robot.position_error_m(), 0.012);
 }
 
@@ -77,7 +77,7 @@ TEST(LocalizerScans, RainDoesNotHinderMappingNorLocalization) {
   robot.rain = 0.05;
   ASSERT_TRUE(robot.map().map.valid);
   robot.drive(-0.5, 0.0, 2.0);
-  EXPECT_TRUE(robot.newest.valid) << robot.newest.message;
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
   EXPECT_LT(robot.position_error_m(), 0.02);
 }
 
@@ -86,7 +86,7 @@ TEST(LocalizerScans, OtherCarThatLeavesDoesNotMoveThePose) {
   ASSERT_TRUE(robot.map().map.valid);
   robot.world.resize(robot.world.size() - 4);
   robot.drive(-0.5, 0.0, 3.0);
-  EXPECT_TRUE(robot.newest.valid) << robot.newest.message;
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
   EXPECT_LT(robot.position_error_m(), 0.02);
 }
 
@@ -98,7 +98,7 @@ TEST(LocalizerScans, CarBehindTheRobotIsDegenerateAndInTheEndLost) {
   robot.drive(0.0, -0.8, 2.7);
   robot.drive(1.0, 0.0, 1.0);
   EXPECT_TRUE(robot.newest.degenerate);
-  EXPECT_TRUE(robot.newest.valid) << robot.newest.message;
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
   const double soon = robot.position_sigma_m();
   robot.drive(1.0, 0.0, 10.0);
   EXPECT_GT(robot.position_sigma_m(), soon);
@@ -128,7 +128,7 @@ TEST(LocalizerScans, FreezeWithoutAWayRoundGivesNoMapAndKeepsThePose) {
   robot.drive(0.0, 0.0, 2.5);
   ASSERT_TRUE(robot.result.has_value());
   EXPECT_FALSE(robot.result->map.valid);
-  EXPECT_NE(robot.result->map.message, "");
+  EXPECT_NE(robot.result->map.message.text, "");
   EXPECT_TRUE(robot.newest.valid);
   EXPECT_EQ(robot.newest.mode, PoseMode::kMapping);
   EXPECT_EQ(robot.newest.map_revision, 0u);
@@ -160,7 +160,7 @@ TEST(LocalizerScans, SecondMappingGivesTheNextRevision) {
   SceneDrive robot(scenes::lot(), Parameters{});
   ASSERT_TRUE(robot.map(1).map.valid);
   const MapResult second = robot.map(2);
-  ASSERT_TRUE(second.map.valid) << second.map.message;
+  ASSERT_TRUE(second.map.valid) << second.map.message.text;
   EXPECT_EQ(second.revision, 2u);
   EXPECT_EQ(robot.newest.map_revision, 2u);
 }
@@ -171,13 +171,13 @@ TEST(ExternalPose, MapFromPosesFromElsewhereIsNotAdjusted) {
                                                                  [&] { return map_from_odom; }));
   robot.drive(0.0, 0.0, 2.0);
   EXPECT_FALSE(robot.newest.valid);
-  EXPECT_EQ(robot.newest.message, "Waiting for map to odom from the other localization.");
+  EXPECT_EQ(robot.newest.message.text, "Waiting for map to odom from the other localization.");
   robot.order(1, MapOrder::Phase::kCollect);
   for (int step = 0; step < 500; ++step) {
     map_from_odom = StampedPose{robot.now_ns, {1.0, 2.0, 0.0}};
     robot.tick(0.5, 0.0);
   }
-  EXPECT_TRUE(robot.newest.valid) << robot.newest.message;
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
   EXPECT_NEAR(robot.newest.x_m, 1.0 + robot.map_truth().x(), 0.05);
   EXPECT_NEAR(robot.newest.y_m, 2.0 + robot.map_truth().y(), 0.05);
   robot.order(1, MapOrder::Phase::kFreeze);

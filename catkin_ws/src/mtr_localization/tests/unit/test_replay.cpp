@@ -104,7 +104,7 @@ TEST(Replay, WayRoundWithoutOrdersGivesMapAndTruePosesEvenWhenScansWereRecordedL
   options.scan_delay_s = 0.1;
   std::vector<PoseVector> truth;
   const Result result = replayed(bag_of("late", options, &truth));
-  ASSERT_TRUE(result.map.map.valid) << result.map.map.message;
+  ASSERT_TRUE(result.map.map.valid) << result.map.map.message.text;
   EXPECT_EQ(result.map.revision, 1U);
   EXPECT_EQ(result.trajectory.size(), truth.size() - 1);
   // The last sweep is due only after the bag's end.
@@ -116,7 +116,7 @@ TEST(Replay, WayRoundWithoutOrdersGivesMapAndTruePosesEvenWhenScansWereRecordedL
 TEST(Replay, LoopEndThatIsGivenEndsTheLoop) {
   const Result result = replayed(bag_of("given", {}), {"--loop-end", "20"});
   EXPECT_FALSE(result.map.map.valid);
-  EXPECT_NE(result.map.map.message.find("not closed"), std::string::npos) << result.map.map.message;
+  EXPECT_NE(result.map.map.message.text.find("not closed"), std::string::npos) << result.map.map.message.text;
 }
 
 TEST(Replay, ResultsAreWrittenAndTheSameEachTime) {

@@ -5,8 +5,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <string>
 #include <vector>
+
+#include "mtr_core/problem.hpp"
 
 namespace mtr_surfel_map {
 
@@ -76,7 +77,8 @@ struct AdjustedMap {
   /// Constant error of the LiDAR's range, which the surfels are free of, and its 1 sigma.
   double range_bias_m = 0.0;
   double range_bias_sigma_m = 0.0;
-  std::string message;
+  /// Why it is not valid, or what is to be known of it.
+  mtr_core::Problem message;
 };
 
 }  // namespace mtr_surfel_map

@@ -4,8 +4,10 @@
 #include "adjustment/checks.hpp"
 
 #include <algorithm>
-#include <cstdio>
+#include <cstdint>
 #include <set>
+
+#include "problems.hpp"
 
 namespace mtr_surfel_map {
 namespace {
@@ -24,13 +26,6 @@ constexpr double kMinLoop = 4.0;
 constexpr double kMaxRatio = 3.0;
 constexpr double kMaxMotionRatio = 20.0;
 constexpr double kMaxOutlierShare = 0.3;
-
-template <typename... Numbers>
-std::string text(const char* format, Numbers... numbers) {
-  char buffer[200];
-  std::snprintf(buffer, sizeof(buffer), format, numbers...);
-  return buffer;
-}
 
 bool is_finite(const KeyFrame& frame) {
   const auto finite = [](const ScanPoint& point) { return point.position.allFinite() && point.direction.allFinite(); };
@@ -70,41 +65,38 @@ bool is_closed(const std::vector<KeyFrame>& frames, const std::vector<Observatio
   return false;
 }
 
+std::int64_t whole(std::size_t count) { return static_cast<std::int64_t>(count); }
+
 }  // namespace
 
-std::string problem_with(const std::vector<KeyFrame>& key_frames) {
+mtr_core::Problem problem_with(const std::vector<KeyFrame>& key_frames) {
   if (key_frames.size() < kMinKeyFrames) {
-    return text("Only %zu key-frames were taken, %zu are needed: drive round the Car.", key_frames.size(),
-                kMinKeyFrames);
+    return problems::kFewKeyFrames({{"count", whole(key_frames.size())}, {"needed", whole(kMinKeyFrames)}});
   }
   if (!std::all_of(key_frames.begin(), key_frames.end(), is_finite)) {
-    return "A key-frame contains values that are no numbers.";
+    return problems::kNotNumbers();
   }
-  return "";
+  return {};
 }
 
-std::string problem_with(const Adjustment& state, const std::vector<Observation>& observations, const Fit& fit,
-                         const AdjustmentParameters& parameters) {
+mtr_core::Problem problem_with(const Adjustment& state, const std::vector<Observation>& observations, const Fit& fit,
+                               const AdjustmentParameters& parameters) {
   if (state.surfels.size() < kMinSurfels) {
-    return text("The LiDARs saw only %zu pieces of surface, %zu are needed: is the Car in view?", state.surfels.size(),
-                kMinSurfels);
+    return problems::kFewSurfaces({{"count", whole(state.surfels.size())}, {"needed", whole(kMinSurfels)}});
   }
   if (!is_closed(state.key_frames, observations, parameters.closing_distance_m)) {
-    return text("The way round the Car was not closed: it must end within %.1f m of where it passed before.",
-                parameters.closing_distance_m);
+    return problems::kNotClosed({{"limit_m", parameters.closing_distance_m}});
   }
   if (fit.surface_ratio > kMaxRatio) {
-    return text("What the LiDARs saw from different places disagrees by %.1f times its uncertainty.",
-                fit.surface_ratio);
+    return problems::kScansDisagree({{"ratio", fit.surface_ratio}});
   }
   if (fit.outlier_share > kMaxOutlierShare) {
-    return text("%.0f %% of what the LiDARs saw does not fit the map: did something large move?",
-                100.0 * fit.outlier_share);
+    return problems::kOutliers({{"percent", 100.0 * fit.outlier_share}});
   }
   if (fit.motion_ratio > kMaxMotionRatio) {
-    return text("Wheels and gyro disagree with the LiDARs by %.1f times their uncertainty.", fit.motion_ratio);
+    return problems::kMotionDisagrees({{"ratio", fit.motion_ratio}});
   }
-  return "";
+  return {};
 }
 
 }  // namespace mtr_surfel_map

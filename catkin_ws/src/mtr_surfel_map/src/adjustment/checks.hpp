@@ -3,19 +3,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "adjustment/problem.hpp"
+#include "mtr_core/problem.hpp"
 #include "mtr_surfel_map/types.hpp"
 
 namespace mtr_surfel_map {
 
-/// One sentence on why no map can be made of the key frames; empty when one can.
-std::string problem_with(const std::vector<KeyFrame>& key_frames);
+/// Why no map can be made of the key frames; none when one can.
+mtr_core::Problem problem_with(const std::vector<KeyFrame>& key_frames);
 
-/// One sentence on why the adjusted map cannot be trusted; empty when it can.
-std::string problem_with(const Adjustment& state, const std::vector<Observation>& observations, const Fit& fit,
-                         const AdjustmentParameters& parameters);
+/// Why the adjusted map cannot be trusted; none when it can.
+mtr_core::Problem problem_with(const Adjustment& state, const std::vector<Observation>& observations, const Fit& fit,
+                               const AdjustmentParameters& parameters);
 
 }  // namespace mtr_surfel_map

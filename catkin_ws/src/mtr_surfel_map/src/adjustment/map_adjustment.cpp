@@ -120,11 +120,11 @@ AdjustedMap result_of(const Adjustment& state, const std::vector<Observation>& o
   map.range_bias_m = state.range_bias_m;
   map.range_bias_sigma_m = std::hypot(factor * uncertainty.range_bias_m, kMinBiasSigmaM);
   map.message = problem_with(state, observations, fit, parameters);
-  map.valid = map.message.empty();
+  map.valid = !map.message;
   return map;
 }
 
-AdjustedMap no_map(const std::vector<KeyFrame>& key_frames, const std::string& message) {
+AdjustedMap no_map(const std::vector<KeyFrame>& key_frames, const mtr_core::Problem& message) {
   AdjustedMap map;
   map.key_frames = key_frames;
   map.pose_covariances.assign(key_frames.size(), Eigen::Matrix3d::Zero());
@@ -136,8 +136,7 @@ AdjustedMap no_map(const std::vector<KeyFrame>& key_frames, const std::string& m
 
 AdjustedMap adjust(const std::vector<KeyFrame>& key_frames, const AdjustmentParameters& parameters) {
   check(parameters);
-  const std::string problem = problem_with(key_frames);
-  if (!problem.empty()) {
+  if (const mtr_core::Problem problem = problem_with(key_frames)) {
     return no_map(key_frames, problem);
   }
   Adjustment state;

@@ -24,7 +24,7 @@ LoopOptions open_field() {
 void expect_refused(const std::vector<KeyFrame>& key_frames, const std::string& part) {
   const AdjustedMap map = adjust(key_frames, AdjustmentParameters{});
   EXPECT_FALSE(map.valid);
-  EXPECT_NE(map.message.find(part), std::string::npos) << map.message;
+  EXPECT_NE(map.message.text.find(part), std::string::npos) << map.message.text;
   EXPECT_EQ(map.pose_covariances.size(), key_frames.size());
 }
 
@@ -41,7 +41,7 @@ TEST(MapVerdict, ClosedWayOfANoisyLidarRoundTheCarAloneIsAMap) {
   options.range_noise_m = 0.025;
   for (options.seed = 1; options.seed <= 3; ++options.seed) {
     const AdjustedMap map = adjust(drive(options).key_frames, AdjustmentParameters{});
-    EXPECT_TRUE(map.valid) << map.message;
+    EXPECT_TRUE(map.valid) << map.message.text;
   }
 }
 

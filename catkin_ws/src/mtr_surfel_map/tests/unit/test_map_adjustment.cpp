@@ -30,7 +30,7 @@ LoopOptions in(const std::string& scene) {
 double largest_error_m(const LoopOptions& options) {
   const Loop loop = drive(options);
   const AdjustedMap map = map_of(loop);
-  EXPECT_TRUE(map.valid) << map.message;
+  EXPECT_TRUE(map.valid) << map.message.text;
   return map.valid ? errors_of(map.key_frames, loop.truth).max_m : std::numeric_limits<double>::infinity();
 }
 
@@ -162,7 +162,7 @@ TEST(MapAdjustment, DriftOfDecimetresIsBroughtTogether) {
   const Loop loop = drive(options);
   ASSERT_GT(errors_of(loop.key_frames, loop.truth).max_m, 0.12);
   const AdjustedMap map = map_of(loop);
-  ASSERT_TRUE(map.valid) << map.message;
+  ASSERT_TRUE(map.valid) << map.message.text;
   EXPECT_LT(errors_of(map.key_frames, loop.truth).max_m, 0.008);
 }
 
