@@ -97,6 +97,61 @@ def test_calls_give_each_placeholder_its_value(package):
         assert not call.args and (given - {None} <= wanted if None in given else given == wanted), ast.dump(call)
 
 
+# Fields of messages and of plain data that hold a sentence for the Operator.
+SENTENCE_FIELDS = {"message", "reason", "error", "problem", "problems", "stop_reason", "lock_reason", "refusal"}
+# What these say is read in a terminal, or by a developer.
+NOT_FOR_THE_OPERATOR = {"mtr_benchmarks", "mtr_simulation", "mtr_serial_link", "mtr_description"}
+ROBOT_PACKAGES = sorted(path.parent.name for path in PACKAGES.glob("*/package.xml")
+                        if path.parent.name not in NOT_FOR_THE_OPERATOR)
+
+
+def sentences_by_hand(path: pathlib.Path) -> Iterator[str]:
+    """Places where a file hands out a sentence that no table knows."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Call) and getattr(node.func, "id", getattr(node.func, "attr", "")) == "Problem":
+            yield f"{path.name}:{node.lineno} makes a Problem of its own"
+        targets: Dict[str, ast.AST] = {}
+        if isinstance(node, ast.Call):
+            targets = {keyword.arg or "": keyword.value for keyword in node.keywords}
+        elif isinstance(node, ast.Assign):
+            targets = {getattr(target, "attr", ""): node.value for target in node.targets}
+        for name, value in targets.items():
+            texts = [part.value for part in ast.walk(value) if isinstance(part, ast.Constant)]
+            if name in SENTENCE_FIELDS and any(isinstance(text, str) and " " in text for text in texts):
+                yield f"{path.name}:{node.lineno} sets {name} to a text"
+
+
+@pytest.mark.parametrize("package", ROBOT_PACKAGES)
+def test_no_sentence_for_the_operator_is_made_outside_a_table(package):
+    paths = [path for path in modules(package) if package != "mtr_core" or path.name != "problems.py"]
+    assert not [place for path in paths for place in sentences_by_hand(path)]
+    made = [path.name for path in sources(package)
+            if re.search(r"problem_with_text\(|\.(message|reason)\s*=\s*\"", path.read_text(encoding="utf-8"))]
+    # Python tests of drive control name the locks that are engaged.
+    assert set(made) <= {"python_module.cpp"}
+
+
+def words_in_calls() -> Iterator[str]:
+    """Literals that calls put into placeholders."""
+    for package in {row.package for row in ROWS}:
+        for call in calls_of(package, {row.name: row for row in ROWS if row.package == package}):
+            for keyword in call.keywords:
+                choices = [keyword.value.body, keyword.value.orelse] if isinstance(keyword.value, ast.IfExp) else [
+                    keyword.value]
+                yield from (choice.value for choice in choices
+                            if isinstance(choice, ast.Constant) and isinstance(choice.value, str))
+
+
+def test_words_in_placeholders_have_their_czech():
+    assert set(words_in_calls()) <= set(TRANSLATION["words"])
+
+
+def test_no_czech_word_stands_without_its_english():
+    texts = [path.read_text(encoding="utf-8") for package in ROBOT_PACKAGES
+             for path in (*modules(package), *sources(package), *(PACKAGES / package).rglob("*.hpp"))]
+    assert [word for word in TRANSLATION["words"] if not any(f'"{word}"' in text for text in texts)] == []
+
+
 def sources(package: str) -> Iterator[pathlib.Path]:
     """C++ sources of a package."""
     yield from sorted((PACKAGES / package / "src").rglob("*.cpp"))
