@@ -11,7 +11,7 @@ from mtr_operator.domain.ports import KEY_BUTTON
 from mtr_operator.domain.requests import Direction
 from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.robot_status import CarCheck, CarDimensions, CheckState, Mode
+from mtr_operator.domain.robot_status import CarCheck, CarDimensions, CheckState, Mode, WaypointResult
 from mtr_operator.domain.scenarios.autolock import SCENARIO
 from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
 from mtr_operator.domain.scenarios.autolock_result import AutolockResult
@@ -227,3 +227,19 @@ def test_picture_shows_points_and_gaps_in_order(run_scenario, world):
     invalid = next(points for points in picture.point_sets if points.label == "Invalid")
     assert len(invalid.known) == 1
     assert len(picture.stretches) == 8
+
+
+def test_car_that_locks_a_while_after_the_start_was_reached_is_waited_for(run_scenario, world):
+    world.locked, world.lock_m = False, 99.0
+    reached_s = []
+
+    def lock_after_two_seconds(status):
+        if status.waypoint_result is WaypointResult.REACHED:
+            reached_s.append(world.time_s)
+        if reached_s and world.time_s > reached_s[0] + 2.0:
+            world.lock_m = 2.5
+        return status
+
+    world.spoil = lock_after_two_seconds
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert (results[0].unlock_status.value, results[0].lock_status.value) == ("ok", "ok")
