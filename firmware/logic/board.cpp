@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "../hal/hal.hpp"
-#include "endpoints.hpp"
+#include "link/endpoints.hpp"
 
 namespace mtr {
 namespace {

@@ -7,13 +7,13 @@
 
 #include "counters.hpp"
 #include "leds.hpp"
-#include "lift.hpp"
-#include "lift_calibrator.hpp"
+#include "lift/lift.hpp"
+#include "lift/lift_calibrator.hpp"
+#include "lift/position_sensor.hpp"
+#include "link/messages.hpp"
+#include "link/rosserial_client.hpp"
 #include "memory.hpp"
-#include "messages.hpp"
-#include "position_sensor.hpp"
 #include "presses.hpp"
-#include "rosserial_client.hpp"
 
 namespace mtr {
 

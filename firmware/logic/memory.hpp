@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "position_sensor.hpp"
+#include "lift/position_sensor.hpp"
 
 namespace mtr {
 

@@ -7,7 +7,7 @@
 
 #include "config.hpp"
 #include "counters.hpp"
-#include "messages.hpp"
+#include "link/messages.hpp"
 
 namespace mtr {
 

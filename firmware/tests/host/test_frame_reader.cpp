@@ -3,9 +3,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "../../logic/endpoints.hpp"
-#include "../../logic/frame_reader.hpp"
-#include "../../logic/messages.hpp"
+#include "../../logic/link/endpoints.hpp"
+#include "../../logic/link/frame_reader.hpp"
+#include "../../logic/link/messages.hpp"
 #include "frames.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include "../../hal_host/hal_host.hpp"
 #include "../../logic/board.hpp"
-#include "../../logic/endpoints.hpp"
+#include "../../logic/link/endpoints.hpp"
 #include "frames.hpp"
 
 namespace {

@@ -6,10 +6,10 @@
 #include <cstdlib>
 
 #include "../../logic/config.hpp"
-#include "../../logic/lift.hpp"
-#include "../../logic/lift_calibrator.hpp"
-#include "../../logic/motion_profile.hpp"
-#include "../../logic/stall_detector.hpp"
+#include "../../logic/lift/lift.hpp"
+#include "../../logic/lift/lift_calibrator.hpp"
+#include "../../logic/lift/motion_profile.hpp"
+#include "../../logic/lift/stall_detector.hpp"
 
 namespace {
 

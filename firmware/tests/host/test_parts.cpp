@@ -8,8 +8,8 @@
 
 #include "../../hal_host/hal_host.hpp"
 #include "../../logic/leds.hpp"
+#include "../../logic/lift/position_sensor.hpp"
 #include "../../logic/memory.hpp"
-#include "../../logic/position_sensor.hpp"
 #include "../../logic/presses.hpp"
 
 namespace {

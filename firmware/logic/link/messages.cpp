@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "crc16.hpp"
+#include "../crc16.hpp"
 #include "definitions.hpp"
 #include "endpoints.hpp"
 #include "frame_writer.hpp"

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "crc16.hpp"
+#include "../crc16.hpp"
 
 namespace mtr {
 

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "counters.hpp"
+#include "../counters.hpp"
 #include "endpoints.hpp"
 #include "frame_reader.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "../hal/hal.hpp"
+#include "../../hal/hal.hpp"
 #include "frame_reader.hpp"
 
 namespace mtr {

@@ -5,11 +5,11 @@
 
 #include <string.h>
 
-#include "../hal/hal.hpp"
-#include "config.hpp"
+#include "../../hal/hal.hpp"
+#include "../config.hpp"
+#include "../progmem.hpp"
 #include "endpoints.hpp"
 #include "frame_writer.hpp"
-#include "progmem.hpp"
 
 namespace mtr {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "config.hpp"
+#include "../config.hpp"
 
 namespace mtr {
 

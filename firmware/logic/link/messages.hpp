@@ -5,8 +5,8 @@
 
 #include <stdint.h>
 
-#include "config.hpp"
-#include "counters.hpp"
+#include "../config.hpp"
+#include "../counters.hpp"
 
 namespace mtr {
 

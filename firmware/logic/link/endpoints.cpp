@@ -3,9 +3,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "endpoints.hpp"
 
+#include "../progmem.hpp"
 #include "definitions.hpp"
 #include "frame_reader.hpp"
-#include "progmem.hpp"
 
 namespace mtr {
 namespace {

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "motion_profile.hpp"
 
-#include "config.hpp"
+#include "../config.hpp"
 
 namespace mtr {
 namespace {
