@@ -1,9 +1,11 @@
 """The convex outline, from above, of what collides."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import TYPE_CHECKING, Any, Iterable, List, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Iterable, List, Tuple
 
 import numpy as np
+from shapely.geometry import MultiPoint
+from shapely.geometry.polygon import orient
 
 from mtr_core.errors import ConfigurationError
 
@@ -34,23 +36,14 @@ def corners_from_above(link: str, place: Place, geometry: Any) -> List[Point]:
 
 
 def convex_hull(points: Iterable[Point]) -> Tuple[Point, ...]:
-    """Corners counterclockwise from the rearmost, without those on a side (Andrew's monotone chain)."""
-    ordered = sorted(set(points))
-    lower, upper = _half_hull(ordered), _half_hull(ordered[::-1])
-    return tuple(lower[:-1] + upper[:-1])
-
-
-def _half_hull(points: Sequence[Point]) -> List[Point]:
-    hull: List[Point] = []
-    for point in points:
-        while len(hull) > 1 and _turns_right(hull[-2], hull[-1], point):
-            hull.pop()
-        hull.append(point)
-    return hull
-
-
-def _turns_right(a: Point, b: Point, c: Point) -> bool:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) <= 0.0
+    """Corners counterclockwise from the rearmost; ConfigurationError for a shape without an area."""
+    hull = MultiPoint(list(points)).convex_hull
+    if not hull.area > 0.0:
+        raise ConfigurationError("The collision geometry in robot_description has no area from above; allowed are "
+                                 "boxes, cylinders and spheres of more than 0 m.")
+    ring = orient(hull).exterior.coords[:-1]
+    first = ring.index(min(ring))
+    return tuple(ring[first:] + ring[:first])
 
 
 def _box(length: float, width: float, height: float) -> "Array":

@@ -8,6 +8,7 @@ import pytest
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.se2 import Pose2
+from mtr_description.outline import convex_hull
 from mtr_description.robot_geometry import RobotGeometry
 from mtr_description.shipped import shipped_geometry, shipped_urdf
 
@@ -36,6 +37,16 @@ def test_lidars_look_forward_and_back():
 def test_footprint_reaches_to_the_key_and_the_fenders():
     footprint = shipped_geometry().footprint()
     assert (footprint.front_m, footprint.rear_m, footprint.half_width_m) == (0.27, 0.254, 0.215)
+
+
+def test_hull_starts_at_the_rearmost_corner_and_runs_counterclockwise_past_points_on_its_sides():
+    points = [(0.25, 0.0), (0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (0.0, 0.0), (0.0, 0.25), (0.25, 0.25), (0.5, 0.0)]
+    assert convex_hull(points) == ((0.0, 0.0), (0.5, 0.0), (0.5, 0.5), (0.0, 0.5))
+
+
+def test_shape_without_an_area_is_refused():
+    with pytest.raises(ConfigurationError, match="has no area from above; allowed are boxes"):
+        convex_hull([(0.0, 0.1), (0.2, 0.1), (0.1, 0.1)])
 
 
 def test_a_turn_on_the_spot_sweeps_as_far_as_the_fenders_corners():
