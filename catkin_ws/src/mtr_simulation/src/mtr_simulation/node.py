@@ -1,4 +1,4 @@
-"""The simulator as a ROS node: publishes sensors and /clock, obeys the base's and the firmware's topics."""
+"""The simulator as a ROS node: publishes sensors and /clock, listens to the base's and the firmware's topics."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import threading
@@ -43,7 +43,7 @@ class SimulatorNode:
         self._barrier = Barrier(parameters.held_by, NodeWatcher(self._output))
         self._pace = Pace(parameters.real_time_factor)
         self._stopped = threading.Event()
-        self._orders: Deque[Callable[[], None]] = collections.deque()
+        self._received: Deque[Callable[[], None]] = collections.deque()
         self._contacts: Set[str] = set()
         rospy.on_shutdown(self.stop)
 
@@ -62,8 +62,8 @@ class SimulatorNode:
         self._pace.start(time_ns * 1e-9)
         self._output.clock(time_ns, set())
         while self._barrier.wait(time_ns + CLOCK_STEP.period_ns):
-            while self._orders:
-                self._orders.popleft()()
+            while self._received:
+                self._received.popleft()()
             # Here all nodes hold still, so it does not depend on the machine's speed who listens by now.
             self._world.sim.scans_wanted = self._output.has_scan_listener()
             sensors = self._world.step()
@@ -74,7 +74,7 @@ class SimulatorNode:
             self._output.publish(sensors, self._world)
             self._firmware.publish(time_ns)
             self._output.clock(time_ns, self._barrier.asleep(time_ns))
-            self._world.sim.look_ahead()
+            self._world.sim.cast_ahead()
             self._log(time_ns)
         rospy.loginfo("%s; %s.", self._pace.total(time_ns * 1e-9), self._barrier.longest_waits())
 
@@ -86,14 +86,14 @@ class SimulatorNode:
     def _subscribe(self) -> None:
         sim = self._world.sim
         self._listen(names.WHEEL_COMMAND, Twist, lambda twist: sim.command(twist.linear.x, twist.angular.z))
-        for topic, message_type, obey in self._firmware.orders:
-            self._listen(topic, message_type, obey)
+        for topic, message_type, handle in self._firmware.subscriptions:
+            self._listen(topic, message_type, handle)
         rospy.Subscriber(names.SIM_HOLD, Header, self._hold, tcp_nodelay=True)
 
-    def _listen(self, topic: str, message_type: Any, obey: Callable[[Any], None]) -> None:
-        """Each message is obeyed in the loop, before the step that follows its arrival."""
+    def _listen(self, topic: str, message_type: Any, handle: Callable[[Any], None]) -> None:
+        """Each message is handled in the loop, before the step that follows its arrival."""
         def take(message: Any) -> None:
-            self._orders.append(lambda: obey(message))
+            self._received.append(lambda: handle(message))
             self._barrier.message(message._connection_header["callerid"])
         rospy.Subscriber(topic, message_type, take, tcp_nodelay=True)
 

@@ -90,7 +90,7 @@ class Sim:
         self._lift_joint = int(self._model.joint("lift").qposadr[0])
         self._lift_servo = self._model.actuator("lift").id
         self._car_from_world = scenario.world_from_car.inverse()
-        self._has_looked, self._sweep_is_whole = False, True
+        self._has_cast, self._sweep_is_whole = False, True
         self._settle()
 
     def command(self, linear_mps: float, angular_radps: float) -> None:
@@ -122,9 +122,9 @@ class Sim:
     def step(self) -> Sensors:
         """Advance one tick of 20 ms; what the sensors say at its end."""
         quaternion, velocity = self._data.qpos[3:7].tolist(), self._data.qvel[0:3].tolist()
-        self.look_ahead()
-        self._sweep_is_whole = self._has_looked and (self._sweep_is_whole or not self._sweep_step())
-        self._has_looked = False
+        self.cast_ahead()
+        self._sweep_is_whole = self._has_cast and (self._sweep_is_whole or not self._sweep_step())
+        self._has_cast = False
         for step in range(self._steps):
             base = self._base()
             if step and self._sweep_is_whole:
@@ -135,10 +135,10 @@ class Sim:
             self._person.move(self._elapsed_s())
         return self._sense(quaternion, velocity)
 
-    def look_ahead(self) -> None:
+    def cast_ahead(self) -> None:
         """Cast the beams of this very instant, which no command can change any more; for the time of waiting."""
-        if self.scans_wanted and not self._has_looked:
-            self._has_looked = True
+        if self.scans_wanted and not self._has_cast:
+            self._has_cast = True
             self._cast(self._base(), 0)
 
     def truth(self) -> TrueState:

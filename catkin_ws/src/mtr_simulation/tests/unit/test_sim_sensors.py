@@ -126,10 +126,10 @@ def test_unwanted_scans_change_nothing_else():
     assert seen.to_bytes() == expected.to_bytes()
 
 
-def test_looking_ahead_changes_nothing():
+def test_casting_ahead_changes_nothing():
     plain, ahead = Sim(1, BESIDE), Sim(1, BESIDE)
     for _ in range(10):
-        ahead.look_ahead()
+        ahead.cast_ahead()
         expected, seen = plain.step(), ahead.step()
         assert seen.to_bytes() == expected.to_bytes()
 

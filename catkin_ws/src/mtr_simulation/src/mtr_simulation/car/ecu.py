@@ -18,7 +18,7 @@ class LockState(enum.IntEnum):
 
 
 class Command(enum.IntEnum):
-    """What the central locking can be told."""
+    """What the central locking can be commanded to do."""
 
     LOCK = 0
     UNLOCK = 1
@@ -60,7 +60,7 @@ class BodyEcu:
             self.lock_state = LockState.LOCKED
 
     def command(self, command: Command, source: Source, time_ns: int) -> bool:
-        """Obey a command; True when the locks moved. Not booted, it hears nothing."""
+        """Carry out a command; True when the locks moved. Not booted, it receives nothing."""
         if self.lock_state is LockState.UNKNOWN:
             return False
         self.command_counter += 1

@@ -18,7 +18,7 @@ from .can_port import CanPort
 from .slcan_protocol import SlcanAdapter
 
 # Answers kept for a host that asks and does not read.
-_MOST_UNSENT = 4096
+_MAX_UNSENT = 4096
 
 
 class Fault(enum.Enum):
@@ -83,7 +83,7 @@ class SlcanPort(CanPort):
             answers = self.adapter.receive(os.read(self._master, 4096))
             if was_open and not self.adapter.is_open:
                 self._forget_frames()
-            if len(self._unsent) < _MOST_UNSENT:
+            if len(self._unsent) < _MAX_UNSENT:
                 self._unsent += answers
             self._flush()
 

@@ -20,7 +20,7 @@ STATUS_BUS_OFF = STATUS_ERROR_WARNING | STATUS_ERROR_PASSIVE | STATUS_BUS_ERROR
 _BITRATES = b"012345678"
 # The stamp counts milliseconds and starts again each minute.
 _STAMP_MODULO_MS = 60_000
-_LONGEST_LINE = len("Tiiiiiiiildddddddddddddddd")
+_MAX_LINE = len("Tiiiiiiiildddddddddddddddd")
 
 
 class _Shape(NamedTuple):
@@ -78,7 +78,7 @@ class SlcanAdapter:
         for byte in data:
             if byte != OK[0]:
                 # One byte more than the longest line is kept, which makes the line wrong, and no more than that.
-                self._line.extend((byte,) if len(self._line) <= _LONGEST_LINE else ())
+                self._line.extend((byte,) if len(self._line) <= _MAX_LINE else ())
                 continue
             line = bytes(self._line)
             self._line.clear()

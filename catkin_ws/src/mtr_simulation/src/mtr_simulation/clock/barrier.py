@@ -12,12 +12,12 @@ STILL_WAITING_WALL_S = 10.0
 
 @dataclass
 class _Node:
-    """What is known of one node: its newest hold, messages that arrived from it, and when it was heard last."""
+    """What is known of one node: its newest hold, messages that arrived from it, and when it was received last."""
 
     stamp_ns: Optional[int] = None
     sent: int = 0
     received: int = 0
-    heard_s: float = 0.0
+    received_s: float = 0.0
     dropped: bool = False
 
     def blocks(self, time_ns: int) -> bool:
@@ -68,7 +68,7 @@ class Barrier:
             if sent < node.sent:
                 # It counts from 0 again: a new instance, of which nothing can be missing yet.
                 node.received = sent
-            node.stamp_ns, node.sent, node.heard_s = stamp_ns, sent, self._wall_clock()
+            node.stamp_ns, node.sent, node.received_s = stamp_ns, sent, self._wall_clock()
             self._came(name)
 
     def message(self, name: str) -> None:
@@ -103,7 +103,7 @@ class Barrier:
                 if name is None:
                     return True
                 now_s = self._wall_clock()
-                left_s = max(self._nodes[name].heard_s, begun_s) + SILENT_AFTER_WALL_S - now_s
+                left_s = max(self._nodes[name].received_s, begun_s) + SILENT_AFTER_WALL_S - now_s
                 if left_s <= 0.0:
                     self._give_up(name, time_ns)
                     continue

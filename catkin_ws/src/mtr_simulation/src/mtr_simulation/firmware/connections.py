@@ -22,8 +22,8 @@ from .emulated import EmulatedFirmware
 from .simulated import SimulatedFirmware
 
 MCU = "atmega2560"
-# Topic, type of its messages, and what obeys one.
-Order = Tuple[str, Any, Callable[[Any], None]]
+# Topic, type of its messages, and what handles one.
+Subscription = Tuple[str, Any, Callable[[Any], None]]
 
 
 def emulated_firmware(elf: str) -> EmulatedFirmware:
@@ -41,7 +41,7 @@ def firmware_topics(firmware: Union[SimulatedFirmware, EmulatedFirmware]) -> "Un
 
 class SimulatedTopics:
     """Attributes:
-        orders: what the firmware listens to.
+        subscriptions: what the firmware listens to.
         publishers: what it says.
     """
 
@@ -49,11 +49,11 @@ class SimulatedTopics:
         self._firmware = firmware
         self._state = direct_publisher(names.FIRMWARE_STATE, FirmwareState)
         self.publishers = [self._state]
-        self.orders: List[Order] = [
+        self.subscriptions: List[Subscription] = [
             (names.FIRMWARE_COMMAND, FirmwareCommand,
-             lambda order: firmware.command(order.lift_height_m, order.led_pattern)),
+             lambda message: firmware.command(message.lift_height_m, message.led_pattern)),
             (names.FIRMWARE_PRESS, FirmwarePress,
-             lambda order: firmware.press(order.id, order.servos, order.strength, order.hold_ms)),
+             lambda message: firmware.press(message.id, message.servos, message.strength, message.hold_ms)),
         ]
 
     def publish(self, time_ns: int) -> None:
@@ -71,7 +71,7 @@ class EmulatedTopics:
             (names.FIRMWARE_STATE, FirmwareState), (names.FIRMWARE_HEALTH, FirmwareHealth),
             (names.FIRMWARE_ECHO, FirmwareEcho))}
         self.publishers = list(self._by_topic.values())
-        self.orders: List[Order] = [self._order(*each) for each in (
+        self.subscriptions: List[Subscription] = [self._subscription(*each) for each in (
             (names.FIRMWARE_COMMAND, FirmwareCommand), (names.FIRMWARE_PRESS, FirmwarePress),
             (names.FIRMWARE_CALIBRATE, FirmwareCalibrate))]
 
@@ -82,7 +82,7 @@ class EmulatedTopics:
             if publisher:
                 publisher.publish(publisher.data_class().deserialize(payload))
 
-    def _order(self, topic: str, message_type: Any) -> Order:
+    def _subscription(self, topic: str, message_type: Any) -> Subscription:
         def send(message: Any) -> None:
             buffer = io.BytesIO()
             message.serialize(buffer)

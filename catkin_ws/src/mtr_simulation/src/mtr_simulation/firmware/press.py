@@ -7,8 +7,8 @@ RELEASED_US = 1000
 TRAVEL_US = 1000  # added at full travel
 TRAVEL_NS = 100_000_000  # a servo's way from one pulse width to another
 
-SHORTEST_HOLD_MS = 20
-LONGEST_HOLD_MS = 10_000
+MIN_HOLD_MS = 20
+MAX_HOLD_MS = 10_000
 
 
 class PressState(enum.IntEnum):
@@ -20,8 +20,8 @@ class PressState(enum.IntEnum):
     REFUSED = 3
 
 
-class PressOrder(NamedTuple):
-    """One press as ordered; servos: bit 0 lock, bit 1 unlock."""
+class PressRequest(NamedTuple):
+    """One press as requested; servos: bit 0 lock, bit 1 unlock."""
 
     id: int
     servos: int
@@ -30,7 +30,7 @@ class PressOrder(NamedTuple):
 
     def is_valid(self) -> bool:
         """True when the servos can do it; NaN is not valid."""
-        hold_fits = SHORTEST_HOLD_MS <= self.hold_ms <= LONGEST_HOLD_MS
+        hold_fits = MIN_HOLD_MS <= self.hold_ms <= MAX_HOLD_MS
         return self.servos in (1, 2, 3) and 0.0 <= self.strength <= 1.0 and hold_fits
 
 
@@ -43,24 +43,24 @@ class Presser:
 
     def __init__(self) -> None:
         self.servo_us: Tuple[float, float] = (RELEASED_US, RELEASED_US)
-        self._order: Optional[PressOrder] = None
+        self._request: Optional[PressRequest] = None
         self._start_ns = 0
         self._release_ns: Optional[int] = None
         self._from_us: Tuple[float, float] = self.servo_us
 
     @property
     def is_busy(self) -> bool:
-        """True from the order to the release."""
-        return self._order is not None
+        """True from the request to the release."""
+        return self._request is not None
 
     @property
     def reached_ns(self) -> int:
-        """When the travel of the last order ends."""
+        """When the travel of the last request ends."""
         return self._start_ns + TRAVEL_NS
 
-    def start(self, order: PressOrder, time_ns: int) -> None:
-        """Begin a valid order; not while busy."""
-        self._order = order
+    def start(self, request: PressRequest, time_ns: int) -> None:
+        """Begin a valid request; not while busy."""
+        self._request = request
         self._start_ns = time_ns
         self._from_us = self.servo_us
         self._release_ns = None
@@ -68,20 +68,20 @@ class Presser:
     def step(self, time_ns: int) -> Optional[int]:
         """Move the servos; the time of the release when it happened in this step."""
         released_ns = None
-        if self._order and time_ns >= self.reached_ns + self._order.hold_ms * 1_000_000:
-            released_ns = self.reached_ns + self._order.hold_ms * 1_000_000
+        if self._request and time_ns >= self.reached_ns + self._request.hold_ms * 1_000_000:
+            released_ns = self.reached_ns + self._request.hold_ms * 1_000_000
             self._release(released_ns)
         self._move(time_ns)
         return released_ns
 
     def abort(self, time_ns: int) -> None:
         """Release at once."""
-        if self._order:
+        if self._request:
             self._release(time_ns)
 
     def _release(self, time_ns: int) -> None:
         self._move(time_ns)
-        self._order = None
+        self._request = None
         self._from_us = self.servo_us
         self._release_ns = time_ns
 
@@ -93,8 +93,8 @@ class Presser:
         self.servo_us = (lock_us + way * (lock_goal_us - lock_us), unlock_us + way * (unlock_goal_us - unlock_us))
 
     def _goal(self) -> Tuple[float, float]:
-        if self._order is None:
+        if self._request is None:
             return RELEASED_US, RELEASED_US
-        pressed_us = RELEASED_US + self._order.strength * TRAVEL_US
-        lock, unlock = self._order.servos & 1, self._order.servos & 2
+        pressed_us = RELEASED_US + self._request.strength * TRAVEL_US
+        lock, unlock = self._request.servos & 1, self._request.servos & 2
         return (pressed_us if lock else RELEASED_US), (pressed_us if unlock else RELEASED_US)

@@ -4,7 +4,7 @@ import collections
 from typing import Deque, NamedTuple, Optional, Tuple
 
 from .lift import Lift
-from .press import Presser, PressOrder, PressState
+from .press import Presser, PressRequest, PressState
 
 SILENCE_LIMIT_NS = 1_000_000_000
 FAULT_LINK_LOST = 3
@@ -13,7 +13,7 @@ LED_LAST = 9
 
 # Its clock starts two minutes before it wraps, so that each longer run meets the wrap (each 71 minutes on hardware).
 CLOCK_START_US = (1 << 32) - 120_000_000
-# A host may repeat an order for some time after the next one; these many ids are remembered.
+# A host may repeat a request for some time after the next one; these many ids are remembered.
 _REMEMBERED_IDS = 16
 
 
@@ -46,7 +46,7 @@ class SimulatedFirmware:
         self._clock_start_us = clock_start_us
         self._boot_ns: Optional[int] = None
         self._now_ns = 0
-        self._heard_ns = 0
+        self._received_ns = 0
         self._lift = Lift()
         self._presser = Presser()
         self._running_id = 0
@@ -70,7 +70,7 @@ class SimulatedFirmware:
 
     def command(self, lift_height_m: float, led_pattern: int) -> None:
         """Take a FirmwareCommand; a height that is out of range leaves the lift's order as it was."""
-        if not self._hear():
+        if not self._is_receiving():
             return
         if not self._lift.order(lift_height_m):
             self.refused_commands += 1
@@ -79,14 +79,14 @@ class SimulatedFirmware:
 
     def press(self, id: int, servos: int, strength: float, hold_ms: int) -> None:
         """Take a FirmwarePress. What has been taken once, done or refused, is not taken again."""
-        if not self._hear() or id == 0 or id in self._seen_ids:
+        if not self._is_receiving() or id == 0 or id in self._seen_ids:
             return
         self._seen_ids.append(id)
-        order = PressOrder(id, servos, strength, hold_ms)
-        if self._presser.is_busy or not order.is_valid():
+        request = PressRequest(id, servos, strength, hold_ms)
+        if self._presser.is_busy or not request.is_valid():
             self._report(id, PressState.REFUSED)
             return
-        self._presser.start(order, self._now_ns)
+        self._presser.start(request, self._now_ns)
         self._running_id = id
         self._report(id, PressState.PRESSING, start_ns=self._presser.reached_ns)
 
@@ -103,10 +103,10 @@ class SimulatedFirmware:
     def step(self, time_ns: int) -> None:
         """Advance to time_ns."""
         if self._boot_ns is None:
-            self._boot_ns = self._heard_ns = self._now_ns = time_ns
+            self._boot_ns = self._received_ns = self._now_ns = time_ns
         dt_s = (time_ns - self._now_ns) * 1e-9
         self._now_ns = time_ns
-        if time_ns - self._heard_ns > SILENCE_LIMIT_NS:
+        if time_ns - self._received_ns > SILENCE_LIMIT_NS:
             self._lose_link()
         if dt_s > 0.0:
             self._lift.step(dt_s)
@@ -132,9 +132,9 @@ class SimulatedFirmware:
             calibration_state=0,
         )
 
-    def _hear(self) -> bool:
+    def _is_receiving(self) -> bool:
         """Note that the host lives; False before the first step, when the board has no power yet."""
-        self._heard_ns = self._now_ns
+        self._received_ns = self._now_ns
         self._fault = 0
         return self._boot_ns is not None
 

@@ -42,7 +42,7 @@ class TruthLog:
     """Appends events to truth_events.csv in a directory, which is made when it is missing.
 
     robot_time_s is the simulation's time of the event, key_* the Remote key in the true Car frame in m, accepted (0 or
-    1, presses only) whether the Car obeyed.
+    1, presses only) whether the Car received it.
     """
 
     def __init__(self, directory: Union[str, pathlib.Path]):
