@@ -6,7 +6,7 @@ from mtr_core.errors import check_range
 
 UNDER_WAY, DONE, REFUSED = 1, 2, 3
 # Of FirmwareCalibrate.stroke_m.
-LEAST_STROKE_M, LARGEST_STROKE_M = 0.05, 2.0
+MIN_STROKE_M, MAX_STROKE_M = 0.05, 2.0
 PERIOD_S, ANSWER_WITHIN_S = 0.1, 3.0
 # Down and up at the lift's slow speed, with room.
 DONE_WITHIN_S = 180.0
@@ -31,7 +31,7 @@ State = Callable[[], Optional[Report]]
 
 def order_of(stroke_m: float, last_id: int) -> Order:
     """Order with an id that the firmware has not seen last; ConfigurationError names a stroke out of range."""
-    check_range("stroke", stroke_m, LEAST_STROKE_M, LARGEST_STROKE_M, "m")
+    check_range("stroke", stroke_m, MIN_STROKE_M, MAX_STROKE_M, "m")
     return Order(last_id % (2 ** 32 - 1) + 1, stroke_m)
 
 
