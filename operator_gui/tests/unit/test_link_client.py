@@ -1,13 +1,15 @@
 """The link's behaviour on the wire, against a server that sends what the test says."""
 # SPDX-License-Identifier: Apache-2.0
+import threading
 import time
 from dataclasses import replace
 
 import pytest
 
+from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.requests import DesiredState, Waypoint
-from mtr_operator.domain.robot_status import PressReport, RobotStatus, WaypointResult
+from mtr_operator.domain.robot_status import CarCheck, CheckState, PressReport, RobotStatus, WaypointResult
 from mtr_operator.robot_link.client import ZmqRobotLink
 from mtr_operator.robot_link.conversions import decode_command, status_message_from
 from mtr_operator.robot_link.inbox import MAX_BACKLOG
@@ -18,10 +20,10 @@ GO = DesiredState(waypoint=Waypoint(1, Pose(2.0, 0.0, 0.0)))
 
 
 class Robot:
-    """Server side of one connected link."""
+    """Server side of one connected link; command_id is that of its first Command."""
 
     def __init__(self, server, link):
-        self.server, self.link = server, link
+        self.server, self.link, self.command_id = server, link, 0
 
     def send(self, status_id, robot_session_id=1):
         """Send a Status."""
@@ -66,7 +68,7 @@ def robot_fixture():
             assert time.monotonic() < deadline
             link.send(DesiredState())
         while server.command_socket.poll(50):
-            server.command_socket.recv()
+            robot.command_id = decode_command(server.command_socket.recv()).id
         yield robot
         link.close()
 
@@ -186,3 +188,74 @@ def test_confirmations_of_another_session_are_not_taken_for_ours(robot):
     status = robot.take()
     assert not status.controlled_by_other
     assert (status.waypoint_id, status.waypoint_result) == (1, WaypointResult.REACHED)
+
+
+def test_confirmations_of_another_session_are_all_taken_away(robot):
+    robot.send_status(RobotStatus(
+        2, 1, 0.2, session_id=robot.link.session_id + 1, command_id=3, map_car_id=4, waypoint_message="Blocked.",
+        car_check=CarCheck(5, CheckState.PASSED)))
+    status = robot.take()
+    assert (status.command_id, status.map_car_id, status.waypoint_message) == (0, 0, "")
+    assert status.car_check == CarCheck()
+
+
+def test_a_robot_that_knows_no_check_of_the_car_has_none_in_another_session_either(robot):
+    robot.send_status(RobotStatus(2, 1, 0.2, session_id=robot.link.session_id + 1))
+    assert robot.take().car_check is None
+
+
+def test_a_status_without_a_session_is_nobody_elses(robot):
+    robot.send(2)
+    assert not robot.take().controlled_by_other
+
+
+@pytest.mark.parametrize("drawn, session_id", [(0, 1), (2 ** 63 - 2, 2 ** 63 - 1)])
+def test_every_session_id_but_zero_of_63_bits_is_drawn(monkeypatch, drawn, session_id):
+    monkeypatch.setattr("secrets.randbelow", lambda below: drawn if drawn < below <= 2 ** 63 - 1 else None)
+    assert ZmqRobotLink("127.0.0.1").session_id == session_id
+
+
+def test_ids_of_the_commands_count_from_one_to_the_goodbye(robot):
+    first = robot.command_id
+    robot.link.send(GO)
+    robot.link.close()
+    assert first == 1
+    assert [robot.command().id, robot.command().id] == [2, 3]
+
+
+def test_only_the_last_command_ends_the_session(robot):
+    robot.link.send(GO)
+    assert not robot.command().end_session
+
+
+def test_waiting_status_is_taken_without_any_time_to_wait(robot):
+    robot.send(2)
+    assert robot.link._sockets.subscriber.poll(WAIT_S * 1000)
+    assert robot.link.next_status(0.0).id == 2
+
+
+def test_nothing_is_waited_for_without_time(robot):
+    begun = time.monotonic()
+    assert robot.link.next_status(0.0) is None
+    assert time.monotonic() - begun < WAIT_S
+
+
+def test_waiting_ends_with_its_time(robot):
+    begun = time.monotonic()
+    assert robot.link.next_status(0.3) is None
+    assert 0.3 <= time.monotonic() - begun < WAIT_S
+
+
+def test_status_that_comes_late_in_the_time_is_waited_for(robot):
+    sending = threading.Timer(0.2, robot.send, (2,))
+    sending.start()
+    assert robot.take().id == 2
+    sending.join()
+
+
+def test_a_link_without_a_connection_says_so():
+    link = ZmqRobotLink("127.0.0.1")
+    with pytest.raises(ConnectionFailed):
+        link.next_status(0.0)
+    with pytest.raises(ConnectionFailed):
+        link.send(GO)
