@@ -23,16 +23,16 @@ DriveControl::DriveControl(const Parameters& parameters, const CollisionParamete
 }
 
 Decision DriveControl::step(std::int64_t tick_ns, const Inputs& inputs) {
-  collision_stop_.look(tick_ns, inputs.sensors);
+  collision_stop_.take(tick_ns, inputs.sensors);
   adapt_limits(tick_ns, inputs.key);
-  const Wish wish = choose(tick_ns, inputs);
+  const Selection selection = choose(tick_ns, inputs);
   Decision decision;
-  decision.source = wish.source;
-  decision.message = wish.message;
+  decision.source = selection.source;
+  decision.message = selection.message;
   for (const EngagedLock& lock : inputs.locks) {
     decision.engaged_locks.push_back(lock.owner);
   }
-  decision.velocity = pursue(tick_ns, inputs, wish, decision);
+  decision.velocity = pursue(tick_ns, inputs, selection, decision);
   limiter_.send(decision.velocity);
   return decision;
 }
@@ -43,24 +43,26 @@ void DriveControl::adapt_limits(std::int64_t tick_ns, const std::optional<KeyHei
   limiter_.set_limits(limits_);
 }
 
-Velocity DriveControl::pursue(std::int64_t tick_ns, const Inputs& inputs, const Wish& wish, Decision& decision) {
-  if (!wish.velocity || wish.source == "none") {
+Velocity DriveControl::pursue(std::int64_t tick_ns, const Inputs& inputs, const Selection& selection,
+                              Decision& decision) {
+  if (!selection.velocity || selection.source == "none") {
     collision_stop_.rest();
   }
-  const MotionWish wanted{limiter_.within_limits(wish.velocity.value_or(Velocity{})), wish.source == "manual"};
-  const Verdict verdict = collision_stop_.judge(tick_ns, wanted, normal_deceleration());
-  decision.zone = verdict.zone;
-  decision.hindrance = verdict.hindrance;
+  const DesiredMotion wanted{limiter_.within_limits(selection.velocity.value_or(Velocity{})),
+                             selection.source == "manual"};
+  const Assessment assessment = collision_stop_.assess(tick_ns, wanted, normal_deceleration());
+  decision.zone = assessment.zone;
+  decision.hindrance = assessment.hindrance;
   if (!decision.message) {
-    decision.message = verdict.message;
+    decision.message = assessment.message;
   }
-  if (!wish.velocity || verdict.zone == Zone::kBlind) {
+  if (!selection.velocity || assessment.zone == Zone::kBlind) {
     return limiter_.braked();
   }
-  const MotionWish next{limiter_.toward(verdict.velocity), wanted.by_hand};
+  const DesiredMotion next{limiter_.toward(assessment.velocity), wanted.by_hand};
   const Deceleration emergency{limits_.emergency_deceleration_mps2(next.velocity),
                                limits_.emergency_angular_deceleration_radps2};
-  const bool is_safe = is_in_time(next.velocity, oldest_word_s(tick_ns, inputs, wish.source)) &&
+  const bool is_safe = is_in_time(next.velocity, oldest_word_s(tick_ns, inputs, selection.source)) &&
                        collision_stop_.permits(next, emergency);
   return is_safe ? next.velocity : limiter_.braked();
 }
@@ -87,19 +89,20 @@ Deceleration DriveControl::normal_deceleration() const {
   return {limits_.linear_deceleration_mps2, limits_.angular_acceleration_radps2};
 }
 
-DriveControl::Wish DriveControl::choose(std::int64_t tick_ns, const Inputs& inputs) const {
+DriveControl::Selection DriveControl::choose(std::int64_t tick_ns, const Inputs& inputs) const {
   if (!inputs.locks.empty()) {
     return {"locked", std::nullopt, inputs.locks.front().reason};
   }
   // A manual controller that falls silent while it drives keeps the floor: the planner must not set off by surprise.
   if (inputs.manual && inputs.manual->active) {
-    return wish_of("manual", inputs.manual, tick_ns);
+    return selection_of("manual", inputs.manual, tick_ns);
   }
-  return wish_of("planner", inputs.planner, tick_ns);
+  return selection_of("planner", inputs.planner, tick_ns);
 }
 
-DriveControl::Wish DriveControl::wish_of(const std::string& source, const std::optional<SourceCommand>& command,
-                                         std::int64_t tick_ns) const {
+DriveControl::Selection DriveControl::selection_of(const std::string& source,
+                                                   const std::optional<SourceCommand>& command,
+                                                   std::int64_t tick_ns) const {
   const std::string who = source == "manual" ? "manual controller" : "motion planner";
   if (!command) {
     return {"none", std::nullopt, problems::kWaitingForSource({{"source", who}})};

@@ -58,8 +58,8 @@ std::optional<Motion> motion_of(std::int64_t stamp_ns, const py::object& odometr
                 {number("linear_mps"), number("angular_radps")}};
 }
 
-std::optional<SourceCommand> command_of(std::int64_t tick_ns, const std::optional<std::pair<double, double>>& wish) {
-  return wish ? std::optional<SourceCommand>({tick_ns, {wish->first, wish->second}, true}) : std::nullopt;
+std::optional<SourceCommand> command_of(std::int64_t tick_ns, const std::optional<std::pair<double, double>>& desired) {
+  return desired ? std::optional<SourceCommand>({tick_ns, {desired->first, desired->second}, true}) : std::nullopt;
 }
 
 std::pair<double, double> follow(VelocityLimiter& limiter, double linear_mps, double angular_radps) {
@@ -84,7 +84,7 @@ Decision step(DriveControl& control, std::int64_t tick_ns, const std::optional<s
 }  // namespace
 
 PYBIND11_MODULE(mtr_drive_control_core, module) {
-  module.doc() = "The core of drive control: from wishes, sweeps and odometry to the wheels' velocity.";
+  module.doc() = "The core of drive control: from desired velocities, sweeps and odometry to the wheels' velocity.";
   module.def("default_limits", [] { return values_of(kRows, Parameters{}); });
   module.def("default_collision", [] { return values_of(kCollisionRows, CollisionParameters{}); });
   module.def(

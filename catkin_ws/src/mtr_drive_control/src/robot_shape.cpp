@@ -24,7 +24,7 @@ Footprint footprint_of(const mtr_description::Footprint& found) {
   return {found.front_m, found.rear_m, found.half_width_m};
 }
 
-/// @param ahead_rad direction in base_link in which the LiDAR has to look
+/// @param ahead_rad direction in base_link in which the LiDAR has to point
 LidarMount lidar_of(const Mount& mount, double ahead_rad) {
   mtr_description::check_level(mount);
   check_value("The turn of " + mount.frame + (ahead_rad == 0.0 ? " from straight ahead" : " from straight back"),

@@ -55,7 +55,7 @@ struct Decision {
 
 /// Three stages: choose a source (locks, manual, planner), reduce what it wants to what is safe, limit its change.
 ///
-/// A lock, a dead source, blindness or a sudden obstacle is an emergency stop; a source that ends its wish is braked
+/// A lock, a dead source, blindness or a sudden obstacle is an emergency stop; a source that wants no more is braked
 /// for at the normal limit. Every velocity that is sent is one from which an emergency stop ends before a collision,
 /// and within kStandstillWithinS of the oldest word on which it rests: who is late slows the robot before it counts as
 /// dead.
@@ -72,20 +72,22 @@ class DriveControl {
   std::vector<PathPoint> stopping_path_of(const Velocity& velocity) const;
 
  private:
-  struct Wish {
+  /// The source that is chosen, and what it wants.
+  struct Selection {
     std::string source;
     /// Nothing: emergency stop.
     std::optional<Velocity> velocity;
     mtr_core::Problem message;
   };
 
-  Wish choose(std::int64_t tick_ns, const Inputs& inputs) const;
-  Wish wish_of(const std::string& source, const std::optional<SourceCommand>& command, std::int64_t tick_ns) const;
+  Selection choose(std::int64_t tick_ns, const Inputs& inputs) const;
+  Selection selection_of(const std::string& source, const std::optional<SourceCommand>& command,
+                         std::int64_t tick_ns) const;
   void adapt_limits(std::int64_t tick_ns, const std::optional<KeyHeight>& key);
   Deceleration normal_deceleration() const;
   double oldest_word_s(std::int64_t tick_ns, const Inputs& inputs, const std::string& source) const;
   bool is_in_time(const Velocity& velocity, double oldest_word_s) const;
-  Velocity pursue(std::int64_t tick_ns, const Inputs& inputs, const Wish& wish, Decision& decision);
+  Velocity pursue(std::int64_t tick_ns, const Inputs& inputs, const Selection& selection, Decision& decision);
 
   Parameters parameters_;
   double period_s_;

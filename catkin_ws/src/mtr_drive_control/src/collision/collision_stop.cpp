@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kHalvings = 8;
-// A smaller share of a wish is a stop, and not a motion that anybody wants.
+// A smaller share of the desired velocity is a stop, and not a motion that anybody wants.
 constexpr double kLeastShare = 0.05;
 // Rounding is no approach; anything more would let the robot creep nearer tick by tick.
 constexpr double kRoundingM = 1e-9;
@@ -23,16 +23,16 @@ CollisionStop::CollisionStop(const CollisionParameters& parameters, const RobotS
   check(parameters);
 }
 
-Verdict CollisionStop::judge(std::int64_t tick_ns, const MotionWish& wish, const Deceleration& normal) {
+Assessment CollisionStop::assess(std::int64_t tick_ns, const DesiredMotion& desired, const Deceleration& normal) {
   if (blindness()) {
-    if (!wish.velocity.is_zero()) {
-      blocked_wish_ = wish;
+    if (!desired.velocity.is_zero()) {
+      blocked_motion_ = desired;
       last_blocked_ns_ = tick_ns;
     }
     return {{}, Zone::kBlind, std::nullopt, blindness()};
   }
   // A planner that stops for the obstacle must not thereby make the way free.
-  const MotionWish tried = within_sight(wish.velocity.is_zero() && blocked_wish_ ? *blocked_wish_ : wish);
+  const DesiredMotion tried = within_sight(desired.velocity.is_zero() && blocked_motion_ ? *blocked_motion_ : desired);
   const std::optional<Hindrance> hindrance = hindrance_of(tried, normal);
   const double share = hindrance ? safe_share(tried, normal) : 1.0;
   if (share < kLeastShare) {
@@ -41,58 +41,59 @@ Verdict CollisionStop::judge(std::int64_t tick_ns, const MotionWish& wish, const
   if (is_pausing(tick_ns)) {
     return {{}, Zone::kBlocked, hindrance, hindrance ? problem_of(*hindrance) : problems::kPausing()};
   }
-  blocked_wish_.reset();
-  if (wish.velocity.is_zero()) {
+  blocked_motion_.reset();
+  if (desired.velocity.is_zero()) {
     return {};
   }
   return {tried.velocity.scaled(share), hindrance ? Zone::kSlowed : Zone::kClear, hindrance, {}};
 }
 
-Verdict CollisionStop::blocked(std::int64_t tick_ns, const MotionWish& wish,
-                               const std::optional<Hindrance>& hindrance) {
-  blocked_wish_ = wish;
+Assessment CollisionStop::blocked(std::int64_t tick_ns, const DesiredMotion& desired,
+                                  const std::optional<Hindrance>& hindrance) {
+  blocked_motion_ = desired;
   last_blocked_ns_ = tick_ns;
   return {{}, Zone::kBlocked, hindrance, problem_of(*hindrance)};
 }
 
 bool CollisionStop::is_pausing(std::int64_t tick_ns) const {
-  return blocked_wish_ && static_cast<double>(tick_ns - last_blocked_ns_) * 1e-9 < parameters_.resume_pause_s;
+  return blocked_motion_ && static_cast<double>(tick_ns - last_blocked_ns_) * 1e-9 < parameters_.resume_pause_s;
 }
 
-MotionWish CollisionStop::within_sight(const MotionWish& wish) const {
-  const double speed_mps = -wish.velocity.linear_mps;
+DesiredMotion CollisionStop::within_sight(const DesiredMotion& desired) const {
+  const double speed_mps = -desired.velocity.linear_mps;
   if (surroundings_.watches_rear() || speed_mps <= parameters_.unwatched_reverse_mps) {
-    return wish;
+    return desired;
   }
-  return {wish.velocity.scaled(parameters_.unwatched_reverse_mps / speed_mps), wish.by_hand};
+  return {desired.velocity.scaled(parameters_.unwatched_reverse_mps / speed_mps), desired.by_hand};
 }
 
-double CollisionStop::safe_share(const MotionWish& wish, const Deceleration& normal) const {
+double CollisionStop::safe_share(const DesiredMotion& desired, const Deceleration& normal) const {
   double safe = 0.0;
   double unsafe = 1.0;
   for (int i = 0; i < kHalvings; ++i) {
     const double share = 0.5 * (safe + unsafe);
-    (permits({wish.velocity.scaled(share), wish.by_hand}, normal) ? safe : unsafe) = share;
+    (permits({desired.velocity.scaled(share), desired.by_hand}, normal) ? safe : unsafe) = share;
   }
   return safe;
 }
 
-std::optional<Hindrance> CollisionStop::hindrance_of(const MotionWish& wish, const Deceleration& deceleration) const {
-  if (wish.velocity.is_zero()) {
+std::optional<Hindrance> CollisionStop::hindrance_of(const DesiredMotion& desired,
+                                                     const Deceleration& deceleration) const {
+  if (desired.velocity.is_zero()) {
     return std::nullopt;
   }
-  const std::vector<PathPoint> path = stopping_path_of(wish.velocity, deceleration);
+  const std::vector<PathPoint> path = stopping_path_of(desired.velocity, deceleration);
   const Obstacle* nearest = nullptr;
   for (const Obstacle& obstacle : surroundings_.obstacles()) {
     const bool is_nearer = nearest == nullptr || obstacle.distance_m < nearest->distance_m;
-    if (is_nearer && may_be_reached(obstacle, path) && is_in_reach(obstacle, wish, path)) {
+    if (is_nearer && may_be_reached(obstacle, path) && is_in_reach(obstacle, desired, path)) {
       nearest = &obstacle;
     }
   }
   if (nearest != nullptr) {
     return hindrance_at(nearest->point);
   }
-  const bool unwatched = !surroundings_.watches_rear() && !wish.by_hand && wish.velocity.linear_mps < 0.0;
+  const bool unwatched = !surroundings_.watches_rear() && !desired.by_hand && desired.velocity.linear_mps < 0.0;
   return unwatched ? unseen_ground(path) : std::nullopt;
 }
 
@@ -103,7 +104,7 @@ bool CollisionStop::may_be_reached(const Obstacle& obstacle, const std::vector<P
   return obstacle.distance_m - moved_m <= kept_m;
 }
 
-bool CollisionStop::is_in_reach(const Obstacle& obstacle, const MotionWish& wish,
+bool CollisionStop::is_in_reach(const Obstacle& obstacle, const DesiredMotion& desired,
                                 const std::vector<PathPoint>& path) const {
   switch (obstacle.kind) {
     case Kind::kWide:
@@ -111,10 +112,10 @@ bool CollisionStop::is_in_reach(const Obstacle& obstacle, const MotionWish& wish
     case Kind::kThing:
       return is_approached_by_person(obstacle, path);
     case Kind::kLost:
-      return wish.velocity.linear_mps < 0.0 && !wish.by_hand && is_approached_by_person(obstacle, path);
+      return desired.velocity.linear_mps < 0.0 && !desired.by_hand && is_approached_by_person(obstacle, path);
     case Kind::kStanding: {
       const double corner_mps =
-          std::abs(wish.velocity.linear_mps) + std::abs(wish.velocity.angular_radps) * footprint_.radius_m();
+          std::abs(desired.velocity.linear_mps) + std::abs(desired.velocity.angular_radps) * footprint_.radius_m();
       const bool creeps = corner_mps <= parameters_.creep_mps + 1e-9;
       return is_approached_by_person(obstacle, path) &&
              !(creeps && !gets_nearer_than(parameters_.person_reach_m, obstacle.point, path));

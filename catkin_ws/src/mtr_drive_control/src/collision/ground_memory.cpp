@@ -47,7 +47,7 @@ void GroundMemory::stand(const Footprint& footprint, const Motion& motion) {
   }
 }
 
-void GroundMemory::look(const Sweep& sweep, const LidarMount& mount, const Motion& motion) {
+void GroundMemory::observe(const Sweep& sweep, const LidarMount& mount, const Motion& motion) {
   for (std::size_t beam = 0; beam < sweep.ranges_m.size(); beam += kBeamStep) {
     const double free_m = sweep.is_far(beam)    ? kReachM
                           : sweep.is_echo(beam) ? std::min<double>(sweep.ranges_m[beam] - kBeforeEchoM, kReachM)

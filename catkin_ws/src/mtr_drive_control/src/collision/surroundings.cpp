@@ -32,11 +32,11 @@ Surroundings::Surroundings(const CollisionParameters& parameters, const RobotSha
 void Surroundings::take(std::int64_t tick_ns, const Sensors& sensors) {
   tick_ns_ = tick_ns;
   motion_ = sensors.motion;
-  bool has_looked = look(lidars_.front(), sensors.front);
+  bool has_observed = observe(lidars_.front(), sensors.front);
   if (watches_rear_) {
-    has_looked = look(lidars_.back(), sensors.rear) || has_looked;
+    has_observed = observe(lidars_.back(), sensors.rear) || has_observed;
   }
-  if (has_looked) {
+  if (has_observed) {
     classify();
   }
   blindness_ = blindness_at(tick_ns);
@@ -52,12 +52,12 @@ bool Surroundings::was_free(const Point& point) const {
   return ground_.was_free(odom_from_base_.apply(point), tick_ns_, parameters_.ground_memory_s);
 }
 
-bool Surroundings::look(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep) {
+bool Surroundings::observe(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep) {
   if (!lidar.watch.take(sweep) || !motion_) {
     return false;
   }
   lidar.echoes = lidar.finder.find(*sweep, *motion_, kRangeOfInterestM);
-  ground_.look(*sweep, lidar.finder.mount(), *motion_);
+  ground_.observe(*sweep, lidar.finder.mount(), *motion_);
   ground_.remember(lidar.echoes, *motion_);
   return true;
 }

@@ -113,15 +113,15 @@ class TestRobot {
   explicit TestRobot(bool has_rear_lidar = true, const Parameters& parameters = Parameters{})
       : control(parameters, CollisionParameters{}, test_shape(has_rear_lidar), 0.02), has_rear_lidar_(has_rear_lidar) {}
 
-  /// One tick with this wish.
-  Decision step(const Velocity& wish, bool by_hand = false) {
+  /// One tick with this desired velocity.
+  Decision step(const Velocity& desired, bool by_hand = false) {
     world_from_base = world_from_base.after(velocity, 0.02);
     now_ns += kTestPeriodNs;
     if (now_ns % kTestSweepNs == 0 && !lidars_are_silent) {
-      look();
+      observe();
     }
     Inputs inputs;
-    const SourceCommand command{now_ns - kTestPeriodNs, wish, true};
+    const SourceCommand command{now_ns - kTestPeriodNs, desired, true};
     (by_hand ? inputs.manual : inputs.planner) = command;
     inputs.sensors = {front_, rear_, Motion{now_ns, world_from_base, velocity}};
     inputs.key = KeyHeight{now_ns, 0.35};
@@ -130,14 +130,14 @@ class TestRobot {
     return decision;
   }
 
-  /// Lets it look around once before it drives.
+  /// Lets it observe its surroundings once before it drives.
   void settle() { drive({}, 0.1); }
 
-  /// Ticks with the same wish; the last decision.
-  Decision drive(const Velocity& wish, double duration_s, bool by_hand = false) {
+  /// Ticks with the same desired velocity; the last decision.
+  Decision drive(const Velocity& desired, double duration_s, bool by_hand = false) {
     Decision decision;
     for (int tick = 0; tick < std::lround(duration_s / 0.02); ++tick) {
-      decision = step(wish, by_hand);
+      decision = step(desired, by_hand);
     }
     return decision;
   }
@@ -153,7 +153,7 @@ class TestRobot {
 
  private:
   // The sweep that has just ended, as seen when it ended.
-  void look() {
+  void observe() {
     const RobotShape shape = test_shape(true);
     front_ = scene.sweep(pose_of(shape.front_lidar), now_ns - kTestSweepNs);
     rear_ = has_rear_lidar_ ? scene.sweep(pose_of(*shape.rear_lidar), now_ns - kTestSweepNs) : nullptr;

@@ -206,10 +206,10 @@ TEST(CollisionStop, RandomArcsAmongThingsThatStandNeverTouchOne) {
     if (robot.clearance() < 0.1) {
       continue;
     }
-    const Velocity wish{1.5 * unit(random), 1.5 * unit(random)};
+    const Velocity desired{1.5 * unit(random), 1.5 * unit(random)};
     robot.settle();
     for (int tick = 0; tick < 250; ++tick) {
-      const Decision decision = robot.step(wish);
+      const Decision decision = robot.step(desired);
       stops += decision.zone == Zone::kBlocked ? 1 : 0;
       ASSERT_GT(robot.clearance(), 0.0) << "run " << run << " at " << tick;
     }

@@ -109,7 +109,7 @@ TEST_F(DriveControlTest, SilentPlannerIsAnEmergencyStop) {
   EXPECT_EQ(decision.message.text, "The motion planner is silent.");
 }
 
-TEST_F(DriveControlTest, PlannerWithoutAWishIsBrakedForAtTheNormalLimit) {
+TEST_F(DriveControlTest, PlannerWithoutADesiredVelocityIsBrakedForAtTheNormalLimit) {
   drive_at_full_speed();
   const Decision decision = step({}, std::nullopt, command(1.5, false));
   EXPECT_EQ(decision.source, "none");
@@ -123,7 +123,7 @@ TEST_F(DriveControlTest, NoPlannerYetStandsStillAndSaysSo) {
   EXPECT_EQ(decision.message.text, "Waiting for the motion planner.");
 }
 
-TEST_F(DriveControlTest, WishThatIsNotAFiniteNumberStopsTheRobotWithAMessage) {
+TEST_F(DriveControlTest, DesiredVelocityThatIsNotAFiniteNumberStopsTheRobotWithAMessage) {
   for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const Decision decision = step({}, std::nullopt, command(wrong));
     EXPECT_EQ(decision.velocity.linear_mps, 0.0);

@@ -48,8 +48,8 @@ TEST(TipOver, StopFromEveryPermittedVelocityInACurveEndsInTimeToo) {
   const Limits limits = limits_at(Parameters{}, 1.55);
   for (double linear = -2.0; linear <= 2.0; linear += 0.1) {
     for (double angular = -4.0; angular <= 4.0; angular += 0.2) {
-      const Velocity wish{linear, angular};
-      EXPECT_LE(limits.stop_time_s(wish.scaled(limits.permitted_share(wish))), kStopWithinS + 1e-9);
+      const Velocity desired{linear, angular};
+      EXPECT_LE(limits.stop_time_s(desired.scaled(limits.permitted_share(desired))), kStopWithinS + 1e-9);
     }
   }
 }

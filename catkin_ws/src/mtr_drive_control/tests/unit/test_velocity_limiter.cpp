@@ -43,13 +43,13 @@ TEST_F(VelocityLimiterTest, FirstStepIsBoundedByTheAccelerations) {
   EXPECT_NEAR(sent.angular_radps, 0.04, 1e-12);
 }
 
-TEST_F(VelocityLimiterTest, SmallWishIsReachedExactly) {
+TEST_F(VelocityLimiterTest, SmallDesiredVelocityIsReachedExactly) {
   const Velocity sent = follow_for({0.5, -0.3}, 1.0);
   EXPECT_DOUBLE_EQ(sent.linear_mps, 0.5);
   EXPECT_DOUBLE_EQ(sent.angular_radps, -0.3);
 }
 
-TEST_F(VelocityLimiterTest, TooFastWishKeepsItsCurvature) {
+TEST_F(VelocityLimiterTest, TooFastDesiredVelocityKeepsItsCurvature) {
   const Velocity sent = follow_for({6.0, 0.8}, 3.0);
   EXPECT_NEAR(sent.linear_mps, 1.0, 1e-9);
   EXPECT_NEAR(sent.angular_radps / sent.linear_mps, 0.8 / 6.0, 1e-9);
@@ -124,7 +124,7 @@ TEST_F(VelocityLimiterTest, EmergencyStopAtRestStaysAtRest) {
   EXPECT_EQ(sent.angular_radps, 0.0);
 }
 
-TEST_F(VelocityLimiterTest, WishAfterAnEmergencyStopStartsFromTheVelocitySentLast) {
+TEST_F(VelocityLimiterTest, DesiredVelocityAfterAnEmergencyStopStartsFromTheVelocitySentLast) {
   follow_for({1.0, 0.0}, 2.0);
   const double stopped_to = stop().linear_mps;
   EXPECT_NEAR(follow({1.0, 0.0}).linear_mps, stopped_to + 0.02, 1e-9);

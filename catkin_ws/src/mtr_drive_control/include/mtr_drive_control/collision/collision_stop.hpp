@@ -26,8 +26,8 @@ struct Hindrance {
   bool is_unseen_ground = false;
 };
 
-/// What the collision stop makes of a wish.
-struct Verdict {
+/// What the collision stop makes of a desired motion.
+struct Assessment {
   Velocity velocity;
   Zone zone = Zone::kClear;
   std::optional<Hindrance> hindrance;
@@ -36,7 +36,7 @@ struct Verdict {
 };
 
 /// What is wanted at a tick.
-struct MotionWish {
+struct DesiredMotion {
   Velocity velocity;
   /// By a person who holds the manual controller and sees what no LiDAR sees.
   bool by_hand = false;
@@ -53,18 +53,18 @@ class CollisionStop {
   CollisionStop(const CollisionParameters& parameters, const RobotShape& shape);
 
   /// Takes the readings of a tick; to be called once per tick, first.
-  void look(std::int64_t tick_ns, const Sensors& sensors) { surroundings_.take(tick_ns, sensors); }
+  void take(std::int64_t tick_ns, const Sensors& sensors) { surroundings_.take(tick_ns, sensors); }
 
-  /// Largest part of the wish that is safe when stopped at this deceleration.
-  Verdict judge(std::int64_t tick_ns, const MotionWish& wish, const Deceleration& normal);
+  /// Largest part of the desired motion that is safe when stopped at this deceleration.
+  Assessment assess(std::int64_t tick_ns, const DesiredMotion& desired, const Deceleration& normal);
 
   /// True when the velocity is safe when stopped at this deceleration.
-  bool permits(const MotionWish& wish, const Deceleration& deceleration) const {
-    return !hindrance_of(wish, deceleration);
+  bool permits(const DesiredMotion& desired, const Deceleration& deceleration) const {
+    return !hindrance_of(desired, deceleration);
   }
 
   /// Nobody wants to move any more.
-  void rest() { blocked_wish_.reset(); }
+  void rest() { blocked_motion_.reset(); }
 
   const mtr_core::Problem& blindness() const { return surroundings_.blindness(); }
   const Footprint& footprint() const { return footprint_; }
@@ -73,24 +73,24 @@ class CollisionStop {
   }
 
  private:
-  std::optional<Hindrance> hindrance_of(const MotionWish& wish, const Deceleration& deceleration) const;
-  /// False spares a closer look: it is too far away for any kind of obstacle.
+  std::optional<Hindrance> hindrance_of(const DesiredMotion& desired, const Deceleration& deceleration) const;
+  /// False spares a closer test: it is too far away for any kind of obstacle.
   bool may_be_reached(const Obstacle& obstacle, const std::vector<PathPoint>& path) const;
-  bool is_in_reach(const Obstacle& obstacle, const MotionWish& wish, const std::vector<PathPoint>& path) const;
+  bool is_in_reach(const Obstacle& obstacle, const DesiredMotion& desired, const std::vector<PathPoint>& path) const;
   bool gets_nearer_than(double limit_m, const Point& point, const std::vector<PathPoint>& path) const;
   bool is_approached_by_person(const Obstacle& obstacle, const std::vector<PathPoint>& path) const;
   std::optional<Hindrance> unseen_ground(const std::vector<PathPoint>& path) const;
   Hindrance hindrance_at(const Point& point) const;
-  MotionWish within_sight(const MotionWish& wish) const;
-  double safe_share(const MotionWish& wish, const Deceleration& normal) const;
-  Verdict blocked(std::int64_t tick_ns, const MotionWish& wish, const std::optional<Hindrance>& hindrance);
+  DesiredMotion within_sight(const DesiredMotion& desired) const;
+  double safe_share(const DesiredMotion& desired, const Deceleration& normal) const;
+  Assessment blocked(std::int64_t tick_ns, const DesiredMotion& desired, const std::optional<Hindrance>& hindrance);
   bool is_pausing(std::int64_t tick_ns) const;
 
   CollisionParameters parameters_;
   Footprint footprint_;
   Surroundings surroundings_;
-  /// Direction of the wish that was stopped for an obstacle, until the way has been free for the pause.
-  std::optional<MotionWish> blocked_wish_;
+  /// Direction of the motion that was stopped for an obstacle, until the way has been free for the pause.
+  std::optional<DesiredMotion> blocked_motion_;
   std::int64_t last_blocked_ns_ = 0;
 };
 

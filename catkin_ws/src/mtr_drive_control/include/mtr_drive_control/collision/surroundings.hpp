@@ -69,7 +69,7 @@ class Surroundings {
     std::vector<Kind> kinds;
   };
 
-  bool look(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep);
+  bool observe(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep);
   void classify();
   mtr_core::Problem blindness_at(std::int64_t tick_ns) const;
   void add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind);

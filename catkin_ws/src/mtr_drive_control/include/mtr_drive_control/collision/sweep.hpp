@@ -1,5 +1,5 @@
 /// @file
-/// One turn of a LiDAR, and what a look at it alone tells.
+/// One turn of a LiDAR, and what it alone says.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -21,7 +21,7 @@
 
 namespace mtr_drive_control {
 
-/// Parameters from the parameter server and wishes about the inputs.
+/// Parameters from the parameter server and requirements on the inputs.
 struct NodeParameters {
   Parameters limits;
   CollisionParameters collision;
