@@ -10,7 +10,7 @@ from .inputs import Inputs
 from .log_buffer import LogBuffer
 from .notices import ERROR, WARNING, ForeignApplications, Notice, RecentNotices, standing_notices
 from .parameters import Parameters
-from .session import REJECTIONS, Desired, Session, Verdict
+from .session import REJECTIONS, CommandResult, ControlSession, SessionState
 from .status_builder import Confirmations, Identity, Report, status_bytes
 
 
@@ -26,29 +26,29 @@ class Dispatcher:
 
     def __init__(self, parameters: Parameters, identity: Identity):
         self._parameters, self._identity = parameters, identity
-        self.session = Session(parameters)
+        self.session = ControlSession(parameters)
         self.log = LogBuffer()
         self.status_id = 0
         self.rejected_messages = 0
         self._recent, self._foreign = RecentNotices(), ForeignApplications()
 
-    def receive(self, data: bytes, now_s: float) -> Tuple[Optional[Verdict], str]:
-        """Take one message of the link. Returns its verdict (None: no Command) and a sentence for the log, if any."""
+    def receive(self, data: bytes, now_s: float) -> Tuple[Optional[CommandResult], str]:
+        """Take one message of the link. Returns its result (None: no Command) and a sentence for the log, if any."""
         try:
             command = decode(data)
         except UndecodableError as error:
             self._reject(Notice("bad_message", WARNING, error.problem), now_s)
             return None, str(error)
         before = self.session.session_id
-        verdict = self.session.take(command, now_s, self.status_id)
-        if verdict is Verdict.FOREIGN:
+        result = self.session.take(command, now_s, self.status_id)
+        if result is CommandResult.FOREIGN:
             self.rejected_messages += 1
-            return verdict, self._foreign.hear(self.session.session_id, command.session_id, now_s).text
-        if verdict in REJECTIONS:
-            return verdict, self._reject(self._rejection(verdict, command), now_s)
-        return verdict, self._event(verdict, command, before)
+            return result, self._foreign.received(self.session.session_id, command.session_id, now_s).text
+        if result in REJECTIONS:
+            return result, self._reject(self._rejection(result, command), now_s)
+        return result, self._event(result, command, before)
 
-    def desired(self, now_s: float) -> Desired:
+    def desired(self, now_s: float) -> SessionState:
         """What the robot shall do at now_s."""
         return self.session.desired(now_s)
 
@@ -71,7 +71,7 @@ class Dispatcher:
                 check and (check.id, check.state),
                 peripherals and [(press.session_id, press.id) for press in peripherals.presses]]
 
-    def _confirmations(self, desired: Desired, fresh: Inputs) -> Confirmations:
+    def _confirmations(self, desired: SessionState, fresh: Inputs) -> Confirmations:
         mapped = fresh.mode.map_car_id if fresh.mode is not None else 0
         checked = fresh.check.id if fresh.check is not None else 0
         return Confirmations(desired.session_id, desired.command.id,
@@ -84,13 +84,13 @@ class Dispatcher:
             self._recent.add(notice, now_s)
         return notice.problem.text
 
-    def _rejection(self, verdict: Verdict, command: Command) -> Notice:
-        if verdict is Verdict.EXPIRED:
+    def _rejection(self, result: CommandResult, command: Command) -> Notice:
+        if result is CommandResult.EXPIRED:
             return Notice("command_expired", WARNING, problems.EXPIRED(id=command.id))
         return Notice("command_refused", ERROR, problems.REFUSED(id=command.id, cause=self.session.refusal))
 
-    def _event(self, verdict: Verdict, command: Command, session_before: int) -> str:
-        if verdict is Verdict.ENDED:
+    def _event(self, result: CommandResult, command: Command, session_before: int) -> str:
+        if result is CommandResult.ENDED:
             return f"Application {command.session_id:x} ended its session."
         if self.session.session_id != session_before:
             return f"Application {command.session_id:x} controls the robot now."

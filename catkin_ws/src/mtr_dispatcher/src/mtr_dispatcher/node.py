@@ -19,7 +19,7 @@ from .link_server import LinkServer
 from .notices import ERROR, WARNING
 from .operator_wait import OperatorWait
 from .parameters import Parameters
-from .session import Desired, Verdict, is_same
+from .session import CommandResult, SessionState, is_same
 from .status_builder import Identity
 
 # While simulated time waits for the application the Status is sent again, for one that connects meanwhile.
@@ -35,7 +35,7 @@ class DispatcherNode:
     def __init__(self, parameters: Parameters, core: Dispatcher, server: LinkServer):
         self._parameters, self._core, self._server = parameters, core, server
         self._wait = OperatorWait(parameters.operator_lost_after_wall_s)
-        self._published: Optional[Desired] = None
+        self._published: Optional[SessionState] = None
         self._confirmed: Optional[List[object]] = None
         self._status = b""
         self._pose = TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0)
@@ -96,10 +96,10 @@ class DispatcherNode:
     def _receive(self, now_ns: int, timeout_s: float) -> bool:
         messages = self._server.receive(timeout_s)
         for data in messages:
-            verdict, sentence = self._core.receive(data, now_ns * NS)
-            if verdict in (Verdict.TAKEN, Verdict.REPEATED, Verdict.REFUSED):
-                self._wait.heard()
-            if sentence and verdict in (Verdict.TAKEN, Verdict.ENDED):
+            result, sentence = self._core.receive(data, now_ns * NS)
+            if result in (CommandResult.TAKEN, CommandResult.REPEATED, CommandResult.REFUSED):
+                self._wait.received()
+            if sentence and result in (CommandResult.TAKEN, CommandResult.ENDED):
                 rospy.loginfo(sentence)
             elif sentence:
                 rospy.logwarn_throttle_identical(10.0, sentence)

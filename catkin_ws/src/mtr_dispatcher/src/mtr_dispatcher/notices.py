@@ -8,7 +8,7 @@ from mtr_core.states import State
 
 from . import problems
 from .inputs import Inputs
-from .session import Desired
+from .session import SessionState
 
 INFO, WARNING, ERROR = 1, 2, 3
 # A single event, such as a rejected message, is shown this long.
@@ -44,27 +44,27 @@ class ForeignApplications:
     """Applications that want the robot while another one controls it."""
 
     def __init__(self) -> None:
-        self._heard: Dict[int, float] = {}
+        self._received_s: Dict[int, float] = {}
 
-    def hear(self, controlling_id: int, session_id: int, now_s: float) -> Problem:
+    def received(self, controlling_id: int, session_id: int, now_s: float) -> Problem:
         """A Command of one came; the sentence about it."""
-        self._heard[session_id] = now_s
+        self._received_s[session_id] = now_s
         return _foreign_problem(controlling_id, session_id)
 
     def notices(self, controlling_id: int, now_s: float) -> List[Notice]:
-        """One notice, the same as long as such an application is heard; none when nobody controls the robot."""
-        self._heard = {session_id: heard_s for session_id, heard_s in self._heard.items()
-                       if now_s - heard_s <= FOREIGN_SHOWN_S and session_id != controlling_id}
-        if not controlling_id or not self._heard:
+        """One notice, the same while Commands of such an application are received; none when nobody is in control."""
+        self._received_s = {session_id: received_s for session_id, received_s in self._received_s.items()
+                            if now_s - received_s <= FOREIGN_SHOWN_S and session_id != controlling_id}
+        if not controlling_id or not self._received_s:
             return []
-        return [Notice("controlled_by_other", WARNING, _foreign_problem(controlling_id, min(self._heard)))]
+        return [Notice("controlled_by_other", WARNING, _foreign_problem(controlling_id, min(self._received_s)))]
 
 
 def _foreign_problem(controlling_id: int, session_id: int) -> Problem:
     return problems.FOREIGN_APPLICATION(controlling=f"{controlling_id:x}", foreign=f"{session_id:x}")
 
 
-def standing_notices(desired: Desired, fresh: Inputs, low_battery: float) -> Iterator[Notice]:
+def standing_notices(desired: SessionState, fresh: Inputs, low_battery: float) -> Iterator[Notice]:
     """Notices that hold as long as their cause."""
     if desired.session_id and not desired.link_alive:
         yield Notice("link_lost", ERROR, desired.stop_reason)

@@ -3,14 +3,14 @@
 import time
 from typing import Callable
 
-from .session import Session
+from .session import ControlSession
 
 
 class OperatorWait:
     """At each tick: begin, then ask is_over until it is.
 
     Attributes:
-        operator_gone: an application in control that owed an answer for too long; nobody waits until it is heard.
+        operator_gone: an application in control that owed an answer for too long; nobody waits before its next Command.
     """
 
     def __init__(self, lost_after_wall_s: float, wall_clock: Callable[[], float] = time.monotonic):
@@ -22,12 +22,12 @@ class OperatorWait:
         """A Status has been published that wants an answer."""
         self._patient_until = self._wall_clock() + self._lost_after_wall_s
 
-    def heard(self) -> None:
+    def received(self) -> None:
         """The application in control has sent a Command."""
         self.operator_gone = False
         self.begin()
 
-    def is_over(self, session: Session, status_id: int) -> bool:
+    def is_over(self, session: ControlSession, status_id: int) -> bool:
         """True when the tick goes on: the Status is answered, or the application in control is gone.
 
         Without an application in control time stands still until one comes.

@@ -16,7 +16,7 @@ from .parameters import Parameters
 REMEMBERED_SESSIONS = 16
 
 
-class Verdict(enum.Enum):
+class CommandResult(enum.Enum):
     """What became of a Command."""
 
     TAKEN = "taken"            # new content
@@ -29,11 +29,11 @@ class Verdict(enum.Enum):
 
 
 # Commands that moved nothing and are counted as rejected.
-REJECTIONS = (Verdict.EXPIRED, Verdict.FOREIGN, Verdict.REFUSED)
+REJECTIONS = (CommandResult.EXPIRED, CommandResult.FOREIGN, CommandResult.REFUSED)
 
 
 @dataclass(frozen=True)
-class Desired:
+class SessionState:
     """What the robot shall do now. stop_reason is no problem when it may move."""
 
     session_id: int
@@ -64,7 +64,7 @@ class OrderNumbers:
         return self._order[1] if number and number == self._number and session_id == self._order[0] else 0
 
 
-class Session:
+class ControlSession:
     """Lets one application control the robot.
 
     Attributes:
@@ -84,34 +84,34 @@ class Session:
         self.answered_status_id = 0
         self.map_orders, self.check_orders = OrderNumbers(), OrderNumbers()
         self._newest_id = 0
-        self._heard_s = -math.inf
+        self._received_s = -math.inf
         self._former: Dict[int, int] = {}
 
-    def take(self, command: Command, now_s: float, newest_status_id: int) -> Verdict:
+    def take(self, command: Command, now_s: float, newest_status_id: int) -> CommandResult:
         """Judge a Command that arrived at now_s, after the Status with the given id."""
         if command.end_session:
             return self._end(command)
         lifetime_s = self._parameters.command_lifetime_s
         if not abs(now_s - command.seen_robot_time_s) <= lifetime_s or command.seen_status_id > newest_status_id:
-            return Verdict.EXPIRED
+            return CommandResult.EXPIRED
         if command.session_id != self.session_id and not self._hand_over(command, now_s):
-            return Verdict.OUTDATED if self._is_former(command) else Verdict.FOREIGN
+            return CommandResult.OUTDATED if self._is_former(command) else CommandResult.FOREIGN
         self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
         if command.id < self._newest_id:
-            return Verdict.OUTDATED
-        self._heard_s = now_s
+            return CommandResult.OUTDATED
+        self._received_s = now_s
         return self._accept(command)
 
     def link_alive(self, now_s: float) -> bool:
-        """True while the application in control is heard."""
-        return bool(self.session_id) and now_s - self._heard_s <= self._parameters.link_timeout_s
+        """True while Commands of the application in control are received."""
+        return bool(self.session_id) and now_s - self._received_s <= self._parameters.link_timeout_s
 
-    def desired(self, now_s: float) -> Desired:
+    def desired(self, now_s: float) -> SessionState:
         """What the robot shall do at now_s."""
         alive = self.link_alive(now_s)
         map_order = self.map_orders.number_of(self.session_id, self.command.map_car_id)
         check_order = self.check_orders.number_of(self.session_id, self.command.check_car_id)
-        return Desired(self.session_id, self.command, map_order, check_order, alive, self._stop_reason(alive))
+        return SessionState(self.session_id, self.command, map_order, check_order, alive, self._stop_reason(alive))
 
     def _stop_reason(self, alive: bool) -> Problem:
         if not self.session_id:
@@ -122,18 +122,18 @@ class Session:
             return problems.COMMAND_REFUSED(cause=self.refusal)
         return problems.STOPPED_BY_OPERATOR() if self.command.stop else NO_PROBLEM
 
-    def _accept(self, command: Command) -> Verdict:
+    def _accept(self, command: Command) -> CommandResult:
         if command.id == self._newest_id:
-            return Verdict.REFUSED if self.refusal else Verdict.REPEATED
+            return CommandResult.REFUSED if self.refusal else CommandResult.REPEATED
         self._newest_id = command.id
         self.refusal = problem_of(command, self._parameters.platform_speed_mps)
         if self.refusal:
-            return Verdict.REFUSED
+            return CommandResult.REFUSED
         self.command = command
-        return Verdict.TAKEN
+        return CommandResult.TAKEN
 
     def _hand_over(self, command: Command, now_s: float) -> bool:
-        silent = now_s - self._heard_s > self._parameters.takeover_after_s
+        silent = now_s - self._received_s > self._parameters.takeover_after_s
         if self._is_former(command) or (self.session_id and not silent):
             return False
         self._remember(self.session_id, self._newest_id)
@@ -141,14 +141,14 @@ class Session:
         self._newest_id, self.answered_status_id = self._former.get(command.session_id, 0), 0
         return True
 
-    def _end(self, command: Command) -> Verdict:
+    def _end(self, command: Command) -> CommandResult:
         # However old: a goodbye only stops, so it is never too late.
         if command.session_id != self.session_id or command.id < self._newest_id:
-            return Verdict.OUTDATED
+            return CommandResult.OUTDATED
         self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
         self._remember(self.session_id, command.id)
         self.session_id, self.command, self.refusal, self._newest_id = 0, Command(), NO_PROBLEM, 0
-        return Verdict.ENDED
+        return CommandResult.ENDED
 
     def _is_former(self, command: Command) -> bool:
         return command.id <= self._former.get(command.session_id, 0)
@@ -161,7 +161,7 @@ class Session:
                 del self._former[next(iter(self._former))]
 
 
-def desired_state(desired: Desired, default_speed_mps: float) -> DesiredState:
+def desired_state(desired: SessionState, default_speed_mps: float) -> DesiredState:
     """The same for the other nodes; where the Command leaves a choice it is made here."""
     command = desired.command
     return DesiredState(
@@ -172,7 +172,7 @@ def desired_state(desired: Desired, default_speed_mps: float) -> DesiredState:
         press=command.press or NO_PRESS, map_car_id=desired.map_order, check_car_id=desired.check_order)
 
 
-def is_same(one: Optional[Desired], other: Desired) -> bool:
+def is_same(one: Optional[SessionState], other: SessionState) -> bool:
     """True when both ask for the same; a repetition of a Command changes nothing."""
     return one is not None and (one.session_id, one.link_alive, one.stop_reason, one.command.id) == (
         other.session_id, other.link_alive, other.stop_reason, other.command.id)

@@ -9,7 +9,7 @@ from mtr_core.requests import Press, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_dispatcher.command import Command
 from mtr_dispatcher.conversions import desired_message, lock_message
-from mtr_dispatcher.session import Desired
+from mtr_dispatcher.session import SessionState
 
 NOBODY = Problem("dispatcher.nobody", "No application.")
 STAMP = rospy.Time(12, 34)
@@ -19,7 +19,7 @@ def test_whole_command_arrives_in_the_message():
     sent = Waypoint(1, "application/5", "car", Pose2(2.0, 3.0, 0.5), 2)
     command = Command(5, 6, waypoint=sent, max_speed_mps=0.7, key_height_m=1.2, press=Press(4, 5, (1, 2), 0.5, 0.25),
                       map_car_id=9, check_car_id=2)
-    message = desired_message(Desired(5, command, 3, 7, True, NO_PROBLEM), STAMP, 0.5)
+    message = desired_message(SessionState(5, command, 3, 7, True, NO_PROBLEM), STAMP, 0.5)
     waypoint, press = message.waypoint, message.press
     assert (message.session_id, message.command_id, message.link_alive, message.stop) == (5, 6, True, False)
     assert (waypoint.id, waypoint.frame_id, waypoint.x, waypoint.y) == (1, "car", 2.0, 3.0)
@@ -31,13 +31,13 @@ def test_whole_command_arrives_in_the_message():
 
 
 def test_what_the_command_leaves_open_becomes_the_default():
-    message = desired_message(Desired(0, Command(), 0, 0, False, NOBODY), STAMP, 0.5)
+    message = desired_message(SessionState(0, Command(), 0, 0, False, NOBODY), STAMP, 0.5)
     assert (message.waypoint.id, message.press.id, message.map_car_id, message.max_speed_mps) == (0, 0, 0, 0.5)
     assert math.isnan(message.key_height_m) and message.stop
 
 
 def test_lock_carries_the_reason():
-    message = lock_message(Desired(0, Command(), 0, 0, False, NOBODY), STAMP)
+    message = lock_message(SessionState(0, Command(), 0, 0, False, NOBODY), STAMP)
     assert (message.owner, message.engaged, message.reason) == ("dispatcher", True, "No application.")
     assert [problem.code for problem in message.problems] == [NOBODY.code]
-    assert not lock_message(Desired(1, Command(), 0, 0, True, NO_PROBLEM), STAMP).engaged
+    assert not lock_message(SessionState(1, Command(), 0, 0, True, NO_PROBLEM), STAMP).engaged

@@ -11,7 +11,7 @@ from mtr_dispatcher.command_codec import MAX_MESSAGE_BYTES, UndecodableError, de
 from mtr_dispatcher.core import Dispatcher
 from mtr_dispatcher.inputs import Inputs
 from mtr_dispatcher.parameters import Parameters
-from mtr_dispatcher.session import Verdict
+from mtr_dispatcher.session import CommandResult
 from mtr_dispatcher.status_builder import Identity
 from mtr_msgs.msg import CarCheck, CarEstimate, LocalizedPose, PeripheralsState, PressReport, Problem, RobotMode
 from mtr_proto import robot_link_pb2 as link
@@ -75,8 +75,8 @@ def test_waypoint_without_coordinates_is_not_a_place():
 def test_what_is_no_command_is_counted_and_reported(core, data):
     with pytest.raises(UndecodableError):
         decode(data)
-    verdict, sentence = core.receive(data, NOW_S)
-    assert verdict is None and sentence
+    result, sentence = core.receive(data, NOW_S)
+    assert result is None and sentence
     message = status(core)
     assert message.rejected_messages == 1 and "bad_message" in codes(message)
 
@@ -96,7 +96,7 @@ def test_foreign_and_expired_commands_are_counted_and_reported(core):
     assert {"controlled_by_other", "command_expired"} <= codes(message)
 
 
-def test_notice_of_another_application_is_steady_while_it_is_heard_now_and_then(core):
+def test_notice_of_another_application_is_steady_while_it_is_received_now_and_then(core):
     texts = set()
     for tenth in range(200):
         now_s = NOW_S + 0.1 * tenth
@@ -121,8 +121,8 @@ def test_notice_of_another_application_ends_when_nobody_controls_the_robot(core)
 
 
 def test_refused_command_is_a_notification_as_long_as_it_stands(core):
-    verdict, _ = core.receive(command_bytes(max_speed_mps=-1.0), NOW_S)
-    assert verdict is Verdict.REFUSED
+    result, _ = core.receive(command_bytes(max_speed_mps=-1.0), NOW_S)
+    assert result is CommandResult.REFUSED
     notice = next(notice for notice in status(core).notifications if notice.code == "command_refused")
     assert "-1 m/s" in notice.text
     core.receive(command_bytes(number=2, max_speed_mps=1.0), NOW_S)

@@ -5,7 +5,7 @@ import pytest
 from mtr_dispatcher.command import Command
 from mtr_dispatcher.operator_wait import OperatorWait
 from mtr_dispatcher.parameters import Parameters
-from mtr_dispatcher.session import Session
+from mtr_dispatcher.session import ControlSession
 
 STATUS = 4
 
@@ -28,7 +28,7 @@ def wait(wall):
 
 
 def answered(status_id, **content):
-    session = Session(Parameters())
+    session = ControlSession(Parameters())
     session.take(Command(1, 1, status_id, 100.0), 100.0, status_id)
     if content:
         session.take(Command(1, 2, status_id, 100.0, **content), 100.0, status_id)
@@ -38,7 +38,7 @@ def answered(status_id, **content):
 def test_without_session_it_waits_for_ever(wait, wall):
     wait.begin()
     wall.now_s = 1e6
-    assert not wait.is_over(Session(Parameters()), STATUS)
+    assert not wait.is_over(ControlSession(Parameters()), STATUS)
 
 
 def test_answer_ends_the_wait(wait):
@@ -55,7 +55,7 @@ def test_goodbye_ends_the_tick_and_the_next_one_waits_for_a_session(wait):
     assert not wait.is_over(session, STATUS + 1)
 
 
-def test_silent_application_is_given_up_until_it_is_heard(wait, wall):
+def test_silent_application_is_given_up_until_it_is_received(wait, wall):
     session = answered(STATUS - 1)
     wait.begin()
     wall.now_s = 4.9
@@ -64,5 +64,5 @@ def test_silent_application_is_given_up_until_it_is_heard(wait, wall):
     assert wait.is_over(session, STATUS)
     wait.begin()
     assert wait.is_over(session, STATUS + 1)
-    wait.heard()
+    wait.received()
     assert not wait.is_over(session, STATUS + 1)

@@ -10,7 +10,7 @@ from mtr_core.requests import Press, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_dispatcher.command import Command
 from mtr_dispatcher.parameters import Parameters
-from mtr_dispatcher.session import REMEMBERED_SESSIONS, Session, Verdict, is_same
+from mtr_dispatcher.session import REMEMBERED_SESSIONS, CommandResult, ControlSession, is_same
 
 NEWEST_STATUS = 10
 
@@ -25,7 +25,7 @@ def waypoint(x, y, heading, number=1, direction=0):
 
 @pytest.fixture
 def session():
-    return Session(Parameters())
+    return ControlSession(Parameters())
 
 
 def take(session, order, now_s=100.0):
@@ -39,7 +39,7 @@ def test_without_application_the_robot_stops(session):
 
 
 def test_first_command_takes_control(session):
-    assert take(session, command(waypoint=waypoint(2.0, 3.0, 0.5))) is Verdict.TAKEN
+    assert take(session, command(waypoint=waypoint(2.0, 3.0, 0.5))) is CommandResult.TAKEN
     desired = session.desired(100.0)
     assert (desired.session_id, desired.link_alive, desired.stop_reason) == (1, True, NO_PROBLEM)
     assert desired.command.waypoint == waypoint(2.0, 3.0, 0.5)
@@ -47,7 +47,7 @@ def test_first_command_takes_control(session):
 
 def test_repetition_keeps_the_link_alive(session):
     take(session, command())
-    assert take(session, command(seen_s=100.9), 100.9) is Verdict.REPEATED
+    assert take(session, command(seen_s=100.9), 100.9) is CommandResult.REPEATED
     assert session.desired(101.8).link_alive
 
 
@@ -56,67 +56,67 @@ def test_silence_beyond_the_limit_stops_and_the_same_command_resumes(session):
     assert session.desired(101.0).stop_reason == NO_PROBLEM
     lost = session.desired(101.01)
     assert not lost.link_alive and "silent" in lost.stop_reason.text and lost.session_id == 1
-    assert take(session, command(seen_s=105.0), 105.0) is Verdict.REPEATED
+    assert take(session, command(seen_s=105.0), 105.0) is CommandResult.REPEATED
     assert session.desired(105.0).stop_reason == NO_PROBLEM
 
 
 @pytest.mark.parametrize("seen_s", [98.9, 101.1, math.nan, -math.inf])
 def test_command_that_answers_no_recent_status_moves_nothing(session, seen_s):
-    assert take(session, command(seen_s=seen_s)) is Verdict.EXPIRED
+    assert take(session, command(seen_s=seen_s)) is CommandResult.EXPIRED
     assert session.session_id == 0
 
 
 def test_command_that_answers_a_status_never_sent_has_expired(session):
     stranger = replace(command(), seen_status_id=NEWEST_STATUS + 1)
-    assert take(session, stranger) is Verdict.EXPIRED
+    assert take(session, stranger) is CommandResult.EXPIRED
 
 
 def test_expired_repetition_does_not_keep_the_link_alive(session):
     take(session, command())
-    assert take(session, command(seen_s=100.0), 101.5) is Verdict.EXPIRED
+    assert take(session, command(seen_s=100.0), 101.5) is CommandResult.EXPIRED
     assert not session.desired(101.5).link_alive
 
 
 def test_older_id_is_ignored(session):
     take(session, command(number=5, max_speed_mps=0.3))
-    assert take(session, command(number=4, max_speed_mps=0.9)) is Verdict.OUTDATED
+    assert take(session, command(number=4, max_speed_mps=0.9)) is CommandResult.OUTDATED
     assert session.command.max_speed_mps == 0.3
 
 
-def test_second_application_is_rejected_while_the_first_is_heard(session):
+def test_second_application_is_rejected_while_the_first_is_received(session):
     take(session, command(1))
-    assert take(session, command(2, seen_s=102.9), 102.9) is Verdict.FOREIGN
+    assert take(session, command(2, seen_s=102.9), 102.9) is CommandResult.FOREIGN
     assert session.session_id == 1
 
 
 def test_second_application_takes_over_after_silence(session):
     take(session, command(1, map_car_id=4))
-    assert take(session, command(2, seen_s=103.1), 103.1) is Verdict.TAKEN
+    assert take(session, command(2, seen_s=103.1), 103.1) is CommandResult.TAKEN
     assert (session.session_id, session.command.map_car_id) == (2, 0)
 
 
 def test_goodbye_stops_the_robot_and_frees_control(session):
     take(session, command(1, waypoint=waypoint(1.0, 1.0, 0.0)))
-    assert take(session, command(1, 2, end_session=True)) is Verdict.ENDED
+    assert take(session, command(1, 2, end_session=True)) is CommandResult.ENDED
     assert session.desired(100.0).session_id == 0 and session.desired(100.0).command.waypoint is None
-    assert take(session, command(2)) is Verdict.TAKEN
+    assert take(session, command(2)) is CommandResult.TAKEN
 
 
 def test_goodbye_counts_however_old_it_is(session):
     take(session, command(1))
-    assert take(session, command(1, 2, seen_s=0.0, end_session=True)) is Verdict.ENDED
+    assert take(session, command(1, 2, seen_s=0.0, end_session=True)) is CommandResult.ENDED
 
 
 def test_goodbye_of_another_application_is_ignored(session):
     take(session, command(1))
-    assert take(session, command(2, 2, end_session=True)) is Verdict.OUTDATED
+    assert take(session, command(2, 2, end_session=True)) is CommandResult.OUTDATED
     assert session.session_id == 1
 
 
 def test_message_from_before_the_goodbye_does_not_take_control_again(session):
     take(session, command(1, 3))
     take(session, command(1, 4, end_session=True))
-    assert take(session, command(1, 3)) is Verdict.OUTDATED
+    assert take(session, command(1, 3)) is CommandResult.OUTDATED
     assert session.session_id == 0
 
 
@@ -141,11 +141,11 @@ REFUSED = {
 @pytest.mark.parametrize("content", REFUSED.values(), ids=REFUSED)
 def test_unacceptable_content_stops_the_robot_until_a_good_command(session, content):
     take(session, command(1, 1))
-    assert take(session, command(1, 2, **content)) is Verdict.REFUSED
+    assert take(session, command(1, 2, **content)) is CommandResult.REFUSED
     assert "refused" in session.desired(100.0).stop_reason.text and session.desired(100.0).link_alive
-    assert take(session, command(1, 2, **content)) is Verdict.REFUSED
-    assert take(session, command(1, 1)) is Verdict.OUTDATED
-    assert take(session, command(1, 3)) is Verdict.TAKEN
+    assert take(session, command(1, 2, **content)) is CommandResult.REFUSED
+    assert take(session, command(1, 1)) is CommandResult.OUTDATED
+    assert take(session, command(1, 3)) is CommandResult.TAKEN
     assert session.desired(100.0).stop_reason == NO_PROBLEM
 
 
@@ -190,14 +190,14 @@ ACCEPTED = {
 
 @pytest.mark.parametrize("content", ACCEPTED.values(), ids=ACCEPTED)
 def test_ends_of_the_allowed_ranges_are_acceptable(session, content):
-    assert take(session, command(**content)) is Verdict.TAKEN
+    assert take(session, command(**content)) is CommandResult.TAKEN
 
 
 @pytest.mark.parametrize("press", [Press(1, 1, (1, 0)), Press(1, 1, tuple(range(1, 10))), Press(1, 1, (1,), -0.1),
                                    Press(1, 1, (1,), 0.5, -0.1)],
                          ids=["button-zero", "nine-buttons", "strength-below-zero", "duration-below-zero"])
 def test_press_just_outside_what_is_allowed_is_refused(session, press):
-    assert take(session, command(press=press)) is Verdict.REFUSED
+    assert take(session, command(press=press)) is CommandResult.REFUSED
 
 
 def test_without_orders_their_numbers_are_zero(session):
@@ -214,32 +214,32 @@ def test_answer_of_the_former_application_does_not_count_for_the_next(session):
 
 
 def test_command_as_old_as_allowed_is_taken(session):
-    assert take(session, command(seen_s=99.0)) is Verdict.TAKEN
+    assert take(session, command(seen_s=99.0)) is CommandResult.TAKEN
 
 
 def test_goodbye_needs_no_new_id(session):
     take(session, command(1, 3))
-    assert take(session, command(1, 3, end_session=True)) is Verdict.ENDED
+    assert take(session, command(1, 3, end_session=True)) is CommandResult.ENDED
 
 
 def test_goodbye_is_not_a_command_when_it_is_repeated_without_its_flag(session):
     take(session, command(1, 3))
     take(session, command(1, 4, end_session=True))
-    assert take(session, command(1, 4)) is Verdict.OUTDATED
+    assert take(session, command(1, 4)) is CommandResult.OUTDATED
 
 
 def test_silent_application_is_followed_by_another_after_the_limit_only(session):
     take(session, command(1))
-    assert take(session, command(2, seen_s=103.0), 103.0) is Verdict.FOREIGN
-    assert take(session, command(2, seen_s=103.1), 103.1) is Verdict.TAKEN
+    assert take(session, command(2, seen_s=103.0), 103.0) is CommandResult.FOREIGN
+    assert take(session, command(2, seen_s=103.1), 103.1) is CommandResult.TAKEN
 
 
 def test_the_last_sixteen_applications_are_remembered(session):
     for session_id in range(1, REMEMBERED_SESSIONS + 1):
         take(session, command(session_id))
         take(session, command(session_id, 2, end_session=True))
-    assert take(session, command(1)) is Verdict.OUTDATED
+    assert take(session, command(1)) is CommandResult.OUTDATED
     take(session, command(99))
     take(session, command(99, 2, end_session=True))
-    assert take(session, command(2)) is Verdict.OUTDATED
-    assert take(session, command(1)) is Verdict.TAKEN
+    assert take(session, command(2)) is CommandResult.OUTDATED
+    assert take(session, command(1)) is CommandResult.TAKEN
