@@ -6,28 +6,25 @@
 #include <array>
 
 #include "mtr_core/parameter.hpp"
+#include "mtr_core/sensor_figures.hpp"
 #include "mtr_surfel_map/adjustment/parameters.hpp"
 
 namespace mtr_localization {
 
-/// How far wheels and gyro are trusted. Sigmas are 1 standard deviation; densities are per square root of time,
-/// distance or angle.
+namespace sensors = mtr_core::sensor_figures;
+using mtr_core::row_of;
+
+/// How far wheels and gyro are trusted; sources are in mtr_core/sensor_figures.py. Sigmas are 1 standard deviation;
+/// densities are per square root of time, distance or angle.
 struct SensorParameters {
-  /// Gyro, white noise density: 0.007 deg/s/sqrt(Hz), data sheet of the BMI270. Another gyro has another; 1.75e-4 for
-  /// the MPU-9250.
-  double gyro_noise_radps_per_sqrt_hz = 1.25e-4;
-  /// Gyro, random walk of the bias: 8e-5 rad/s (17 deg/h) after 100 s, usual in that class.
-  double gyro_bias_walk_radps_per_sqrt_s = 8e-6;
-  /// Gyro, error of scale after it was compared with full turns against a mark; 0.005 by data sheet when it was not.
-  double gyro_scale_sigma = 0.001;
-  /// Wheel radius as mounted and inflated against its nominal value.
-  double wheel_scale_sigma = 0.005;
-  /// Slip along the path: 1 mm after 1 m. In simulation, without joints and gravel, 0.3 mm; not measured on asphalt.
-  double slip_m_per_sqrt_m = 0.001;
-  /// Shift of base_link while a skid-steered base turns about a point that is not base_link: 6 mm after 1 rad, 6 cm
-  /// after a test with 90 rad. In simulation a quarter turn on the spot shifts it by 1 cm, and of a whole test's
-  /// turns, which cancel in part, this much remains; see docs/accuracy.md.
-  double turn_slip_m_per_sqrt_rad = 0.006;
+  /// Gyro: white noise density, random walk of the bias, error of scale.
+  double gyro_noise_radps_per_sqrt_hz = sensors::kAssumedGyroNoiseRadpsPerSqrtHz.value;
+  double gyro_bias_walk_radps_per_sqrt_s = sensors::kAssumedGyroBiasWalkRadpsPerSqrtS.value;
+  double gyro_scale_sigma = sensors::kAssumedGyroScale.value;
+  /// Wheels: error of the radius, slip along the path, shift of base_link while the base turns.
+  double wheel_scale_sigma = sensors::kAssumedWheelScale.value;
+  double slip_m_per_sqrt_m = sensors::kAssumedSlipMPerSqrtM.value;
+  double turn_slip_m_per_sqrt_rad = sensors::kAssumedTurnSlipMPerSqrtRad.value;
   /// Wheels slower than this, in m/s and rad/s, may stand still.
   double standstill_linear_mps = 0.005;
   double standstill_angular_radps = 0.01;
@@ -45,13 +42,15 @@ using SensorRow = mtr_core::ParameterRow<SensorParameters>;
 
 /// Range and unit of each parameter.
 inline constexpr std::array<SensorRow, 12> kSensorRows{{
-    {"gyro_noise_radps_per_sqrt_hz", &SensorParameters::gyro_noise_radps_per_sqrt_hz, 1e-6, 0.1, "rad/s/sqrt(Hz)"},
-    {"gyro_bias_walk_radps_per_sqrt_s", &SensorParameters::gyro_bias_walk_radps_per_sqrt_s, 1e-8, 0.01,
-     "rad/s/sqrt(s)"},
-    {"gyro_scale_sigma", &SensorParameters::gyro_scale_sigma, 0.0, 0.1, "of the rate"},
-    {"wheel_scale_sigma", &SensorParameters::wheel_scale_sigma, 0.0, 0.1, "of the distance"},
-    {"slip_m_per_sqrt_m", &SensorParameters::slip_m_per_sqrt_m, 0.0, 0.5, "m/sqrt(m)"},
-    {"turn_slip_m_per_sqrt_rad", &SensorParameters::turn_slip_m_per_sqrt_rad, 0.0, 0.5, "m/sqrt(rad)"},
+    row_of("gyro_noise_radps_per_sqrt_hz", &SensorParameters::gyro_noise_radps_per_sqrt_hz,
+           sensors::kAssumedGyroNoiseRadpsPerSqrtHz),
+    row_of("gyro_bias_walk_radps_per_sqrt_s", &SensorParameters::gyro_bias_walk_radps_per_sqrt_s,
+           sensors::kAssumedGyroBiasWalkRadpsPerSqrtS),
+    row_of("gyro_scale_sigma", &SensorParameters::gyro_scale_sigma, sensors::kAssumedGyroScale),
+    row_of("wheel_scale_sigma", &SensorParameters::wheel_scale_sigma, sensors::kAssumedWheelScale),
+    row_of("slip_m_per_sqrt_m", &SensorParameters::slip_m_per_sqrt_m, sensors::kAssumedSlipMPerSqrtM),
+    row_of("turn_slip_m_per_sqrt_rad", &SensorParameters::turn_slip_m_per_sqrt_rad,
+           sensors::kAssumedTurnSlipMPerSqrtRad),
     {"standstill_linear_mps", &SensorParameters::standstill_linear_mps, 0.0001, 0.05, "m/s"},
     {"standstill_angular_radps", &SensorParameters::standstill_angular_radps, 0.0001, 0.1, "rad/s"},
     {"standstill_gyro_radps", &SensorParameters::standstill_gyro_radps, 0.001, 0.2, "rad/s"},
@@ -62,10 +61,10 @@ inline constexpr std::array<SensorRow, 12> kSensorRows{{
 
 /// How far points of scans and the map are trusted. Sigmas are 1 standard deviation.
 struct TrackingParameters {
-  /// Range noise of one beam: Hokuyo UST and SICK TiM state 1 to 2 cm indoors; together with the surface's roughness.
-  double range_sigma_m = 0.015;
+  /// Range of one beam, together with the surface's roughness.
+  double range_sigma_m = sensors::kAssumedPointM.value;
   /// Direction of one beam.
-  double beam_angle_sigma_rad = 0.002;
+  double beam_angle_sigma_rad = sensors::kAssumedReturnDirectionRad.value;
   /// Share of the beams that count as independent: neighbours share the surface's shape and the footprint of the beam.
   double independent_share = 0.25;
   /// More points of one sweep than these are thinned out evenly.
@@ -94,8 +93,8 @@ using TrackingRow = mtr_core::ParameterRow<TrackingParameters>;
 
 /// Range and unit of each parameter.
 inline constexpr std::array<TrackingRow, 13> kTrackingRows{{
-    {"range_sigma_m", &TrackingParameters::range_sigma_m, 0.001, 0.2, "m"},
-    {"beam_angle_sigma_rad", &TrackingParameters::beam_angle_sigma_rad, 0.0, 0.05, "rad"},
+    row_of("range_sigma_m", &TrackingParameters::range_sigma_m, sensors::kAssumedPointM),
+    row_of("beam_angle_sigma_rad", &TrackingParameters::beam_angle_sigma_rad, sensors::kAssumedReturnDirectionRad),
     {"independent_share", &TrackingParameters::independent_share, 0.01, 1.0, ""},
     {"max_points", &TrackingParameters::max_points, 50, 5000, ""},
     {"max_match_m", &TrackingParameters::max_match_m, 0.05, 2.0, "m"},

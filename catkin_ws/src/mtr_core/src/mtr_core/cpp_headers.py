@@ -1,4 +1,4 @@
-"""Writes the C++ headers of the names and the schedule from their Python tables, at build time.
+"""Writes the C++ headers of names, schedule and sensor figures from their Python tables, at build time.
 
 Usage: python -m mtr_core.cpp_headers FOLDER
 """
@@ -7,8 +7,9 @@ import pathlib
 import sys
 from typing import Any, Dict, List
 
-from mtr_core import names, schedule
+from mtr_core import names, schedule, sensor_figures
 from mtr_core.schedule import Slot
+from mtr_core.sensor_figures import SensorFigure
 
 HEAD = """/// @file
 /// {brief} Made from mtr_core/{source}; not to be edited.
@@ -38,6 +39,17 @@ def schedule_header() -> str:
                                           '#include "mtr_core/slot.hpp"\n', 1)
 
 
+def sensor_figures_header() -> str:
+    """Every figure of sensor_figures.py as a constant, with all of its digits."""
+    lines = [f'inline constexpr SensorFigure {cpp_name(name)}{{{value!r}, {low!r}, {high!r}, "{unit}"}};'
+             for name, (value, low, high, unit) in constants(sensor_figures, SensorFigure).items()]
+    lines += [f"inline constexpr double {cpp_name(name)} = {value!r};"
+              for name, value in constants(sensor_figures, float).items()]
+    text = _header("How wrong the sensors are; sources are in the table.", "sensor_figures.py",
+                   "mtr_core::sensor_figures", lines)
+    return text.replace("#pragma once\n", '#pragma once\n\n#include "mtr_core/sensor_figure.hpp"\n', 1)
+
+
 def constants(module: Any, kind: type) -> Dict[str, Any]:
     """Constants of a module by name, in the order of its text."""
     return {name: value for name, value in vars(module).items() if name.isupper() and isinstance(value, kind)}
@@ -49,10 +61,10 @@ def cpp_name(python_name: str) -> str:
 
 
 def write(folder: pathlib.Path) -> None:
-    """Both headers; a file that would not change is left alone, so that nothing is compiled for it."""
+    """All headers; a file that would not change is left alone, so that nothing is compiled for it."""
     folder.mkdir(parents=True, exist_ok=True)
-    for name, text in (("names.hpp", names_header()), ("schedule.hpp", schedule_header())):
-        path = folder / name
+    for name, header in HEADERS.items():
+        path, text = folder / name, header()
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
 
@@ -62,6 +74,8 @@ def _header(brief: str, source: str, namespace: str, lines: List[str]) -> str:
     return (HEAD.format(brief=brief, source=source) + f"namespace {namespace} {{\n\n{body}\n\n"
             f"}}  // namespace {namespace}\n")
 
+
+HEADERS = {"names.hpp": names_header, "schedule.hpp": schedule_header, "sensor_figures.hpp": sensor_figures_header}
 
 if __name__ == "__main__":
     write(pathlib.Path(sys.argv[1]))

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mtr_core/sensor_figures.hpp"
+
 namespace mtr_localization {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr double kBeamRad = 0.003;
 // Half the distance between two LiDARs of one robot.
 constexpr double kLidarM = 0.1;
 // Ranges of one surface lie within this of their median: 5 sigma of a LiDAR with 20 mm.
-constexpr double kSameSurfaceM = 0.1;
+constexpr double kSameSurfaceM = 5.0 * mtr_core::sensor_figures::kWorstRangeNoiseM.value;
 
 }  // namespace
 

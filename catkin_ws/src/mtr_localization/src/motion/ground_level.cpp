@@ -7,13 +7,13 @@
 #include <algorithm>
 
 #include "map_names.hpp"
+#include "mtr_core/sensor_figures.hpp"
 
 namespace mtr_localization {
 namespace {
 
-// What is known before anything is measured, 1 sigma: 5 mg of bias after calibration (data sheets of MEMS
-// accelerometers), and car parks that drain at 1 to 2 %.
-constexpr double kBiasSigma = 0.005;
+// What is known before anything is measured, 1 sigma: the accelerometer's bias, and car parks that drain at 1 to 2 %.
+constexpr double kBiasSigma = mtr_core::sensor_figures::kAssumedAccelerometerBias;
 constexpr double kGroundSigma = 0.015;
 // One tilt against the plane is no surer than this: 0.1 deg.
 constexpr double kMinSigma = 0.002;

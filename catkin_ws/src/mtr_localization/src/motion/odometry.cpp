@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "mtr_core/sensor_figures.hpp"
 #include "problems.hpp"
 
 namespace mtr_localization {
@@ -14,7 +15,7 @@ namespace {
 constexpr double kUnmovedM = 0.01;
 constexpr double kUnmovedRad = 0.02;
 // Gyro rate at rest up to which it can be a bias, rad/s: 4 sigma of the bias at switch-on.
-constexpr double kMaxBiasRadps = 0.2;
+constexpr double kMaxBiasRadps = 4.0 * mtr_core::sensor_figures::kAssumedGyroBiasAtStartRadps;
 // The ground's level is learned from tilts of places or headings that differ so much.
 constexpr double kLevelEveryM = 0.3;
 constexpr double kLevelEveryRad = 0.3;

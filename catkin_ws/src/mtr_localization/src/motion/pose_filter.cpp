@@ -6,18 +6,17 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "mtr_core/sensor_figures.hpp"
+
 namespace mtr_localization {
 namespace {
-
-// Bias of an uncalibrated MEMS gyro at switch-on by data sheet, 1 sigma: about 3 deg/s.
-constexpr double kFirstBiasSigmaRadps = 0.05;
 
 double square(double value) { return value * value; }
 
 }  // namespace
 
 PoseFilter::PoseFilter(const SensorParameters& parameters) : parameters_(parameters) {
-  covariance_(kBias, kBias) = square(kFirstBiasSigmaRadps);
+  covariance_(kBias, kBias) = square(mtr_core::sensor_figures::kAssumedGyroBiasAtStartRadps);
   covariance_(kWheelScale, kWheelScale) = square(parameters.wheel_scale_sigma);
   covariance_(kGyroScale, kGyroScale) = square(parameters.gyro_scale_sigma);
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mtr_core/sensor_figures.hpp"
 #include "mtr_surfel_map/adjustment/parameters.hpp"
 #include "mtr_surfel_map/se2.hpp"
 #include "mtr_surfel_map/testing/synthetic_world.hpp"
@@ -68,9 +69,9 @@ inline std::vector<PoseVector> way_round(double clearance_m, double turns) {
 }
 
 // Noise of wheels and gyro as localization expects it.
-inline constexpr double kSlipMPerSqrtM = 0.001;
-inline constexpr double kTurnSlipMPerSqrtRad = 0.006;
-inline constexpr double kGyroNoiseRadpsPerSqrtHz = 1.25e-4;
+inline constexpr double kSlipMPerSqrtM = mtr_core::sensor_figures::kAssumedSlipMPerSqrtM.value;
+inline constexpr double kTurnSlipMPerSqrtRad = mtr_core::sensor_figures::kAssumedTurnSlipMPerSqrtRad.value;
+inline constexpr double kGyroNoiseRadpsPerSqrtHz = mtr_core::sensor_figures::kAssumedGyroNoiseRadpsPerSqrtHz.value;
 
 /// Drives and sees.
 class Drive {

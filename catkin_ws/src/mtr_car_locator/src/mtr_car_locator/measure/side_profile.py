@@ -6,6 +6,7 @@ from typing import Iterator, Optional
 
 import numpy as np
 
+from mtr_core import sensor_figures
 from mtr_core.arrays import BoolArray, FloatArray, IntArray
 
 from .side import SideExtent
@@ -14,7 +15,7 @@ BIN_M = 0.02
 # A bin with fewer returns is the smeared edge of something; the share is of the median bin.
 MIN_RETURNS, MIN_SHARE_OF_MEDIAN = 20, 0.3
 # Returns farther than this from the middle of their bin are strays: 2.5 sigma of a LiDAR with 2 cm of noise.
-STRAY_M = 0.05
+STRAY_M = 2.5 * sensor_figures.WORST_RANGE_NOISE_M.value
 # Bins farther than this from a parabola count less.
 STRAY_SIGMAS = 3.0
 ROUNDS = 3

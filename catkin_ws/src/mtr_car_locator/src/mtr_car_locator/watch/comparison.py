@@ -7,6 +7,7 @@ from typing import Dict, List, Optional, Tuple
 import numpy as np
 from scipy.spatial import cKDTree
 
+from mtr_core import sensor_figures
 from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
@@ -19,7 +20,7 @@ from ..surfels import Surfels, in_frame, rotated_back
 FIRST_GATE_M, LAST_GATE_M = 0.20, 0.05
 ROUNDS = 8
 # A LiDAR's range, and what the surfels simplify, have this 1 sigma together.
-POINT_SIGMA_M = 0.015
+POINT_SIGMA_M = sensor_figures.ASSUMED_POINT_M.value
 # Without evidence the Car stands where it stood: 1 sigma before the observation, along x, y (m) and heading (rad).
 BEFORE_SIGMAS = (0.10, 0.10, math.radians(2.0))
 MIN_POINTS = 40

@@ -10,6 +10,7 @@ from typing import List
 
 import mujoco
 
+from mtr_core import sensor_figures as figures
 from mtr_core.parameters import ParameterSet, number
 
 from ..sensors.readings import WheelOdometry
@@ -40,7 +41,7 @@ class BaseParameters(ParameterSet):
     max_angular_radps2: float = number(6.0, 0.1, 25.0, "rad/s2")
     command_timeout_s: float = number(0.25, 0.05, 1.0, "s")
     separation_multiplier: float = number(1.5, 1.0, 3.0, "(ratio)")
-    radius_error: float = number(0.003, -0.05, 0.05, "(relative)")
+    radius_error: float = number(*figures.SIMULATED_WHEEL_RADIUS_ERROR)
     encoder_ticks_per_m: float = number(78_000.0, 1e3, 1e6, "1/m")
     max_wheel_torque_nm: float = number(6.0, 1.0, 30.0, "Nm")
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mtr_core import sensor_figures as figures
 from mtr_core.parameters import ParameterSet, number
 
 from .readings import ImuReading, Vector
@@ -12,25 +13,22 @@ from .readings import ImuReading, Vector
 
 @dataclass(frozen=True)
 class ImuParameters(ParameterSet):
-    """Noise of a consumer MEMS sensor; densities from the data sheet of the Bosch BMI270, which names no bias walk.
+    """Noise of a consumer MEMS sensor; figures and their sources are in mtr_core.sensor_figures.
 
     Attributes:
-        gyro_density: white noise; 0.007 deg/s/sqrt(Hz).
-        accelerometer_density: the same; 160 ug/sqrt(Hz).
-        gyro_bias_radps: 1 sigma of the constant bias; a calibrated sensor's 0.2 deg/s.
-        accelerometer_bias_mps2: 1 sigma; 5 mg after calibration.
-        gyro_bias_walk: 8e-5 rad/s (17 deg/h) after 100 s, usual in its class.
-        accelerometer_bias_walk: 1e-3 m/s2 after 100 s.
+        gyro_density, accelerometer_density: white noise.
+        gyro_bias_radps, accelerometer_bias_mps2: 1 sigma of the constant bias.
+        gyro_bias_walk, accelerometer_bias_walk: how the bias wanders, 1 sigma after 1 s.
         gyro_scale_error: relative error of all angular velocities.
     """
 
-    gyro_density: float = number(math.radians(0.007), 0.0, 0.01, "rad/s/sqrt(Hz)")
-    accelerometer_density: float = number(160e-6 * 9.81, 0.0, 0.1, "m/s2/sqrt(Hz)")
-    gyro_bias_radps: float = number(math.radians(0.2), 0.0, 0.1, "rad/s")
-    accelerometer_bias_mps2: float = number(0.005 * 9.81, 0.0, 1.0, "m/s2")
-    gyro_bias_walk: float = number(8e-6, 0.0, 0.001, "rad/s/sqrt(s)")
-    accelerometer_bias_walk: float = number(1e-4, 0.0, 0.01, "m/s2/sqrt(s)")
-    gyro_scale_error: float = number(0.0, -0.05, 0.05, "(relative)")
+    gyro_density: float = number(*figures.SIMULATED_GYRO_NOISE_RADPS_PER_SQRT_HZ)
+    accelerometer_density: float = number(*figures.SIMULATED_ACCELEROMETER_NOISE_MPS2_PER_SQRT_HZ)
+    gyro_bias_radps: float = number(*figures.SIMULATED_GYRO_BIAS_RADPS)
+    accelerometer_bias_mps2: float = number(*figures.SIMULATED_ACCELEROMETER_BIAS_MPS2)
+    gyro_bias_walk: float = number(*figures.SIMULATED_GYRO_BIAS_WALK_RADPS_PER_SQRT_S)
+    accelerometer_bias_walk: float = number(*figures.SIMULATED_ACCELEROMETER_BIAS_WALK_MPS2_PER_SQRT_S)
+    gyro_scale_error: float = number(*figures.SIMULATED_GYRO_SCALE_ERROR)
 
 
 class Imu:

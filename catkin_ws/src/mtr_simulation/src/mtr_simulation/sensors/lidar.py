@@ -8,6 +8,7 @@ from typing import Dict, Optional, Tuple
 import mujoco
 import numpy as np
 
+from mtr_core import sensor_figures as figures
 from mtr_core.arrays import FloatArray
 from mtr_core.parameters import ParameterSet, number
 from mtr_description.mounts import Mount
@@ -44,7 +45,7 @@ class LidarParameters(ParameterSet):
     rotation_s: float = number(0.04, 0.02, 0.2, "s")
     range_min_m: float = number(0.1, 0.0, 1.0, "m")
     range_max_m: float = number(30.0, 1.0, 100.0, "m")
-    noise_m: float = number(0.01, 0.0, 0.1, "m")
+    noise_m: float = number(*figures.SIMULATED_RANGE_NOISE_M)
     height_m: Optional[float] = None
     roll_rad: float = number(0.0, -0.1, 0.1, "rad")
     pitch_rad: float = number(0.0, -0.1, 0.1, "rad")

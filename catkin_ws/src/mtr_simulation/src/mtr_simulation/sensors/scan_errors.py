@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mtr_core import sensor_figures as figures
 from mtr_core.arrays import FloatArray
 from mtr_core.parameters import ParameterSet, number
 
@@ -24,10 +25,10 @@ class ScanErrors(ParameterSet):
         echo_share: of all beams, that return from a drop in the air: isolated points that are there for one sweep.
     """
 
-    range_bias_m: float = number(0.0, -0.1, 0.1, "m")
-    mixed_pixel_share: float = number(0.0, 0.0, 1.0, "(share)")
-    dropout_share: float = number(0.0, 0.0, 0.5, "(share)")
-    echo_share: float = number(0.0, 0.0, 0.2, "(share)")
+    range_bias_m: float = number(*figures.SIMULATED_RANGE_BIAS_M)
+    mixed_pixel_share: float = number(*figures.SIMULATED_MIXED_PIXEL_SHARE)
+    dropout_share: float = number(*figures.SIMULATED_DROPOUT_SHARE)
+    echo_share: float = number(*figures.SIMULATED_ECHO_SHARE)
 
 
 def with_errors(ranges_m: FloatArray, errors: ScanErrors, noise: np.random.Generator) -> FloatArray:

@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, replace
 
+from mtr_core import sensor_figures as figures
 from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import ParameterSet, number
 from mtr_simulation.sensors.imu import ImuParameters
@@ -25,7 +26,7 @@ class DriveOptions(ParameterSet):
         scene: named scenario of the simulator.
         car: named shape of the simulator.
         lidar_height_m: of the LiDARs' plane above the ground.
-        range_noise_m: 1 sigma; data sheets of the Hokuyo UST-10LX and the SICK TiM571 allow 10 to 20 mm.
+        range_noise_m: 1 sigma; the most that the data sheets of LiDARs of this class allow.
         range_bias_m: constant error of all ranges.
         tilt_deg: root mean square of the ground's slope.
         mount_tilt_deg: pitch of the LiDARs' mounting, which nobody knows of.
@@ -45,15 +46,15 @@ class DriveOptions(ParameterSet):
     car: str = "hatchback"
     lidar_height_m: float = number(0.3, 0.1, 0.6, "m")
     seed: int = number(1, 0, 2**31 - 1)
-    range_noise_m: float = number(0.02, 0.0, 0.1, "m")
-    range_bias_m: float = number(0.0, -0.1, 0.1, "m")
+    range_noise_m: float = number(*figures.WORST_RANGE_NOISE_M)
+    range_bias_m: float = number(*figures.SIMULATED_RANGE_BIAS_M)
     tilt_deg: float = number(0.0, 0.0, 5.0, "deg")
     mount_tilt_deg: float = number(0.0, -5.0, 5.0, "deg")
-    dropout_share: float = number(0.005, 0.0, 0.5, "(share)")
-    gyro_scale_error: float = number(0.001, -0.05, 0.05, "(relative)")
+    dropout_share: float = number(*figures.SIMULATED_DROPOUT_SHARE._replace(value=0.005))
+    gyro_scale_error: float = number(*figures.COMPARED_GYRO_SCALE_ERROR)
     friction: float = number(0.5, 0.1, 1.2, "(Coulomb)")
-    echo_share: float = number(0.0, 0.0, 0.2, "(share)")
-    mixed_pixel_share: float = number(0.3, 0.0, 1.0, "(share)")
+    echo_share: float = number(*figures.SIMULATED_ECHO_SHARE)
+    mixed_pixel_share: float = number(*figures.SIMULATED_MIXED_PIXEL_SHARE._replace(value=0.3))
     rear: bool = False
     person: bool = False
     kidnap: bool = False

@@ -1,0 +1,24 @@
+/// @file
+/// One error of a sensor; which there are is in sensor_figures.hpp, made from mtr_core/sensor_figures.py. No ROS.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "mtr_core/parameter.hpp"
+
+namespace mtr_core {
+
+/// Value of one error with the range that a parameter may have, ends included, and the unit of all three.
+struct SensorFigure {
+  double value;
+  double low;
+  double high;
+  const char* unit;
+};
+
+/// The row of a parameter whose range and unit are those of a figure.
+template <typename P>
+constexpr ParameterRow<P> row_of(const char* name, double P::*member, const SensorFigure& figure) {
+  return {name, member, figure.low, figure.high, figure.unit};
+}
+
+}  // namespace mtr_core
