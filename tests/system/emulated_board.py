@@ -8,11 +8,13 @@ from mtr_core import names
 from mtr_core.crc import is_sound
 from mtr_core.requests import NO_PRESS, DesiredState, Press, PressReport
 from mtr_core.states import State
+from mtr_description.shipped import shipped_geometry
 from mtr_emulator import Emulator
 from mtr_msgs.msg import FirmwareState
 from mtr_peripherals.conversions import command_message, firmware_report, press_message
 from mtr_peripherals.core import Inputs, Outcome, Peripherals
 from mtr_peripherals.firmware_clock import FirmwareClock
+from mtr_peripherals.key_lift import KeyLift
 from mtr_peripherals.parameters import Parameters
 from mtr_serial_link.connections import md5_of
 from mtr_simulation.firmware.emulated import EmulatedFirmware
@@ -40,7 +42,7 @@ class EmulatedBoard:
     def __init__(self) -> None:
         self.board = Emulator("atmega2560", stepped=True, elf=ELF)
         self._firmware = EmulatedFirmware(self.board, md5_of)
-        self._core = Peripherals(Parameters())
+        self._core = Peripherals(Parameters(), KeyLift(shipped_geometry().key()))
         self._clock = FirmwareClock()
         self._report: Any = None
         self._seq = 0
