@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "map_names.hpp"
 
@@ -26,7 +27,7 @@ void apply(const FilterInput& input, PoseFilter& filter) {
 
 void FilterHistory::restart(PoseFilter filter, std::int64_t stamp_ns, PoseVector odom) {
   steps_.clear();
-  steps_.push_back({stamp_ns, {}, filter, odom});
+  steps_.push_back({stamp_ns, {}, std::move(filter), std::move(odom)});
 }
 
 void FilterHistory::advance(std::int64_t stamp_ns, const FilterInput& input) {

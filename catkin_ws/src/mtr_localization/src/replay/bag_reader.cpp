@@ -29,7 +29,7 @@ constexpr std::int64_t kDisorderNs = 500'000'000;
 
 template <typename M>
 typename M::ConstPtr message_of(const rosbag::MessageInstance& message) {
-  const typename M::ConstPtr content = message.instantiate<M>();
+  typename M::ConstPtr content = message.instantiate<M>();
   if (!content) {
     throw std::runtime_error("Topic " + message.getTopic() + " is of type " + message.getDataType() +
                              ", which is not what it should be.");
@@ -122,7 +122,9 @@ void BagReader::read_fix(const rosbag::MessageInstance& message) {
 void BagReader::read_scan(const rosbag::MessageInstance& message, Lidar lidar) {
   const sensor_msgs::LaserScan::ConstPtr scan = message_of<sensor_msgs::LaserScan>(message);
   Sweep sweep = sweep_of(*scan, lidar, mount_of(scan->header.frame_id, lidar));
-  wait(sweep.end_ns(), std::move(sweep));
+  // Asked before the sweep is moved away: its end needs the count of its beams.
+  const std::int64_t end_ns = sweep.end_ns();
+  wait(end_ns, std::move(sweep));
 }
 
 Mount BagReader::mount_of(const std::string& frame, Lidar lidar) const {

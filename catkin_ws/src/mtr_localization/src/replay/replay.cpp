@@ -50,13 +50,13 @@ Result Replay::run() {
   return std::move(result_);
 }
 
-void Replay::take(ImuSample sample) {
+void Replay::take(const ImuSample& sample) {
   ++result_.imu_samples;
   const std::vector<Estimate> late = localizer_.add_imu(sample);
   result_.trajectory.insert(result_.trajectory.end(), late.begin(), late.end());
 }
 
-void Replay::take(GnssFix fix) { localizer_.add_fix(fix); }
+void Replay::take(const GnssFix& fix) { localizer_.add_fix(fix); }
 
 void Replay::take(MapOrder order) { localizer_.add_order(order); }
 

@@ -45,9 +45,9 @@ class Replay {
   Result run();
 
  private:
-  void take(ImuSample sample);
+  void take(const ImuSample& sample);
   void take(MapOrder order);
-  void take(GnssFix fix);
+  void take(const GnssFix& fix);
   void take(Sweep sweep);
   void take(WheelSample sample);
   void give_order(std::int64_t now_ns);

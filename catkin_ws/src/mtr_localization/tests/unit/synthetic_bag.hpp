@@ -28,6 +28,8 @@ struct BagOptions {
   bool with_scans = true;
   /// Scans were recorded so much after their last beam.
   double scan_delay_s = 0.0;
+  /// Some LiDARs leave it 0 in their scans.
+  double scan_time_s = 0.04;
 };
 
 /// Stands, drives once round the Car on an ellipse, stands again; 50 Hz, scans 25 Hz with 360 beams.
@@ -102,7 +104,7 @@ class BagWriter {
     message.angle_min = static_cast<float>(-0.75 * M_PI);
     message.angle_max = static_cast<float>(0.75 * M_PI);
     message.angle_increment = static_cast<float>(1.5 * M_PI / (kBeams - 1));
-    message.scan_time = static_cast<float>(2.0 * kStepS);
+    message.scan_time = static_cast<float>(options_.scan_time_s);
     message.time_increment = static_cast<float>(1.5 * kStepS / kBeams);
     message.range_min = 0.1F;
     message.range_max = 30.0F;

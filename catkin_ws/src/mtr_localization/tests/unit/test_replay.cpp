@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 #include "map_names.hpp"
+#include "replay/bag_reader.hpp"
 #include "replay/loop_detector.hpp"
 #include "replay/options.hpp"
 #include "replay/replay.hpp"
@@ -57,6 +60,27 @@ double largest_error_m(const Result& result, const std::vector<PoseVector>& trut
     }
   }
   return max_m;
+}
+
+TEST(BagReader, ScansWithoutAScanTimeComeAfterTheirLastBeam) {
+  BagOptions options;
+  options.scan_time_s = 0.0;
+  const Options parsed = parse({bag_of("no_scan_time", options), "--out", ::testing::TempDir() + "read"});
+  BagReader reader(parsed);
+  reader.open();
+  std::int64_t newest_ns = 0;
+  int sweeps = 0;
+  for (Event event = ImuSample{}; reader.next(event);) {
+    if (const auto* sweep = std::get_if<Sweep>(&event)) {
+      ++sweeps;
+      EXPECT_GE(sweep->end_ns(), newest_ns);
+      newest_ns = sweep->end_ns();
+    } else if (const auto* sample = std::get_if<ImuSample>(&event)) {
+      EXPECT_GE(sample->stamp_ns, newest_ns);
+      newest_ns = sample->stamp_ns;
+    }
+  }
+  EXPECT_GT(sweeps, 1000);
 }
 
 TEST(ReplayOptions, EverythingIsUnderstood) {
