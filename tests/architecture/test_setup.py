@@ -16,6 +16,9 @@ FROM_THE_START = {"git", "make", "sudo", "apt", "bash", "coreutils", "dpkg", "fi
 # What root, and who does not call `make bare-root`, can do without; the scripts say when it is missing.
 BY_HAND = {"debootstrap", "sudo"}
 
+# Lists of packages that single make targets install; `make setup` does not.
+OF_TARGETS = ("debian-bench-packages.txt", "debian-docs-packages.txt")
+
 # What the shell does itself.
 SHELL_WORDS = set(re.findall(r"\S+", """
 if then else elif fi for while until do done case esac in function select time . : alias break cd command continue
@@ -29,11 +32,15 @@ def programs() -> Dict[str, str]:
     return dict(line.split() for line in lines if line and not line.startswith("#"))
 
 
+def listed(name: str) -> Set[str]:
+    """Debian packages in a list of setup/."""
+    lines = (TOP / "setup" / name).read_text(encoding="utf-8").splitlines()
+    return {line for line in lines if line and not line.startswith("#")}
+
+
 def installed() -> Set[str]:
-    """Packages that the set-up installs."""
-    found = set()
-    for path in (TOP / "setup").glob("debian-*packages.txt"):
-        found |= {line for line in path.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")}
+    """Packages that the set-up installs, and that targets install which need more."""
+    found = set().union(*(listed(path.name) for path in (TOP / "setup").glob("debian-*packages.txt")))
     # The second one is installed by `make mutants` alone.
     for path in (TOP / "setup" / "python-requirements.txt", TOP / "tests" / "mutation" / "requirements.txt"):
         required = path.read_text(encoding="utf-8")
@@ -125,7 +132,7 @@ def test_the_set_up_installs_the_program(program, package):
 
 
 @pytest.mark.parametrize("program", [name for name, package in programs().items()
-                                     if "/" not in name and package not in BY_HAND])
+                                     if "/" not in name and package not in BY_HAND.union(*map(listed, OF_TARGETS))])
 def test_the_program_is_here_after_the_set_up(program):
     # A Makefile of root's finds what lies in sbin; the virtual environment is first, as in setup/env.bash.
     assert shutil.which(program, path=f"{TOP}/.venv/bin:{os.environ['PATH']}:/usr/sbin:/sbin")
