@@ -10,7 +10,7 @@ from typing import NoReturn
 from mtr_operator import __version__
 from mtr_operator.domain.scenarios import SCENARIOS
 
-EXIT_USAGE = 2
+from .exit_codes import EXIT_USAGE
 
 
 class _Parser(argparse.ArgumentParser):

@@ -12,11 +12,9 @@ from mtr_operator.domain.scenarios import SCENARIOS
 
 from .arguments import argument_parser
 from .checking import check
-from .entry import EXIT_INTERRUPTED
+from .exit_codes import EXIT_ERROR, EXIT_INTERRUPTED
 from .run import CommandLineRun
 from .window import open_window
-
-EXIT_ERROR = 2
 
 
 def run_command(arguments: list[str] | None = None) -> int:

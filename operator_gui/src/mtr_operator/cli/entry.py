@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-EXIT_INTERRUPTED = 130
+from .exit_codes import EXIT_INTERRUPTED
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -1,0 +1,10 @@
+"""Exit codes of the command line; nothing is imported here, so that the first lines to run can have them."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+# What was asked for could not be done.
+EXIT_ERROR = 2
+# The command line was not understood, as argparse has it.
+EXIT_USAGE = 2
+# Ended by Ctrl-C, as a shell has it: 128 and the number of SIGINT.
+EXIT_INTERRUPTED = 130
