@@ -16,13 +16,14 @@ ROBOT_STATE = {
 COMMAND = {
     "session_id": 1, "id": 2, "sent_time_s": 3, "seen_status_id": 4, "seen_robot_time_s": 5, "stop": 6, "waypoint": 7,
     "max_speed_mps": 8, "device_height_m": 9, "press": 10, "map_car_id": 11, "end_session": 12,
-    "check_car_id": 13,
+    "check_car_id": 13, "resume_hold_id": 14,
 }
 STATUS = {
     "id": 1, "robot_session_id": 2, "sent_time_s": 3, "state": 4, "car": 5, "mode": 6, "session_id": 7,
     "command_id": 8, "waypoint_id": 9, "waypoint_result": 10, "waypoint_message": 11, "presses": 12, "map_car_id": 13,
     "log": 14, "notifications": 15, "rejected_messages": 16, "software_version": 17,
-    "car_check": 18,
+    "car_check": 18, "waypoint_problems": 19, "steady_time_s": 20, "interventions": 21, "emergency_stop": 22,
+    "motion_source": 23, "hold_id": 24,
 }
 TYPE_NAMES = {2: "float", 5: "int32", 8: "bool", 13: "uint32"}
 
