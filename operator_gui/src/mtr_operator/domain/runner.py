@@ -2,13 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import Callable, Sequence
+from typing import Any, Callable, Sequence
 
 from .actions.car import Car
 from .actions.control_loop import ControlLoop
 from .actions.preparation import check_car, prepare
 from .actions.robot import Robot
 from .errors import ProgressFileError, RobotFailed
+from .results.frame_record import check_entry
+from .results.journal import CAR, CHECK, LINE, LINE_BEGUN, Journal, plain_fields
+from .results.notebook import Notebook
 from .results.progress import Progress
 from .robot_status import CheckState
 from .scenario import AnyScenario, Line, ScenarioParameters
@@ -17,16 +20,18 @@ from .scenario import AnyScenario, Line, ScenarioParameters
 class Runner:
     """One test from its beginning, or from where its progress ends, to its end.
 
-    save is called with the progress after each line and has to return only when it is safe.
+    journal keeps each finding before the robot goes on. save is called with the progress after each line and has to
+    return only when it is safe.
     """
 
     def __init__(self, scenario: AnyScenario, parameters: ScenarioParameters, loop: ControlLoop, progress: Progress,
-                 save: Callable[[Progress], None]):
+                 save: Callable[[Progress], None], *, journal: Journal | None = None):
         self._scenario = scenario
         self._parameters = parameters
         self._loop = loop
         self._progress = progress
         self._save = save
+        self._notebook = loop.journal = Notebook(progress, scenario.result_type, journal or Journal())
         self._robot = Robot(loop)
         self._car = Car(loop)
         self._total = 0
@@ -53,16 +58,21 @@ class Runner:
         check = check_car(self._robot)
         if check is None:
             return
-        self._progress.record_check(check, self._loop.frames.newest, self._robot.now_s)
+        self._notebook.add(CHECK, {"check": plain_fields(check_entry(check, self._robot.now_s)),
+                                   "frame": self._frame()})
         if check.state is CheckState.FAILED:
             raise RobotFailed(f"The test does not begin. {check.message}".rstrip())
 
     def _lines(self) -> Sequence[Line]:
         mapped = self._car.dimensions()
         self._progress.check_car(mapped)
-        car = self._progress.car = self._progress.car or mapped
-        lines: Sequence[Line] = self._scenario.lines(self._parameters, car)
+        if self._progress.car is None:
+            self._notebook.add(CAR, plain_fields(mapped))
+        lines: Sequence[Line] = self._scenario.lines(self._parameters, self._progress.measured_car)
         return lines
+
+    def _frame(self) -> Any:
+        return None if self._loop.frames.newest is None else plain_fields(self._loop.frames.newest)
 
     def _measure(self, lines: Sequence[Line]) -> None:
         by_number = {line.number: line for line in lines}
@@ -80,8 +90,9 @@ class Runner:
 
     def _measure_line(self, line: Line) -> None:
         self._car.wait_for_bus()
+        self._notebook.add(LINE_BEGUN, {"line": line.number})
         result = self._scenario.measure(line, self._parameters, self._robot, self._car)
-        self._progress.record(result, self._loop.frames.newest)
-        # Shown first, so that it is not lost for the Operator when it cannot be saved.
-        self._loop.observer.on_result(result, len(self._progress.results), self._total)
+        self._notebook.add(LINE, {"result": result.to_document(), "frame": self._frame()})
         self._save(self._progress)
+        # Shown when it is kept: what a person has read is there after the next start.
+        self._loop.observer.on_result(result, len(self._progress.results), self._total)

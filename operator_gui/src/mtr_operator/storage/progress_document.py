@@ -7,8 +7,7 @@ from typing import Any, Mapping, Sequence
 from mtr_operator.domain.errors import ProgressFileError
 from mtr_operator.domain.results.frame_record import record_from
 from mtr_operator.domain.results.line_result import LineResult, result_from_document
-from mtr_operator.domain.results.progress import FORMAT, VERSION, Progress
-from mtr_operator.domain.robot_status import CarDimensions
+from mtr_operator.domain.results.progress import FORMAT, VERSION, Progress, car_from
 from mtr_operator.domain.scenario import AnyScenario
 
 
@@ -22,7 +21,8 @@ def progress_from_document(document: Any, scenario: AnyScenario, parameters: dic
         raise ProgressFileError(f"It belongs to the scenario {document.get('scenario')}, not to {scenario.name}.")
     _check_parameters(document.get("parameters"), parameters, scenario)
     try:
-        progress = Progress(scenario.name, parameters, dict(document["session"]), _car_from(document["car"]),
+        progress = Progress(scenario.name, parameters, dict(document["session"]),
+                            None if document["car"] is None else car_from(document["car"]),
                             _results_from(document["results"], scenario),
                             [int(number) for number in document["retried"]],
                             record_from(document.get("frame_record")))
@@ -30,13 +30,6 @@ def progress_from_document(document: Any, scenario: AnyScenario, parameters: dic
     except (KeyError, TypeError, ValueError, AttributeError):
         raise ProgressFileError("It is damaged: parts of it are missing or of the wrong kind.") from None
     return progress
-
-
-def _car_from(car: Any) -> CarDimensions | None:
-    if car is None:
-        return None
-    sizes = {name: float(car[name]) for name in car if name != "outline"}
-    return CarDimensions(**sizes, outline=tuple((float(x), float(y)) for x, y in car.get("outline", ())))
 
 
 def _check_parameters(stored: Any, wanted: dict[str, Any], scenario: AnyScenario) -> None:

@@ -14,6 +14,7 @@ from ..errors import LinkLost, RobotFailed
 from ..ports import CarEvent, CarLink, RobotLink
 from ..requests import DesiredState
 from ..results.frame_history import FrameHistory
+from ..results.journal import EVENT, Journal, plain_fields
 from ..robot_status import CarDimensions, RobotStatus
 from .observer import RunObserver
 from .pose_history import PoseHistory
@@ -42,6 +43,7 @@ class ControlLoop:
         events: changes of the Car's locks, in order of time.
         car_dimensions: the Car as the robot measured it last, None before.
         frames: the Car coordinate systems that the robot has had in this run.
+        journal: where events, presses and measurements are kept before the robot is ordered on.
     """
 
     def __init__(self, robot_link: RobotLink, car_link: CarLink, observer: RunObserver | None = None,
@@ -51,6 +53,7 @@ class ControlLoop:
         self.events: list[CarEvent] = []
         self.car_dimensions: CarDimensions | None = None
         self.frames = FrameHistory()
+        self.journal = Journal()
         self.observer = observer or RunObserver()
         self._robot_link = robot_link
         self._car_link = car_link
@@ -126,7 +129,7 @@ class ControlLoop:
         self.poses.add(status)
         self._status = status
         self.car_dimensions = status.car or self.car_dimensions
-        self.events = (self.events + self._car_link.observe(status))[-_KEPT_EVENTS:]
+        self._learn_events(self._car_link.observe(status))
         self.observer.on_status(status)
         if restarted:
             raise RobotFailed("The robot started anew during the test; the measured lines are kept, go on with a "
@@ -134,6 +137,11 @@ class ControlLoop:
         self._check_control(status)
         self._check(before, status)
         return status
+
+    def _learn_events(self, events: list[CarEvent]) -> None:
+        for event in events:
+            self.journal.add(EVENT, plain_fields(event))
+        self.events = (self.events + events)[-_KEPT_EVENTS:]
 
     def _next_status(self, patience_s: float) -> RobotStatus:
         silent_s = 0.0

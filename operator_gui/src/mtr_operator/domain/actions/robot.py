@@ -9,6 +9,8 @@ from ..errors import RobotFailed
 from ..geometry.pose import Pose
 from ..geometry.ray import Ray
 from ..requests import Direction, Press, Waypoint
+from ..results.journal import DECISION, POINT, PRESS, plain_fields
+from ..results.line_result import LineStatus
 from ..robot_status import CarCheck, CheckState, PressReport, RobotStatus, WaypointResult
 from .control_loop import ControlLoop
 from .distance import Distance, measure
@@ -107,6 +109,7 @@ class Robot:
             confirmation = self._confirmation_of(order)
         finally:
             self._loop.change(press=None)
+        self._loop.journal.add(PRESS, plain_fields(confirmation))
         if confirmation.error:
             raise LineInvalid(f"The button could not be pressed: {confirmation.error}")
         return confirmation
@@ -143,6 +146,15 @@ class Robot:
         except PoseUnknown as error:
             raise LineInvalid(str(error)) from None
 
+    def keep(self, word: str, status: LineStatus, distance: Distance | None = None) -> None:
+        """Keep a measurement of the line at hand, before the robot is ordered on; returns when it is safe.
+
+        word: what it is called, of the scenario's distance_words.
+        """
+        self._loop.journal.add(POINT, {
+            "word": word, "status": status.value, "distance": None if distance is None else plain_fields(distance),
+            "frame": None if self._loop.frames.newest is None else plain_fields(self._loop.frames.newest)})
+
     def watched(self) -> AbstractContextManager[None]:
         """Within the context anything that makes a measurement doubtful raises LineInvalid."""
         return self._loop.watched()
@@ -153,6 +165,7 @@ class Robot:
 
     def say(self, action: str) -> None:
         """Tell the Operator what the robot does now."""
+        self._loop.journal.add(DECISION, {"action": action, "robot_time_s": self.now_s})
         self._loop.observer.on_action(action)
 
     @property

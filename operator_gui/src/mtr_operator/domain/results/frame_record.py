@@ -8,7 +8,7 @@ transformed. Each frame and its correction are kept, so that a person can.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Iterator
 
 from ..robot_status import CarCheck
@@ -83,12 +83,9 @@ class FrameRecord:
         if known is not None:
             self.lines[str(number)] = self._index_of(known)
 
-    def note_check(self, check: CarCheck, known: KnownFrame | None, time_s: float) -> None:
-        """A self-check has ended."""
-        self.checks.append(CheckEntry(
-            round(time_s, 3), check.state.name.lower(), _known(check.difference_m), _known(check.difference_rad),
-            _known(check.limit_m), _known(check.limit_rad), None if known is None else self._index_of(known),
-            check.message))
+    def note_check(self, entry: CheckEntry, known: KnownFrame | None) -> None:
+        """A self-check has ended while the robot was in this frame."""
+        self.checks.append(replace(entry, frame=None if known is None else self._index_of(known)))
 
     def sentences(self) -> Iterator[str]:
         """One line of text per frame and check."""
@@ -118,6 +115,13 @@ def record_from(document: Any) -> FrameRecord:
     if not all(isinstance(index, int) and 0 <= index < len(record.frames) for index in record.lines.values()):
         raise ValueError("frame of a line")
     return record
+
+
+def check_entry(check: CarCheck, time_s: float) -> CheckEntry:
+    """What is recorded of a self-check that ended at an instant of robot time."""
+    return CheckEntry(round(time_s, 3), check.state.name.lower(), _known(check.difference_m),
+                      _known(check.difference_rad), _known(check.limit_m), _known(check.limit_rad),
+                      message=check.message)
 
 
 def _known(value: float) -> float | None:

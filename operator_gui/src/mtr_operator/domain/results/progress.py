@@ -4,18 +4,27 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Mapping
 
 from ..errors import ProgressFileError
-from ..robot_status import CarCheck, CarDimensions
+from ..robot_status import CarDimensions
 from .frame_history import KnownFrame
 from .frame_record import FrameRecord
+from .journal import KeptPoint
 from .line_result import LineResult
 
 FORMAT = "mtr-operator progress"
 VERSION = 1
 # A Car that measures this much differently on a later day is another Car.
 SAME_CAR_M = 0.15
+
+
+@dataclass(frozen=True)
+class JournalMark:
+    """Which journal, and how many of its entries are in the progress."""
+
+    id: str
+    entries: int
 
 
 @dataclass
@@ -30,6 +39,9 @@ class Progress:
         results: one per measured line, in order of their numbers.
         retried: numbers of invalid lines that were measured again.
         frame_record: Car coordinate system of each line, and the self-checks.
+        kept: how far the journal reached, None without one.
+        line_at_hand: number of the line that was begun last, None when it has come to its end.
+        points: what was measured on it, by word; the journal alone holds them until the line is complete.
     """
 
     scenario: str
@@ -39,13 +51,17 @@ class Progress:
     results: list[LineResult] = field(default_factory=list)
     retried: list[int] = field(default_factory=list)
     frame_record: FrameRecord = field(default_factory=FrameRecord)
+    kept: JournalMark | None = None
+    line_at_hand: int | None = None
+    points: dict[str, KeptPoint] = field(default_factory=dict)
 
     def to_document(self) -> dict[str, Any]:
         """Plain values for a file."""
+        kept = {} if self.kept is None else {"journal": dataclasses.asdict(self.kept)}
         return {"format": FORMAT, "version": VERSION, "scenario": self.scenario, "parameters": self.parameters,
                 "session": self.session, "car": None if self.car is None else dataclasses.asdict(self.car),
                 "results": [result.to_document() for result in self.results], "retried": self.retried,
-                "frame_record": dataclasses.asdict(self.frame_record)}
+                "frame_record": dataclasses.asdict(self.frame_record), **kept}
 
     @property
     def measured_car(self) -> CarDimensions:
@@ -54,13 +70,16 @@ class Progress:
             raise ValueError("No Car has been mapped in this test.")
         return self.car
 
-    def record_check(self, check: CarCheck, frame: KnownFrame | None, time_s: float) -> None:
-        """Add a self-check."""
-        self.frame_record.note_check(check, frame, time_s)
+    def begin_line(self, number: int) -> None:
+        """A line is begun from its start; what was measured on it before stays in the journal."""
+        self.line_at_hand = number
+        self.points.clear()
 
     def record(self, result: LineResult, frame: KnownFrame | None = None) -> None:
         """Add a line, measured in this frame; one measured before is replaced unless it was the better one."""
         number = result.number
+        self.line_at_hand = None
+        self.points.clear()
         former = next((old for old in self.results if old.number == number), None)
         if former is not None:
             self.retried.append(number)
@@ -89,3 +108,9 @@ class Progress:
             if abs(now - then) > SAME_CAR_M:
                 raise ProgressFileError(f"The progress file belongs to another Car: its {name} was {then:.2f} m, "
                                         f"now it measures {now:.2f} m.")
+
+
+def car_from(document: Mapping[str, Any]) -> CarDimensions:
+    """The Car in a file; KeyError, TypeError, ValueError or AttributeError when it is damaged."""
+    sizes = {name: float(document[name]) for name in document if name != "outline"}
+    return CarDimensions(**sizes, outline=tuple((float(x), float(y)) for x, y in document.get("outline", ())))

@@ -53,8 +53,10 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
                 start_s = robot.now_s
                 event = _approach(axis, start_s, parameters, robot, car)
                 _record(unlock, event, axis, robot, origin_sigma_m)
+                robot.keep(UNLOCK, unlock.status, unlock.distance)
                 event = _retreat(axis, start_s if event is None else event.time_s, parameters, robot, car)
                 _record(lock, event, axis, robot, origin_sigma_m)
+                robot.keep(LOCK, lock.status, lock.distance)
         except LineInvalid as error:
             reason = str(error)
         return _result(line, unlock, lock, reason)

@@ -128,8 +128,10 @@ def _press_here(radial: Ray, measured: _Measured, parameters: KeyPressParameters
                               f"{place.distance_m:.2f} m; switch passive entry off, or increase minimum_distance_m.")
         if event is not None and event.time_s <= press.start_s + parameters.response_timeout_s:
             measured.success = place
+            robot.keep(PRESS, LineStatus.OK, place)
             return True
         measured.failure = place
+        robot.keep(PRESS, LineStatus.NOT_REACHED, place)
     return False
 
 

@@ -1,0 +1,63 @@
+"""What an entry of the journal does to the progress: the same for one that was just kept and for one from a file."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Any, Mapping
+
+from ..robot_status import CarFrame
+from .document import read_record
+from .frame_history import KnownFrame
+from .frame_record import CheckEntry
+from .journal import (
+    CAR,
+    CHECK,
+    LINE,
+    LINE_BEGUN,
+    POINT,
+    SESSION,
+    SUPERSEDED,
+    Journal,
+    KeptPoint,
+)
+from .line_result import LineResult, LineStatus, result_from_document
+from .progress import Progress, car_from
+
+
+class Notebook(Journal):
+    """Journal that also grows the progress, with each entry when it is safe."""
+
+    def __init__(self, progress: Progress, result_type: type[LineResult], journal: Journal):
+        self._progress = progress
+        self._result_type = result_type
+        self._journal = journal
+
+    def add(self, kind: str, values: Mapping[str, Any]) -> None:
+        """See Journal."""
+        self._journal.add(kind, values)
+        apply(self._progress, self._result_type, kind, values)
+
+
+def apply(progress: Progress, result_type: type[LineResult], kind: str, values: Mapping[str, Any]) -> None:
+    """Grow the progress by an entry; KeyError, TypeError or ValueError when the entry is damaged."""
+    if kind == SESSION:
+        progress.session.update({str(name): str(text) for name, text in values.items()})
+    elif kind == CAR:
+        progress.car = car_from(values)
+    elif kind == CHECK:
+        progress.frame_record.note_check(read_record(CheckEntry, values["check"]), frame_from(values["frame"]))
+    elif kind == LINE_BEGUN:
+        progress.begin_line(int(values["line"]))
+    elif kind == SUPERSEDED:
+        progress.points.clear()
+    elif kind == POINT:
+        progress.points[str(values["word"])] = KeptPoint(LineStatus(values["status"]), values["distance"],
+                                                         values["frame"])
+    elif kind == LINE:
+        progress.record(result_from_document(result_type, values["result"]), frame_from(values["frame"]))
+
+
+def frame_from(values: Mapping[str, Any] | None) -> KnownFrame | None:
+    """Frame of an entry."""
+    if values is None:
+        return None
+    return KnownFrame(values["robot_session_id"], CarFrame(**values["frame"]), values["since_s"])
