@@ -1,10 +1,18 @@
-"""Time of the ROS clock in integer nanoseconds, and waiting for it without lost wake-ups."""
+"""Time of the ROS clock in integer nanoseconds, the steady clock beside it, and waiting without lost wake-ups."""
 # SPDX-License-Identifier: Apache-2.0
+import time
+
 import rospy
 from rospy.rostime import get_rostime_cond
 
+from mtr_core.liveness import Instant
+from mtr_core.schedule import MILLISECOND_NS
+
 # The condition is notified on each /clock message; the time-out only bounds how late a shutdown is noticed.
 SHUTDOWN_CHECK_S = 0.2
+# Two clocks read this far apart do not tell whether one of them was set in between; so many readings are tried.
+READING_APART_NS = 2 * MILLISECOND_NS
+READINGS = 5
 
 
 def is_simulated() -> bool:
@@ -15,6 +23,28 @@ def is_simulated() -> bool:
 def now_ns() -> int:
     """ROS time in nanoseconds."""
     return rospy.get_rostime().to_nsec()
+
+
+def steady_ns() -> int:
+    """Time for liveness in nanoseconds: nobody sets this clock. In simulation it is the simulated one."""
+    return now_ns() if is_simulated() else time.monotonic_ns()
+
+
+def steady_at(tick_ns: int) -> int:
+    """The steady clock's time at a tick at hand; in simulation the tick itself, however late the machine is."""
+    return tick_ns if is_simulated() else time.monotonic_ns()
+
+
+def reading() -> Instant:
+    """Both clocks at one instant."""
+    if is_simulated():
+        now = now_ns()
+        return Instant(now, now)
+    for _ in range(READINGS):
+        before, now, after = time.monotonic_ns(), now_ns(), time.monotonic_ns()
+        if after - before < READING_APART_NS:
+            break
+    return Instant(now, (before + after) // 2)
 
 
 def stamp_of(time_ns: int) -> rospy.Time:

@@ -1,9 +1,11 @@
 """A topic as input of a periodic node."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Any, Optional
+import math
+from typing import Any, NamedTuple, Optional
 
 import rospy
 
+from mtr_core.liveness import NS, Instant, steady_stamp_ns
 from mtr_core.schedule import CLOCK_STEP, PRODUCER_LOST_AFTER_WALL_S, Slot
 
 from . import clock
@@ -11,6 +13,13 @@ from .samples import Samples
 
 # Tests that silence many producers set less patience; the C++ nodes read the same parameter.
 PATIENCE_PARAMETER = "/lockstep_patience_s"
+
+
+class Arrived(NamedTuple):
+    """A message, and its stamp on the steady clock."""
+
+    message: Any
+    steady_stamp_ns: int
 
 
 class TickInput:
@@ -21,14 +30,25 @@ class TickInput:
     """
 
     def __init__(self, topic: str, message_type: Any, slot: Slot, lag_ns: int = CLOCK_STEP.period_ns):
-        self._samples: Samples[Any] = Samples(slot, lag_ns, waits=clock.is_simulated())
+        self._samples: Samples[Arrived] = Samples(slot, lag_ns, waits=clock.is_simulated())
         self._samples.patience_s = rospy.get_param(PATIENCE_PARAMETER, PRODUCER_LOST_AFTER_WALL_S)
+        self._before: Optional[Instant] = None
+        self._used: Optional[Arrived] = None
         self._subscriber = rospy.Subscriber(topic, message_type, self._take, queue_size=50, tcp_nodelay=True)
 
     def at(self, tick_ns: int) -> Optional[Any]:
         """Message to use at the tick, None before the first one."""
-        return self._samples.at(tick_ns)
+        self._used = self._samples.at(tick_ns)
+        return self._used.message if self._used else None
+
+    def age_s(self, tick_ns: int) -> float:
+        """Age at the tick of the message that `at` gave last, whatever was done to the robot's clock; inf for none."""
+        return (clock.steady_at(tick_ns) - self._used.steady_stamp_ns) * NS if self._used else math.inf
 
     def _take(self, message: Any) -> None:
-        self._samples.add(message.header.stamp.to_nsec(), message)
+        stamp_ns = message.header.stamp.to_nsec()
+        now = clock.reading()
+        self._samples.add(stamp_ns, Arrived(message, stamp_ns if clock.is_simulated() else
+                                            steady_stamp_ns(stamp_ns, now, self._before)))
+        self._before = now
         self._samples.wait_until_wanted()

@@ -32,14 +32,17 @@ class Ticker:
     def sleep(self) -> int:
         """Wait for the next tick and return it in ns of the ROS clock; rospy.ROSInterruptException on shutdown.
 
-        A node that took longer than a period goes on at the next tick that is still to come.
+        A node that took longer than a period goes on at the next tick that is still to come. So does one that was
+        stopped, or whose clock was set, while it waited: no tick is worked off that is not the present one.
         """
-        # Before the first /clock the time is zero, but no tick lies before the start of the simulated clock.
-        now = max(clock.now_ns(), SIMULATION_START_NS) if self._holds else clock.now_ns()
-        self._tick_ns = self._slot.next_after(now)
-        self.renew()
-        clock.wait_until(self._tick_ns)
-        return self._tick_ns
+        while True:
+            # Before the first /clock the time is zero, but no tick lies before the start of the simulated clock.
+            now = max(clock.now_ns(), SIMULATION_START_NS) if self._holds else clock.now_ns()
+            self._tick_ns = self._slot.next_after(now)
+            self.renew()
+            clock.wait_until(self._tick_ns)
+            if abs(clock.now_ns() - self._tick_ns) < self._slot.period_ns:
+                return self._tick_ns
 
     def renew(self) -> None:
         """Say the present hold again: a sign of life of a node that has reason to let simulated time stand still."""

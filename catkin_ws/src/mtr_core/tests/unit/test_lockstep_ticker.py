@@ -1,0 +1,63 @@
+"""The ticker on the robot's own clock, when that is set or the process was stopped. A1, A10"""
+# SPDX-License-Identifier: Apache-2.0
+import pytest
+
+from mtr_core.lockstep import ticker as ticker_module
+from mtr_core.lockstep.ticker import Ticker
+from mtr_core.schedule import MILLISECOND_NS, slot
+
+SECOND_NS = 1000 * MILLISECOND_NS
+MAX_SLEEPS = 10
+
+
+class SetClock:
+    """The robot's clock: waiting for a time takes its duration, and what happens meanwhile."""
+
+    def __init__(self, happens_ns=()):
+        self.time_ns = 1000 * SECOND_NS
+        self.waited_ns = []
+        self._happens_ns = list(happens_ns)
+
+    def is_simulated(self):
+        return False
+
+    def now_ns(self):
+        return self.time_ns
+
+    def wait_until(self, time_ns):
+        assert len(self.waited_ns) < MAX_SLEEPS
+        self.waited_ns.append(time_ns - self.time_ns)
+        self.time_ns = time_ns + (self._happens_ns.pop(0) if self._happens_ns else 0)
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    def use(*happens_ns):
+        set_clock = SetClock(happens_ns)
+        monkeypatch.setattr(ticker_module, "clock", set_clock)
+        return set_clock
+    return use
+
+
+def test_ticks_follow_each_other(clock):
+    clock()
+    ticker = Ticker(slot(100))
+    assert [ticker.sleep() - 1000 * SECOND_NS for _ in range(3)] == [100 * MILLISECOND_NS * n for n in (1, 2, 3)]
+
+
+@pytest.mark.parametrize("stopped_s", [0.1, 0.3, 2.0, 3600.0])
+def test_after_a_stop_no_tick_of_before_is_worked_off(clock, stopped_s):
+    now = clock(round(stopped_s * SECOND_NS))
+    tick_ns = Ticker(slot(100)).sleep()
+    assert 0 <= now.time_ns - tick_ns < 100 * MILLISECOND_NS
+    assert tick_ns >= (1000 + stopped_s) * SECOND_NS
+
+
+@pytest.mark.parametrize("step_s", [-0.05, -0.4, -10.0, -3600.0])
+def test_after_a_step_back_nobody_waits_for_the_time_of_before(clock, step_s):
+    now = clock(round(step_s * SECOND_NS))
+    ticker = Ticker(slot(100))
+    for _ in range(3):
+        tick_ns = ticker.sleep()
+        assert abs(now.time_ns - tick_ns) < 100 * MILLISECOND_NS
+    assert max(now.waited_ns) <= 100 * MILLISECOND_NS
