@@ -16,7 +16,7 @@ HEADER = CommandHeader(2 ** 63 - 1, 5, 12.5, seen_status_id=7, seen_robot_time_s
 DESIRED = [
     requests.DesiredState(),
     requests.DesiredState(stop=True, map_car_id=3),
-    requests.DesiredState(check_car_id=4),
+    requests.DesiredState(check_car_id=4, resume_hold_id=2 ** 62),
     requests.DesiredState(max_speed_mps=0.5, key_height_m=1.25,
                        waypoint=requests.Waypoint(4, Pose(1.5, -2.25, math.pi), requests.Direction.BACKWARD)),
     requests.DesiredState(press=requests.Press(9, (1, 2), 0.75, 0.5)),
@@ -41,7 +41,9 @@ STATUS = robot_status.RobotStatus(
     map_car_id=3,
     log=(robot_status.LogMessage(1, 99.5, 2, "lift", "Slow."),),
     notifications=(robot_status.Notification("link_lost", 3, "Lost.", (LOST, LATE)),),
-    rejected_messages=6, software_version="1.2")
+    rejected_messages=6, software_version="1.2", sent_s=100.125, steady_s=50.5,
+    interventions=robot_status.Interventions(1, 2, 3, 4, 5, 6, 7),
+    emergency_stop=robot_status.EmergencyStop.RELEASED, motion_source=robot_status.MotionSource.MANUAL, hold_id=2 ** 62)
 
 
 @pytest.mark.parametrize("desired", DESIRED)
@@ -91,6 +93,19 @@ def test_time_goes_on_when_the_pose_is_not_valid():
     assert conversions.robot_status_from(message).stamp_s == 105.0
 
 
+def test_time_of_sending_and_steady_time_are_kept_apart_from_the_pose():  # D7
+    message = conversions.status_message_from(STATUS)
+    status = conversions.robot_status_from(message)
+    assert (status.stamp_s, status.sent_s, status.steady_s) == (100.02, 100.125, 50.5)
+
+
+def test_robot_of_before_says_nothing_of_interventions_and_holds():
+    status = conversions.decode_status(pb.Status(id=1, robot_session_id=2, sent_time_s=3.5).SerializeToString())
+    assert status.interventions == robot_status.Interventions() and math.isnan(status.steady_s)
+    assert (status.emergency_stop, status.hold_id) == (robot_status.EmergencyStop.UNKNOWN, 0)
+    assert status.motion_source is robot_status.MotionSource.UNKNOWN
+
+
 def test_unmapped_car_has_no_dimensions():
     message = conversions.status_message_from(STATUS)
     message.car.mapped = False
@@ -105,8 +120,8 @@ def test_other_bytes_are_undecodable(payload):
         conversions.decode_status(payload)
 
 
-@pytest.mark.parametrize("message", ["Command", "RobotState", "CarDimensions", "CarCheck"])
+@pytest.mark.parametrize("message", ["Command", "Status", "RobotState", "CarDimensions", "CarCheck", "Interventions"])
 def test_every_status_field_of_the_proto_is_read(message):
     """A field added to the proto must be thought of here."""
-    known = {"Command": 13, "RobotState": 19, "CarDimensions": 11, "CarCheck": 8}
+    known = {"Command": 14, "Status": 24, "RobotState": 19, "CarDimensions": 11, "CarCheck": 8, "Interventions": 7}
     assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]

@@ -111,7 +111,7 @@ def _session_record(options: argparse.Namespace) -> dict[str, str]:
 
 
 def _say_statistics(display: Display, robot: RobotLink, rejected: int) -> None:
-    ignored = robot.statistics.undecodable + robot.statistics.oversized
+    ignored = robot.statistics.ignored
     if ignored:
         display.say(f"{ignored} messages from the robot were ignored: {robot.statistics.last_error}")
     if rejected > 0:

@@ -46,13 +46,19 @@ class CarEvent:
 
 @dataclass
 class LinkStatistics:
-    """Counts since the connection was made."""
+    """Counts since the connection was made. implausible: messages with a number beyond domain.limits, not used."""
 
     received: int = 0
     undecodable: int = 0
     oversized: int = 0
     lost: int = 0
     last_error: str = field(default="")
+    implausible: int = 0
+
+    @property
+    def ignored(self) -> int:
+        """Messages that were not used."""
+        return self.undecodable + self.oversized + self.implausible
 
 
 class RobotLink(ABC):

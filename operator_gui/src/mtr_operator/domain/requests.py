@@ -40,7 +40,10 @@ class Press:
 
 @dataclass(frozen=True)
 class DesiredState:
-    """The whole desired final state of the robot. Immutable: a change is a new object with a new id."""
+    """The whole desired final state of the robot. Immutable: a change is a new object with a new id.
+
+    resume_hold_id: the RobotStatus.hold_id that the Operator has released, 0 for none.
+    """
 
     stop: bool = False
     waypoint: Waypoint | None = None
@@ -49,3 +52,4 @@ class DesiredState:
     press: Press | None = None
     map_car_id: int = 0
     check_car_id: int = 0
+    resume_hold_id: int = 0

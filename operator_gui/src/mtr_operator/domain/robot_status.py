@@ -42,6 +42,38 @@ class CheckState(enum.Enum):
     FAILED = 3
 
 
+class EmergencyStop(enum.Enum):
+    """The robot's emergency stop, as far as its software sees it."""
+
+    UNKNOWN = 0
+    ABSENT = 1
+    RELEASED = 2
+    ENGAGED = 3
+
+
+class MotionSource(enum.Enum):
+    """Who moves the robot's wheels."""
+
+    UNKNOWN = 0
+    NONE = 1
+    LOCKED = 2
+    MANUAL = 3
+    PLANNER = 4
+
+
+@dataclass(frozen=True)
+class Interventions:
+    """What happened to the robot beside the Operator's orders: counts that only grow since the robot's start."""
+
+    manual_drives: int = 0
+    manual_lifts: int = 0
+    replans: int = 0
+    blockages: int = 0
+    lock_stops: int = 0
+    firmware_resets: int = 0
+    clock_steps: int = 0
+
+
 @dataclass(frozen=True)
 class Problem:
     """One sentence of the robot, by which it can be translated. In a list each is followed by its cause, whose text
@@ -142,8 +174,11 @@ class LogMessage:
 class RobotStatus:
     """One Status message. NaN or None where the robot did not say.
 
+    stamp_s: the time of the pose while it is valid, else of sending. sent_s: of sending, on the robot's clock.
+    steady_s: the same instant on the robot's steady clock, which nobody sets.
     controlled_by_other: another application has the robot; the confirmations are absent then.
     car_check: None for a robot that cannot check the Car's frame.
+    hold_id: not 0: the robot stands until the Operator has it go on, see requests.DesiredState.resume_hold_id.
     """
 
     id: int
@@ -184,6 +219,12 @@ class RobotStatus:
     notifications: tuple[Notification, ...] = ()
     rejected_messages: int = 0
     software_version: str = ""
+    sent_s: float = math.nan
+    steady_s: float = math.nan
+    interventions: Interventions = Interventions()
+    emergency_stop: EmergencyStop = EmergencyStop.UNKNOWN
+    motion_source: MotionSource = MotionSource.UNKNOWN
+    hold_id: int = 0
 
     def problems(self) -> Iterator[tuple[Problem, ...]]:
         """Every sentence of this Status with its causes, as far as the robot gives codes."""

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 from typing import Any, Iterable
@@ -12,12 +13,19 @@ from mtr_operator.domain import requests, robot_status
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_proto import robot_link_pb2 as pb
 
+from .plausibility import not_finite, plausible, violation_of
+
 MAX_MESSAGE_BYTES = 64 * 1024
+_COUNTS = tuple(field.name for field in dataclasses.fields(robot_status.Interventions))
 _CHECK_FIGURES = ("difference_m", "difference_rad", "limit_m", "limit_rad")
 
 
 class UndecodableMessage(ValueError):
     """Bytes that are no message of the link."""
+
+
+class ImplausibleMessage(UndecodableMessage):
+    """A message with a number that cannot be true."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +43,8 @@ class CommandHeader:
 def command_from_desired(desired: requests.DesiredState, header: CommandHeader) -> pb.Command:
     """Command with this header; None is an absent field."""
     command = pb.Command(session_id=header.session_id, id=header.id, sent_time_s=header.sent_time_s,
-                         stop=desired.stop, map_car_id=desired.map_car_id, check_car_id=desired.check_car_id)
+                         stop=desired.stop, map_car_id=desired.map_car_id, check_car_id=desired.check_car_id,
+                         resume_hold_id=desired.resume_hold_id)
     for name, value in (("seen_status_id", header.seen_status_id), ("seen_robot_time_s", header.seen_robot_time_s),
                         ("max_speed_mps", desired.max_speed_mps), ("device_height_m", desired.key_height_m)):
         if value is not None:
@@ -64,7 +73,7 @@ def desired_from_command(command: pb.Command) -> requests.DesiredState:
         pressed = command.press
         press = requests.Press(pressed.id, tuple(pressed.buttons), pressed.strength, pressed.duration_s)
     return requests.DesiredState(stop=command.stop, waypoint=waypoint, press=press, map_car_id=command.map_car_id,
-                              check_car_id=command.check_car_id,
+                              check_car_id=command.check_car_id, resume_hold_id=command.resume_hold_id,
                               max_speed_mps=_value(command, "max_speed_mps", None),
                               key_height_m=_value(command, "device_height_m", None))
 
@@ -75,11 +84,13 @@ def decode_command(payload: bytes) -> pb.Command:
 
 
 def decode_status(payload: bytes) -> robot_status.RobotStatus:
-    """Status in one ZeroMQ frame, or UndecodableMessage."""
+    """Status in one ZeroMQ frame; UndecodableMessage for other bytes and for numbers that cannot be true."""
     message = _decode(payload, pb.Status(), ("id", "robot_session_id", "sent_time_s"))
-    if not math.isfinite(message.sent_time_s):
-        raise UndecodableMessage(f"Status {message.id} has the time {message.sent_time_s}.")
-    return robot_status_from(message)
+    status = plausible(robot_status_from(message))
+    violation = violation_of(status) or not_finite(message)
+    if violation:
+        raise ImplausibleMessage(f"Status {message.id} was ignored: {violation}")
+    return status
 
 
 def _decode(payload: bytes, message: Any, required: tuple[str, ...]) -> Any:
@@ -126,7 +137,11 @@ def robot_status_from(message: pb.Status) -> robot_status.RobotStatus:
         log=tuple(robot_status.LogMessage(m.id, m.stamp_s, m.severity, m.source, m.text) for m in message.log),
         notifications=tuple(robot_status.Notification(n.code, n.severity, n.text, _problems_from(n.problems))
                             for n in message.notifications),
-        rejected_messages=message.rejected_messages, software_version=message.software_version)
+        rejected_messages=message.rejected_messages, software_version=message.software_version,
+        sent_s=message.sent_time_s, steady_s=_value(message, "steady_time_s", math.nan),
+        interventions=robot_status.Interventions(**{name: getattr(message.interventions, name) for name in _COUNTS}),
+        emergency_stop=robot_status.EmergencyStop(message.emergency_stop),
+        motion_source=robot_status.MotionSource(message.motion_source), hold_id=message.hold_id)
 
 
 def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
@@ -144,7 +159,10 @@ def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
         if value is not None and not math.isnan(value):
             setattr(state, name, value)
     message = pb.Status(
-        id=status.id, robot_session_id=status.robot_session_id, sent_time_s=status.stamp_s, state=state,
+        id=status.id, robot_session_id=status.robot_session_id, state=state,
+        sent_time_s=status.stamp_s if math.isnan(status.sent_s) else status.sent_s,
+        emergency_stop=status.emergency_stop.value, motion_source=status.motion_source.value, hold_id=status.hold_id,
+        interventions=pb.Interventions(**{name: getattr(status.interventions, name) for name in _COUNTS}),
         mode=status.mode.value, session_id=status.session_id, command_id=status.command_id,
         waypoint_id=status.waypoint_id, waypoint_result=status.waypoint_result.value,
         waypoint_message=status.waypoint_message,
@@ -157,6 +175,8 @@ def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
              for m in status.log],
         notifications=[pb.Notification(code=n.code, severity=n.severity, text=n.text,
                                        problems=_problem_messages(n.problems)) for n in status.notifications])
+    if not math.isnan(status.steady_s):
+        message.steady_time_s = status.steady_s
     if status.car is not None:
         message.car.CopyFrom(_car_message(status.car, status.car_frame))
     if status.car_check is not None:

@@ -8,7 +8,7 @@ import dataclasses
 from mtr_operator.domain.ports import LinkStatistics
 from mtr_operator.domain.robot_status import Notification, RobotStatus
 
-from .conversions import MAX_MESSAGE_BYTES, UndecodableMessage, decode_status
+from .conversions import MAX_MESSAGE_BYTES, ImplausibleMessage, UndecodableMessage, decode_status
 
 # Five seconds of Status: whoever is further behind wants the present, not the past.
 MAX_BACKLOG = 50
@@ -74,6 +74,10 @@ class Inbox:
             if len(parts) != 1:
                 raise UndecodableMessage(f"A message of {len(parts)} frames came; the robot sends one.")
             return decode_status(parts[0])
+        except ImplausibleMessage as error:
+            self._statistics.implausible += 1
+            self._statistics.last_error = str(error)
+            return None
         except UndecodableMessage as error:
             self._statistics.undecodable += 1
             self._statistics.last_error = f"A message was ignored: {error}"

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from mtr_operator import __version__
 from mtr_operator.domain.requests import DesiredState, Waypoint
-from mtr_operator.domain.robot_status import CarDimensions, CarFrame, Mode, RobotStatus, WaypointResult
+from mtr_operator.domain.robot_status import CarDimensions, CarFrame, EmergencyStop, Mode, RobotStatus, WaypointResult
 
 from .check import VirtualCheck
 from .keyholder import VirtualKeyholder
@@ -116,8 +116,10 @@ class VirtualRobot:
         self._status_id += 1
         mapped = self._mapping_left_s <= 0
         world = self._world
+        stamp_s = round(self._time_s, 6)
         return RobotStatus(
-            id=self._status_id, robot_session_id=self._robot_session_id, stamp_s=round(self._time_s, 6),
+            id=self._status_id, robot_session_id=self._robot_session_id, stamp_s=stamp_s, sent_s=stamp_s,
+            steady_s=stamp_s, emergency_stop=EmergencyStop.RELEASED,
             x=self._here[0], y=self._here[1], heading=self._heading, speed_mps=self._speed_mps,
             yaw_rate_radps=self._yaw_rate_radps, pose_valid=mapped, position_sigma_m=_POSITION_SIGMA_M,
             heading_sigma_rad=_HEADING_SIGMA_RAD, key_x=world.key_x_m, key_y=0.0, key_height_m=self._key.height_m,
