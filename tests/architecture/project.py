@@ -57,10 +57,14 @@ def imports(path: pathlib.Path) -> FrozenSet[str]:
     return frozenset(found | {name.split(".")[0] for name in found})
 
 
+# Of Python's own modules, those that only Windows has.
+WINDOWS_ONLY = {"msvcrt"}
+
+
 @functools.lru_cache(maxsize=None)
 def is_standard(module: str) -> bool:
     """True for what every Python brings along, and for what lies within another module."""
-    if "." in module:
+    if "." in module or module in WINDOWS_ONLY:
         return True
     found = importlib.util.find_spec(module) if module != "__main__" else None
     origin = found.origin if found else None

@@ -12,6 +12,11 @@ def results_in(folder):
     return json.loads((folder / "progress.json").read_text(encoding="utf-8"))["results"]
 
 
+def points_in(folder):
+    entries = [json.loads(line) for line in (folder / "progress.journal").read_text(encoding="utf-8").splitlines()]
+    return [entry["values"] for entry in entries if entry["kind"] == "point"]
+
+
 @pytest.mark.parametrize("stage", ["wait for robot", "map the Car", "axis 1 ", "approach until", "retreat until"])
 def test_ctrl_c_stops_the_robot_and_leaves_no_folder_without_results(laptop, stage):
     run = laptop.start("--simulated-car")
@@ -22,7 +27,8 @@ def test_ctrl_c_stops_the_robot_and_leaves_no_folder_without_results(laptop, sta
     assert "the robot stands still" in said
     assert said.endswith("The test was interrupted.\n")
     assert laptop.look().speed_mps == 0.0
-    assert (laptop.folder / "out").exists() is ("[1/8]" in said)
+    # What was measured before the retreat is something, too (C1).
+    assert (laptop.folder / "out").exists() is ("retreat until" in said)
 
 
 def test_ctrl_c_after_a_result_keeps_it_and_the_test_can_be_continued(laptop):
@@ -45,8 +51,7 @@ def test_ctrl_c_after_a_result_keeps_it_and_the_test_can_be_continued(laptop):
 def test_killed_application_leaves_a_file_to_go_on_with(laptop):
     run = laptop.start("--simulated-car")
     run.wait_until_said("[2/8]")
-    # Shown before it is saved; the next line begins when it is.
-    run.wait_until_said("axis 3 ")
+    # What is shown is kept (N6).
     run.process.kill()
     assert run.finish()[0] == -signal.SIGKILL
     measured = results_in(laptop.folder / "out")
@@ -57,15 +62,43 @@ def test_killed_application_leaves_a_file_to_go_on_with(laptop):
     assert results_in(laptop.folder / "out")[:len(measured)] == measured
 
 
+def test_point_measured_before_a_kill_in_the_retreat_is_in_the_journal(laptop):  # C1
+    run = laptop.start("--simulated-car")
+    run.wait_until_said("retreat until")
+    run.process.kill()
+    assert run.finish()[0] == -signal.SIGKILL
+    point, = points_in(laptop.folder / "out")
+    assert point["word"] == "unlock"
+    run = laptop.start("--simulated-car", "--continue", laptop.folder / "out" / "progress.journal")
+    code, _, said = run.finish()
+    assert code == 0, said
+    assert points_in(laptop.folder / "out")[0] == point
+    assert len(results_in(laptop.folder / "out")) == 8
+
+
+def test_second_application_is_told_and_the_first_loses_nothing(laptop):  # C2
+    first = laptop.start("--simulated-car")
+    first.wait_until_said("[2/8]")
+    second = laptop.start("--simulated-car", "--continue", laptop.folder / "out" / "progress.json")
+    code, _, said = second.finish()
+    assert code == 2
+    assert said.endswith(f"Another application (process {first.process.pid}) is measuring the test in the folder "
+                         f"{laptop.folder / 'out'}; end it there first, or choose another folder.\n")
+    code, out, said = first.finish()
+    assert code == 0, said
+    assert len(results_in(laptop.folder / "out")) == 8
+
+
 def test_file_that_cannot_grow_ends_the_test_with_a_sentence_and_keeps_the_former_one(laptop):
     run = laptop.start("--simulated-car")
     run.wait_until_said("[1/8]")
-    run.wait_until_said("axis 2 ")
-    size = (laptop.folder / "out" / "progress.json").stat().st_size
+    size = (laptop.folder / "out" / "progress.journal").stat().st_size
+    # Of this process no file anywhere may grow beyond that: a second place is no way out.
     resource.prlimit(run.process.pid, resource.RLIMIT_FSIZE, (size, size))
     code, _, said = run.finish()
     assert code == 2
-    assert said.endswith(f"The file {laptop.folder / 'out' / 'progress.json'} cannot be written: File too large.\n")
+    assert said.endswith(f"The file {laptop.folder / 'out' / 'progress.journal'} cannot be written: File too large. No "
+                         "second place could be written either; what was measured last is in this application only.\n")
     assert "the robot stands still" in said
     assert results_in(laptop.folder / "out")
-    assert os.listdir(laptop.folder / "out") == ["progress.json"]
+    assert sorted(os.listdir(laptop.folder / "out")) == ["progress.journal", "progress.json"]

@@ -202,6 +202,7 @@ def test_bad_progress_file_is_one_sentence_and_changes_nothing(operator, monkeyp
     operator.click(operator.window.protocol.done)
     spoilt = spoil(path.read_text(encoding="utf-8"))
     path.write_text(spoilt, encoding="utf-8")
+    path.with_suffix(".journal").unlink()
     monkeypatch.setattr("mtr_operator.gui.windows.main_window.ask_progress_file", lambda *_: path)
     operator.click(operator.window.welcome.open)
     operator.wait(lambda: notice)
@@ -209,6 +210,19 @@ def test_bad_progress_file_is_one_sentence_and_changes_nothing(operator, monkeyp
     assert operator.window.screen is operator.window.welcome
     assert operator.model.test is None
     assert path.read_text(encoding="utf-8") == spoilt
+
+
+def test_truncated_progress_file_is_recovered_from_its_journal_and_said(operator, monkeypatch, notice):  # C1
+    operator.begin()
+    operator.finish()
+    path: pathlib.Path = operator.model.test.path
+    operator.click(operator.window.protocol.done)
+    path.write_text(path.read_text(encoding="utf-8")[:1000], encoding="utf-8")
+    monkeypatch.setattr("mtr_operator.gui.windows.main_window.ask_progress_file", lambda *_: path)
+    operator.click(operator.window.welcome.open)
+    operator.wait(lambda: notice)
+    assert "was recovered from its journal" in notice[0]
+    assert operator.window.protocol.table.model().rowCount() == LINES
 
 
 def test_test_that_measured_nothing_leaves_no_file(operator, opener):

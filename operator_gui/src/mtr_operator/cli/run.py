@@ -7,6 +7,7 @@ import contextlib
 
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.trouble import Cancelled
+from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.ports import RobotLink
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import (
@@ -23,6 +24,7 @@ from mtr_operator.report.table import results_table
 from mtr_operator.storage import progress_file
 from mtr_operator.storage.atomic import output_folder
 from mtr_operator.storage.parameter_file import load_parameters
+from mtr_operator.storage.store import Store
 
 from .display import Display
 from .interrupt import Interrupt
@@ -39,7 +41,7 @@ class CommandLineRun:
         self._options = options
         self._scenario = SCENARIOS[options.scenario]
         self._parameters = load_parameters(options.params, self._scenario.parameters_type)
-        self._progress_path = options.out / progress_file.FILE_NAME
+        self._path = options.out / progress_file.FILE_NAME
         self._progress = self._begin()
         self._car = car_link(options)
         self._robot = robot_link(options)
@@ -47,23 +49,23 @@ class CommandLineRun:
     def run(self) -> None:
         """Measure what is left and write the report; OperatorError or Cancelled when it does not come to its end."""
         with contextlib.closing(Display(self._scenario)) as display, Interrupt() as interrupt:
-            with output_folder(self._options.out):
+            with output_folder(self._options.out), Store(self._path, self._progress) as store:
                 try:
-                    self._measure(display, interrupt)
+                    self._measure(display, interrupt, store)
                     display.close()
-                    self._save(self._progress)
+                    store.save()
                     write_report(self._options.out, self._scenario, self._parameters, self._progress)
                 except BaseException:
                     display.close()
-                    self._keep(display)
+                    self._keep(display, store)
                     raise
             self._say_results()
             if interrupt.requested:
                 raise Cancelled("Interrupted when all lines were measured; the results are complete.")
 
     def _begin(self) -> Progress:
-        continued, path = self._options.continued, self._progress_path
-        if continued is None or continued.resolve() != path.resolve():
+        continued, path = self._options.continued, self._path
+        if continued is None or not progress_file.is_same_test(continued, path):
             progress_file.refuse_to_overwrite(path, FILE_NAMES)
         parameters = self._parameters.to_mapping()
         if continued is None:
@@ -72,7 +74,9 @@ class CommandLineRun:
         progress.session[CONTINUED] = written(now())
         return progress
 
-    def _measure(self, display: Display, interrupt: Interrupt) -> None:
+    def _measure(self, display: Display, interrupt: Interrupt, store: Store) -> None:
+        if self._progress.notice:
+            display.say(self._progress.notice)
         with contextlib.closing(self._car) as car, contextlib.closing(self._robot) as robot:
             for link in (car, robot):
                 link.connect()
@@ -82,19 +86,25 @@ class CommandLineRun:
             rejected_before = loop.status.rejected_messages
             self._progress.session[ROBOT_SOFTWARE] = loop.status.software_version
             try:
-                Runner(self._scenario, self._parameters, loop, self._progress, self._save).run()
+                Runner(self._scenario, self._parameters, loop, self._progress, lambda _: store.save(),
+                       journal=store).run()
             finally:
                 _say_statistics(display, robot, loop.status.rejected_messages - rejected_before)
 
-    def _save(self, progress: Progress) -> None:
-        progress_file.save_progress(self._progress_path, progress)
-
-    def _keep(self, display: Display) -> None:
+    def _keep(self, display: Display, store: Store) -> None:
         """After a test that did not come to its end: keep what it has measured."""
-        count = len(self._progress.results)
-        if count:
-            self._save(self._progress)
-            display.say(f"{count} measured lines are kept; go on with --continue {self._progress_path}")
+        store.discard_if_empty()
+        if not self._progress.has_findings:
+            return
+        try:
+            if store.has_changed:
+                store.save()
+        except OperatorError as error:
+            display.say(str(error))
+        else:
+            progress = self._progress
+            half = f" and a part of {self._scenario.line_word} {progress.line_at_hand}" if progress.points else ""
+            display.say(f"{len(progress.results)} measured lines{half} are kept; go on with --continue {self._path}")
 
     def _say_results(self) -> None:
         results = self._progress.results

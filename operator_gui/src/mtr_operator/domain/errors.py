@@ -6,6 +6,7 @@ OperatorError
 ├── LinkLost             robot or Car fell silent during a test
 ├── RobotFailed          the robot is there, and cannot do what the test needs
 ├── ProgressFileError    a progress file cannot be read or belongs to something else
+├── InUse                another application measures this test, or has gone on with it
 └── OutputError          a result cannot be written
 """
 # SPDX-License-Identifier: Apache-2.0
@@ -33,6 +34,10 @@ class RobotFailed(OperatorError):
 
 class ProgressFileError(OperatorError):
     """A progress file cannot be read or belongs to something else."""
+
+
+class InUse(OperatorError):
+    """Another application measures this test, or has gone on with it."""
 
 
 class OutputError(OperatorError):

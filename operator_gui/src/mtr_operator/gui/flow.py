@@ -14,6 +14,7 @@ from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
 from mtr_operator.station.events import (
     CarLinkOpened,
     LineMeasured,
+    LinesPlanned,
     LinkRefused,
     LinksOpened,
     Outcome,
@@ -144,10 +145,12 @@ class Flow(QObject):
         """Take up the test in a progress file; failed follows when it is none."""
         try:
             test = open_test(path)
+            self.model.take_up(test)
         except OperatorError as error:
             self.failed.emit(str(error))
             return
-        self.model.take_up(test)
+        if test.progress.notice:
+            self.failed.emit(test.progress.notice)
         if test.is_complete:
             self.model.phase = Phase.FINISHED
             self._forget_unfinished()
@@ -159,9 +162,10 @@ class Flow(QObject):
         """The test that the last start of the application has not finished; None when there is none."""
         path = self.store.settings.unfinished
         try:
-            return None if path is None else open_test(path)
+            test = None if path is None else open_test(path)
         except OperatorError:
             return None
+        return test if test is not None and test.progress.has_findings else None
 
     def open_unfinished(self) -> None:
         """Take it up."""
@@ -199,12 +203,16 @@ class Flow(QObject):
         elif isinstance(event, CarLinkOpened):
             self._use_connection(dataclasses.replace(self.connection, can=self._wanted_can))
             self.can_opened.emit()
-        elif isinstance(event, LineMeasured) and self.store.settings.unfinished != self.model.current_test.path:
-            self.store.change(dataclasses.replace(self.store.settings, unfinished=self.model.current_test.path))
+        elif isinstance(event, (LinesPlanned, LineMeasured)):
+            self._remember_unfinished(self.model.current_test.path)
         elif isinstance(event, RunEnded):
             self._learn_end(event)
         elif isinstance(event, ProgressSaved):
             self._learn_saved(event)
+
+    def _remember_unfinished(self, path: pathlib.Path) -> None:
+        if self.store.settings.unfinished != path:
+            self.store.change(dataclasses.replace(self.store.settings, unfinished=path))
 
     def _learn_refusal(self, event: LinkRefused) -> None:
         if not self._is_connected:
@@ -213,6 +221,8 @@ class Flow(QObject):
             self.can_refused.emit(event.text)
 
     def _learn_end(self, event: RunEnded) -> None:
+        if not self.model.current_test.progress.has_findings:
+            self._forget_unfinished()
         if event.outcome is Outcome.COMPLETE:
             self._forget_unfinished()
             self.show(Step.PROTOCOL)

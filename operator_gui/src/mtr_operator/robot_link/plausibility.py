@@ -10,7 +10,6 @@ from mtr_operator.domain import limits
 from mtr_operator.domain.limits import Limit, first_violation
 from mtr_operator.domain.robot_status import CarDimensions, RobotStatus
 
-
 # Robots of before sent it while they did not know it.
 _MAY_BE_NAN = "device_height"
 

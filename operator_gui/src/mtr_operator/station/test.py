@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
+import os
 import pathlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Iterator
 
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import CONTINUED, now, session_record, written
@@ -12,7 +15,10 @@ from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.atomic import output_folder
-from mtr_operator.storage.progress_file import open_progress, save_progress
+from mtr_operator.storage.journal_file import journal_path
+from mtr_operator.storage.progress_file import open_progress
+from mtr_operator.storage.recovery import progress_path
+from mtr_operator.storage.store import Store
 
 from .connection import SIMULATED, CanChoice, Connection
 from .estimate import USUAL_CAR
@@ -31,6 +37,7 @@ class Test:
     parameters: ScenarioParameters
     progress: Progress
     path: pathlib.Path
+    _store: Store | None = field(default=None, init=False, compare=False)
 
     @property
     def name(self) -> str:
@@ -54,16 +61,26 @@ class Test:
         return (progress.car is not None and len(progress.results) == self.line_count
                 and not progress.to_retry())
 
-    def save(self) -> None:
-        """Write the progress, and its folder if need be; OutputError when that fails."""
-        with output_folder(self.path.parent):
-            save_progress(self.path, self.progress)
+    @contextlib.contextmanager
+    def opened(self) -> Iterator[Store]:
+        """Context in which this application alone writes the files; an OperatorError says why it cannot."""
+        with output_folder(self.path.parent), Store(self.path, self.progress) as store:
+            self._store = store
+            try:
+                yield store
+            finally:
+                self._store = None
 
-    def discard_if_empty(self) -> None:
-        """Leave no file of a test that has measured nothing."""
-        if not self.progress.results:
-            with contextlib.suppress(OSError):
-                self.path.unlink()
+    def save(self) -> None:
+        """Write the progress, and its folder if need be; an OperatorError says why that fails."""
+        if self._store is None:
+            with self.opened() as store:
+                store.save()
+        else:
+            with output_folder(self.path.parent):
+                if self._store.path != self.path:
+                    self._store.move(self.path)
+                self._store.save()
 
 
 def new_test(scenario: AnyScenario, parameters: ScenarioParameters, folder: pathlib.Path,
@@ -71,8 +88,15 @@ def new_test(scenario: AnyScenario, parameters: ScenarioParameters, folder: path
     """A test that has measured nothing yet."""
     started = now()
     session = session_record(started, connection.robot.host, profile_name(connection.can))
-    path = folder / f"{scenario.name}_{started.strftime(_MOMENT)}.json"
+    path = _free(folder / f"{scenario.name}_{started.strftime(_MOMENT)}.json")
     return Test(scenario, parameters, Progress(scenario.name, parameters.to_mapping(), session), path)
+
+
+def _free(path: pathlib.Path) -> pathlib.Path:
+    """The path, or one with a number where there is a test already: its name is as fine as a second."""
+    others = (path.with_stem(f"{path.stem}_{number}") for number in itertools.count(2))
+    return next(free for free in itertools.chain([path], others)
+                if not os.path.lexists(free) and not os.path.lexists(journal_path(free)))
 
 
 def profile_name(can: CanChoice | None) -> str:
@@ -85,7 +109,7 @@ def profile_name(can: CanChoice | None) -> str:
 def open_test(path: pathlib.Path) -> Test:
     """The test in a progress file, to go on with; ProgressFileError says what is wrong with the file."""
     scenario, parameters, progress = open_progress(path, SCENARIOS)
-    return Test(scenario, parameters, progress, path)
+    return Test(scenario, parameters, progress, progress_path(path))
 
 
 def note_continued(test: Test) -> None:

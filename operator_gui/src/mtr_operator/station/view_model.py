@@ -91,10 +91,11 @@ class ViewModel:
         return 100 * self.done // self.total if self.total else 0
 
     def take_up(self, test: Test) -> None:
-        """Take up a test, before it is started or continued."""
+        """Take up a test, before it is started or continued; InvalidParameter when its lines do not suit the Car."""
+        total = test.line_count
         self.test, self.phase, self._car = test, Phase.PAUSED, test.progress.car
         self.results = tuple(test.progress.results)
-        self.done, self.total = len(self.results), test.line_count
+        self.done, self.total = len(self.results), total
         self.action = self.trouble = ""
         self.outcome = self.newest = None
         self.trail = []

@@ -6,10 +6,14 @@ import contextlib
 import os
 import pathlib
 import tempfile
+import time
 from typing import Iterator
 
 from mtr_operator.domain.errors import OutputError
 
+# A second in all.
+_REPLACE_ATTEMPTS = 11
+_REPLACE_PAUSE_S = 0.1
 
 @contextlib.contextmanager
 def output_folder(folder: pathlib.Path) -> Iterator[None]:
@@ -43,8 +47,8 @@ def write_bytes(path: pathlib.Path, content: bytes) -> None:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
-        os.replace(temporary, path)
-        _sync_folder(path.parent)
+        _replace(temporary, path)
+        sync_folder(path.parent)
     except OSError as error:
         _remove(temporary)
         raise OutputError(f"The file {path} cannot be written: {_reason(error)}.") from None
@@ -53,12 +57,23 @@ def write_bytes(path: pathlib.Path, content: bytes) -> None:
         raise
 
 
+def _replace(source: pathlib.Path, target: pathlib.Path) -> None:
+    """On Windows a scanner may hold the target open for a moment."""
+    for _ in range(_REPLACE_ATTEMPTS - 1):
+        with contextlib.suppress(PermissionError):
+            os.replace(source, target)
+            return
+        time.sleep(_REPLACE_PAUSE_S)
+    os.replace(source, target)
+
+
 def _remove(path: pathlib.Path) -> None:
     with contextlib.suppress(OSError):
         path.unlink()
 
 
-def _sync_folder(folder: pathlib.Path) -> None:
+def sync_folder(folder: pathlib.Path) -> None:
+    """Make the names in a folder safe."""
     # Windows has no such thing: there the file system's journal keeps the new name.
     if os.name == "posix":
         descriptor = os.open(folder, os.O_RDONLY)

@@ -1,14 +1,49 @@
-"""The document of a progress file, checked piece by piece."""
+"""The document of a progress file: read, and checked piece by piece."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import Any, Mapping, Sequence
+import json
+import pathlib
+from typing import Any, Mapping, NoReturn, Sequence
 
 from mtr_operator.domain.errors import ProgressFileError
+from mtr_operator.domain.results.document import read_record
 from mtr_operator.domain.results.frame_record import record_from
 from mtr_operator.domain.results.line_result import LineResult, result_from_document
-from mtr_operator.domain.results.progress import FORMAT, VERSION, Progress, car_from
+from mtr_operator.domain.results.progress import FORMAT, VERSION, JournalMark, Progress, car_from
 from mtr_operator.domain.scenario import AnyScenario
+
+# A test of some hundred lines takes 100 kB; a larger file is something else.
+MAX_BYTES = 16 * 1024 * 1024
+DAMAGED = "It is damaged: parts of it are missing or of the wrong kind."
+
+
+def read_document(path: pathlib.Path) -> Any:
+    """Plain values of a JSON file; ProgressFileError when it is none."""
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            raise ProgressFileError(f"It is larger than {MAX_BYTES // 1024 ** 2} MiB.")
+        return json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse_constant)
+    except OSError as error:
+        raise ProgressFileError(f"It cannot be read: {error.strerror or error}.") from None
+    except (ValueError, RecursionError):
+        raise ProgressFileError("It is truncated or not a JSON file.") from None
+
+
+def _refuse_constant(name: str) -> NoReturn:
+    # NaN and infinities are no JSON, and are never written.
+    raise ValueError(name)
+
+
+def mark_in(document: Any) -> JournalMark | None:
+    """How far the journal reached when the document was written; ProgressFileError when that part is damaged."""
+    mark = document.get("journal") if isinstance(document, dict) else None
+    if mark is None:
+        return None
+    try:
+        return read_record(JournalMark, mark)
+    except (KeyError, TypeError, ValueError):
+        raise ProgressFileError(DAMAGED) from None
 
 
 def progress_from_document(document: Any, scenario: AnyScenario, parameters: dict[str, Any]) -> Progress:
@@ -25,10 +60,10 @@ def progress_from_document(document: Any, scenario: AnyScenario, parameters: dic
                             None if document["car"] is None else car_from(document["car"]),
                             _results_from(document["results"], scenario),
                             [int(number) for number in document["retried"]],
-                            record_from(document.get("frame_record")))
+                            record_from(document.get("frame_record")), mark_in(document))
         _check_lines(progress)
     except (KeyError, TypeError, ValueError, AttributeError):
-        raise ProgressFileError("It is damaged: parts of it are missing or of the wrong kind.") from None
+        raise ProgressFileError(DAMAGED) from None
     return progress
 
 

@@ -5,18 +5,18 @@ from __future__ import annotations
 import json
 import os
 import pathlib
-from typing import Any, Mapping, NoReturn, Sequence
+from typing import Any, Mapping, Sequence
 
-from mtr_operator.domain.errors import InvalidParameter, OutputError, ProgressFileError
-from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.errors import InvalidParameter, OperatorError, OutputError, ProgressFileError
+from mtr_operator.domain.results.progress import JournalMark, Progress
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
 from .atomic import write_bytes
-from .progress_document import progress_from_document
+from .journal_file import journal_of
+from .progress_document import mark_in, read_document
+from .recovery import Recovery, progress_path
 
 FILE_NAME = "progress.json"
-# A test of some hundred lines takes 100 kB; a larger file is something else.
-MAX_BYTES = 16 * 1024 * 1024
 
 
 def save_progress(path: pathlib.Path, progress: Progress) -> None:
@@ -26,32 +26,48 @@ def save_progress(path: pathlib.Path, progress: Progress) -> None:
 
 
 def load_progress(path: pathlib.Path, scenario: AnyScenario, parameters: dict[str, Any]) -> Progress:
-    """Progress in a file, to go on with; ProgressFileError says what is wrong with the file."""
+    """Progress in a file and its journal, to go on with; ProgressFileError says what is wrong with the files."""
     try:
-        return progress_from_document(_document(path), scenario, parameters)
+        return Recovery(path).progress(scenario, parameters)
     except ProgressFileError as error:
-        raise ProgressFileError(f"The test cannot be continued from {path}. {error}") from None
+        raise _refused(path, error) from None
 
 
 def open_progress(path: pathlib.Path,
                   scenarios: Mapping[str, AnyScenario]) -> tuple[AnyScenario, ScenarioParameters, Progress]:
-    """Scenario, parameters and progress in a file; ProgressFileError says what is wrong with the file."""
+    """Scenario, parameters and progress in a file and its journal; ProgressFileError says what is wrong with them."""
     try:
-        document = _document(path)
-        parts = document if isinstance(document, dict) else {}
-        name, stored = parts.get("scenario"), parts.get("parameters")
+        recovery = Recovery(path)
+        name, stored = recovery.document.get("scenario"), recovery.document.get("parameters")
         if not isinstance(name, str) or name not in scenarios or not isinstance(stored, dict):
             raise ProgressFileError("It is not a progress file of this application, or of a scenario that it does not "
                                     "know.")
         parameters = scenarios[name].parameters_type.from_mapping(stored)
-        return scenarios[name], parameters, progress_from_document(document, scenarios[name], parameters.to_mapping())
+        return scenarios[name], parameters, recovery.progress(scenarios[name], parameters.to_mapping())
     except (InvalidParameter, ProgressFileError) as error:
-        raise ProgressFileError(f"The test cannot be continued from {path}. {error}") from None
+        raise _refused(path, error) from None
+
+
+def _refused(path: pathlib.Path, error: OperatorError) -> ProgressFileError:
+    return ProgressFileError(f"The test cannot be continued from {path}. {error}")
+
+
+def journal_mark(path: pathlib.Path) -> JournalMark | None:
+    """How far the journal reached when this progress file was written; None without file or journal."""
+    try:
+        return mark_in(read_document(path))
+    except ProgressFileError:
+        return None
+
+
+def is_same_test(continued: pathlib.Path, path: pathlib.Path) -> bool:
+    """True when a file that a person names, of either kind, belongs to the test with this progress file."""
+    return progress_path(continued).resolve() == path.resolve()
 
 
 def refuse_to_overwrite(path: pathlib.Path, report_names: Sequence[str] = ()) -> None:
     """Raise OutputError when the file, or a report beside it, holds measured lines that a new test would replace."""
-    if os.path.lexists(path) and not _is_empty(path):
+    if not _is_empty(path) or not _is_empty_journal(path):
         raise OutputError(f"The folder {path.parent} holds results of another test; choose another folder, or continue "
                           f"that test with --continue {path}.")
     for name in report_names:
@@ -60,24 +76,19 @@ def refuse_to_overwrite(path: pathlib.Path, report_names: Sequence[str] = ()) ->
 
 
 def _is_empty(path: pathlib.Path) -> bool:
+    if not os.path.lexists(path):
+        return True
     try:
-        document = _document(path)
+        document = read_document(path)
     except ProgressFileError:
         return False
     return isinstance(document, dict) and not document.get("results")
 
 
-def _document(path: pathlib.Path) -> Any:
+def _is_empty_journal(path: pathlib.Path) -> bool:
     try:
-        if path.stat().st_size > MAX_BYTES:
-            raise ProgressFileError(f"It is larger than {MAX_BYTES // 1024 ** 2} MiB.")
-        return json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse_constant)
-    except OSError as error:
-        raise ProgressFileError(f"It cannot be read: {error.strerror or error}.") from None
-    except (ValueError, RecursionError):
-        raise ProgressFileError("It is truncated or not a JSON file.") from None
-
-
-def _refuse_constant(name: str) -> NoReturn:
-    # NaN and infinities are no JSON, and are never written.
-    raise ValueError(name)
+        recovered = journal_of(path)
+    except ProgressFileError:
+        return False
+    # Damage before the first finding may have taken what came after it.
+    return not recovered.holds_findings and (recovered.is_torn or not recovered.damage)

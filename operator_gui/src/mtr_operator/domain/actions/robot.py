@@ -165,8 +165,8 @@ class Robot:
 
     def say(self, action: str) -> None:
         """Tell the Operator what the robot does now."""
-        self._loop.journal.add(DECISION, {"action": action, "robot_time_s": self.now_s})
         self._loop.observer.on_action(action)
+        self._loop.journal.add(DECISION, {"action": action, "robot_time_s": self.now_s})
 
     @property
     def status(self) -> RobotStatus:

@@ -24,7 +24,7 @@ from .progress import Progress, car_from
 
 
 class Notebook(Journal):
-    """Journal that also grows the progress, with each entry when it is safe."""
+    """Journal that also grows the progress, also by an entry that could not be kept: in memory it is not lost."""
 
     def __init__(self, progress: Progress, result_type: type[LineResult], journal: Journal):
         self._progress = progress
@@ -33,8 +33,10 @@ class Notebook(Journal):
 
     def add(self, kind: str, values: Mapping[str, Any]) -> None:
         """See Journal."""
-        self._journal.add(kind, values)
-        apply(self._progress, self._result_type, kind, values)
+        try:
+            self._journal.add(kind, values)
+        finally:
+            apply(self._progress, self._result_type, kind, values)
 
 
 def apply(progress: Progress, result_type: type[LineResult], kind: str, values: Mapping[str, Any]) -> None:

@@ -42,6 +42,7 @@ class Progress:
         kept: how far the journal reached, None without one.
         line_at_hand: number of the line that was begun last, None when it has come to its end.
         points: what was measured on it, by word; the journal alone holds them until the line is complete.
+        notice: what a person has to know of how it was recovered; empty when nothing was lost.
     """
 
     scenario: str
@@ -54,6 +55,7 @@ class Progress:
     kept: JournalMark | None = None
     line_at_hand: int | None = None
     points: dict[str, KeptPoint] = field(default_factory=dict)
+    notice: str = field(default="", compare=False)
 
     def to_document(self) -> dict[str, Any]:
         """Plain values for a file."""
@@ -62,6 +64,11 @@ class Progress:
                 "session": self.session, "car": None if self.car is None else dataclasses.asdict(self.car),
                 "results": [result.to_document() for result in self.results], "retried": self.retried,
                 "frame_record": dataclasses.asdict(self.frame_record), **kept}
+
+    @property
+    def has_findings(self) -> bool:
+        """True when something was measured."""
+        return bool(self.results or self.points)
 
     @property
     def measured_car(self) -> CarDimensions:

@@ -12,6 +12,7 @@ from mtr_operator.domain.errors import OperatorError, OutputError
 from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.results.session_record import ROBOT_SOFTWARE
 from mtr_operator.domain.runner import Runner
+from mtr_operator.storage.store import Store
 
 from ..events import Outcome, RunEnded
 from ..mailbox import Mailbox
@@ -33,14 +34,15 @@ class MeasurementRun:
         """Measure; never raises, for what is measured has to be reported in any case."""
         test = self._test
         outcome, text = self._outcome(is_cancelled, after_status)
-        test.discard_if_empty()
         return RunEnded(outcome, text, tuple(test.progress.results))
 
     def _outcome(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> tuple[Outcome, str]:
         try:
-            # Also proves, before the robot moves, that results can be written.
-            self._test.save()
-            self._measure(is_cancelled, after_status)
+            with self._test.opened() as store:
+                try:
+                    self._measure(store, is_cancelled, after_status)
+                finally:
+                    self._keep(store)
         except Cancelled:
             return Outcome.STOPPED, ""
         except OutputError as error:
@@ -53,12 +55,16 @@ class MeasurementRun:
             return Outcome.FAILED, f"The application has a defect: {type(error).__name__}: {error}"
         return Outcome.COMPLETE, ""
 
-    def _measure(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> None:
+    def _keep(self, store: Store) -> None:
+        store.discard_if_empty()
+        if store.has_changed and self._test.progress.has_findings:
+            store.save()
+
+    def _measure(self, store: Store, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> None:
         test = self._test
         with contextlib.closing(self._new_robot()) as robot:
             robot.connect()
             reporter = Reporter(self._mailbox, robot, self._car, test.progress, after_status)
             loop = ControlLoop(robot, self._car, reporter, is_cancelled)
             test.progress.session[ROBOT_SOFTWARE] = loop.status.software_version
-            Runner(test.scenario, test.parameters, loop, test.progress, lambda progress: test.save()).run()
-            test.save()
+            Runner(test.scenario, test.parameters, loop, test.progress, lambda _: test.save(), journal=store).run()

@@ -9,7 +9,7 @@ import threading
 from typing import Callable
 
 from mtr_operator.domain.absent_car import AbsentCarLink
-from mtr_operator.domain.errors import InvalidParameter, OperatorError, OutputError
+from mtr_operator.domain.errors import InvalidParameter, OperatorError
 from mtr_operator.domain.ports import CarLink
 
 from ..connection import CanChoice, Connection, LinkOpener
@@ -166,7 +166,7 @@ class Worker:
     def _save(self, test: Test) -> None:
         try:
             test.save()
-        except OutputError as error:
+        except OperatorError as error:
             self._mailbox.put(ProgressSaved(str(error)))
         else:
             self._mailbox.put(ProgressSaved(""))

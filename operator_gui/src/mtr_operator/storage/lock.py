@@ -1,0 +1,97 @@
+"""One application at a time writes the files of a test; the system forgets a lock with the process that held it."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import contextlib
+import os
+import pathlib
+import sys
+
+from mtr_operator.domain.errors import InUse, OutputError
+
+# Attempts to lock a file that another application takes away just then.
+_ATTEMPTS = 10
+_MAX_OWNER_BYTES = 32
+
+
+class Lock:
+    """Context in which this application alone writes the test; InUse when another one does, and says which."""
+
+    def __init__(self, path: pathlib.Path):
+        self._path = path.with_name(f".{path.stem}.lock")
+        self._descriptor: int | None = None
+
+    def __enter__(self) -> Lock:
+        try:
+            for _ in range(_ATTEMPTS):
+                if self._take():
+                    return self
+        except OSError as error:
+            raise OutputError(f"The folder {self._path.parent} cannot be locked against other applications: "
+                              f"{error.strerror or error}.") from None
+        raise InUse(self._sentence())
+
+    def __exit__(self, *_: object) -> None:
+        descriptor, self._descriptor = self._descriptor, None
+        if descriptor is not None:
+            # First, so that who locks the file after this finds that it is not the one in the folder.
+            with contextlib.suppress(OSError):
+                self._path.unlink()
+            os.close(descriptor)
+
+    def _take(self) -> bool:
+        """True when it is ours; False when the file was not the one in the folder any more."""
+        descriptor = os.open(self._path, os.O_RDWR | os.O_CREAT, 0o644)
+        try:
+            if not _lock(descriptor):
+                raise InUse(self._sentence())
+            if self._is_in_folder(descriptor):
+                os.ftruncate(descriptor, 0)
+                os.write(descriptor, str(os.getpid()).encode("ascii"))
+                self._descriptor = descriptor
+                return True
+        finally:
+            if self._descriptor is None:
+                os.close(descriptor)
+        return False
+
+    def _is_in_folder(self, descriptor: int) -> bool:
+        try:
+            return os.path.samestat(os.fstat(descriptor), os.stat(self._path))
+        except FileNotFoundError:
+            return False
+
+    def _sentence(self) -> str:
+        try:
+            owner = self._path.read_bytes()[:_MAX_OWNER_BYTES].decode("ascii", "replace").strip()
+        except OSError:
+            owner = ""
+        process = f" (process {owner})" if owner.isdigit() else ""
+        return (f"Another application{process} is measuring the test in the folder {self._path.parent}; end it there "
+                "first, or choose another folder.")
+
+
+if sys.platform == "win32":
+    import msvcrt
+
+    # Behind what is written, for Windows lets nobody read what is locked.
+    _LOCKED_BYTE = 1024
+
+    def _lock(descriptor: int) -> bool:
+        os.lseek(descriptor, _LOCKED_BYTE, os.SEEK_SET)
+        try:
+            msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
+        except PermissionError:
+            return False
+        finally:
+            os.lseek(descriptor, 0, os.SEEK_SET)
+        return True
+else:
+    import fcntl
+
+    def _lock(descriptor: int) -> bool:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return False
+        return True
