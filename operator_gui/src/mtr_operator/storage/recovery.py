@@ -80,7 +80,8 @@ def _read(path: pathlib.Path) -> tuple[Any, Recovered, str]:
     if path.suffix == SUFFIX and journal.entries:
         return None, journal, notice
     try:
-        return read_document(progress_path(path)), journal, notice
+        # "null" is a document, and none of a test.
+        return read_document(progress_path(path)) or {}, journal, notice
     except ProgressFileError as error:
         if not journal.entries:
             raise
