@@ -58,3 +58,4 @@ FIRMWARE_HEALTH = "/firmware/health"
 # Simulation
 SIM_HOLD = "/sim/hold"
 SIM_TRUTH = "/sim/truth"
+SIM_HANDLE_REQUEST = "/sim/handle_request"

@@ -11,7 +11,7 @@ from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from rospy.exceptions import TransportException
 from sensor_msgs.msg import BatteryState, Imu
-from std_msgs.msg import Header
+from std_msgs.msg import Bool, Header
 
 from mtr_core import names
 from mtr_core.lockstep import direct_publisher, run_node
@@ -86,6 +86,7 @@ class SimulatorNode:
     def _subscribe(self) -> None:
         sim = self._world.sim
         self._listen(names.WHEEL_COMMAND, Twist, lambda twist: sim.command(twist.linear.x, twist.angular.z))
+        self._listen(names.SIM_HANDLE_REQUEST, Bool, lambda request: self._world.request_handle(locks=request.data))
         for topic, message_type, handle in self._firmware.subscriptions:
             self._listen(topic, message_type, handle)
         rospy.Subscriber(names.SIM_HOLD, Header, self._hold, tcp_nodelay=True)

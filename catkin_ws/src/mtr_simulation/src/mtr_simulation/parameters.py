@@ -5,6 +5,7 @@ from typing import Tuple
 
 from mtr_core.parameters import ParameterSet, number
 
+from .car.choice import chosen_car
 from .site.scenario import named_scenario
 
 
@@ -15,6 +16,7 @@ class SimulatorParameters(ParameterSet):
     Attributes:
         seed: of every random number.
         scenario: name of a test site.
+        car: name of a shipped Car or path of a Car's file: how its radio and electronics behave.
         rear_lidar: the rear LiDAR exists.
         real_time_factor: simulated seconds per second; 0: as fast as the control loop allows.
         hold_for: nodes whose first hold the clock waits for.
@@ -25,6 +27,7 @@ class SimulatorParameters(ParameterSet):
 
     seed: int = number(1, 0, 2**31 - 1)
     scenario: str = "lot"
+    car: str = "gentle"
     rear_lidar: bool = True
     real_time_factor: float = number(1.0, 0.0, 100.0)
     hold_for: Tuple[str, ...] = ()
@@ -35,6 +38,7 @@ class SimulatorParameters(ParameterSet):
     def __post_init__(self) -> None:
         super().__post_init__()
         named_scenario(self.scenario)
+        chosen_car(self.car)
 
     @property
     def held_by(self) -> Tuple[str, ...]:

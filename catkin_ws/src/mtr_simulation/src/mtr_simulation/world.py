@@ -4,8 +4,8 @@ from typing import Any, Optional, Set
 
 from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS
 
-from .car.car import SimulatedCar
-from .car.parameters import CarParameters
+from .car.choice import Car, chosen_car
+from .car.ecu import Command
 from .car.slcan_port import SlcanPort
 from .firmware.simulated import SimulatedFirmware
 from .parameters import SimulatorParameters
@@ -38,10 +38,10 @@ class World:
         self.contacts: Set[str] = set()
         self._truth_log: EventLog = TruthLog(parameters.truth_dir) if parameters.truth_dir else NoTruthLog()
         self._port: Optional[SlcanPort] = None
-        self._car: Optional[SimulatedCar] = None
+        self._car: Optional[Car] = None
         if parameters.car_port_link:
             self._port = SlcanPort(parameters.car_port_link)
-            self._car = SimulatedCar(parameters.seed, CarParameters(), self._port, self._truth_log)
+            self._car = chosen_car(parameters.car).car(parameters.seed, self._port, self._truth_log)
 
     def step(self) -> Sensors:
         """Advance one tick of 20 ms."""
@@ -52,8 +52,14 @@ class World:
         self.truth = self.sim.truth()
         self.contacts = self.sim.contacts()
         if self._car:
-            self._car.step(sensors.time_ns, self.truth.key_in_car, self.firmware.servo_us)
+            self._car.step(sensors.time_ns, self.truth.key_in_car, self.firmware.servo_us,
+                           self.truth.car_from_base.heading)
         return sensors
+
+    def request_handle(self, locks: bool) -> None:
+        """A hand takes the Car's handle, to lock or to open it."""
+        if self._car:
+            self._car.request_handle(Command.LOCK if locks else Command.UNLOCK)
 
     def close(self) -> None:
         """Take the CAN adapter away, end the firmware, and close the truth's file."""

@@ -11,6 +11,8 @@ from sensor_msgs.msg import LaserScan
 
 from mtr_core import names
 from mtr_simulation import conversions
+from mtr_simulation.car.ecu import Command
+from mtr_simulation.car.honest.car import HonestCar
 from mtr_simulation.parameters import SimulatorParameters
 from mtr_simulation.sensors.imu import ImuParameters
 from mtr_simulation.world import World
@@ -58,6 +60,21 @@ def test_adapter_appears_and_goes_with_the_world(tmp_path):
 def test_world_without_adapter_and_truth_runs():
     world = World(SimulatorParameters(scenario="open"))
     assert world.step().time_ns == 1_020_000_000
+    world.request_handle(locks=False)
+    world.close()
+
+
+def test_car_sees_where_the_key_is_and_how_it_is_turned_and_hears_of_hands(tmp_path, monkeypatch):
+    seen = []
+    monkeypatch.setattr(HonestCar, "step", lambda car, *arguments: seen.append(arguments))
+    monkeypatch.setattr(HonestCar, "request_handle", lambda car, command: seen.append(command))
+    world = World(SimulatorParameters(scenario="open", car="honest_handle", car_port_link=str(tmp_path / "can")))
+    world.step()
+    assert seen == [(world.truth.time_ns, world.truth.key_in_car, world.firmware.servo_us,
+                     world.truth.car_from_base.heading)]
+    world.request_handle(locks=False)
+    world.request_handle(locks=True)
+    assert seen[1:] == [Command.UNLOCK, Command.LOCK]
     world.close()
 
 

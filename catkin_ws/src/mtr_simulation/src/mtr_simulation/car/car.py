@@ -41,10 +41,14 @@ class SimulatedCar:
         )
         self._transmissions = 0
 
-    def step(self, time_ns: int, key_xyz: Point, servo_us: Tuple[float, float]) -> None:
+    def request_handle(self, command: Command = Command.UNLOCK) -> None:
+        """Nothing: the gentle Car does not look at its handle."""
+
+    def step(self, time_ns: int, key_xyz: Point, servo_us: Tuple[float, float], key_yaw_rad: float = 0.0) -> None:
         """Advance to time_ns, 20 ms after the step before; key_xyz in m in the true Car frame.
 
-        The frames of those 20 ms carry the state at their beginning; then the Car sees where the key is now.
+        The frames of those 20 ms carry the state at their beginning; then the Car sees where the key is now. The key's
+        heading does not matter to this Car.
         """
         self._port.poll()
         for frame in self._frames.due(time_ns - STEP_NS, time_ns):

@@ -1,0 +1,86 @@
+"""CAN frames of the honest Car: slow cycles, perhaps a frame on change, the cause in the same message or in another."""
+# SPDX-License-Identifier: Apache-2.0
+import functools
+import pathlib
+from typing import Any, Dict, Iterator, List, Optional, Tuple
+
+import cantools
+
+from ..frames import Frame
+from ..noise import uniform_pair
+from .locks import Cause, Locks
+from .parameters import BusParameters
+
+DBC_PATH = pathlib.Path(__file__).with_name("mtr_honest_car.dbc")
+LOCK_MESSAGE = "LockStatus"
+CAUSE_MESSAGE = "LockCauseStatus"
+# The ECU writes the frame of a change so long after it.
+ON_CHANGE_NS = 3_000_000
+_MS = 1_000_000
+
+
+class HonestFrames:
+    """Yields the frames that are due, with the state of the locks."""
+
+    def __init__(self, seed: int, locks: Locks, bus: BusParameters):
+        self._locks = locks
+        self._bus = bus
+        self._database = _database()
+        self._encode = functools.lru_cache(maxsize=4096)(self._encode_once)
+        self._ids = {message.name: message.frame_id for message in self._database.messages}
+        self._cycles = dict(self._cycles_ns())
+        self._phases = {name: round(uniform_pair(seed, f"bus/{name}", 0)[0] * cycle_ns)
+                        for name, cycle_ns in self._cycles.items()}
+        self._sent: Dict[str, int] = {}
+        self._told_ns: Optional[int] = None
+
+    def due(self, after_ns: int, until_ns: int) -> Iterator[Frame]:
+        """Frames later than after_ns and not later than until_ns, in the order of the bus."""
+        times = [(time_ns, self._ids[name], name) for name in self._cycles
+                 for time_ns in self._cyclic(name, after_ns, until_ns)]
+        for time_ns, can_id, name in sorted(times + self._on_change(after_ns, until_ns)):
+            yield Frame(can_id, self._encode(name, *self._values(name)), time_ns)
+
+    def _cycles_ns(self) -> Iterator[Tuple[str, int]]:
+        own = {LOCK_MESSAGE: self._bus.lock_cycle_ms, CAUSE_MESSAGE: self._bus.cause_cycle_ms}
+        for message in self._database.messages:
+            if message.name != CAUSE_MESSAGE or self._bus.cause_in == "other":
+                yield message.name, own.get(message.name, message.cycle_time) * _MS
+
+    def _cyclic(self, name: str, after_ns: int, until_ns: int) -> Iterator[int]:
+        cycle_ns, phase_ns = self._cycles[name], self._phases[name]
+        first = (after_ns - phase_ns) // cycle_ns + 1
+        last = (until_ns - phase_ns) // cycle_ns
+        return (number * cycle_ns + phase_ns for number in range(first, last + 1))
+
+    def _on_change(self, after_ns: int, until_ns: int) -> List[Tuple[int, int, str]]:
+        changed_ns = self._locks.changed_ns
+        if not self._bus.sent_on_change or changed_ns is None or changed_ns == self._told_ns:
+            return []
+        time_ns = changed_ns + ON_CHANGE_NS
+        if not after_ns < time_ns <= until_ns:
+            return []
+        self._told_ns = changed_ns
+        names = [name for name in (LOCK_MESSAGE, CAUSE_MESSAGE) if name in self._cycles]
+        return [(time_ns, self._ids[name], name) for name in names]
+
+    def _values(self, name: str) -> Tuple[float, ...]:
+        """In the order of the message's signals."""
+        self._sent[name] = alive = (self._sent.get(name, -1) + 1) % 16
+        locks = self._locks
+        counter = locks.events % 256 if self._bus.event_counter else 0
+        if name == LOCK_MESSAGE:
+            cause = locks.cause if self._bus.cause_in == "same" else Cause.NONE
+            return (int(locks.state), int(cause), counter, alive)
+        if name == CAUSE_MESSAGE:
+            return (int(locks.cause), counter, alive)
+        return (0, 1, alive) if name == "VehicleSpeed" else (0, 12.6)
+
+    def _encode_once(self, name: str, *values: float) -> bytes:
+        message = self._database.get_message_by_name(name)
+        return bytes(message.encode({signal.name: value for signal, value in zip(message.signals, values)}))
+
+
+@functools.lru_cache(maxsize=1)
+def _database() -> Any:
+    return cantools.database.load_file(str(DBC_PATH))

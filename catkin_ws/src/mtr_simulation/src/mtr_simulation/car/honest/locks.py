@@ -1,0 +1,105 @@
+"""Central locking: doors, causes, the time that motors take, the relock timer, and the key that was left inside."""
+# SPDX-License-Identifier: Apache-2.0
+import enum
+from typing import NamedTuple, Optional
+
+from ..ecu import Command
+from .parameters import LockParameters
+
+
+class LockState(enum.IntEnum):
+    """Numbers of LockState in the honest Car's DBC."""
+
+    LOCKED = 0
+    DRIVER_UNLOCKED = 1
+    UNLOCKED = 2
+    UNKNOWN = 7
+
+
+class Cause(enum.IntEnum):
+    """Numbers of LockCause in the honest Car's DBC."""
+
+    NONE = 0
+    PASSIVE_ENTRY = 1
+    KEY_BUTTON = 2
+    RELOCK_TIMER = 3
+    HANDLE = 4
+
+
+# Who presses a button means it; everything else is what a second key inside stops.
+_STOPPED_BY_SECOND_KEY = (Cause.PASSIVE_ENTRY, Cause.RELOCK_TIMER, Cause.HANDLE)
+
+
+class _Ordered(NamedTuple):
+    due_ns: int
+    state: LockState
+    cause: Cause
+
+
+class Locks:
+    """State of the locks.
+
+    Attributes:
+        state: UNKNOWN until the ECU has booted, then locked.
+        cause: of the last change.
+        events: changes of the state so far.
+        changed_ns: time of the last change; None before the first.
+    """
+
+    def __init__(self, parameters: LockParameters):
+        self._parameters = parameters
+        self.state = LockState.UNKNOWN
+        self.cause = Cause.NONE
+        self.events = 0
+        self.changed_ns: Optional[int] = None
+        self._ready_ns: Optional[int] = None
+        self._ordered: Optional[_Ordered] = None
+        self._relock_ns: Optional[int] = None
+
+    @property
+    def is_ready(self) -> bool:
+        """The ECU has booted."""
+        return self.state is not LockState.UNKNOWN
+
+    def command(self, command: Command, cause: Cause, time_ns: int) -> bool:
+        """Order the locks to move; False when they refuse or need not."""
+        after = self._after(command, cause)
+        ahead = self.state if self._ordered is None else self._ordered.state
+        if not self.is_ready or after is None or after is ahead:
+            return False
+        self._ordered = _Ordered(time_ns + self._parameters.actuator_ms * 1_000_000, after, cause)
+        return True
+
+    def step(self, time_ns: int) -> Optional[LockState]:
+        """Let time pass; the state that the locks have just moved to, if they moved."""
+        if self._ready_ns is None:
+            self._ready_ns = time_ns + self._parameters.boot_ms * 1_000_000
+        if not self.is_ready:
+            self.state = LockState.LOCKED if time_ns >= self._ready_ns else LockState.UNKNOWN
+            return None
+        if self._relock_ns is not None and time_ns >= self._relock_ns:
+            self._relock_ns = None
+            self.command(Command.LOCK, Cause.RELOCK_TIMER, time_ns)
+        return self._moved(time_ns)
+
+    def _moved(self, time_ns: int) -> Optional[LockState]:
+        ordered = self._ordered
+        if ordered is None or time_ns < ordered.due_ns:
+            return None
+        self._ordered = None
+        self.state, self.cause, self.changed_ns = ordered.state, ordered.cause, time_ns
+        self.events += 1
+        relocks = self.state is not LockState.LOCKED and self._parameters.relock_s > 0.0
+        self._relock_ns = time_ns + round(self._parameters.relock_s * 1e9) if relocks else None
+        return self.state
+
+    def _after(self, command: Command, cause: Cause) -> Optional[LockState]:
+        """The state that a command leads to; None when it is refused."""
+        if command is Command.LOCK:
+            refused = self._parameters.second_key_inside and cause in _STOPPED_BY_SECOND_KEY
+            return None if refused else LockState.LOCKED
+        if self._parameters.unlock_doors == "all" or self.state is LockState.UNLOCKED:
+            return LockState.UNLOCKED
+        # The second press of the button opens the others too.
+        again = cause is Cause.KEY_BUTTON and self.state is LockState.DRIVER_UNLOCKED
+        return LockState.UNLOCKED if again else LockState.DRIVER_UNLOCKED

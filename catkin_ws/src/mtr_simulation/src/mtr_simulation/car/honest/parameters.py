@@ -1,0 +1,146 @@
+"""Parameters of the honest Car: radio, key, passive entry, locks and bus, one set for each section of its file.
+
+Ranges and defaults are of real cars and keys as far as public sources tell them; the source of each radio effect is in
+its own module.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+from typing import ClassVar, Tuple
+
+from mtr_core.errors import ConfigurationError
+from mtr_core.parameters import ParameterSet, number
+
+UNLOCK_ON = ("approach", "handle")
+WALK_AWAY = ("distance", "delay", "off")
+UNLOCK_DOORS = ("all", "driver")
+CAUSE_IN = ("same", "other", "none")
+
+
+def check_word(name: str, word: str, allowed: Tuple[str, ...]) -> None:
+    """ConfigurationError unless the word is one of those."""
+    if word not in allowed:
+        raise ConfigurationError(f"Parameter {name} is '{word}'; allowed is {', '.join(allowed)}.")
+
+
+@dataclass(frozen=True)
+class UhfParameters(ParameterSet):
+    """Link from the key to the Receiver."""
+
+    PREFIX: ClassVar[str] = "uhf."
+
+    frequency_mhz: float = number(434.0, 300.0, 1000.0, "MHz")
+    margin_at_1m_db: float = number(44.0, 0.0, 120.0, "dB")  # what decodes, in free space
+    ground_permittivity: float = number(5.0, 1.5, 80.0, "(relative)")  # dry asphalt 4 to 7, wet to 30 (ITU-R P.527)
+    fading_sigma_db: float = number(6.0, 0.0, 12.0, "dB")
+
+
+@dataclass(frozen=True)
+class NoiseParameters(ParameterSet):
+    """What changes from one attempt to the next at the same place."""
+
+    PREFIX: ClassVar[str] = "noise."
+
+    sigma_db: float = number(2.0, 0.1, 6.0, "dB")
+    correlation_s: float = number(0.3, 0.02, 2.0, "s")
+    lapse: float = number(0.02, 0.0, 0.5, "(probability)")  # lost whatever the strength: collisions, a busy receiver
+
+
+@dataclass(frozen=True)
+class KeyParameters(ParameterSet):
+    """The Remote key."""
+
+    PREFIX: ClassVar[str] = "key."
+
+    battery_v: float = number(3.0, 1.5, 3.4, "V")
+    silent_below_v: float = number(2.1, 1.5, 3.0, "V")
+    axis_azimuth_deg: float = number(65.0, -180.0, 180.0, "degrees")  # of the loop's axis in the key's frame
+    axis_elevation_deg: float = number(20.0, -90.0, 90.0, "degrees")
+    pattern_floor_db: float = number(-12.0, -40.0, 0.0, "dB")  # 0: the same in all directions
+    sleep_after_s: float = number(180.0, 0.0, 3600.0, "s")  # at rest; 0: never. Thatcham asks for 1 to 30 minutes
+    wake_move_m: float = number(0.01, 0.001, 1.0, "m")
+    buttons_wake: bool = True  # else a sleeping key's buttons are dead too
+    contact_travel: float = number(0.6, 0.0, 1.0, "of the servo's full travel")
+    contact_ms: int = number(80, 0, 2000, "ms")  # a shorter contact is taken for bouncing
+    # A button has to arrive so much stronger than what decodes: makers limit it to the sight of the Car.
+    button_needs_db: float = number(32.0, 0.0, 80.0, "dB")
+
+
+@dataclass(frozen=True)
+class PassiveParameters(ParameterSet):
+    """Passive entry: the Car polls for the key by its low-frequency field, the key answers by UHF."""
+
+    PREFIX: ClassVar[str] = "passive_entry."
+
+    enabled: bool = True
+    unlock_on: str = "approach"  # or handle: only when somebody takes the handle
+    unlock_threshold_db: float = number(0.0, -60.0, 40.0, "dB")
+    lock_threshold_db: float = number(-12.0, -60.0, 40.0, "dB")
+    poll_period_ms: int = number(300, 20, 1000, "ms")
+    debounce_polls: int = number(2, 1, 10, "polls")
+    walk_away: str = "distance"  # or delay: so long after the key has left the unlock zone; or off
+    walk_away_delay_s: float = number(5.0, 0.0, 60.0, "s")
+    handle_period_s: float = number(0.0, 0.0, 60.0, "s")  # a hand takes the handle so often; 0: only on request
+    shadow_sigma_db: float = number(1.0, 0.0, 10.0, "dB")
+    shadow_correlation_m: float = number(0.5, 0.05, 10.0, "m")
+    # The response time of the truth: how long a key has to stand somewhere until it counts as not reacted to.
+    response_s: float = number(3.0, 0.1, 30.0, "s")
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_word(f"{self.PREFIX}unlock_on", self.unlock_on, UNLOCK_ON)
+        check_word(f"{self.PREFIX}walk_away", self.walk_away, WALK_AWAY)
+        if self.lock_threshold_db > self.unlock_threshold_db:
+            raise ConfigurationError(f"Parameter {self.PREFIX}lock_threshold_db is {self.lock_threshold_db:g} dB; "
+                                     f"allowed is up to unlock_threshold_db, {self.unlock_threshold_db:g} dB.")
+        if self.response_s * 1000.0 < self.poll_period_ms * self.debounce_polls:
+            raise ConfigurationError(f"Parameter {self.PREFIX}response_s is {self.response_s:g} s; that is less than "
+                                     f"{self.debounce_polls} polls of {self.poll_period_ms} ms take.")
+
+
+@dataclass(frozen=True)
+class LockParameters(ParameterSet):
+    """Central locking."""
+
+    PREFIX: ClassVar[str] = "locks."
+
+    boot_ms: int = number(200, 0, 10_000, "ms")  # until then the state is unknown
+    actuator_ms: int = number(100, 0, 1000, "ms")  # from the decision to the moved lock
+    relock_s: float = number(30.0, 0.0, 600.0, "s")  # after an unlock that no door followed; 0: never
+    unlock_doors: str = "all"  # or driver: only the driver's door at the first unlock
+    second_key_inside: bool = False  # then the Car refuses to lock by passive entry and by its timer
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_word(f"{self.PREFIX}unlock_doors", self.unlock_doors, UNLOCK_DOORS)
+
+
+@dataclass(frozen=True)
+class BusParameters(ParameterSet):
+    """What the Car tells on its bus."""
+
+    PREFIX: ClassVar[str] = "bus."
+
+    lock_cycle_ms: int = number(200, 20, 800, "ms")
+    sent_on_change: bool = False  # the lock message also comes at once when the state changes
+    cause_in: str = "same"  # the lock message tells the cause; or other: a message of its own; or none
+    cause_cycle_ms: int = number(500, 20, 800, "ms")
+    event_counter: bool = True  # else it stays 0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_word(f"{self.PREFIX}cause_in", self.cause_in, CAUSE_IN)
+
+
+@dataclass(frozen=True)
+class HonestParameters(ParameterSet):
+    """The whole Car. place_seed makes what is fixed in space; the simulation's seed all that differs between tests."""
+
+    PREFIX: ClassVar[str] = ""
+
+    place_seed: int = number(1, 0, 2**31 - 1)
+    uhf: UhfParameters = UhfParameters()
+    noise: NoiseParameters = NoiseParameters()
+    key: KeyParameters = KeyParameters()
+    passive_entry: PassiveParameters = PassiveParameters()
+    locks: LockParameters = LockParameters()
+    bus: BusParameters = BusParameters()

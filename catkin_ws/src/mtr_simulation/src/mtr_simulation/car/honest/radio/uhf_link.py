@@ -1,0 +1,55 @@
+"""The link from key to Receiver at some hundred MHz: how many dB arrive over what the Receiver can decode.
+
+    margin_dB = margin at 1 m - 20 log10(d) + two rays + key's antenna + battery + Car's pattern + fading(place)
+
+d is the straight distance in m (Friis). Noise in time comes on top of it.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import numpy as np
+
+from mtr_core.arrays import FloatArray
+
+from ...parameters import RemoteParameters
+from ..parameters import KeyParameters, UhfParameters
+from .battery import battery_gain_db
+from .key_antenna import LEVEL, Attitude, loop_axis, pattern_db
+from .plane_waves import fading
+from .two_ray import two_ray_gain_db, wavelength_m
+
+_NEAREST_M = 0.2
+# The Car's own pattern and the place of its Receiver are those of the gentle Car.
+_CAR = RemoteParameters()
+
+
+class UhfLink:
+    """Budget of the link; places are arrays whose last axis is x, y, z in the Car's frame in m."""
+
+    def __init__(self, place_seed: int, uhf: UhfParameters, key: KeyParameters):
+        self._uhf = uhf
+        self._key = key
+        self._wave_m = wavelength_m(uhf.frequency_mhz)
+        self._fading = fading(place_seed, "uhf", uhf.fading_sigma_db, self._wave_m)
+        self._axis = loop_axis(key.axis_azimuth_deg, key.axis_elevation_deg)
+        self._battery_db = battery_gain_db(key.battery_v, key.silent_below_v)
+
+    def margin_db(self, places: FloatArray, attitude: Attitude = LEVEL) -> FloatArray:
+        """Without the noise in time."""
+        return self.mean_margin_db(places, attitude) + self._fading.at(places)
+
+    def mean_margin_db(self, places: FloatArray, attitude: Attitude = LEVEL) -> FloatArray:
+        """Also without fading."""
+        uhf, key = self._uhf, self._key
+        from_receiver = places - np.array(_CAR.receiver_xyz_m)
+        distance_m = np.maximum(np.linalg.norm(from_receiver, axis=-1), _NEAREST_M)
+        ground_m = np.hypot(from_receiver[..., 0], from_receiver[..., 1])
+        rays_db = two_ray_gain_db(ground_m, (places[..., 2], _CAR.receiver_xyz_m[2]), self._wave_m,
+                                  uhf.ground_permittivity)
+        key_db = pattern_db(self._axis, attitude, -from_receiver, key.pattern_floor_db) + self._battery_db
+        return uhf.margin_at_1m_db - 20.0 * np.log10(distance_m) + rays_db + key_db + _car_pattern_db(from_receiver)
+
+
+def _car_pattern_db(from_receiver: FloatArray) -> FloatArray:
+    """Windscreen and rear window let more through than the doors."""
+    azimuth_rad = np.arctan2(from_receiver[..., 1], from_receiver[..., 0])
+    gains = [lobe.gain_db * np.cos(lobe.order * (azimuth_rad - lobe.direction_rad)) for lobe in _CAR.lobes]
+    return np.sum(gains, axis=0)

@@ -1,0 +1,2 @@
+"""Probability that a Car reacts to a key that stands at a place, computed from its model."""
+# SPDX-License-Identifier: Apache-2.0
