@@ -6,8 +6,10 @@ import math
 import pytest
 
 from mtr_core.errors import ConfigurationError
+from mtr_simulation.car.choice import chosen_car
 from mtr_simulation.truth.compare import main, percentile
 from mtr_simulation.truth.distance import CarSize, find_true, true_distance_m
+from mtr_simulation.truth.expected import expected
 from mtr_simulation.truth.log import TruthLog
 from mtr_simulation.truth.results import MeasuredEvent, ResultsError, TrueEvent
 
@@ -17,6 +19,7 @@ AUTOLOCK_HEADER = (
     "unlock_status,unlock_distance_m,unlock_uncertainty_m,unlock_robot_time_s,"
     "lock_status,lock_distance_m,lock_uncertainty_m,lock_robot_time_s"
 )
+HEADER = ["scenario", "line", "event", "true_distance_m", "p50_distance_m", "p95_distance_m", "truth_static_m"]
 KEY_PRESS_HEADER = "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s"
 
 
@@ -113,9 +116,9 @@ def test_autolock_results_give_truth_csv_table_and_errors(folder, capsys):
     line = "0,left,0.5,0.88,0,1,ok,1.52,0.01,10.1,ok,2.45,0.05,19.9"
     assert run(folder, f"# units: m\n{AUTOLOCK_HEADER}\n{line}\n", "--scenario", "autolock") == 0
     assert truth(folder) == [
-        ["scenario", "line", "event", "true_distance_m"],
-        ["autolock", "0", "unlock", "1.5000"],
-        ["autolock", "0", "lock", "2.5000"],
+        HEADER,
+        ["autolock", "0", "unlock", "1.5000", "", "", ""],
+        ["autolock", "0", "lock", "2.5000", "", "", ""],
     ]
     output = capsys.readouterr().out
     assert "2 of 2 distances" in output
@@ -126,14 +129,39 @@ def test_autolock_results_give_truth_csv_table_and_errors(folder, capsys):
 def test_key_press_results_are_recognised_by_their_header(folder, capsys):
     lines = "0,0,not_reached,,,,5,\n1,45,ok,5.1,5.6,0.1,3,40.08"
     assert run(folder, f"{KEY_PRESS_HEADER}\n{lines}\n") == 0
-    assert truth(folder)[1:] == [["key_press", "1", "press", "5.0000"]]
+    assert truth(folder)[1:] == [["key_press", "1", "press", "5.0000", "", "", ""]]
     assert "1 of 2 distances" in capsys.readouterr().out
+
+
+def test_named_car_gives_its_distances_also_of_a_line_that_was_not_reached(folder):
+    lines = "0,0,not_reached,,,,5,\n1,45,ok,5.1,5.6,0.1,3,40.08"
+    assert run(folder, f"# parameter key_height_m: 1.2 m\n{KEY_PRESS_HEADER}\n{lines}\n", "--car", "honest") == 0
+    first, second = ([float(cell or "nan") for cell in row[3:]] for row in truth(folder)[1:])
+    model = chosen_car("honest").reactions(1)
+    computed = [expected(MeasuredEvent("0", "press", "", 0, 0, 0, "", (0, 0), clockwise_rad=math.radians(angle)), SIZE,
+                         model, 1.2) for angle in (0.0, 45.0)]
+    assert math.isnan(first[0])
+    assert second[0] == 5.0
+    assert [first[1], second[1]] == pytest.approx([each.p50_distance_m for each in computed], abs=1e-4)
+    assert math.isnan(first[3])
+
+
+def test_named_car_gives_the_static_boundary_of_both_events_of_an_axis(folder):
+    line = "0,left,0.5,0.88,0,1,ok,1.52,0.01,10.1,ok,2.45,0.05,19.9"
+    assert run(folder, f"{AUTOLOCK_HEADER}\n{line}\n", "--car", "gentle", "--seed", "3") == 0
+    unlock, lock = (float(row[6]) for row in truth(folder)[1:])
+    assert 0.75 < unlock < lock - 0.5 < 2.4
+
+
+def test_unknown_car_is_refused_with_a_sentence(folder, capsys):
+    assert run(folder, f"{KEY_PRESS_HEADER}\n", "--car", "unreal") == 2
+    assert "car is 'unreal'" in capsys.readouterr().err
 
 
 def test_line_that_is_ok_without_a_true_event_fails_and_is_named(folder, capsys):
     assert run(folder, f"{KEY_PRESS_HEADER}\n3,45,ok,5.1,,0.1,3,30.0\n") == 1
     assert "Line 3: no true event for its press at 30.000 s." in capsys.readouterr().err
-    assert truth(folder) == [["scenario", "line", "event", "true_distance_m"]]
+    assert truth(folder) == [HEADER]
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Compares the results of a test with the simulator's truth: writes truth.csv and prints the errors.
 
 Usage: python -m mtr_simulation.truth.compare --events FILE --results DIR --car-length M --car-width M
+       [--car NAME --seed N]
 The exit status is 0 when each line that is `ok` has its true event, 1 when one has none, 2 when a file is unusable.
 """
 # SPDX-License-Identifier: Apache-2.0
@@ -16,12 +17,14 @@ from typing import List, Optional
 
 from mtr_core.errors import ConfigurationError, RobotError, check_range
 
+from ..car.choice import chosen_car
 from .distance import CarSize, Comparison, compare
-from .results import ResultsError, column_names, read_autolock, read_events, read_key_press
+from .expected import expected
+from .results import ResultsError, column_names, key_height_m, read_autolock, read_events, read_key_press
 
 RESULTS_NAME = "results.csv"
 TRUTH_NAME = "truth.csv"
-TRUTH_HEADER = ("scenario", "line", "event", "true_distance_m")
+TRUTH_HEADER = ("scenario", "line", "event", "true_distance_m", "p50_distance_m", "p95_distance_m", "truth_static_m")
 _READERS = {"autolock": read_autolock, "key_press": read_key_press}
 _FIRST_COLUMN = {"autolock": "axis", "key_press": "radial"}
 
@@ -36,7 +39,13 @@ def main(arguments: Optional[List[str]] = None) -> int:
         )
         results = options.results / RESULTS_NAME
         scenario = options.scenario or guess_scenario(results)
-        comparisons = list(compare(_READERS[scenario](results), read_events(options.events), size))
+        measured = _READERS[scenario](results)
+        comparisons = list(compare(measured, read_events(options.events), size))
+        if options.car:
+            model = chosen_car(options.car).reactions(options.seed)
+            height_m = key_height_m(results)
+            comparisons = [each._replace(expected=expected(each.measured, size, model, height_m))
+                           for each in comparisons]
         write_truth(options.results / TRUTH_NAME, scenario, comparisons)
     except RobotError as error:
         print(error, file=sys.stderr)
@@ -59,13 +68,18 @@ def guess_scenario(results: pathlib.Path) -> str:
 
 
 def write_truth(path: pathlib.Path, scenario: str, comparisons: List[Comparison]) -> None:
-    """Write truth.csv, whole or not at all; events that never happened have no line."""
+    """Write truth.csv, whole or not at all.
+
+    An event that never happened has a line only when the Car's model says where it would have been expected; its true
+    distance is empty.
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(TRUTH_HEADER)
-    for measured, true_distance_m in comparisons:
-        if true_distance_m is not None:
-            writer.writerow((scenario, measured.line, measured.event, f"{true_distance_m:.4f}"))
+    for measured, true_distance_m, likely in comparisons:
+        true_m = math.nan if true_distance_m is None else true_distance_m
+        if math.isfinite(true_m) or math.isfinite(likely.p50_distance_m):
+            writer.writerow((scenario, measured.line, measured.event, *map(_written, (true_m, *likely))))
     temporary = path.with_name(f".{path.name}.{os.getpid()}")
     try:
         temporary.write_text(text.getvalue(), encoding="utf-8")
@@ -76,13 +90,14 @@ def write_truth(path: pathlib.Path, scenario: str, comparisons: List[Comparison]
 
 def table(comparisons: List[Comparison]) -> List[str]:
     """Lines with measured and true distance of each event."""
-    lines = ["line event  side        status        measured m   true m  error m  sigma m"]
+    lines = ["line event  side        status        measured m   true m  error m  sigma m    p50 m    p95 m"]
     for comparison in comparisons:
         m = comparison.measured
         true_m = math.nan if comparison.true_distance_m is None else comparison.true_distance_m
         lines.append(
             f"{m.line:>4} {m.event:6} {m.side:11} {m.status:12} {_cell(m.distance_m, 11)} {_cell(true_m, 8)} "
-            f"{_cell(comparison.error_m, 8, '+')} {_cell(m.uncertainty_m, 8)}"
+            f"{_cell(comparison.error_m, 8, '+')} {_cell(m.uncertainty_m, 8)} "
+            f"{_cell(comparison.expected.p50_distance_m, 8)} {_cell(comparison.expected.p95_distance_m, 8)}"
         )
     return lines
 
@@ -113,6 +128,10 @@ def percentile(ordered: List[float], share: float) -> float:
     return ordered[low] + (position - low) * (ordered[high] - ordered[low])
 
 
+def _written(value: float) -> str:
+    return f"{value:.4f}" if math.isfinite(value) else ""
+
+
 def _cell(value: float, width: int, sign: str = "") -> str:
     return f"{value:{sign}{width}.3f}" if math.isfinite(value) else " " * (width - 1) + "-"
 
@@ -123,6 +142,8 @@ def _parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     parser.add_argument("--results", type=pathlib.Path, required=True, help="folder with results.csv")
     parser.add_argument("--car-length", type=float, required=True, help="true length of the Car in m")
     parser.add_argument("--car-width", type=float, required=True, help="true width of the Car in m")
+    parser.add_argument("--car", default="", help="the simulated Car; without it the p columns of truth.csv are empty")
+    parser.add_argument("--seed", type=int, default=1, help="of the simulation; default 1")
     parser.add_argument("--scenario", choices=sorted(_READERS), help="default: told by the header of results.csv")
     return parser.parse_args(arguments)
 

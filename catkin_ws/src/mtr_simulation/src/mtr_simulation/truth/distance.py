@@ -1,7 +1,7 @@
 """True distances of measured events: which true event belongs to it, and how far the Remote key truly was."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Iterable, NamedTuple, Optional
+from typing import Iterable, NamedTuple, Optional, Tuple
 
 from .results import MeasuredEvent, ResultsError, TrueEvent
 
@@ -12,6 +12,8 @@ _KINDS = {"unlock": "unlocked", "lock": "locked", "press": "press"}
 _NORMALS = {"front": (1.0, 0.0), "rear": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
 _CORNERS = {"front_left": (1, 1), "front_right": (1, -1), "rear_left": (-1, 1), "rear_right": (-1, -1)}
 
+Vector = Tuple[float, float]
+
 
 class CarSize(NamedTuple):
     """True length and width of the Car in m."""
@@ -20,11 +22,26 @@ class CarSize(NamedTuple):
     width_m: float
 
 
+class Expected(NamedTuple):
+    """What a perfect measurement of a line would say, from the Car's model; distances in m, NaN where there is none.
+
+    Attributes:
+        p50_distance_m: the Car reacts in half of all trials.
+        p95_distance_m: in 95 % of them.
+        static_m: boundary of passive entry for a key that moves infinitely slowly; NaN for a press.
+    """
+
+    p50_distance_m: float = math.nan
+    p95_distance_m: float = math.nan
+    static_m: float = math.nan
+
+
 class Comparison(NamedTuple):
     """A measured event beside the truth; true_distance_m is None when nothing of the kind happened."""
 
     measured: MeasuredEvent
     true_distance_m: Optional[float]
+    expected: Expected = Expected()
 
     @property
     def error_m(self) -> float:
@@ -53,11 +70,28 @@ def true_distance_m(measured: MeasuredEvent, event: TrueEvent, size: CarSize) ->
     """From the Car's true side or corner along the axis, or from its centre for a press."""
     if measured.event == "press":
         return math.hypot(event.key_x_m, event.key_y_m)
-    half_length, half_width = size.length_m / 2.0, size.width_m / 2.0
     if measured.side in _NORMALS:
         normal_x, normal_y = _NORMALS[measured.side]
         along = normal_x * event.key_x_m + normal_y * event.key_y_m
-        return along - abs(normal_x) * half_length - abs(normal_y) * half_width
+        return along - abs(normal_x) * size.length_m / 2.0 - abs(normal_y) * size.width_m / 2.0
+    (corner_x, corner_y), (along_x, along_y) = _from_corner(measured, size)
+    return (event.key_x_m - corner_x) * along_x + (event.key_y_m - corner_y) * along_y
+
+
+def start_and_direction(measured: MeasuredEvent, size: CarSize) -> Tuple[Vector, Vector]:
+    """Point of the true Car at which the line's distance is 0, and unit vector along the line, both in frame car."""
+    if measured.event == "press":
+        return (0.0, 0.0), (math.cos(measured.clockwise_rad), -math.sin(measured.clockwise_rad))
+    if measured.side not in _NORMALS:
+        return _from_corner(measured, size)
+    normal_x, normal_y = _NORMALS[measured.side]
+    origin_x, origin_y = measured.origin
+    start_x = normal_x * size.length_m / 2.0 if normal_x else origin_x
+    start_y = normal_y * size.width_m / 2.0 if normal_y else origin_y
+    return (start_x, start_y), (normal_x, normal_y)
+
+
+def _from_corner(measured: MeasuredEvent, size: CarSize) -> Tuple[Vector, Vector]:
     if measured.side not in _CORNERS:
         allowed = ", ".join([*_NORMALS, *_CORNERS])
         raise ResultsError(f"Axis {measured.line} has side {measured.side!r}; allowed are {allowed}.")
@@ -66,5 +100,4 @@ def true_distance_m(measured: MeasuredEvent, event: TrueEvent, size: CarSize) ->
     norm = math.hypot(direction_x, direction_y)
     if not norm > 0.0:
         raise ResultsError(f"Axis {measured.line} has no direction.")
-    from_corner_x, from_corner_y = event.key_x_m - sign_x * half_length, event.key_y_m - sign_y * half_width
-    return (from_corner_x * direction_x + from_corner_y * direction_y) / norm
+    return ((sign_x * size.length_m / 2.0, sign_y * size.width_m / 2.0), (direction_x / norm, direction_y / norm))

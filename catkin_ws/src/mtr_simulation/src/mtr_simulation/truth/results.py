@@ -3,9 +3,13 @@
 import csv
 import math
 import pathlib
+import re
 from typing import Dict, Iterable, Iterator, List, NamedTuple, Tuple
 
 from mtr_core.errors import RobotError
+
+DEFAULT_KEY_HEIGHT_M = 1.0
+_KEY_HEIGHT = re.compile(r"^# parameter key_height_m: ([0-9.]+) m$", re.MULTILINE)
 
 
 class ResultsError(RobotError):
@@ -25,7 +29,8 @@ class TrueEvent(NamedTuple):
 class MeasuredEvent(NamedTuple):
     """One measurement of results.csv. Times and distances are NaN where the cell is empty.
 
-    event is unlock, lock or press; side and direction are those of the axis, empty and 0 for a radial.
+    event is unlock, lock or press; side, direction and origin are those of the axis, empty and 0 for a radial, whose
+    angle is clockwise_rad from the Car's front.
     """
 
     line: str
@@ -36,6 +41,8 @@ class MeasuredEvent(NamedTuple):
     uncertainty_m: float
     side: str
     direction: Tuple[float, float]
+    origin: Tuple[float, float] = (0.0, 0.0)
+    clockwise_rad: float = 0.0
 
 
 def column_names(path: pathlib.Path) -> List[str]:
@@ -63,17 +70,26 @@ def read_autolock(path: pathlib.Path) -> List[MeasuredEvent]:
     names = ("status", "distance_m", "uncertainty_m", "robot_time_s")
     columns = [f"{event}_{name}" for event in ("unlock", "lock") for name in names]
     events = []
-    for row in _rows(path, ("axis", "side", "direction_x", "direction_y", *columns)):
+    for row in _rows(path, ("axis", "side", "origin_x_m", "origin_y_m", "direction_x", "direction_y", *columns)):
         direction = (_number(row, "direction_x", path), _number(row, "direction_y", path))
+        origin = (_number(row, "origin_x_m", path), _number(row, "origin_y_m", path))
         for event in ("unlock", "lock"):
-            events.append(_measured(row, path, row["axis"], event, f"{event}_")._replace(direction=direction))
+            measured = _measured(row, path, row["axis"], event, f"{event}_")
+            events.append(measured._replace(direction=direction, origin=origin))
     return events
 
 
 def read_key_press(path: pathlib.Path) -> List[MeasuredEvent]:
     """One event, press, for each radial."""
-    rows = _rows(path, ("radial", "status", "distance_m", "uncertainty_m", "robot_time_s"))
-    return [_measured(row, path, row["radial"], "press", "") for row in rows]
+    rows = _rows(path, ("radial", "status", "distance_m", "uncertainty_m", "robot_time_s", "angle_deg"))
+    return [_measured(row, path, row["radial"], "press", "")._replace(
+        clockwise_rad=math.radians(_number(row, "angle_deg", path))) for row in rows]
+
+
+def key_height_m(path: pathlib.Path) -> float:
+    """The height of the Remote key that the metadata tell, else the scenarios' default."""
+    found = _KEY_HEIGHT.search(_text(path))
+    return float(found.group(1)) if found else DEFAULT_KEY_HEIGHT_M
 
 
 def _measured(row: Dict[str, str], path: pathlib.Path, line: str, event: str, prefix: str) -> MeasuredEvent:
@@ -96,11 +112,14 @@ def _rows(path: pathlib.Path, columns: Iterable[str]) -> Iterator[Dict[str, str]
 
 
 def _reader(path: pathlib.Path) -> "csv.DictReader[str]":
+    return csv.DictReader(line for line in _text(path).splitlines() if line and not line.startswith("#"))
+
+
+def _text(path: pathlib.Path) -> str:
     try:
-        text = path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise ResultsError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}.") from error
-    return csv.DictReader(line for line in text.splitlines() if line and not line.startswith("#"))
 
 
 def _number(row: Dict[str, str], column: str, path: pathlib.Path) -> float:

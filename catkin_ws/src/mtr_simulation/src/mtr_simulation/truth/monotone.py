@@ -1,0 +1,37 @@
+"""The range that a probability along a line amounts to, also where fading and nulls tear holes into it.
+
+p(d) of a real Car neither falls steadily nor crosses 50 % once. Its range is that of the falling curve which is nearest
+to it in the sense of least squares over equal steps of distance (antitonic regression, by pooling adjacent violators:
+Barlow et al., Statistical Inference under Order Restrictions, 1972). Where p falls steadily, that is p itself.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import List, Tuple
+
+import numpy as np
+
+from mtr_core.arrays import FloatArray
+
+
+def falling(values: FloatArray) -> FloatArray:
+    """The curve that never rises and is nearest to the values."""
+    blocks: List[Tuple[float, int]] = []
+    for value in values.tolist():
+        mean, count = value, 1
+        while blocks and blocks[-1][0] < mean:
+            before, before_count = blocks.pop()
+            mean = (mean * count + before * before_count) / (count + before_count)
+            count += before_count
+        blocks.append((mean, count))
+    return np.repeat([mean for mean, _ in blocks], [count for _, count in blocks])
+
+
+def falls_below(distances_m: FloatArray, values: FloatArray, level: float) -> float:
+    """Where the falling curve passes the level; NaN when it is below from the start, or above to the end."""
+    curve = falling(values)
+    below = np.flatnonzero(curve < level)
+    if len(below) == 0 or below[0] == 0:
+        return math.nan
+    i = below[0]
+    share = (curve[i - 1] - level) / (curve[i - 1] - curve[i])
+    return float(distances_m[i - 1] + share * (distances_m[i] - distances_m[i - 1]))
