@@ -3,9 +3,16 @@
 import filecmp
 import pathlib
 
+import pytest
+
+from mtr_operator.car_link.profile import load_profile
+from mtr_operator.domain.ports import LockState
 from mtr_proto import robot_link_pb2
+from mtr_simulation.car.choice import car_names, chosen_car
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
+SIMULATED_CARS = TOP / "catkin_ws/src/mtr_simulation/src/mtr_simulation/car"
+PROFILES = TOP / "operator_gui/src/mtr_operator/car_link/profiles"
 
 # The thesis' listing 4.8; names in lower_snake_case.
 ROBOT_STATE = {
@@ -43,8 +50,20 @@ def test_schema_is_proto2_so_that_every_field_has_presence():
     assert (TOP / "proto" / "robot_link.proto").read_text(encoding="utf-8").count('syntax = "proto2";') == 1
 
 
-def test_simulated_car_and_application_use_the_same_database():
-    simulated = TOP / "catkin_ws/src/mtr_simulation/src/mtr_simulation/car/mtr_demo_car.dbc"
-    profiles = list((TOP / "operator_gui/src/mtr_operator/car_link/profiles").rglob("mtr_demo_car.dbc"))
+@pytest.mark.parametrize("simulated", sorted(SIMULATED_CARS.rglob("*.dbc")), ids=lambda path: path.stem)
+def test_simulated_car_and_application_use_the_same_database(simulated):
+    profiles = list(PROFILES.rglob(simulated.name))
     assert len(profiles) == 1
     assert filecmp.cmp(simulated, profiles[0], shallow=False)
+
+
+@pytest.mark.parametrize("name", car_names())
+def test_profile_of_a_simulated_car_tells_how_its_bus_speaks(name):
+    car = chosen_car(name)
+    profile = load_profile(car.profile)
+    assert set(profile.states.values()) == {LockState.LOCKED, LockState.UNLOCKED, LockState.UNKNOWN}
+    if car.honest is not None:
+        bus = car.honest.bus
+        assert profile.cycle_time_s * 1000.0 == pytest.approx(bus.lock_cycle_ms)
+        assert profile.sent_on_change is bus.sent_on_change
+        assert bool(profile.sources) is (bus.cause_in == "same")
