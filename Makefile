@@ -10,6 +10,8 @@ SHELL := /bin/bash
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
 FACTOR ?= 1
+# Of demo and sim, the simulated Car: gentle, honest, honest_868, honest_handle, honest_slow, or a file's path.
+CAR ?= gentle
 # Of demo and sim: fake (simulated in the simulator) or emulated (the flashed firmware on an emulated board).
 PERIPHERALS ?= fake
 # For `make flash`: mega or uno, and its serial port.
@@ -20,6 +22,8 @@ RVIZ ?= $(if $(DISPLAY),true,false)
 STAMPS := .setup
 FIRMWARE_ELF := $(CURDIR)/firmware/build/mtr_firmware_atmega2560.elf
 EMULATED := $(filter emulated,$(PERIPHERALS))
+# The nodes work in another folder.
+CAR_OF_NODES := $(if $(filter %.yaml,$(CAR)),$(abspath $(CAR)),$(CAR))
 RUN := source setup/env.bash &&
 BUILD_INPUTS := $(shell find catkin_ws/src proto launch tests -not -path '*/.*' \( -name CMakeLists.txt -o -name package.xml \
 	-o -name setup.py -o -name '*.msg' -o -name '*.proto' -o -name '*.cpp' -o -name '*.hpp' -o -path '*/scripts/*' \) \
@@ -38,11 +42,11 @@ $(STAMPS)/build: $(BUILD_INPUTS) setup/debian-packages.txt setup/python-requirem
 	@touch $@
 
 demo: setup build $(if $(EMULATED),firmware) ## Run both scenarios on the simulated robot and Car; results in out/demo
-	@$(RUN) python -m mtr_bringup.demo --seed $(SEED) --out out/demo $(if $(EMULATED),--firmware $(FIRMWARE_ELF))
+	@$(RUN) python -m mtr_bringup.demo --seed $(SEED) --car $(CAR) --out out/demo $(if $(EMULATED),--firmware $(FIRMWARE_ELF))
 
 sim: setup build $(if $(EMULATED),firmware) ## Start the simulated robot and Car for an application on ports 3333 and 3334 (Ctrl-C ends)
 	@mkdir -p out/sim
-	@$(RUN) roslaunch mtr_bringup sim.launch seed:=$(SEED) real_time_factor:=$(FACTOR) rviz:=$(RVIZ) \
+	@$(RUN) roslaunch mtr_bringup sim.launch seed:=$(SEED) car:=$(CAR_OF_NODES) real_time_factor:=$(FACTOR) rviz:=$(RVIZ) \
 		car_port_link:=$(CURDIR)/out/sim/can truth_dir:=$(CURDIR)/out/sim $(if $(EMULATED),firmware_elf:=$(FIRMWARE_ELF))
 
 gui: setup build ## Open the Operator's window, filled in for the robot and Car of `make sim`

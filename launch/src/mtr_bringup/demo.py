@@ -9,8 +9,10 @@ import subprocess
 import sys
 import time
 from dataclasses import dataclass
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
+from mtr_core.errors import ConfigurationError
+from mtr_simulation.car.choice import CarChoice, chosen_car
 from mtr_simulation.site.scenario import named_scenario
 
 from .stack import Stack, StackError, StackOptions
@@ -35,11 +37,23 @@ class DemoOptions:
         folder: of the results; its former content is deleted.
         seed: of every random number in the simulation.
         firmware: file for an emulated ATmega2560; without one the firmware is simulated.
+        car: the simulated Car: name of a shipped one, or path of its file.
     """
 
     folder: pathlib.Path
     seed: int = 1
     firmware: str = ""
+    car: str = "gentle"
+
+    @property
+    def car_argument(self) -> str:
+        """The Car as the nodes find it: they work in another folder."""
+        return str(pathlib.Path(self.car).resolve()) if self.car.endswith(".yaml") else self.car
+
+    @property
+    def model(self) -> Tuple[str, ...]:
+        """Arguments of the comparison that name the Car."""
+        return "--car", self.car, "--seed", str(self.seed)
 
 
 @dataclass(frozen=True)
@@ -68,10 +82,11 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--seed", type=int, default=1, help="seed of every random number in the simulation")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/demo"), help="result folder")
     parser.add_argument("--firmware", default="", help="firmware for an emulated ATmega2560; else it is simulated")
+    parser.add_argument("--car", default="gentle", help="simulated Car: gentle, honest, ... or a file")
     options = parser.parse_args(arguments)
     try:
-        result = run_demo(DemoOptions(options.out, options.seed, options.firmware))
-    except (StackError, DemoError) as error:
+        result = run_demo(DemoOptions(options.out, options.seed, options.firmware, options.car))
+    except (StackError, DemoError, ConfigurationError) as error:
         print(error, file=sys.stderr)
         return 1
     except KeyboardInterrupt:
@@ -89,36 +104,38 @@ def run_demo(options: DemoOptions) -> DemoResult:
     Raises:
         StackError: the simulated robot did not start.
         DemoError: a scenario failed.
+        ConfigurationError: there is no such Car.
     """
+    car = chosen_car(options.car)
     shutil.rmtree(options.folder, ignore_errors=True)
     options.folder.mkdir(parents=True)
     started_s = time.monotonic()
     with Stack(StackOptions(options.folder, options.seed, rviz="DISPLAY" in os.environ,
-                            arguments={"firmware_elf": options.firmware})) as stack:
-        statuses = [run_scenario(stack, name, options.folder / name) for name in MIN_LINES]
+                            arguments={"firmware_elf": options.firmware, "car": options.car_argument})) as stack:
+        statuses = [run_scenario(stack, name, options.folder / name, car) for name in MIN_LINES]
     if any(statuses):
         raise DemoError(f"A scenario failed; see {stack.log} and {options.folder}.")
     wall_s = time.monotonic() - started_s
-    problems = [problem for name in MIN_LINES for problem in problems_of(options.folder, name)]
+    problems = [problem for name in MIN_LINES for problem in problems_of(options.folder, name, options.model)]
     times_s = [time_s for name in MIN_LINES for time_s in event_times(read_rows(results_of(options.folder, name)))]
     return DemoResult(max(times_s, default=0.0), wall_s, tuple(problems))
 
 
-def run_scenario(stack: Stack, name: str, folder: pathlib.Path) -> int:
+def run_scenario(stack: Stack, name: str, folder: pathlib.Path, car: CarChoice) -> int:
     """Run one scenario with the Operator's application, as a person would from the command line; its exit status."""
     print(f"=== {name}", flush=True)
     return subprocess.run([
         sys.executable, "-m", "mtr_operator", "run", name, "--params", str(EXAMPLES / f"{name}.yaml"),
         "--out", str(folder), "--robot", "127.0.0.1", "--subscriber-port", str(stack.status_port),
         "--publisher-port", str(stack.command_port), "--can-interface", "slcan", "--can-channel", str(stack.can_link),
-        "--can-bitrate", "500000", "--car-profile", "mtr_demo_car",
+        "--can-bitrate", "500000", "--car-profile", car.profile,
     ], check=False).returncode
 
 
-def problems_of(folder: pathlib.Path, name: str) -> List[str]:
+def problems_of(folder: pathlib.Path, name: str, model: Sequence[str] = ()) -> List[str]:
     """Compare a scenario's results with the truth; a sentence for each thing that is wrong or missing."""
     problems = []
-    if compare(folder / "truth_events.csv", folder / name):
+    if compare(folder / "truth_events.csv", folder / name, *model):
         problems.append(f"{name}: measured and true events do not match")
     problems += [f"{name}: {file} is missing" for file in OUTPUTS if not (folder / name / file).exists()]
     rows = read_rows(results_of(folder, name))
@@ -127,12 +144,15 @@ def problems_of(folder: pathlib.Path, name: str) -> List[str]:
     return problems
 
 
-def compare(events: pathlib.Path, folder: pathlib.Path) -> int:
-    """Write truth.csv beside the results and print measured against true; 0 when every measured line has its event."""
+def compare(events: pathlib.Path, folder: pathlib.Path, *model: str) -> int:
+    """Write truth.csv beside the results and print measured against true; 0 when every measured line has its event.
+
+    model: arguments that name the Car, for its probabilities.
+    """
     car = named_scenario("lot").car
     return subprocess.run([
         sys.executable, "-m", "mtr_simulation.truth.compare", "--scenario", folder.name, "--events", str(events),
-        "--results", str(folder), "--car-length", str(car.length_m), "--car-width", str(car.width_m),
+        "--results", str(folder), "--car-length", str(car.length_m), "--car-width", str(car.width_m), *model,
     ], check=False).returncode
 
 

@@ -3,7 +3,8 @@
 import pytest
 
 from mtr_bringup import demo
-from mtr_bringup.demo import MIN_LINES, OUTPUTS, DemoResult, event_times, problems_of, read_rows
+from mtr_bringup.demo import MIN_LINES, OUTPUTS, DemoOptions, DemoResult, event_times, problems_of, read_rows, run_demo
+from mtr_core.errors import ConfigurationError
 
 HEADER = "line,unlock_robot_time_s,lock_robot_time_s\n"
 
@@ -47,6 +48,21 @@ def test_event_times_are_read_past_metadata_and_empty_cells(tmp_path):
     results(tmp_path / "autolock", 2)
     assert event_times(read_rows(tmp_path / "autolock" / "results.csv")) == [0.5, 1.5]
     assert read_rows(tmp_path / "missing.csv") == []
+
+
+def test_car_of_a_file_is_found_from_any_folder_and_the_comparison_knows_it(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert DemoOptions(tmp_path).car_argument == "gentle"
+    options = DemoOptions(tmp_path, seed=4, car="mine.yaml")
+    assert options.car_argument == str(tmp_path / "mine.yaml")
+    assert options.model == ("--car", "mine.yaml", "--seed", "4")
+
+
+def test_unknown_car_is_refused_before_anything_is_deleted(tmp_path):
+    (tmp_path / "kept").write_text("", encoding="utf-8")
+    with pytest.raises(ConfigurationError, match="car is 'unreal'"):
+        run_demo(DemoOptions(tmp_path, car="unreal"))
+    assert (tmp_path / "kept").exists()
 
 
 def test_speed_is_robot_time_by_wall_time():
