@@ -10,7 +10,7 @@ SHELL := /bin/bash
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
 FACTOR ?= 1
-# Of demo and sim, the simulated Car: gentle, honest, honest_868, honest_handle, honest_slow, or a file's path.
+# Of demo, sim and gui, the simulated Car: gentle, honest, honest_868, honest_handle, honest_slow, or a file's path.
 CAR ?= gentle
 # Of demo and sim: fake (simulated in the simulator) or emulated (the flashed firmware on an emulated board).
 PERIPHERALS ?= fake
@@ -51,7 +51,8 @@ sim: setup build $(if $(EMULATED),firmware) ## Start the simulated robot and Car
 
 gui: setup build ## Open the Operator's window, filled in for the robot and Car of `make sim`
 	@$(RUN) mtr-operator window --robot 127.0.0.1 --subscriber-port 3334 --publisher-port 3333 --can-interface slcan \
-		--can-channel $(CURDIR)/out/sim/can --can-bitrate 500000 --car-profile mtr_demo_car
+		--can-channel $(CURDIR)/out/sim/can --can-bitrate 500000 \
+		--car-profile "$$(python -c 'from mtr_simulation.car.choice import chosen_car; print(chosen_car("$(CAR)").profile)')"
 
 screenshots: setup build ## Picture of every window and screen in both themes, from a simulated run; in out/screenshots
 	@$(RUN) xvfb-run -a -s "-screen 0 1440x1000x24 -nolisten tcp" \

@@ -5,11 +5,14 @@ import math
 import numpy as np
 import pytest
 
+from mtr_simulation.car.can_port import MemoryCanPort
 from mtr_simulation.car.choice import chosen_car
+from mtr_simulation.car.honest.car import STEP_NS
 from mtr_simulation.car.parameters import CarParameters
 from mtr_simulation.car.radio import PassiveEntryRadio, RemoteRadio
 from mtr_simulation.truth.distance import CarSize, start_and_direction
 from mtr_simulation.truth.expected import Line, expected
+from mtr_simulation.truth.log import NoTruthLog
 from mtr_simulation.truth.monotone import falling, falls_below
 from mtr_simulation.truth.results import MeasuredEvent
 
@@ -112,3 +115,35 @@ def test_honest_car_has_a_range_on_every_line_and_its_transition_is_wide():
         unlock, lock = (expected(axis(event, side, origin, direction), SIZE, model, 1.0)
                         for event in ("unlock", "lock"))
         assert 0.5 < unlock.static_m < lock.static_m < 3.5
+
+
+class FirstEvent(NoTruthLog):
+    """Keeps how far from the left side the key was when the locks moved."""
+
+    def __init__(self):
+        self.distance_m = None
+
+    def lock_event(self, event, time_ns, key_xyz):
+        self.distance_m = key_xyz[1] - 0.9
+
+
+def unlocked_at(seed, speed_mps):
+    """Distance at which the honest Car unlocks on one approach."""
+    log = FirstEvent()
+    car = chosen_car("honest").car(seed, MemoryCanPort(), log)
+    step = 0
+    while log.distance_m is None:
+        place = (0.4, 0.9 + 2.8 - step * speed_mps * STEP_NS * 1e-9, 1.0)
+        car.step(1_000_000_000 + step * STEP_NS, place, (1000, 1000), -math.pi / 2.0)
+        step += 1
+    return log.distance_m
+
+
+def test_passes_at_several_speeds_tend_to_the_static_boundary():
+    static_m = expected(axis(), SIZE, chosen_car("honest").reactions(1), 1.0).static_m
+    speeds_mps = (0.2, 0.4, 0.8)
+    means_m = [np.mean([unlocked_at(seed, speed_mps) for seed in range(30)]) for speed_mps in speeds_mps]
+    slope_s, intercept_m = np.polyfit(speeds_mps, means_m, 1)
+    assert intercept_m == pytest.approx(static_m, abs=0.06)
+    # Half a poll until the first one in the zone, another for the debounce, and the motors.
+    assert -slope_s == pytest.approx(0.15 + 0.3 + 0.1, abs=0.12)
