@@ -132,6 +132,7 @@ class DesiredState:
         key_height_m: Remote key above ground; NaN: as it is.
         press: the newest press.
         map_car_id, check_car_id: requests to map the Car again and to check its frame, 0: none.
+        resume_hold_id: hold that the Operator has released, 0: none.
     """
 
     session_id: int = 0
@@ -144,3 +145,4 @@ class DesiredState:
     press: Press = NO_PRESS
     map_car_id: int = 0
     check_car_id: int = 0
+    resume_hold_id: int = 0

@@ -3,7 +3,7 @@
 import functools
 import math
 from dataclasses import dataclass
-from typing import Callable, Optional
+from typing import Callable, Optional, Sequence
 
 from mtr_core.problems import NO_PROBLEM, Problem, Sentence
 from mtr_core.requests import Press, Waypoint
@@ -19,6 +19,10 @@ MAX_HEADING_RAD = 4.0 * math.pi
 MAX_KEY_HEIGHT_M = 3.0
 MAX_PRESS_DURATION_S = 10.0
 MAX_BUTTONS = 8
+# A remote key has some ten buttons; a number beyond this is none.
+MAX_BUTTON = 100
+# So many of the numbers are quoted in the refusal.
+MAX_QUOTED = 10
 
 
 @dataclass(frozen=True)
@@ -37,6 +41,7 @@ class Command:
     map_car_id: int = 0
     end_session: bool = False
     check_car_id: int = 0
+    resume_hold_id: int = 0
 
 
 def problem_of(command: Command, platform_speed_mps: float) -> Problem:
@@ -67,12 +72,23 @@ def _press_problem(press: Optional[Press]) -> Problem:
         return NO_PROBLEM
     if press.id == 0:
         return problems.PRESS_WITHOUT_ID()
-    if not 1 <= len(press.buttons) <= MAX_BUTTONS or 0 in press.buttons:
-        return problems.PRESS_BUTTONS(id=press.id, buttons=str(list(press.buttons)), maximum=MAX_BUTTONS)
+    if not _are_buttons(press.buttons):
+        return problems.PRESS_BUTTONS(id=press.id, buttons=_quoted(press.buttons), maximum=MAX_BUTTONS,
+                                      highest=MAX_BUTTON)
     strength, duration = (functools.partial(sentence, id=press.id) for sentence in (
         problems.PRESS_STRENGTH, problems.PRESS_DURATION))
     return (_range_problem(strength, press.strength, 0.0, 1.0)
             or _range_problem(duration, press.duration_s, 0.0, MAX_PRESS_DURATION_S))
+
+
+def _are_buttons(numbers: Sequence[int]) -> bool:
+    return (1 <= len(numbers) <= MAX_BUTTONS and len(set(numbers)) == len(numbers)
+            and all(1 <= number <= MAX_BUTTON for number in numbers))
+
+
+def _quoted(numbers: Sequence[int]) -> str:
+    more = f" and {len(numbers) - MAX_QUOTED} more" if len(numbers) > MAX_QUOTED else ""
+    return f"{list(numbers[:MAX_QUOTED])}{more}"
 
 
 def _choice_problem(sentence: Sentence, value: Optional[float], low: float, high: float) -> Problem:

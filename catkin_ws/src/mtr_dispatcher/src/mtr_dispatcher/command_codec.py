@@ -38,7 +38,8 @@ def decode(data: bytes) -> Command:
         seen_robot_time_s=_float(message, "seen_robot_time_s", math.nan), stop=message.stop,
         waypoint=_waypoint(message), max_speed_mps=_choice(message, "max_speed_mps"),
         key_height_m=_choice(message, "device_height_m"), press=_press(message), map_car_id=message.map_car_id,
-        end_session=message.end_session, check_car_id=message.check_car_id)
+        end_session=message.end_session, check_car_id=message.check_car_id,
+        resume_hold_id=message.resume_hold_id)
 
 
 def _float(message: Any, name: str, absent: float) -> float:

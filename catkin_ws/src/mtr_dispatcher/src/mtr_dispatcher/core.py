@@ -6,12 +6,14 @@ from typing import List, Optional, Tuple
 from . import problems
 from .command import Command
 from .command_codec import UndecodableError, decode
-from .inputs import Inputs
-from .log_buffer import LogBuffer
-from .notices import ERROR, WARNING, ForeignApplications, Notice, RecentNotices, standing_notices
 from .parameters import Parameters
+from .sent_statuses import SentStatuses
 from .session import REJECTIONS, CommandResult, ControlSession, SessionState
-from .status_builder import Confirmations, Identity, Report, status_bytes
+from .status.builder import Confirmations, Identity, Report, status_bytes
+from .status.inputs import Inputs
+from .status.interventions import Interventions
+from .status.log_buffer import LogBuffer
+from .status.notices import ERROR, WARNING, ForeignApplications, Notice, RecentNotices, standing_notices
 
 
 class Dispatcher:
@@ -31,16 +33,21 @@ class Dispatcher:
         self.status_id = 0
         self.rejected_messages = 0
         self._recent, self._foreign = RecentNotices(), ForeignApplications()
+        self._sent, self._interventions = SentStatuses(), Interventions()
 
     def receive(self, data: bytes, now_s: float) -> Tuple[Optional[CommandResult], str]:
-        """Take one message of the link. Returns its result (None: no Command) and a sentence for the log, if any."""
+        """Take one message of the link at a time of the steady clock.
+
+        Returns its result (None: no Command) and a sentence for the log, if any.
+        """
         try:
             command = decode(data)
         except UndecodableError as error:
             self._reject(Notice("bad_message", WARNING, error.problem), now_s)
             return None, str(error)
         before = self.session.session_id
-        result = self.session.take(command, now_s, self.status_id)
+        result = self.session.take(
+            command, now_s, self._sent.answered_s((command.seen_status_id, command.seen_robot_time_s)))
         if result is CommandResult.FOREIGN:
             self.rejected_messages += 1
             return result, self._foreign.received(self.session.session_id, command.session_id, now_s).text
@@ -49,25 +56,27 @@ class Dispatcher:
         return result, self._event(result, command, before)
 
     def desired(self, now_s: float) -> SessionState:
-        """What the robot shall do at now_s."""
+        """What the robot shall do at now_s of the steady clock."""
         return self.session.desired(now_s)
 
     def status(self, inputs: Inputs) -> bytes:
         """The next Status."""
         self.status_id += 1
-        fresh = inputs.fresh()
-        desired = self.session.desired(inputs.now_s)
-        standing = standing_notices(desired, fresh, self._parameters.low_battery)
+        self._sent.add(self.status_id, inputs.now_s, inputs.steady_s)
+        desired = self.session.desired(inputs.steady_s)
+        standing = standing_notices(desired, inputs, self._parameters)
         return status_bytes(self._identity, Report(
-            self.status_id, fresh, self._confirmations(desired, fresh), self.rejected_messages, self.log.due(),
-            itertools.chain(standing, self._foreign.notices(desired.session_id, inputs.now_s),
-                            self._recent.at(inputs.now_s))))
+            self.status_id, inputs, self._interventions.update(inputs), self._confirmations(desired, inputs),
+            self.rejected_messages, self.log.due(),
+            itertools.chain(standing, self._foreign.notices(desired.session_id, inputs.steady_s),
+                            self._recent.at(inputs.steady_s))))
 
     def confirmed(self, inputs: Inputs) -> List[object]:
         """What a Status would confirm now; when it changes a Status is due at once."""
         mode, peripherals, check = inputs.mode, inputs.peripherals, inputs.check
         return [self.session.session_id, self.session.command.id,
-                mode and (mode.mode, mode.waypoint_id, mode.waypoint_result, mode.map_car_id),
+                mode and (mode.mode, mode.waypoint_id, mode.waypoint_result, mode.map_car_id, mode.hold_id),
+                inputs.emergency_stop,
                 check and (check.id, check.state),
                 peripherals and [(press.session_id, press.id) for press in peripherals.presses]]
 

@@ -1,7 +1,7 @@
-"""The robot's end of the link: two bound ZeroMQ sockets."""
+"""The robot's end of the link: two bound ZeroMQ sockets whose memory nobody outside can fill."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import List
+from typing import List, NamedTuple
 
 import zmq
 
@@ -9,9 +9,8 @@ from mtr_core.errors import RobotError
 
 from .command_codec import MAX_MESSAGE_BYTES
 
-# Messages up to this size are counted as oversized; beyond it ZeroMQ cuts the connection, so that memory stays bounded.
-CUT_OFF_BYTES = 16 * MAX_MESSAGE_BYTES
-RECEIVE_QUEUE = 100
+# Whole messages that wait per connection. Parts of an unfinished one are not counted by ZeroMQ: see `rebind`.
+RECEIVE_QUEUE = 10
 SEND_QUEUE = 100
 MESSAGES_PER_TURN = 100
 # A peer that vanished without closing is noticed by ZeroMQ's own heartbeats.
@@ -24,20 +23,24 @@ class LinkError(RobotError):
     """The ports of the link cannot be opened."""
 
 
+class Ports(NamedTuple):
+    """Where the link listens."""
+
+    address: str
+    status_port: int
+    command_port: int
+
+
 class LinkServer:
     """Publishes Status on one port and receives Commands on the other."""
 
-    def __init__(self) -> None:
-        self._context = zmq.Context()
-        self._publisher = self._socket(zmq.PUB)
-        self._publisher.setsockopt(zmq.SNDHWM, SEND_QUEUE)
-        self._subscriber = self._socket(zmq.SUB)
-        self._subscriber.setsockopt(zmq.RCVHWM, RECEIVE_QUEUE)
-        self._subscriber.setsockopt(zmq.MAXMSGSIZE, CUT_OFF_BYTES)
-        self._subscriber.setsockopt(zmq.SUBSCRIBE, b"")
+    def __init__(self, ports: Ports) -> None:
+        self._ports = ports
+        self._open()
 
-    def bind(self, address: str, status_port: int, command_port: int) -> None:
+    def bind(self) -> None:
         """Listen on both ports of the address, or raise LinkError with a sentence."""
+        address, status_port, command_port = self._ports
         for socket, port, name in ((self._publisher, status_port, "status_port"),
                                    (self._subscriber, command_port, "command_port")):
             try:
@@ -46,6 +49,15 @@ class LinkServer:
                 self.close()
                 raise LinkError(f"The link cannot listen on {address} port {port} ({name}): "
                                 f"{error.strerror}.") from None
+
+    def rebind(self) -> None:
+        """Cut off everybody and listen anew: what strangers have left in ZeroMQ's memory goes with their connections.
+
+        Applications connect again by themselves.
+        """
+        self._context.destroy(0)
+        self._open()
+        self.bind()
 
     def publish(self, status: bytes) -> None:
         """Send one Status to every application that listens."""
@@ -69,8 +81,18 @@ class LinkServer:
         """Release both ports."""
         self._context.destroy(LINGER_MS)
 
+    def _open(self) -> None:
+        self._context = zmq.Context()
+        self._publisher = self._socket(zmq.PUB)
+        self._publisher.setsockopt(zmq.SNDHWM, SEND_QUEUE)
+        self._subscriber = self._socket(zmq.SUB)
+        self._subscriber.setsockopt(zmq.RCVHWM, RECEIVE_QUEUE)
+        self._subscriber.setsockopt(zmq.SUBSCRIBE, b"")
+
     def _socket(self, kind: int) -> "zmq.Socket[bytes]":
         socket = self._context.socket(kind)
+        # Beyond it ZeroMQ cuts the connection; on the port of Status it bounds a subscription.
+        socket.setsockopt(zmq.MAXMSGSIZE, MAX_MESSAGE_BYTES)
         socket.setsockopt(zmq.HEARTBEAT_IVL, HEARTBEAT_MS)
         socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, HEARTBEAT_TIMEOUT_MS)
         return socket

@@ -1,6 +1,7 @@
 """The dispatcher's node: wires the link and the topics to the core."""
 # SPDX-License-Identifier: Apache-2.0
 import secrets
+import time
 from typing import List, Optional
 
 import rospkg
@@ -8,25 +9,41 @@ import rospy
 from rosgraph_msgs.msg import Log
 
 from mtr_core import names, schedule
+from mtr_core.liveness import NS, ClockWatch
 from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_description.robot_description import described_robot
-from mtr_msgs.msg import CarCheck, CarEstimate, DesiredState, LocalizedPose, MotionLock, PeripheralsState, RobotMode
+from mtr_msgs.msg import (
+    CarCheck,
+    CarEstimate,
+    DesiredState,
+    DriveStatus,
+    LocalizedPose,
+    MotionLock,
+    MotionStatus,
+    PeripheralsState,
+    RobotMode,
+)
 
 from .conversions import desired_message, lock_message
 from .core import Dispatcher
-from .inputs import Inputs
-from .link_server import LinkServer
-from .notices import ERROR, WARNING
+from .link_server import LinkError, LinkServer, Ports
+from .memory import give_back, resident_mib
 from .operator_wait import OperatorWait
 from .parameters import Parameters
 from .session import CommandResult, SessionState, is_same
-from .status_builder import Identity
+from .status.builder import Identity
+from .status.emergency import EmergencyWatch
+from .status.inputs import STALE_AFTER_S, Inputs
+from .status.notices import ERROR, WARNING
+from .status.texts import cut
+from .throttle import Throttle
 
 # While simulated time waits for the application the Status is sent again, for one that connects meanwhile.
 STATUS_AGAIN_WALL_S = 0.1
 # Longest turn on the robot's own clock: bounds how late a confirmation is sent.
 TURN_S = 0.02
-NS = 1e-9
+# Whoever floods the robot with bad messages gets one line of log per kind and this time.
+LOG_PERIOD_S = 10.0
 
 
 class DispatcherNode:
@@ -38,13 +55,19 @@ class DispatcherNode:
         self._published: Optional[SessionState] = None
         self._confirmed: Optional[List[object]] = None
         self._status = b""
-        self._pose = TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0)
-        self._car = TickInput(names.CAR_ESTIMATE, CarEstimate, schedule.CAR_LOCATOR)
-        self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
-        self._check = TickInput(names.CAR_CHECK, CarCheck, schedule.CAR_LOCATOR)
-        self._peripherals = TickInput(names.PERIPHERALS_STATE, PeripheralsState, schedule.PERIPHERALS)
+        self._clock_watch, self._throttle = ClockWatch(), Throttle(LOG_PERIOD_S)
+        self._emergency = EmergencyWatch(parameters.emergency_stop)
+        self._topics = (
+            TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0),
+            TickInput(names.CAR_ESTIMATE, CarEstimate, schedule.CAR_LOCATOR),
+            TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE),
+            TickInput(names.PERIPHERALS_STATE, PeripheralsState, schedule.PERIPHERALS),
+            TickInput(names.CAR_CHECK, CarCheck, schedule.CAR_LOCATOR),
+            TickInput(names.DRIVE_STATUS, DriveStatus, schedule.DRIVE_CONTROL),
+            TickInput(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER))
         self._desired = publisher(names.DESIRED_STATE, DesiredState)
         self._lock = publisher(names.MOTION_LOCK, MotionLock)
+        self._locks = rospy.Subscriber(names.MOTION_LOCK, MotionLock, self._take_lock, queue_size=50)
         self._rosout = rospy.Subscriber("/rosout_agg", Log, self._take_log, queue_size=50)
         self._ticker = Ticker(schedule.DISPATCHER)
 
@@ -80,34 +103,65 @@ class DispatcherNode:
             rospy.logwarn("The application has not answered; time goes on until it is heard again.")
 
     def _real_turn(self) -> None:
-        tick = schedule.DISPATCHER.next_after(clock.now_ns())
+        """One period by the steady clock, so that nobody waits when the robot's clock is set."""
         now = clock.now_ns()
-        while now < tick and not rospy.is_shutdown():
-            self._receive(now, min((tick - now) * NS, TURN_S))
+        end_ns = clock.steady_ns() + schedule.DISPATCHER.next_after(now) - now
+        left_ns = end_ns - clock.steady_ns()
+        while left_ns > 0 and not rospy.is_shutdown():
+            self._receive(now, min(left_ns * NS, TURN_S))
             now = clock.now_ns()
-            if not is_same(self._published, self._core.desired(now * NS)):
+            if not is_same(self._published, self._core.desired(self._steady_s(now))):
                 self._publish_desired(now)
             inputs = self._inputs(now)
             if self._core.confirmed(inputs) != self._confirmed:
                 self._publish_status(now, inputs)
+            left_ns = end_ns - clock.steady_ns()
+        self._bound_memory()
         self._publish_status(now)
         self._publish_desired(now)
 
     def _receive(self, now_ns: int, timeout_s: float) -> bool:
         messages = self._server.receive(timeout_s)
+        # The time after waiting: what came while this process was stopped is as old as it is.
+        now_s = self._steady_s(now_ns)
         for data in messages:
-            result, sentence = self._core.receive(data, now_ns * NS)
+            result, sentence = self._core.receive(data, now_s)
             if result in (CommandResult.TAKEN, CommandResult.REPEATED, CommandResult.REFUSED):
                 self._wait.received()
             if sentence and result in (CommandResult.TAKEN, CommandResult.ENDED):
                 rospy.loginfo(sentence)
             elif sentence:
-                rospy.logwarn_throttle_identical(10.0, sentence)
+                self._warn(result, sentence)
         return bool(messages)
 
+    def _warn(self, kind: object, sentence: str) -> None:
+        said = self._throttle.passed(kind, cut(sentence), time.monotonic())
+        if said:
+            rospy.logwarn(said)
+
+    def _bound_memory(self) -> None:
+        """Cut everybody off before strangers fill the memory: ZeroMQ bounds neither parts nor subscriptions."""
+        used_mib = resident_mib()
+        if used_mib <= self._parameters.memory_limit_mib:
+            return
+        rospy.logerr("Strangers fill the memory of the link: %.0f MiB; all connections are cut off.", used_mib)
+        self._server.rebind()
+        give_back()
+        if resident_mib() > self._parameters.memory_limit_mib:
+            raise LinkError(f"The link's memory stays above {self._parameters.memory_limit_mib} MiB.")
+
+    @staticmethod
+    def _steady_s(now_ns: int) -> float:
+        return clock.steady_at(now_ns) * NS
+
     def _inputs(self, now_ns: int) -> Inputs:
-        return Inputs(now_ns * NS, self._pose.at(now_ns), self._car.at(now_ns), self._mode.at(now_ns),
-                      self._peripherals.at(now_ns), self._check.at(now_ns))
+        reading = clock.reading()
+        self._clock_watch.update(reading)
+        steady_s = self._steady_s(now_ns)
+        pose, car, mode, peripherals, check, drive, motion = (
+            topic.fresh_at(now_ns, STALE_AFTER_S) for topic in self._topics)
+        return Inputs(now_ns * NS, pose, car, mode, peripherals, check, drive, motion, steady_s,
+                      self._clock_watch.steps, self._emergency.at(steady_s))
 
     def _publish_status(self, now_ns: int, inputs: Optional[Inputs] = None) -> None:
         inputs = inputs or self._inputs(now_ns)
@@ -116,13 +170,17 @@ class DispatcherNode:
         self._server.publish(self._status)
 
     def _publish_desired(self, now_ns: int) -> None:
-        desired = self._core.desired(now_ns * NS)
+        desired = self._core.desired(self._steady_s(now_ns))
         if self._published is None or desired.stop_reason != self._published.stop_reason:
             rospy.loginfo("Motion %s", f"locked: {desired.stop_reason}" if desired.stop_reason else "allowed.")
         stamp = clock.stamp_of(now_ns)
         self._lock.publish(lock_message(desired, stamp))
         self._desired.publish(desired_message(desired, stamp, self._parameters.default_speed_mps))
         self._published = desired
+
+    def _take_lock(self, message: MotionLock) -> None:
+        if message.emergency:
+            self._emergency.received(message.owner, message.engaged, clock.steady_ns() * NS)
 
     def _take_log(self, message: Log) -> None:
         if message.level >= Log.WARN:
@@ -133,8 +191,8 @@ class DispatcherNode:
 def make(parameters: Parameters) -> DispatcherNode:
     """The node with its ports open."""
     key = described_robot().key()
-    server = LinkServer()
-    server.bind(parameters.bind_address, parameters.status_port, parameters.command_port)
+    server = LinkServer(Ports(parameters.bind_address, parameters.status_port, parameters.command_port))
+    server.bind()
     identity = Identity(secrets.randbits(63) | 1, rospkg.RosPack().get_manifest("mtr_dispatcher").version,
                         key.x_m, key.y_m)
     return DispatcherNode(parameters, Dispatcher(parameters, identity), server)

@@ -22,6 +22,9 @@ class Parameters(ParameterSet):
         default_speed_mps: maximum speed when a Command names none; not above platform_speed_mps.
         platform_speed_mps: highest maximum speed that a Command may ask for (Jackal data sheet).
         low_battery: charge below which the Operator is warned.
+        emergency_stop: the robot has one that its software sees; one that is silent counts as engaged.
+        warn_without_emergency_stop: the Operator reads that there is none.
+        memory_limit_mib: memory of the process at which all connections of the link are cut off.
     """
 
     bind_address: str = "127.0.0.1"
@@ -35,6 +38,9 @@ class Parameters(ParameterSet):
     default_speed_mps: float = number(0.5, 0.05, 2.0, "m/s")
     platform_speed_mps: float = number(2.0, 0.05, 2.0, "m/s")
     low_battery: float = number(0.2, 0.0, 1.0)
+    emergency_stop: bool = False
+    warn_without_emergency_stop: bool = True
+    memory_limit_mib: int = number(400, 150, 4000, "MiB")
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -32,7 +32,8 @@ MAXIMUM_SPEED = Sentence("dispatcher.maximum_speed",
 KEY_HEIGHT = Sentence("dispatcher.key_height", "Key height is {value} m; allowed is {low} to {high} m.")
 PRESS_WITHOUT_ID = Sentence("dispatcher.press_without_id", "Button press without an id; ids count from 1.")
 PRESS_BUTTONS = Sentence("dispatcher.press_buttons",
-                         "Button press {id}: buttons are {buttons}; allowed are 1 to {maximum} numbers above 0.")
+                         "Button press {id}: buttons are {buttons}; allowed are 1 to {maximum} different numbers "
+                         "from 1 to {highest}.")
 PRESS_STRENGTH = Sentence("dispatcher.press_strength",
                           "Button press {id}: strength is {value}; allowed is {low} to {high}.")
 PRESS_DURATION = Sentence("dispatcher.press_duration",
@@ -43,4 +44,6 @@ STATE_MACHINE_SILENT = Sentence("dispatcher.state_machine_silent",
                                 "The robot's state machine is silent; the robot stands still.")
 PERIPHERALS_SILENT = Sentence("dispatcher.peripherals_silent", "The node of lift and buttons is silent.")
 POSITION_UNKNOWN = Sentence("dispatcher.position_unknown", "The robot does not know its position.")
+NO_EMERGENCY_STOP = Sentence("dispatcher.no_emergency_stop",
+                             "The robot has no manual controller: there is no emergency stop but the one on the robot.")
 LOW_BATTERY = Sentence("dispatcher.low_battery", "The battery is at {percent:.0f} %.")

@@ -5,15 +5,21 @@ import math
 from dataclasses import dataclass
 from typing import Dict, Optional
 
+from mtr_core.liveness import is_fresh
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import NO_PRESS, NO_WAYPOINT, DesiredState
 
 from . import problems
 from .command import Command, problem_of
+from .order_numbers import OrderNumbers
 from .parameters import Parameters
 
 # A message that was sent before goodbye may still arrive after it.
 REMEMBERED_SESSIONS = 16
+# An id counts changes of the content, at most some per second: nobody makes so many while the link is interrupted, and
+# no application begins with more.
+MAX_ID_STEP = 1000
+MAX_FIRST_ID = 10 ** 9
 
 
 class CommandResult(enum.Enum):
@@ -22,7 +28,7 @@ class CommandResult(enum.Enum):
     TAKEN = "taken"            # new content
     REPEATED = "repeated"      # keeps the link alive
     OUTDATED = "outdated"      # older than what was taken
-    EXPIRED = "expired"        # answers a Status that is too old, or that this robot never sent
+    EXPIRED = "expired"        # answers a Status that is too old or was never sent, or has an id out of turn
     FOREIGN = "foreign"        # another application controls the robot
     REFUSED = "refused"        # its content is unacceptable; the robot stops
     ENDED = "ended"            # goodbye
@@ -42,26 +48,6 @@ class SessionState:
     check_order: int
     link_alive: bool
     stop_reason: Problem
-
-
-class OrderNumbers:
-    """Numbers orders of one kind so that those of different sessions differ; 0 is no order."""
-
-    def __init__(self) -> None:
-        self._number = 0
-        self._order = (0, 0)
-
-    def number_of(self, session_id: int, order_id: int) -> int:
-        """Number of a session's order."""
-        if not order_id:
-            return 0
-        if (session_id, order_id) != self._order:
-            self._number, self._order = self._number + 1, (session_id, order_id)
-        return self._number
-
-    def id_of(self, session_id: int, number: int) -> int:
-        """The session's own id of the order with this number, 0 when it is not its order."""
-        return self._order[1] if number and number == self._number and session_id == self._order[0] else 0
 
 
 class ControlSession:
@@ -84,33 +70,38 @@ class ControlSession:
         self.answered_status_id = 0
         self.map_orders, self.check_orders = OrderNumbers(), OrderNumbers()
         self._newest_id = 0
-        self._received_s = -math.inf
+        self._seen_s = -math.inf
         self._former: Dict[int, int] = {}
 
-    def take(self, command: Command, now_s: float, newest_status_id: int) -> CommandResult:
-        """Judge a Command that arrived at now_s, after the Status with the given id."""
-        if command.end_session:
-            return self._end(command)
-        lifetime_s = self._parameters.command_lifetime_s
-        if not abs(now_s - command.seen_robot_time_s) <= lifetime_s or command.seen_status_id > newest_status_id:
+    def take(self, command: Command, now_s: float, answered_s: Optional[float]) -> CommandResult:
+        """Judge a Command that arrived at now_s and answers the Status that was sent at answered_s, None for none.
+
+        Both are times of the steady clock.
+        """
+        if command.id - self._newest_id_of(command) > MAX_ID_STEP:
             return CommandResult.EXPIRED
+        if command.end_session:
+            return self._end(command, answered_s)
+        if answered_s is None or not is_fresh(now_s - answered_s, self._parameters.command_lifetime_s):
+            return self._take_late(command)
         if command.session_id != self.session_id and not self._hand_over(command, now_s):
             return CommandResult.OUTDATED if self._is_former(command) else CommandResult.FOREIGN
         self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
         if command.id < self._newest_id:
             return CommandResult.OUTDATED
-        self._received_s = now_s
+        # The application has seen the robot at that time, and not later.
+        self._seen_s = max(self._seen_s, answered_s)
         return self._accept(command)
 
     def link_alive(self, now_s: float) -> bool:
-        """True while Commands of the application in control are received."""
-        return bool(self.session_id) and now_s - self._received_s <= self._parameters.link_timeout_s
+        """True while the application in control has seen the robot of at most link_timeout_s ago."""
+        return bool(self.session_id) and is_fresh(now_s - self._seen_s, self._parameters.link_timeout_s)
 
     def desired(self, now_s: float) -> SessionState:
         """What the robot shall do at now_s."""
         alive = self.link_alive(now_s)
-        map_order = self.map_orders.number_of(self.session_id, self.command.map_car_id)
-        check_order = self.check_orders.number_of(self.session_id, self.command.check_car_id)
+        map_order = self.map_orders.number_of(self.session_id, self.command.map_car_id, now_s)
+        check_order = self.check_orders.number_of(self.session_id, self.command.check_car_id, now_s)
         return SessionState(self.session_id, self.command, map_order, check_order, alive, self._stop_reason(alive))
 
     def _stop_reason(self, alive: bool) -> Problem:
@@ -132,23 +123,38 @@ class ControlSession:
         self.command = command
         return CommandResult.TAKEN
 
+    def _take_late(self, command: Command) -> CommandResult:
+        """A Command that comes too late moves nothing; one that only stops is never too late."""
+        if command.stop and command.session_id == self.session_id and command.id > self._newest_id:
+            self._accept(command)
+        return CommandResult.EXPIRED
+
     def _hand_over(self, command: Command, now_s: float) -> bool:
-        silent = now_s - self._received_s > self._parameters.takeover_after_s
+        silent = now_s - self._seen_s > self._parameters.takeover_after_s
         if self._is_former(command) or (self.session_id and not silent):
             return False
         self._remember(self.session_id, self._newest_id)
         self.session_id, self.command, self.refusal = command.session_id, Command(), NO_PROBLEM
         self._newest_id, self.answered_status_id = self._former.get(command.session_id, 0), 0
+        self._seen_s = -math.inf
         return True
 
-    def _end(self, command: Command) -> CommandResult:
-        # However old: a goodbye only stops, so it is never too late.
+    def _end(self, command: Command, answered_s: Optional[float]) -> CommandResult:
+        # A goodbye only stops, so it may be as old as the Statuses that are remembered.
+        if answered_s is None:
+            return CommandResult.EXPIRED
         if command.session_id != self.session_id or command.id < self._newest_id:
             return CommandResult.OUTDATED
         self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
         self._remember(self.session_id, command.id)
         self.session_id, self.command, self.refusal, self._newest_id = 0, Command(), NO_PROBLEM, 0
         return CommandResult.ENDED
+
+    def _newest_id_of(self, command: Command) -> int:
+        """Newest id of the Command's session; of one that is not known what its first may be."""
+        if command.session_id == self.session_id:
+            return self._newest_id
+        return self._former.get(command.session_id, MAX_FIRST_ID)
 
     def _is_former(self, command: Command) -> bool:
         return command.id <= self._former.get(command.session_id, 0)
@@ -169,7 +175,8 @@ def desired_state(desired: SessionState, default_speed_mps: float) -> DesiredSta
         stop=bool(desired.stop_reason), waypoint=command.waypoint or NO_WAYPOINT,
         max_speed_mps=default_speed_mps if command.max_speed_mps is None else command.max_speed_mps,
         key_height_m=math.nan if command.key_height_m is None else command.key_height_m,
-        press=command.press or NO_PRESS, map_car_id=desired.map_order, check_car_id=desired.check_order)
+        press=command.press or NO_PRESS, map_car_id=desired.map_order, check_car_id=desired.check_order,
+        resume_hold_id=command.resume_hold_id)
 
 
 def is_same(one: Optional[SessionState], other: SessionState) -> bool:

@@ -9,10 +9,10 @@ from mtr_core.requests import Press, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_dispatcher.command_codec import MAX_MESSAGE_BYTES, UndecodableError, decode
 from mtr_dispatcher.core import Dispatcher
-from mtr_dispatcher.inputs import Inputs
 from mtr_dispatcher.parameters import Parameters
 from mtr_dispatcher.session import CommandResult
-from mtr_dispatcher.status_builder import Identity
+from mtr_dispatcher.status.builder import Identity
+from mtr_dispatcher.status.inputs import Inputs
 from mtr_msgs.msg import CarCheck, CarEstimate, LocalizedPose, PeripheralsState, PressReport, Problem, RobotMode
 from mtr_proto import robot_link_pb2 as link
 
@@ -25,8 +25,13 @@ MOVED = Problem(code="car_locator.moved", names=["shift_cm"], values=["15"], tex
 @pytest.fixture
 def core():
     dispatcher = Dispatcher(Parameters(), Identity(7, "1.2.3", 0.25, 0.0))
-    dispatcher.status(Inputs(NOW_S))
+    dispatcher.status(inputs(NOW_S))
     return dispatcher
+
+
+def inputs(now_s, **known):
+    """In these tests both clocks show the same."""
+    return Inputs(now_s, steady_s=now_s, **known)
 
 
 def command_bytes(number=1, session_id=5, **content):
@@ -37,7 +42,7 @@ def command_bytes(number=1, session_id=5, **content):
 def status(core, **messages):
     for message in messages.values():
         message.header.stamp = genpy.Time.from_sec(NOW_S)
-    return link.Status.FromString(core.status(Inputs(NOW_S, **messages)))
+    return link.Status.FromString(core.status(inputs(NOW_S, **messages)))
 
 
 def codes(message):
@@ -83,7 +88,7 @@ def test_what_is_no_command_is_counted_and_reported(core, data):
 
 def test_report_of_a_bad_message_disappears_after_a_while(core):
     core.receive(b"\xff", NOW_S)
-    later = link.Status.FromString(core.status(Inputs(NOW_S + 3.5)))
+    later = link.Status.FromString(core.status(inputs(NOW_S + 3.5)))
     assert "bad_message" not in codes(later) and later.rejected_messages == 1
 
 
@@ -100,15 +105,15 @@ def test_notice_of_another_application_is_steady_while_it_is_received_now_and_th
     texts = set()
     for tenth in range(200):
         now_s = NOW_S + 0.1 * tenth
-        core.receive(link.Command(session_id=5, id=1, seen_status_id=1, seen_robot_time_s=now_s).SerializeToString(),
-                     now_s)
+        core.status(inputs(now_s))
+        answer = {"id": 1, "seen_status_id": core.status_id, "seen_robot_time_s": now_s}
+        core.receive(link.Command(session_id=5, **answer).SerializeToString(), now_s)
         if tenth % 50 == 0:
-            core.receive(link.Command(session_id=6, id=1, seen_status_id=1,
-                                      seen_robot_time_s=now_s).SerializeToString(), now_s)
-        notices = link.Status.FromString(core.status(Inputs(now_s))).notifications
+            core.receive(link.Command(session_id=6, **answer).SerializeToString(), now_s)
+        notices = link.Status.FromString(core.status(inputs(now_s))).notifications
         texts.add(tuple(notice.text for notice in notices if notice.code == "controlled_by_other"))
     assert len(texts) == 1 and "Application 5 controls" in texts.pop()[0]
-    later = link.Status.FromString(core.status(Inputs(NOW_S + 25.5)))
+    later = link.Status.FromString(core.status(inputs(NOW_S + 25.5)))
     assert "controlled_by_other" not in codes(later)
 
 
@@ -148,10 +153,8 @@ def test_pose_is_not_valid_before_localization_and_car_are(core, valid, car_stat
     assert not status(core, pose=LocalizedPose(valid=valid), car=CarEstimate(state=car_state)).state.pose_valid
 
 
-def test_stale_messages_tell_nothing(core):
-    pose, mode = LocalizedPose(valid=True), RobotMode(mode=RobotMode.FOLLOWING_WAYPOINT)
-    pose.header.stamp = mode.header.stamp = genpy.Time.from_sec(NOW_S - 0.6)
-    message = link.Status.FromString(core.status(Inputs(NOW_S, pose=pose, mode=mode)))
+def test_parts_that_are_silent_tell_nothing(core):
+    message = status(core)
     assert not message.HasField("mode") and not message.state.pose_valid
     assert {"state_machine_silent", "peripherals_silent"} <= codes(message)
 
@@ -236,12 +239,12 @@ def test_log_entry_goes_out_in_ten_status_messages(core):
 
 
 def test_confirmations_change_with_command_result_and_press(core):
-    before = core.confirmed(Inputs(NOW_S))
+    before = core.confirmed(inputs(NOW_S))
     core.receive(command_bytes(), NOW_S)
-    taken = core.confirmed(Inputs(NOW_S))
-    reached = core.confirmed(Inputs(NOW_S, mode=RobotMode(waypoint_result=2)))
-    pressed = core.confirmed(Inputs(NOW_S, peripherals=PeripheralsState(presses=[PressReport(id=1)])))
-    checked = core.confirmed(Inputs(NOW_S, check=CarCheck(id=1, state=2)))
+    taken = core.confirmed(inputs(NOW_S))
+    reached = core.confirmed(inputs(NOW_S, mode=RobotMode(waypoint_result=2)))
+    pressed = core.confirmed(inputs(NOW_S, peripherals=PeripheralsState(presses=[PressReport(id=1)])))
+    checked = core.confirmed(inputs(NOW_S, check=CarCheck(id=1, state=2)))
     assert taken not in (before, reached, pressed, checked)
 
 

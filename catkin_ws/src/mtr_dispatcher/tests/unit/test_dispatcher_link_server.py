@@ -8,7 +8,7 @@ import zmq
 
 from mtr_core.errors import ConfigurationError
 from mtr_dispatcher.command_codec import MAX_MESSAGE_BYTES
-from mtr_dispatcher.link_server import LinkError, LinkServer
+from mtr_dispatcher.link_server import LinkError, LinkServer, Ports
 from mtr_dispatcher.parameters import Parameters
 
 RECEIVE_LIMIT_S = 5.0
@@ -24,9 +24,9 @@ def free_ports():
 
 @pytest.fixture
 def link():
-    server, context = LinkServer(), zmq.Context()
     ports = free_ports()
-    server.bind("127.0.0.1", *ports)
+    server, context = LinkServer(Ports("127.0.0.1", *ports)), zmq.Context()
+    server.bind()
     sender = context.socket(zmq.PUB)
     sender.connect(f"tcp://127.0.0.1:{ports[1]}")
     deadline = time.monotonic() + RECEIVE_LIMIT_S
@@ -42,7 +42,8 @@ def sent(link, *frames):
     server, sender = link
     sender.send_multipart(frames)
     messages = []
-    while not messages:
+    deadline = time.monotonic() + RECEIVE_LIMIT_S
+    while not messages and time.monotonic() < deadline:
         messages = [data for data in server.receive(RECEIVE_LIMIT_S) if data != BEFORE]
     return messages
 
@@ -51,8 +52,28 @@ def test_message_arrives(link):
     assert sent(link, b"hello") == [b"hello"]
 
 
-def test_oversized_message_arrives_to_be_counted(link):
-    assert sent(link, bytes(MAX_MESSAGE_BYTES + 1)) == [bytes(MAX_MESSAGE_BYTES + 1)]
+def test_largest_message_arrives(link):
+    assert sent(link, bytes(MAX_MESSAGE_BYTES)) == [bytes(MAX_MESSAGE_BYTES)]
+
+
+def test_sender_of_an_oversized_message_is_cut_off(link):  # D1
+    server, sender = link
+    sender.send(bytes(MAX_MESSAGE_BYTES + 1))
+    deadline, received = time.monotonic() + RECEIVE_LIMIT_S, []
+    while b"again" not in received and time.monotonic() < deadline:
+        sender.send(b"again")
+        received += server.receive(0.01)
+    assert set(received) <= {BEFORE, b"again"} and b"again" in received
+
+
+def test_link_that_cuts_everybody_off_is_found_again(link):  # D1
+    server, sender = link
+    server.rebind()
+    deadline, received = time.monotonic() + RECEIVE_LIMIT_S, []
+    while not received and time.monotonic() < deadline:
+        sender.send(b"again")
+        received = server.receive(0.01)
+    assert b"again" in received
 
 
 def test_message_of_several_frames_is_no_command(link):
@@ -68,9 +89,9 @@ def test_busy_port_is_a_sentence():
         other.bind(("127.0.0.1", 0))
         other.listen()
         busy = other.getsockname()[1]
-        server = LinkServer()
+        server = LinkServer(Ports("127.0.0.1", free_ports()[0], busy))
         with pytest.raises(LinkError, match=f"port {busy} \\(command_port\\)"):
-            server.bind("127.0.0.1", free_ports()[0], busy)
+            server.bind()
 
 
 @pytest.mark.parametrize("bad", [{"status_port": 0}, {"command_port": 65536}, {"status_port": 3333},

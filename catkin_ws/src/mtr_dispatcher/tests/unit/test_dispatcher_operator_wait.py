@@ -29,9 +29,9 @@ def wait(wall):
 
 def answered(status_id, **content):
     session = ControlSession(Parameters())
-    session.take(Command(1, 1, status_id, 100.0), 100.0, status_id)
+    session.take(Command(1, 1, status_id, 100.0), 100.0, 100.0)
     if content:
-        session.take(Command(1, 2, status_id, 100.0, **content), 100.0, status_id)
+        session.take(Command(1, 2, status_id, 100.0, **content), 100.0, 100.0)
     return session
 
 

@@ -29,7 +29,9 @@ def session():
 
 
 def take(session, order, now_s=100.0):
-    return session.take(order, now_s, NEWEST_STATUS)
+    """Statuses are sent without end, each at the time that is its stamp."""
+    sent = order.seen_status_id <= NEWEST_STATUS and math.isfinite(order.seen_robot_time_s)
+    return session.take(order, now_s, order.seen_robot_time_s if sent else None)
 
 
 def test_without_application_the_robot_stops(session):
@@ -102,9 +104,11 @@ def test_goodbye_stops_the_robot_and_frees_control(session):
     assert take(session, command(2)) is CommandResult.TAKEN
 
 
-def test_goodbye_counts_however_old_it_is(session):
+def test_goodbye_counts_as_long_as_the_status_that_it_answers_is_remembered(session):  # D3
     take(session, command(1))
-    assert take(session, command(1, 2, seen_s=0.0, end_session=True)) is CommandResult.ENDED
+    assert take(session, command(1, 2, seen_s=math.nan, end_session=True)) is CommandResult.EXPIRED
+    assert session.session_id == 1
+    assert take(session, command(1, 2, seen_s=70.0, end_session=True)) is CommandResult.ENDED
 
 
 def test_goodbye_of_another_application_is_ignored(session):
@@ -164,10 +168,11 @@ def test_mapping_orders_of_two_sessions_differ(session):
 def test_orders_to_check_are_numbered_on_their_own(session):
     take(session, command(1, map_car_id=1, check_car_id=5))
     first = session.desired(100.0)
-    assert (first.map_order, first.check_order) == (1, 1)
     take(session, command(1, 2, map_car_id=1, check_car_id=6))
-    assert (session.desired(100.0).map_order, session.desired(100.0).check_order) == (1, 2)
-    assert session.check_orders.id_of(1, 2) == 6 and session.check_orders.id_of(1, 1) == 0
+    second = session.desired(100.0)
+    assert second.map_order == first.map_order and second.check_order > first.check_order
+    assert session.check_orders.id_of(1, second.check_order) == 6
+    assert session.check_orders.id_of(1, first.check_order) == 0
 
 
 def test_repetition_asks_for_the_same(session):

@@ -16,13 +16,13 @@ from .core import Decision
 from .observation import Car, CheckReport, Observation, Part
 
 OWNER = "state_machine"
-NS = 1e-9
 
 
-def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], tick_ns: int) -> Observation:
-    """What the newest message of each part, and the self-check's, tell at the tick."""
+def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], ages_s: Dict[Part, float]
+                ) -> Observation:
+    """What the newest message of each part, with its age, and the self-check's tell at the tick."""
     arrived = {part: message for part, message in messages.items() if message is not None}
-    age_s = {part: (tick_ns - message.header.stamp.to_nsec()) * NS for part, message in arrived.items()}
+    age_s = {part: ages_s[part] for part in arrived}
     complaint = {part: complaint_of(arrived[part]) for part, complaint_of in COMPLAINTS.items() if part in arrived}
     return Observation(
         desired=desired_state_from(arrived[Part.DISPATCHER]) if Part.DISPATCHER in arrived else DesiredState(),

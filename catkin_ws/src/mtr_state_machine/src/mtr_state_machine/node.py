@@ -52,7 +52,8 @@ class StateMachineNode:
 
     def _step(self, tick: int) -> None:
         messages = {part: topic.at(tick) for part, topic in self._inputs.items()}
-        decision = self._core.step(observation(messages, self._check.at(tick), tick))
+        ages_s = {part: topic.age_s(tick) for part, topic in self._inputs.items()}
+        decision = self._core.step(observation(messages, self._check.at(tick), ages_s))
         stamp = clock.stamp_of(tick)
         self._lock.publish(lock_message(decision, stamp))
         self._mode.publish(mode_message(decision, stamp))

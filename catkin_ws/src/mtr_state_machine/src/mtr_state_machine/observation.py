@@ -4,6 +4,7 @@ import enum
 from dataclasses import dataclass, field
 from typing import Dict
 
+from mtr_core.liveness import is_fresh
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import NO_WAYPOINT, DesiredState, GoalReport, Waypoint
 from mtr_core.states import CarState, Check
@@ -63,6 +64,6 @@ class Observation:
         """What is wrong when the part is silent or not well."""
         if part not in self.age_s:
             return problems.PART_NOT_REPORTED(part=part.value)
-        if self.age_s[part] > silent_after_s:
+        if not is_fresh(self.age_s[part], silent_after_s):
             return problems.PART_SILENT(part=part.value, age_s=self.age_s[part])
         return self.complaint.get(part, NO_PROBLEM)

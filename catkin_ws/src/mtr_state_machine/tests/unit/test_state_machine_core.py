@@ -330,6 +330,11 @@ def test_part_that_is_as_old_as_allowed_is_well(machine):
     assert machine.step(seen(age_s={part: 0.5 for part in Part})).state is not State.STARTING
 
 
+@pytest.mark.parametrize("age_s", [-60.0, -0.6, 0.6, float("nan"), float("inf")])
+def test_message_of_the_future_or_of_no_time_is_a_silent_part(machine, age_s):  # A10
+    assert machine.step(seen(age_s={part: age_s for part in Part})).state is State.STARTING
+
+
 def test_car_locator_that_had_failed_before_the_first_tick_is_a_fault(machine):
     assert machine.step(seen(car=Car(CarState.FAILED))).state is State.FAULT
 

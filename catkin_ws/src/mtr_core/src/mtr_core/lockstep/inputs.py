@@ -5,7 +5,7 @@ from typing import Any, NamedTuple, Optional
 
 import rospy
 
-from mtr_core.liveness import NS, Instant, steady_stamp_ns
+from mtr_core.liveness import NS, Instant, is_fresh, steady_stamp_ns
 from mtr_core.schedule import CLOCK_STEP, PRODUCER_LOST_AFTER_WALL_S, Slot
 
 from . import clock
@@ -44,6 +44,11 @@ class TickInput:
     def age_s(self, tick_ns: int) -> float:
         """Age at the tick of the message that `at` gave last, whatever was done to the robot's clock; inf for none."""
         return (clock.steady_at(tick_ns) - self._used.steady_stamp_ns) * NS if self._used else math.inf
+
+    def fresh_at(self, tick_ns: int, limit_s: float) -> Optional[Any]:
+        """The same as `at`, None when it no longer tells the present."""
+        message = self.at(tick_ns)
+        return message if is_fresh(self.age_s(tick_ns), limit_s) else None
 
     def _take(self, message: Any) -> None:
         stamp_ns = message.header.stamp.to_nsec()

@@ -1,19 +1,25 @@
 """The robot's messages to the bytes of a Status."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Iterable, NamedTuple, Optional
+from typing import Dict, Iterable, NamedTuple, Optional
 
-from mtr_core.problems import messages_of, problem_of
+from mtr_core.problems import problem_of
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Result
 from mtr_proto import robot_link_pb2 as link
 
+from ..command_codec import MAX_MESSAGE_BYTES
 from .car_pose import CarPose, UncertainPose, base_in_car
 from .inputs import CarFields, CheckFields, Inputs, ModeFields, PeripheralsFields, PoseFields
 from .log_buffer import Entry
 from .notices import Notice
+from .texts import cut, problem_messages
 
 MAX_ACCURACY_CM = 2 ** 31 - 1
+# Words of DriveStatus.
+MOTION_SOURCES = {"none": link.MOTION_SOURCE_NONE, "locked": link.MOTION_SOURCE_LOCKED,
+                  "manual": link.MOTION_SOURCE_MANUAL, "planner": link.MOTION_SOURCE_PLANNER}
+LEFT_OUT = ("log", "notifications", "presses")
 
 
 class Identity(NamedTuple):
@@ -39,6 +45,7 @@ class Report(NamedTuple):
 
     status_id: int
     fresh: Inputs
+    interventions: Dict[str, int]
     confirmations: Confirmations
     rejected_messages: int
     log: Iterable[Entry]
@@ -51,10 +58,13 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
         id=report.status_id, robot_session_id=identity.robot_session_id, sent_time_s=report.fresh.now_s,
         session_id=report.confirmations.session_id, command_id=report.confirmations.command_id,
         map_car_id=report.confirmations.map_car_id, rejected_messages=report.rejected_messages,
-        software_version=identity.software_version)
+        software_version=identity.software_version, steady_time_s=report.fresh.steady_s,
+        interventions=link.Interventions(**report.interventions), emergency_stop=report.fresh.emergency_stop)
     status.state.key_x, status.state.key_y = identity.key_x_m, identity.key_y_m
     _add_mode(status, report.fresh.mode, report.confirmations.session_id)
     _add_pose(status.state, report.fresh)
+    if report.fresh.drive is not None:
+        status.motion_source = MOTION_SOURCES.get(report.fresh.drive.source, link.MOTION_SOURCE_UNSPECIFIED)
     _add_car(status.car, report.fresh.car)
     _add_check(status.car_check, report.fresh.check, report.confirmations.check_car_id)
     _add_peripherals(status, report.fresh.peripherals, report.confirmations.session_id)
@@ -62,9 +72,20 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
         status.log.add(id=entry.id, stamp_s=entry.stamp_s, severity=entry.severity, source=entry.source,
                        text=entry.text)
     for notice in report.notices:
-        status.notifications.add(code=notice.code, severity=notice.severity, text=notice.problem.text,
-                                 problems=messages_of(notice.problem, link.Problem))
-    return status.SerializeToString()
+        status.notifications.add(code=notice.code, severity=notice.severity, text=cut(notice.problem.text),
+                                 problems=problem_messages(notice.problem))
+    return _bounded(status)
+
+
+def _bounded(status: link.Status) -> bytes:
+    """The bytes; what a Status can do without is left out of one that is too large for the application."""
+    data = status.SerializeToString()
+    for name in LEFT_OUT:
+        if len(data) <= MAX_MESSAGE_BYTES:
+            break
+        status.ClearField(name)
+        data = status.SerializeToString()
+    return data
 
 
 def _add_mode(status: link.Status, mode: Optional[ModeFields], session_id: int) -> None:
@@ -72,12 +93,12 @@ def _add_mode(status: link.Status, mode: Optional[ModeFields], session_id: int) 
         return
     status.mode = mode.mode
     status.state.is_mapping_car = mode.mapping
+    status.hold_id = mode.hold_id
     if session_id and mode.session_id == session_id and mode.waypoint_id:
         status.waypoint_id, status.waypoint_result = mode.waypoint_id, mode.waypoint_result
         if mode.waypoint_result in (Result.REFUSED, Result.BLOCKED):
-            status.waypoint_message = mode.message
-            status.waypoint_problems.extend(
-                messages_of(problem_of(mode.problems, mode.message), link.Problem))
+            status.waypoint_message = cut(mode.message)
+            status.waypoint_problems.extend(problem_messages(problem_of(mode.problems, mode.message)))
 
 
 def _add_pose(state: link.RobotState, fresh: Inputs) -> None:
@@ -86,7 +107,8 @@ def _add_pose(state: link.RobotState, fresh: Inputs) -> None:
     if pose is None:
         return
     state.stamp_s = pose.header.stamp.to_sec()
-    state.speed, state.yaw_rate_radps = pose.speed_mps, pose.yaw_rate_radps
+    if math.isfinite(pose.speed_mps) and math.isfinite(pose.yaw_rate_radps):
+        state.speed, state.yaw_rate_radps = pose.speed_mps, pose.yaw_rate_radps
     if fresh.car is None:
         return
     found = _in_car(pose, fresh.car)
@@ -127,8 +149,8 @@ def _add_check(message: link.CarCheck, check: Optional[CheckFields], check_car_i
     message.limit_m, message.limit_rad = check.limit_m, check.limit_rad
     if not check_car_id:
         return
-    message.id, message.state, message.message = check_car_id, check.state, check.message
-    message.problems.extend(messages_of(problem_of(check.problems, check.message), link.Problem))
+    message.id, message.state, message.message = check_car_id, check.state, cut(check.message)
+    message.problems.extend(problem_messages(problem_of(check.problems, check.message)))
     if math.isfinite(check.difference_m):
         message.difference_m, message.difference_rad = check.difference_m, check.difference_rad
 
@@ -136,11 +158,13 @@ def _add_check(message: link.CarCheck, check: Optional[CheckFields], check_car_i
 def _add_peripherals(status: link.Status, peripherals: Optional[PeripheralsFields], session_id: int) -> None:
     if peripherals is None:
         return
-    status.state.device_height = peripherals.key_height_m
+    if math.isfinite(peripherals.key_height_m):
+        status.state.device_height = peripherals.key_height_m
     status.state.pressed_device_buttons.extend(peripherals.pressed_buttons)
     if math.isfinite(peripherals.battery):
         status.state.battery_level = round(100.0 * min(max(peripherals.battery, 0.0), 1.0))
     for press in peripherals.presses:
         if session_id and press.session_id == session_id:
-            status.presses.add(id=press.id, start_s=press.start.to_sec(), end_s=press.end.to_sec(), error=press.error,
-                               problems=messages_of(problem_of(press.problems, press.error), link.Problem))
+            status.presses.add(id=press.id, start_s=press.start.to_sec(), end_s=press.end.to_sec(),
+                               error=cut(press.error),
+                               problems=problem_messages(problem_of(press.problems, press.error)))

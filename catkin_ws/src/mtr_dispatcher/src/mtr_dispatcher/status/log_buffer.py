@@ -5,6 +5,8 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Deque, List
 
+from .texts import cut
+
 KEPT_ENTRIES = 50
 # A lost Status loses no sentence.
 REPETITIONS = 10
@@ -35,6 +37,7 @@ class LogBuffer:
 
     def add(self, stamp_s: float, severity: int, source: str, text: str) -> None:
         """Take a sentence, unless the same one came a moment ago."""
+        source, text = cut(source), cut(text)
         with self._lock:
             for entry in self._entries:
                 if (entry.source, entry.text) == (source, text) and abs(stamp_s - entry.stamp_s) < QUIET_S:

@@ -6,15 +6,19 @@ from typing import Dict, Iterator, List, NamedTuple, Tuple
 from mtr_core.problems import Problem, problem_of
 from mtr_core.states import State
 
-from . import problems
+from .. import problems
+from ..parameters import Parameters
+from ..session import SessionState
+from .emergency import EmergencyStop
 from .inputs import Inputs
-from .session import SessionState
 
 INFO, WARNING, ERROR = 1, 2, 3
 # A single event, such as a rejected message, is shown this long.
 SHOWN_S = 3.0
 # An application that waits for the robot sends now and then; between two of its Commands the notice stays.
 FOREIGN_SHOWN_S = 10.0
+# One of them is named; a stranger can invent any number.
+MAX_FOREIGN = 16
 
 
 class Notice(NamedTuple):
@@ -48,7 +52,10 @@ class ForeignApplications:
 
     def received(self, controlling_id: int, session_id: int, now_s: float) -> Problem:
         """A Command of one came; the sentence about it."""
+        self._received_s.pop(session_id, None)
         self._received_s[session_id] = now_s
+        while len(self._received_s) > MAX_FOREIGN:
+            del self._received_s[next(iter(self._received_s))]
         return _foreign_problem(controlling_id, session_id)
 
     def notices(self, controlling_id: int, now_s: float) -> List[Notice]:
@@ -64,8 +71,10 @@ def _foreign_problem(controlling_id: int, session_id: int) -> Problem:
     return problems.FOREIGN_APPLICATION(controlling=f"{controlling_id:x}", foreign=f"{session_id:x}")
 
 
-def standing_notices(desired: SessionState, fresh: Inputs, low_battery: float) -> Iterator[Notice]:
+def standing_notices(desired: SessionState, fresh: Inputs, parameters: Parameters) -> Iterator[Notice]:
     """Notices that hold as long as their cause."""
+    if fresh.mode is not None and fresh.mode.hold_id:
+        yield Notice("held", WARNING, problem_of(fresh.mode.problems, fresh.mode.message))
     if desired.session_id and not desired.link_alive:
         yield Notice("link_lost", ERROR, desired.stop_reason)
     elif desired.session_id and desired.stop_reason and not desired.command.stop:
@@ -74,7 +83,9 @@ def standing_notices(desired: SessionState, fresh: Inputs, low_battery: float) -
     if fresh.pose is not None and not fresh.pose.valid:
         yield Notice("not_localized", ERROR, problem_of(fresh.pose.problems, fresh.pose.message)
                      or problems.POSITION_UNKNOWN())
-    yield from _peripherals_notices(fresh, low_battery)
+    yield from _peripherals_notices(fresh, parameters.low_battery)
+    if parameters.warn_without_emergency_stop and fresh.emergency_stop is EmergencyStop.ABSENT:
+        yield Notice("no_emergency_stop", WARNING, problems.NO_EMERGENCY_STOP())
 
 
 def _mode_notices(fresh: Inputs) -> Iterator[Notice]:
@@ -82,7 +93,7 @@ def _mode_notices(fresh: Inputs) -> Iterator[Notice]:
         yield Notice("state_machine_silent", ERROR, problems.STATE_MACHINE_SILENT())
     elif fresh.mode.mode == State.FAULT:
         yield Notice("fault", ERROR, problem_of(fresh.mode.problems, fresh.mode.message))
-    elif fresh.mode.message:
+    elif fresh.mode.message and not fresh.mode.hold_id:
         yield Notice("mode", INFO, problem_of(fresh.mode.problems, fresh.mode.message))
 
 

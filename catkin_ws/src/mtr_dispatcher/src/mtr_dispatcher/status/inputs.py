@@ -1,8 +1,10 @@
 """What the dispatcher knows of the robot when it writes a Status: the fields that it reads of the nodes' messages."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Any, NamedTuple, Optional, Protocol, Sequence, TypeVar
+from typing import Any, NamedTuple, Optional, Protocol, Sequence
 
 from mtr_core.problems import ProblemFields
+
+from .emergency import EmergencyStop
 
 # Age at which a periodic message no longer tells the present.
 STALE_AFTER_S = 0.5
@@ -59,6 +61,7 @@ class ModeFields(Stamped, Protocol):
     waypoint_result: int
     message: str
     problems: Sequence[ProblemFields]
+    hold_id: int
 
 
 class PressFields(Protocol):
@@ -82,6 +85,8 @@ class PeripheralsFields(Stamped, Protocol):
     battery: float
     message: str
     problems: Sequence[ProblemFields]
+    manual_lifts: int
+    firmware_resets: int
 
 
 class CheckFields(Stamped, Protocol):
@@ -97,11 +102,30 @@ class CheckFields(Stamped, Protocol):
     problems: Sequence[ProblemFields]
 
 
-M = TypeVar("M", bound=Stamped)
+class DriveFields(Stamped, Protocol):
+    """Of DriveStatus: who moves the wheels, and counts since drive control's start."""
+
+    source: str
+    manual_drives: int
+    blockages: int
+    lock_stops: int
+
+
+class MotionFields(Stamped, Protocol):
+    """Of MotionStatus: counts since the planner's start."""
+
+    replans: int
 
 
 class Inputs(NamedTuple):
-    """The messages of their topics that hold at now_s, None before the first."""
+    """The messages of their topics that tell the present, None for one that is too old or never came.
+
+    Attributes:
+        now_s: the robot's clock.
+        steady_s: the steady clock at that instant.
+        clock_steps: times that the robot's clock was set.
+        emergency_stop: as its owners say.
+    """
 
     now_s: float
     pose: Optional[PoseFields] = None
@@ -109,13 +133,8 @@ class Inputs(NamedTuple):
     mode: Optional[ModeFields] = None
     peripherals: Optional[PeripheralsFields] = None
     check: Optional[CheckFields] = None
-
-    def fresh(self) -> "Inputs":
-        """The same without stale messages: None stands for one that is too old."""
-        return Inputs(self.now_s, self._fresh(self.pose), self._fresh(self.car), self._fresh(self.mode),
-                      self._fresh(self.peripherals), self._fresh(self.check))
-
-    def _fresh(self, message: Optional[M]) -> Optional[M]:
-        if message is None or self.now_s - message.header.stamp.to_sec() > STALE_AFTER_S:
-            return None
-        return message
+    drive: Optional[DriveFields] = None
+    motion: Optional[MotionFields] = None
+    steady_s: float = 0.0
+    clock_steps: int = 0
+    emergency_stop: EmergencyStop = EmergencyStop.ABSENT

@@ -1,0 +1,2 @@
+"""What goes into a Status."""
+# SPDX-License-Identifier: Apache-2.0

@@ -1,0 +1,259 @@
+"""What the link does while messages are lost, clocks are set and strangers send."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+import pytest
+
+from mtr_core.problems import NO_PROBLEM, Problem
+from mtr_core.requests import Press, Waypoint
+from mtr_core.se2 import Pose2
+from mtr_dispatcher.command import MAX_BUTTON, Command
+from mtr_dispatcher.core import Dispatcher
+from mtr_dispatcher.order_numbers import OrderNumbers
+from mtr_dispatcher.parameters import Parameters
+from mtr_dispatcher.sent_statuses import KEPT, SentStatuses
+from mtr_dispatcher.session import MAX_FIRST_ID, MAX_ID_STEP, CommandResult, ControlSession
+from mtr_dispatcher.status.builder import Identity
+from mtr_dispatcher.status.emergency import EmergencyStop, EmergencyWatch
+from mtr_dispatcher.status.inputs import Inputs
+from mtr_dispatcher.status.interventions import Interventions
+from mtr_dispatcher.status.notices import MAX_FOREIGN, ForeignApplications
+from mtr_dispatcher.status.texts import MAX_TEXT
+from mtr_dispatcher.throttle import Throttle
+from mtr_msgs.msg import CarEstimate, DriveStatus, MotionStatus, PeripheralsState, RobotMode
+from mtr_msgs.msg import Problem as ProblemMessage
+from mtr_proto import robot_link_pb2 as link
+
+START_S = 100.0
+STEPS_S = [0.05, -0.05, 0.4, -0.4, 60.0, -60.0, 3600.0, -3600.0]
+MAX_STATUS_BYTES = 64 * 1024
+
+
+class Link:
+    """A dispatcher whose steady clock goes on by itself; the robot's clock is what lies above it."""
+
+    def __init__(self, offset_s=1000.0):
+        self.core = Dispatcher(Parameters(), Identity(7, "1.2.3", 0.25, 0.0))
+        self.steady_s, self.offset_s = START_S, offset_s
+
+    def status(self, **known):
+        data = self.core.status(Inputs(self.steady_s + self.offset_s, steady_s=self.steady_s, **known))
+        return link.Status.FromString(data)
+
+    def command(self, answered, number=1, session_id=5, **content):
+        data = link.Command(session_id=session_id, id=number, seen_status_id=answered.id,
+                            seen_robot_time_s=answered.sent_time_s, **content).SerializeToString()
+        return self.core.receive(data, self.steady_s)[0]
+
+    def moves(self):
+        return not self.core.desired(self.steady_s).stop_reason
+
+
+def drive_order():
+    return link.Waypoint(id=1, x=3.0, y=0.0, heading=0.0)
+
+
+@pytest.mark.parametrize("resend_s", [0.05, 0.2, 0.3, 0.999])
+def test_moving_order_ends_one_second_after_the_status_that_it_answers_whatever_is_lost(resend_s):  # A5
+    robot = Link()
+    last_seen = robot.status()
+    robot.command(last_seen, waypoint=drive_order())
+    assert robot.moves()
+    moved_until_s, next_s = START_S, START_S + resend_s
+    while robot.steady_s < START_S + 3.0:
+        robot.steady_s += 0.01
+        robot.status()
+        if robot.steady_s >= next_s:
+            robot.command(last_seen, waypoint=drive_order())
+            next_s += resend_s
+        if robot.moves():
+            moved_until_s = robot.steady_s
+    assert moved_until_s - START_S <= 1.0 + 1e-6
+
+
+def test_command_at_the_end_of_its_life_does_not_prolong_the_link():  # A5
+    robot = Link()
+    robot.command(robot.status())
+    answered = robot.status()
+    robot.steady_s += 0.999
+    assert robot.command(answered) is CommandResult.REPEATED and robot.moves()
+    robot.steady_s += 0.002
+    assert not robot.moves()
+
+
+@pytest.mark.parametrize("step_s", STEPS_S)
+def test_setting_the_robots_clock_changes_nothing_of_the_link(step_s):  # A10
+    robot = Link(offset_s=1e6)
+    answered = robot.status()
+    robot.command(answered, waypoint=drive_order())
+    robot.offset_s += step_s
+    assert robot.moves()
+    robot.steady_s += 0.5
+    assert robot.command(answered, waypoint=drive_order()) is CommandResult.REPEATED
+    answered = robot.status()
+    robot.steady_s += 0.5
+    assert robot.command(answered, waypoint=drive_order()) is CommandResult.REPEATED
+    robot.steady_s += 0.6
+    assert not robot.moves()
+
+
+def test_stop_is_never_too_late():  # A6
+    robot = Link()
+    answered = robot.status()
+    robot.command(answered, waypoint=drive_order())
+    robot.steady_s += 0.9
+    robot.command(robot.status(), waypoint=drive_order())
+    robot.steady_s += 0.5
+    assert robot.command(answered, 2, waypoint=drive_order(), stop=True) is CommandResult.EXPIRED
+    assert robot.core.desired(robot.steady_s).command.stop and not robot.moves()
+    assert robot.command(answered, 3, waypoint=drive_order()) is CommandResult.EXPIRED
+    assert robot.core.desired(robot.steady_s).command.stop
+
+
+def test_answer_with_the_time_of_another_status_has_expired():
+    statuses = SentStatuses()
+    statuses.add(5, 1000.0, 10.0)
+    assert statuses.answered_s((5, 999.9)) == 10.0
+    assert [statuses.answered_s(answer) for answer in ((5, 990.0), (5, math.nan), (4, 1000.0))] == [None] * 3
+
+
+def test_statuses_of_the_last_half_minute_are_remembered():
+    statuses = SentStatuses()
+    for number in range(1, KEPT + 2):
+        statuses.add(number, 1.0, 2.0)
+    assert statuses.answered_s((1, 1.0)) is None and statuses.answered_s((2, 1.0)) == 2.0
+
+
+@pytest.mark.parametrize("spoofed_id", [2 ** 64 - 1, 2 ** 63, 1 + MAX_ID_STEP + 1])
+@pytest.mark.parametrize("end_session", [False, True])
+def test_id_out_of_turn_neither_blocks_nor_ends_the_owners_session(spoofed_id, end_session):  # D3
+    robot = Link()
+    answered = robot.status()
+    robot.command(answered, 1)
+    assert robot.command(answered, spoofed_id, end_session=end_session) is CommandResult.EXPIRED
+    assert robot.command(answered, 2, waypoint=drive_order()) is CommandResult.TAKEN and robot.moves()
+
+
+def test_first_id_of_a_session_is_bounded():  # D3
+    robot = Link()
+    assert robot.command(robot.status(), MAX_FIRST_ID + MAX_ID_STEP + 1) is CommandResult.EXPIRED
+    assert robot.command(robot.status(), 5000) is CommandResult.TAKEN
+
+
+BAD_BUTTONS = {"twice": (1, 1), "too-high": (MAX_BUTTON + 1,), "huge": (2 ** 32 - 1,), "zero": (0,)}
+
+
+@pytest.mark.parametrize("buttons", BAD_BUTTONS.values(), ids=BAD_BUTTONS)
+def test_impossible_buttons_are_refused(buttons):  # N7
+    session = ControlSession(Parameters())
+    press = Press(1, 1, buttons)
+    assert session.take(Command(1, 1, 1, 1.0, press=press), 1.0, 1.0) is CommandResult.REFUSED
+
+
+def test_order_numbers_go_on_after_a_restart():  # A9a
+    before, after = OrderNumbers(), OrderNumbers()
+    old = [before.number_of(5, order_id, 10.0) for order_id in (1, 2, 3)]
+    new = after.number_of(5, 1, 11.0)
+    assert len(set(old)) == 3 and new not in old and new > max(old)
+    assert after.id_of(5, old[0]) == 0 and after.id_of(5, new) == 1
+
+
+def test_old_check_is_not_confirmed_by_a_dispatcher_that_was_restarted():  # A9a
+    old = Link()
+    old.command(old.status(), check_car_id=1)
+    order = old.core.desired(old.steady_s).check_order
+    new = Link()
+    new.steady_s += 5.0
+    new.command(new.status(), check_car_id=1)
+    assert new.core.session.check_orders.id_of(5, order) == 0
+
+
+def test_flood_of_different_messages_is_one_line_of_log_per_kind():  # D4
+    throttle = Throttle(10.0)
+    said = [throttle.passed("bad", f"A message of {size} bytes.", 0.0005 * size) for size in range(10_000)]
+    assert len([sentence for sentence in said if sentence]) == 1 and throttle.passed("other", "x", 5.0) == "x"
+    assert throttle.passed("bad", "Once more.", 10.0) == "Once more. (9999 more of this kind before.)"
+
+
+def test_status_stays_readable_whatever_nodes_and_strangers_say():  # D5
+    robot = Link()
+    robot.command(robot.status(), 1)
+    robot.command(robot.status(), 2, press=link.ButtonPress(id=1, buttons=range(1, 60_001)))
+    for number in range(50):
+        robot.core.log.add(float(number), 2, "noisy", f"{number}{'x' * 7000}")
+    long = ProblemMessage(code="state_machine.long", text="y" * 100_000, names=["z"] * 1000, values=["v" * 1000] * 1000)
+    mode = RobotMode(mode=RobotMode.FAULT, message="y" * 100_000, problems=[long] * 100)
+    message = robot.status(mode=mode)
+    assert len(message.SerializeToString()) <= MAX_STATUS_BYTES
+    assert all(len(entry.text) <= MAX_TEXT for entry in message.log) and message.log
+    assert all(len(notice.text) <= MAX_TEXT for notice in message.notifications) and message.notifications
+    assert len(robot.core.desired(robot.steady_s).stop_reason.text) <= 2 * MAX_TEXT
+
+
+def test_status_that_is_still_too_large_goes_without_what_can_be_missed():  # D5
+    robot = Link()
+    car = CarEstimate(state=CarEstimate.LOCATED, outline_x=[1.0] * 7950, outline_y=[2.0] * 7950)
+    for number in range(50):
+        robot.core.log.add(float(number), 2, "noisy", f"{number}{'x' * 7000}")
+    message = robot.status(car=car)
+    assert len(message.SerializeToString()) <= MAX_STATUS_BYTES and not message.log and message.id
+
+
+def test_sixteen_strangers_are_remembered():  # D6
+    strangers = ForeignApplications()
+    for number in range(100_000):
+        strangers.received(1, 2 + number, 5.0)
+    assert len(strangers._received_s) == MAX_FOREIGN and strangers.notices(1, 5.0)
+
+
+def test_steady_time_hold_and_source_are_told():
+    robot = Link(offset_s=500.0)
+    message = robot.status(mode=RobotMode(hold_id=77, message="Driven by hand."), drive=DriveStatus(source="manual"))
+    assert (message.steady_time_s, message.sent_time_s) == (START_S, START_S + 500.0)
+    assert (message.hold_id, message.motion_source) == (77, link.MOTION_SOURCE_MANUAL)
+    assert {notice.code: notice.text for notice in message.notifications}["held"] == "Driven by hand."
+
+
+def test_interventions_only_grow_when_their_nodes_start_anew():
+    robot = Link()
+    robot.status(drive=DriveStatus(manual_drives=4, blockages=2), motion=MotionStatus(replans=1))
+    robot.status(drive=DriveStatus(manual_drives=5, blockages=2), motion=MotionStatus(replans=3),
+                 peripherals=PeripheralsState(manual_lifts=1))
+    message = robot.status(drive=DriveStatus(manual_drives=1, lock_stops=1), clock_steps=2,
+                           peripherals=PeripheralsState(manual_lifts=2, firmware_resets=1))
+    counts = message.interventions
+    assert (counts.manual_drives, counts.blockages, counts.lock_stops, counts.replans) == (2, 0, 1, 2)
+    assert (counts.manual_lifts, counts.firmware_resets, counts.clock_steps) == (1, 1, 2)
+
+
+def test_node_that_is_silent_changes_no_intervention():
+    counts = Interventions()
+    counts.update(Inputs(1.0, drive=DriveStatus(blockages=1)))
+    counts.update(Inputs(2.0, drive=DriveStatus(blockages=2)))
+    assert counts.update(Inputs(3.0))["blockages"] == 1
+
+
+def test_emergency_stop_is_as_its_owners_say_and_engaged_when_they_are_silent():
+    watch = EmergencyWatch(expected=False)
+    assert watch.at(1.0) is EmergencyStop.ABSENT
+    watch.received("controller_input", False, 1.0)
+    assert watch.at(1.4) is EmergencyStop.RELEASED and watch.at(1.6) is EmergencyStop.ENGAGED
+    watch.received("controller_input", True, 2.0)
+    assert watch.at(2.0) is EmergencyStop.ENGAGED
+    assert EmergencyWatch(expected=True).at(1.0) is EmergencyStop.ENGAGED
+
+
+@pytest.mark.parametrize("warns, state, told", [
+    (True, EmergencyStop.ABSENT, True), (False, EmergencyStop.ABSENT, False), (True, EmergencyStop.RELEASED, False)])
+def test_operator_reads_that_there_is_no_emergency_stop(warns, state, told):  # A4
+    core = Dispatcher(Parameters(warn_without_emergency_stop=warns), Identity(7, "1.2.3", 0.25, 0.0))
+    message = link.Status.FromString(core.status(Inputs(1.0, emergency_stop=state)))
+    assert ("no_emergency_stop" in {notice.code for notice in message.notifications}) is told
+    assert message.emergency_stop == state
+
+
+def test_waypoint_and_its_problem_are_untouched():
+    session = ControlSession(Parameters())
+    order = Command(1, 1, 1, 1.0, waypoint=Waypoint(1, "application/1", "car", Pose2(1.0, 2.0, 3.0)), resume_hold_id=9)
+    assert session.take(order, 1.0, 1.0) is CommandResult.TAKEN
+    assert session.desired(1.0).stop_reason == NO_PROBLEM == Problem() and session.command.resume_hold_id == 9
