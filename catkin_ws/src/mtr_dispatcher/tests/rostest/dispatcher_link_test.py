@@ -116,7 +116,7 @@ class DispatcherLink(unittest.TestCase):
     def test_silent_link_stops_the_robot_until_the_same_command_arrives(self):
         silent_since = time.monotonic()
         lost = self.application.status_where(lambda status: "link_lost" in codes(status))
-        self.assertTrue(0.8 < time.monotonic() - silent_since < 3.0)
+        self.assertTrue(0.7 < time.monotonic() - silent_since < 1.5)  # A5
         self.assertTrue(self.eventually(lambda: self.lock.engaged and not self.desired.link_alive))
         self.application.send(lost, waypoint=link.Waypoint(id=1, x=1.0, y=2.0, heading=0.5))
         self.assertTrue(self.eventually(lambda: not self.lock.engaged and self.desired.waypoint.id == 1))
@@ -131,7 +131,7 @@ class DispatcherLink(unittest.TestCase):
     def test_bad_messages_are_counted_reported_and_ignored(self):
         before = self.application.status().rejected_messages
         self.application.send_bytes(b"\xff\xff")
-        self.application.send_bytes(bytes(100_000))
+        self.application.send_bytes(bytes(60_000))
         status = self.application.status_where(lambda status: status.rejected_messages == before + 2)
         self.assertIn("bad_message", codes(status))
         self.assertFalse(self.lock.engaged)
