@@ -99,7 +99,8 @@ class Course:
                 self.send(data, self.now_s - 0.013)
                 wait_for(lambda: self.link.frames_received > before)  # noqa: B023
             if self.step % 5 == 0:
-                events += self.link.observe(RobotStatus(self.step, 1, round(self.now_s, 6)))
+                now_s = round(self.now_s, 6)
+                events += self.link.observe(RobotStatus(self.step, 1, now_s, sent_s=now_s, steady_s=now_s))
         return events
 
 

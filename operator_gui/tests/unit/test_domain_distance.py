@@ -1,6 +1,7 @@
 """Distance at an instant: interpolation and uncertainty."""
 # SPDX-License-Identifier: Apache-2.0
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -96,3 +97,37 @@ def test_uncertainty_on_an_oblique_ray_counts_the_covariance():
     ray = Ray(0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
     sample = PoseSample(1.0, Pose(2.0, 2.0, -3 * math.pi / 4), 0.0, 0.2, 0.0, 0.25, 0.0, (0.01, 0.01, -0.009))
     assert measure(ray, sample, 0.0).uncertainty_m == pytest.approx(math.sqrt(0.001))
+
+
+@pytest.mark.parametrize("name", ["x", "y", "heading", "stamp_s", "speed_mps", "key_x"])
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+def test_n3_pose_that_is_not_finite_is_not_remembered(name, value):
+    poses = history(status(1.0), replace(status(1.1), **{name: value}), status(1.2))
+    assert [sample.stamp_s for sample in poses.samples] == [1.0, 1.2]
+
+
+@pytest.mark.parametrize("time_s", [math.nan, math.inf, -math.inf])
+def test_pose_at_an_instant_that_is_not_known_is_unknown(time_s):
+    with pytest.raises(PoseUnknown, match="not known"):
+        history(status(1.0), status(1.2)).at(time_s)
+
+
+def timed(steady_s, step_s, pose_age_s=0.1):
+    """Status of a robot whose clock is ahead of its steady clock; its pose is some time old."""
+    was_set = steady_s >= 2.0
+    seen_before = steady_s - pose_age_s < 2.0
+    stamp_s = steady_s - pose_age_s + (0.0 if seen_before or not was_set else step_s)
+    return replace(status(stamp_s, 3.0 - 0.5 * (steady_s - pose_age_s)), steady_s=steady_s,
+                   sent_s=steady_s + (step_s if was_set else 0.0))
+
+
+@pytest.mark.parametrize("step_s", [0.02, 0.05, 0.4, 3600.0, -0.02, -0.09, -0.4, -3600.0])
+def test_b4_no_pose_lies_between_poses_of_before_and_after_the_clock_was_set(step_s):
+    poses = history(*(timed(1.0 + 0.1 * index, step_s) for index in range(40)))
+    assert poses.samples[0].stamp_s - step_s > 2.0
+    assert all(sample.pose.y == pytest.approx(3.0 - 0.5 * (sample.stamp_s - step_s)) for sample in poses.samples)
+
+
+def test_clock_that_is_not_set_forgets_no_pose():
+    poses = history(*(timed(1.0 + 0.1 * index, 0.004) for index in range(40)))
+    assert len(poses.samples) == 40

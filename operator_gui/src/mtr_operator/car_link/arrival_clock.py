@@ -12,7 +12,7 @@ import math
 import statistics
 from typing import NamedTuple
 
-from .clock_map import MIN_PAIRS, MIN_SPAN_S, ClockMap
+from .clock_map import LEAST_WAY_S, MIN_PAIRS, MIN_SPAN_S, ClockMap
 
 # 10 s of Status.
 _WINDOW = 100
@@ -66,7 +66,7 @@ class ArrivalClockMap(ClockMap):
             self._rate = 1.0
             self._origin = max(self._pairs, key=lambda pair: pair.stamp_s - pair.arrival_s)
         delay_s = statistics.median(self.to_robot(pair.arrival_s) - pair.stamp_s for pair in self._pairs)
-        self.sigma_s = math.hypot(delay_s, self._rate * _READ_DELAY_S)
+        self.sigma_s = math.hypot(delay_s, self._rate * _READ_DELAY_S, self._rate * LEAST_WAY_S)
 
 
 def _edge_over_mean(pairs: list[_Pair]) -> tuple[_Pair, _Pair]:

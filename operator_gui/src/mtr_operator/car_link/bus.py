@@ -53,7 +53,7 @@ class CanCarLink(CarLink, FrameSink):
             return
         self.profile = load_profile(self._profile_name)
         self._watch = LockWatch(self.profile)
-        reader = CanReader(lambda: open_adapter(self._settings), self)
+        reader = CanReader(lambda: open_adapter(self._settings), self, self._settings.interface)
         reader.start()
         self._reader = reader
 
@@ -70,6 +70,9 @@ class CanCarLink(CarLink, FrameSink):
             if self._error_frames != self._seen_error_frames:
                 self._seen_error_frames = self._error_frames
                 self._suspect_until_s = status.stamp_s + _ERROR_FRAME_EFFECT_S
+            elif self._suspect_until_s > status.stamp_s + _ERROR_FRAME_EFFECT_S:
+                # The robot's clock was set back.
+                self._suspect_until_s = -math.inf
             return watch.release(time.monotonic())
 
     @property

@@ -7,6 +7,8 @@ from abc import ABC, abstractmethod
 # A map is used once it rests on this many Statuses over this time of the robot's clock.
 MIN_PAIRS = 20
 MIN_SPAN_S = 2.0
+# Even the fastest Status is late by its way: over Wi-Fi 1 to 5 ms, which no map can tell from the clocks' offset.
+LEAST_WAY_S = 0.003
 
 
 class ClockMap(ABC):

@@ -1,4 +1,4 @@
-"""Thread that reads the CAN adapter, stamps each frame at its arrival, and opens the adapter again when it has gone."""
+"""Thread that reads the CAN adapter, stamps each frame, and opens the adapter again when it has gone."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import can
 from mtr_operator.domain.errors import ConnectionFailed
 
 from .adapter import shut_down
+from .frame_stamps import frame_time
 from .lock_watch import CanFrame
 from .slcan import FLAG_BUS_ERROR, FLAG_ERROR_PASSIVE, StampedSlcanBus
 
@@ -41,11 +42,12 @@ class FrameSink(ABC):
 
 
 class CanReader:
-    """Owns the bus between start() and stop()."""
+    """Owns the bus between start() and stop(). interface: python-can's word, which tells how frames are stamped."""
 
-    def __init__(self, open_bus: Callable[[], can.BusABC], sink: FrameSink):
+    def __init__(self, open_bus: Callable[[], can.BusABC], sink: FrameSink, interface: str = ""):
         self._open_bus = open_bus
         self._sink = sink
+        self._interface = interface
         self._bus: can.BusABC | None = None
         self._stopping = threading.Event()
         self._thread: threading.Thread | None = None
@@ -88,8 +90,9 @@ class CanReader:
         if message is not None and message.is_error_frame:
             self._sink.error_frame()
         elif message is not None and not message.is_remote_frame:
-            self._sink.frame(CanFrame(message.arbitration_id, message.is_extended_id, bytes(message.data), now,
-                                      getattr(bus, "stamp_ms", None)))
+            arrival_s, stamp_s = frame_time(self._interface, message, now)
+            self._sink.frame(CanFrame(message.arbitration_id, message.is_extended_id, bytes(message.data), arrival_s,
+                                      getattr(bus, "stamp_ms", None), stamp_s))
         if isinstance(bus, StampedSlcanBus):
             self._watch_flags(bus, now)
 

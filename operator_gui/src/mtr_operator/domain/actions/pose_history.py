@@ -7,6 +7,7 @@ import math
 from collections import deque
 from dataclasses import dataclass
 
+from ..clock_step import clock_was_set
 from ..geometry.pose import Pose, wrap_angle
 from ..robot_status import RobotStatus
 
@@ -14,6 +15,8 @@ from ..robot_status import RobotStatus
 # longer gap it would be a guess.
 MAX_GAP_S = 0.5
 KEPT_S = 60.0
+# A pose is at most that old when it is sent. So long after the robot's clock was set a stamp may be one of before.
+_MAX_AGE_S = 1.0
 
 
 class PoseUnknown(Exception):
@@ -42,10 +45,22 @@ class PoseHistory:
 
     def __init__(self) -> None:
         self._samples: deque[PoseSample] = deque()
+        self._before: RobotStatus | None = None
+        self._ambiguous_until_s = -math.inf
 
     def add(self, status: RobotStatus) -> None:
-        """Remember the pose of a Status, unless it is invalid or not newer than the last one."""
-        if not status.pose_valid or (self._samples and status.stamp_s <= self._samples[-1].stamp_s):
+        """Remember the pose of a Status, unless it is invalid, not finite or not newer than the last one.
+
+        When the robot's clock was set, all before is forgotten, and no pose is taken until its stamp can only be one of
+        the clock as it is now.
+        """
+        before, self._before = self._before, status
+        if before is not None and clock_was_set(before, status):
+            self._samples.clear()
+            self._ambiguous_until_s = status.steady_s + _MAX_AGE_S
+        if status.steady_s < self._ambiguous_until_s or not _is_known(status):
+            return
+        if self._samples and status.stamp_s <= self._samples[-1].stamp_s:
             return
         self._samples.append(PoseSample(
             status.stamp_s, Pose(status.x, status.y, status.heading), status.speed_mps, status.position_sigma_m,
@@ -54,6 +69,11 @@ class PoseHistory:
         while status.stamp_s - self._samples[0].stamp_s > KEPT_S:
             self._samples.popleft()
 
+    @property
+    def samples(self) -> tuple[PoseSample, ...]:
+        """All that are remembered."""
+        return tuple(self._samples)
+
     def clear(self) -> None:
         """Forget everything: the robot's clock or the Car's frame is another one now."""
         self._samples.clear()
@@ -61,6 +81,8 @@ class PoseHistory:
     def at(self, time_s: float) -> PoseSample:
         """Pose at an instant, interpolated; PoseUnknown when no two valid poses enclose it closely."""
         samples = self._samples
+        if not math.isfinite(time_s):
+            raise PoseUnknown("The instant of the event is not known.")
         index = bisect.bisect_left([sample.stamp_s for sample in samples], time_s)
         if index < len(samples) and samples[index].stamp_s == time_s:
             return samples[index]
@@ -71,6 +93,12 @@ class PoseHistory:
         if gap_s > MAX_GAP_S:
             raise PoseUnknown(f"The robot's pose is unknown for {gap_s:.1f} s around the instant {time_s:.3f} s.")
         return _between(before, after, (time_s - before.stamp_s) / gap_s, time_s)
+
+
+def _is_known(status: RobotStatus) -> bool:
+    """A valid pose whose numbers are numbers; the domain does not rely on the link's check alone."""
+    return status.pose_valid and all(map(math.isfinite, (
+        status.stamp_s, status.x, status.y, status.heading, status.speed_mps, status.key_x, status.key_y)))
 
 
 def _between(a: PoseSample, b: PoseSample, part: float, time_s: float) -> PoseSample:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import math
 from contextlib import AbstractContextManager
 from typing import Callable, TypeVar
 
@@ -141,6 +142,8 @@ class Robot:
 
     def key_distance(self, ray: Ray, time_s: float, time_sigma_s: float, origin_sigma_m: float = 0.0) -> Distance:
         """Distance of the Remote key on the ray at an instant; LineInvalid when the pose then is unknown."""
+        if not math.isfinite(time_sigma_s):
+            raise LineInvalid("The instant of the event is not known.")
         try:
             return measure(ray, self._loop.poses.at(time_s), time_sigma_s, origin_sigma_m)
         except PoseUnknown as error:

@@ -124,6 +124,13 @@ SENTENCES = (
                                   "profile."),
     QT_TRANSLATE_NOOP("Sentence", "The clock of the CAN frames is not mapped to the robot's yet; this takes about "
                                   "two seconds."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot's clock was set; the clock of the CAN frames is mapped to it anew, which "
+                                  "takes about two seconds."),
+    QT_TRANSLATE_NOOP("Sentence", "The clock of the CAN adapter jumped; it is mapped to the robot's anew, which takes "
+                                  "about two seconds."),
+    QT_TRANSLATE_NOOP("Sentence", "Frames or messages of the robot are late, or a clock was set; the time at which the "
+                                  "locks changed is not known yet."),
+    QT_TRANSLATE_NOOP("Sentence", "The instant of the event is not known."),
     QT_TRANSLATE_NOOP("Sentence", "The CAN adapter reports errors on the bus or has left it (bus-off); check bit "
                                   "rate, plug and termination."),
     QT_TRANSLATE_NOOP("Sentence", "The CAN adapter is error-passive; check bit rate, plug and termination."),

@@ -1550,6 +1550,26 @@
         <source>The package mtr_proto, the contract with the robot, is not installed; pip install the folder proto of the project.</source>
         <translation>Balíček mtr_proto, rozhraní k robotu, není nainstalován; nainstalujte složku proto projektu příkazem pip install.</translation>
     </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The robot&apos;s clock was set; the clock of the CAN frames is mapped to it anew, which takes about two seconds.</source>
+        <translation>Hodiny robotu byly přestaveny; hodiny rámců CAN se na ně přepočítávají znovu, trvá to asi dvě sekundy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The clock of the CAN adapter jumped; it is mapped to the robot&apos;s anew, which takes about two seconds.</source>
+        <translation>Hodiny adaptéru CAN poskočily; přepočítávají se na hodiny robotu znovu, trvá to asi dvě sekundy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>Frames or messages of the robot are late, or a clock was set; the time at which the locks changed is not known yet.</source>
+        <translation>Rámce nebo zprávy robotu se opožďují, nebo byly přestaveny hodiny; čas změny zámků ještě není znám.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="5"/>
+        <source>The instant of the event is not known.</source>
+        <translation>Okamžik události není znám.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>

@@ -1,0 +1,36 @@
+"""When a frame was on the bus: by the stamp of kernel or adapter where the interface has one, else by its arrival.
+
+A stamp that is taken by this program is late whenever it is busy or the disk is slow; kernel and adapters are not.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+import time
+from typing import NamedTuple
+
+import can
+
+# The kernel stamps frames with the laptop's clock of day (SO_TIMESTAMP, Linux' Documentation/networking/can.rst).
+_BY_KERNEL = frozenset({"socketcan"})
+# Their drivers hand the adapter's own clock on, in s from any origin.
+_BY_ADAPTER = frozenset({"pcan", "kvaser", "vector", "ixxat"})
+# A frame that is older when it is read was stamped before the clock of day was set.
+_MAX_AGE_S = 1.0
+
+
+class FrameTime(NamedTuple):
+    """arrival_s: laptop's monotonic clock; stamp_s: adapter's clock, None when it has none."""
+
+    arrival_s: float
+    stamp_s: float | None
+
+
+def frame_time(interface: str, message: can.Message, now_s: float) -> FrameTime:
+    """Time of a frame that was read at now_s of the laptop's monotonic clock."""
+    if interface in _BY_ADAPTER and math.isfinite(message.timestamp) and message.timestamp > 0.0:
+        return FrameTime(now_s, message.timestamp)
+    if interface in _BY_KERNEL:
+        age_s = time.time() - message.timestamp
+        return FrameTime(now_s - age_s if 0.0 <= age_s <= _MAX_AGE_S else now_s, None)
+    return FrameTime(now_s, None)

@@ -1,0 +1,75 @@
+"""Notices that the robot's clock was set: exactly by its steady clock, else by the arrival of the Statuses."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+
+from mtr_operator.domain.clock_step import clock_was_set
+from mtr_operator.domain.robot_status import RobotStatus
+
+from .delay_watch import STEP_S, DelayWatch
+
+# In simulation the two clocks are one, to the rounding of their messages.
+_SAME_CLOCK_S = 1e-6
+# A robot that does not tell its steady clock runs at true rate when its best stamps of some such pieces agree; a
+# simulation may run at any rate.
+_PIECE_S = 1.0
+_PIECES = 3
+
+
+def sent_s(status: RobotStatus) -> float:
+    """When the Status was sent, on the robot's clock; a robot of before says it only while its pose is not valid."""
+    return status.stamp_s if math.isnan(status.sent_s) else status.sent_s
+
+
+class RobotClock:
+    """Fed with every Status in the order of arrival.
+
+    Attributes:
+        is_real_time: the robot's clock is known to run at the rate of the laptop's; False in simulation.
+    """
+
+    def __init__(self) -> None:
+        self.is_real_time = False
+        self._before: RobotStatus | None = None
+        self._delays = DelayWatch()
+        self._rate = _RateCheck()
+
+    def status(self, status: RobotStatus, arrival_s: float) -> bool:
+        """A Status arrived; True when the clock was set since the one before."""
+        before, self._before = self._before, status
+        if before is not None and clock_was_set(before, status):
+            self._delays = DelayWatch()
+            self._delays.add(sent_s(status), arrival_s)
+            return True
+        if math.isnan(status.steady_s):
+            self.is_real_time = self.is_real_time or self._rate.add(sent_s(status), arrival_s)
+        else:
+            self.is_real_time = abs(sent_s(status) - status.steady_s) > _SAME_CLOCK_S
+        return self.is_real_time and self._delays.add(sent_s(status), arrival_s) and before is not None
+
+    @property
+    def certain_s(self) -> float:
+        """Robot's time up to which the clock was not set unnoticed."""
+        by_arrivals = self.is_real_time and self._before is not None and math.isnan(self._before.steady_s)
+        return self._delays.in_time_s if by_arrivals else math.inf
+
+
+class _RateCheck:
+    """Compares the least delays of pieces of time that follow one another."""
+
+    def __init__(self) -> None:
+        self._begin_s = math.nan
+        self._best_s = self._best_before_s = -math.inf
+        self._agreed = 0
+
+    def add(self, stamp_s: float, arrival_s: float) -> bool:
+        """True when the stamps run at the rate of their arrivals."""
+        if math.isnan(self._begin_s):
+            self._begin_s = arrival_s
+        if arrival_s - self._begin_s >= _PIECE_S:
+            agree = abs(self._best_s - self._best_before_s) <= STEP_S
+            self._agreed = self._agreed + 1 if agree else 0
+            self._begin_s, self._best_before_s, self._best_s = arrival_s, self._best_s, -math.inf
+        self._best_s = max(self._best_s, stamp_s - arrival_s)
+        return self._agreed >= _PIECES
