@@ -60,6 +60,7 @@ class Connections:
         """Serve an endpoint."""
         kind, info = endpoint
         if kind is ReservedId.PUBLISHER:
+            self._close_publishers(info.name)
             self._publishers[info.topic_id] = rospy.Publisher(info.name, class_of(info.type_name), queue_size=50,
                                                               tcp_nodelay=True)
         elif kind is ReservedId.SUBSCRIBER:
@@ -87,7 +88,10 @@ class Connections:
             message.deserialize(frame.payload)
         except genpy.DeserializationError as error:
             return f"A message on {publisher.name} of {len(frame.payload)} bytes could not be read: {error}."
-        publisher.publish(message)
+        try:
+            publisher.publish(message)
+        except rospy.ROSException as error:
+            return f"A message on {publisher.name} could not be published: {error}."
         return ""
 
     def close(self) -> None:
@@ -101,6 +105,10 @@ class Connections:
         self._publishers.clear()
         self._services.clear()
         self._responses.clear()
+
+    def _close_publishers(self, name: str) -> None:
+        for topic_id in [each for each, publisher in self._publishers.items() if publisher.name == name]:
+            self._publishers.pop(topic_id).unregister()
 
     def _close_subscriber(self, name: str) -> None:
         former = self._subscribers.pop(name, None)

@@ -1,7 +1,8 @@
 """Topics and services that a device offers, checked against the message definitions of the host."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Callable, Dict, NamedTuple, Optional, Tuple
+from typing import Callable, Dict, List, NamedTuple, Optional, Sequence, Set, Tuple
 
+from .board_topics import DIRECTION_OF, BoardTopic
 from .wire import ReservedId, TopicInfo
 
 
@@ -20,8 +21,11 @@ class Endpoints:
         to_device: those that the host sends to (topics the device subscribes to, requests it serves), by name.
     """
 
-    def __init__(self, md5_of: Callable[[str], Optional[str]]):
+    def __init__(self, md5_of: Callable[[str], Optional[str]], expected: Sequence[BoardTopic] = ()):
+        """With expected topics no others are served; without, all that this machine knows."""
         self._md5_of = md5_of
+        self._expected = frozenset(expected)
+        self._described: Set[BoardTopic] = set()
         self.by_id: Dict[int, Endpoint] = {}
         self.to_device: Dict[str, Endpoint] = {}
 
@@ -37,17 +41,30 @@ class Endpoints:
         endpoint = Endpoint(kind, info)
         if self.by_id.get(info.topic_id) == endpoint:
             return None, ""
+        # Each topic has one id; without this a board could fill the memory with them.
+        self.by_id = {topic_id: known for topic_id, known in self.by_id.items()
+                      if (known.kind, known.info.name) != (kind, info.name)}
         self.by_id[info.topic_id] = endpoint
         if kind in (ReservedId.SUBSCRIBER, ReservedId.SERVICE_REQUEST):
             self.to_device[info.name] = endpoint
         return endpoint, ""
 
+    def missing(self) -> List[str]:
+        """Names of expected topics that the device has not described yet."""
+        return sorted({topic.name for topic in self._expected - self._described})
+
     def clear(self) -> None:
         """Forget everything: another device may be plugged in."""
+        self._described.clear()
         self.by_id.clear()
         self.to_device.clear()
 
     def _refusal(self, kind: ReservedId, info: TopicInfo) -> str:
+        topic = BoardTopic(DIRECTION_OF[kind], info.name, info.type_name)
+        if self._expected and topic not in self._expected:
+            return (f"The board offers {info.name}, {info.type_name}, direction {topic.direction.value}, which this "
+                    "machine does not serve; is it the right board?")
+        self._described.add(topic)
         part = {ReservedId.SERVICE_REQUEST: "Request", ReservedId.SERVICE_RESPONSE: "Response"}.get(kind, "")
         ours = self._md5_of(info.type_name + part)
         if ours is None:

@@ -10,6 +10,10 @@ from .parameters import SerialParameters
 # The longest frame of a device that speaks this protocol is shorter: so many bytes without a frame are no accident.
 MIN_BYTES_WITHOUT_FRAME = 200
 MIN_REVISION_1_SYNCS = 3
+# A disturbed line makes ever new sentences of damaged texts: so many are kept, of so many characters.
+MAX_REFUSALS = 20
+MAX_REFUSAL_CHARACTERS = 200
+OTHER_REFUSALS = "other refusals"
 
 
 class LineProblem(enum.Enum):
@@ -70,9 +74,13 @@ class LineHealth:
         self.oversized += 1
         self.add_refusal(f"A message of {size} bytes for {name} was not sent: the firmware takes at most {limit}.")
 
-    def add_refusal(self, sentence: str) -> None:
-        """Count a sentence about what could not be served."""
-        self.refusals[sentence] = self.refusals.get(sentence, 0) + 1
+    def add_refusal(self, sentence: str) -> bool:
+        """Count a sentence about what could not be served; True for one that is new and kept."""
+        key = sentence[:MAX_REFUSAL_CHARACTERS]
+        if key not in self.refusals and len(self.refusals) >= MAX_REFUSALS:
+            key = OTHER_REFUSALS
+        self.refusals[key] = self.refusals.get(key, 0) + 1
+        return key != OTHER_REFUSALS and self.refusals[key] == 1
 
     def problem(self, now_s: float) -> LineProblem:
         """What is wrong now."""

@@ -9,6 +9,7 @@ import time
 from typing import Callable, Deque, Dict, Iterable
 
 from .port import PortError, SerialPort
+from .send_queue import SendQueue
 from .session import SerialSession, SessionEvent
 
 TICK_S = 0.1
@@ -40,7 +41,7 @@ class SerialLine:
     Attributes:
         session: with the device; to be used in the line's thread only, but for its health.
         trouble: why the port is not open, empty when it is.
-        dropped: messages that were older than the line could carry.
+        dropped: messages and frames that were older than the line could carry, or of before a gap.
     """
 
     def __init__(self, open_port: Callable[[], SerialPort], session: SerialSession, observer: LineObserver):
@@ -51,10 +52,15 @@ class SerialLine:
         self._wake_read, self._wake_write = os.pipe()
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._main, name="serial line", daemon=True)
-        self._unsent = b""
+        self._unsent = SendQueue()
+        self._outrun = 0
         self.session = session
         self.trouble = ""
-        self.dropped = 0
+
+    @property
+    def dropped(self) -> int:
+        """See above."""
+        return self._outrun + self._unsent.dropped
 
     def start(self) -> None:
         """Start the thread."""
@@ -71,7 +77,7 @@ class SerialLine:
         """Queue a message for the device; may be called from any thread."""
         with self._lock:
             queue = self._queues.setdefault(name, collections.deque(maxlen=MAX_QUEUED_PER_TOPIC))
-            self.dropped += len(queue) == MAX_QUEUED_PER_TOPIC
+            self._outrun += len(queue) == MAX_QUEUED_PER_TOPIC
             queue.append(payload)
         self._wake()
 
@@ -110,8 +116,11 @@ class SerialLine:
 
     def _serve(self, port: SerialPort) -> None:
         """Until stopped; PortError when the port is gone."""
-        self.trouble, self._unsent = "", b""
+        self.trouble = ""
+        self._unsent.clear()
         self.session.outbox.clear()
+        # What was ordered while there was no port is not meant for now.
+        self._take_queued(is_deaf=True)
         self.session.start(time.monotonic())
         ready = select.poll()
         ready.register(self._wake_read, select.POLLIN)
@@ -124,7 +133,7 @@ class SerialLine:
                 self._pass_on(self.session.receive(port.read(), now_s))
             if self._wake_read in woken:
                 os.read(self._wake_read, 4096)
-            self._take_queued()
+            self._take_queued(self._unsent.is_deaf(now_s))
             self._pass_on(self.session.tick(now_s))
             self._observer.tick(now_s)
         self.session.stop()
@@ -134,15 +143,23 @@ class SerialLine:
         for event in events:
             self._observer.event(event)
 
-    def _take_queued(self) -> None:
+    def _take_queued(self, is_deaf: bool) -> None:
         with self._lock:
             queues, self._queues = self._queues, {}
+        if is_deaf:
+            self._outrun += sum(map(len, queues.values()))
+            return
         for name, queue in queues.items():
             for payload in queue:
                 self.session.send(name, payload)
 
     def _write(self, port: SerialPort) -> None:
-        self._unsent += b"".join(self.session.outbox)
+        now_s = time.monotonic()
+        self._unsent.put(self.session.outbox, now_s)
         self.session.outbox.clear()
-        if self._unsent:
-            self._unsent = self._unsent[port.write(self._unsent):]
+        while True:
+            data = self._unsent.next(now_s)
+            count = port.write(data) if data else 0
+            self._unsent.taken(count)
+            if not data or count < len(data):
+                return

@@ -1,7 +1,9 @@
 """The serial bridge as a ROS node: the firmware's topics and services as if it were a node itself."""
 # SPDX-License-Identifier: Apache-2.0
 import threading
+import xmlrpc.client
 from dataclasses import dataclass
+from typing import Tuple
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
@@ -9,7 +11,9 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from mtr_core.errors import check_range
 from mtr_core.lockstep import run_node
 
+from .board_topics import FIRMWARE_TOPICS, board_topics
 from .connections import Connections, md5_of
+from .endpoints import Endpoint
 from .line import LineObserver, SerialLine
 from .parameters import SerialParameters
 from .port import SerialPort
@@ -20,19 +24,24 @@ LOG = (rospy.logdebug, rospy.loginfo, rospy.logwarn, rospy.logerr, rospy.logfata
 LEVELS = (DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR)
 # Changes in quick succession all leave.
 DIAGNOSTICS_QUEUED = 10
+MAX_TOPICS = 100
 
 
 @dataclass(frozen=True)
 class BridgeParameters(SerialParameters):
     """Attributes:
         port: path of the board, best the one in /dev/serial/by-id, which stays with the board.
+        topics: what the board may offer, each "from NAME TYPE", "to NAME TYPE" or "service NAME TYPE"; by default those
+            of the project's own firmware.
     """
 
     port: str = "/dev/serial/by-id/missing"
+    topics: Tuple[str, ...] = FIRMWARE_TOPICS
 
     def __post_init__(self) -> None:
         super().__post_init__()
         check_range("length of port", len(self.port), 1, 4096)
+        check_range("length of topics", len(board_topics(self.topics)), 1, MAX_TOPICS)
 
 
 class SerialBridgeNode(LineObserver):
@@ -40,7 +49,8 @@ class SerialBridgeNode(LineObserver):
 
     def __init__(self, parameters: BridgeParameters):
         self._parameters = parameters
-        session = SerialSession(parameters, md5_of, lambda: rospy.Time.now().to_nsec())
+        session = SerialSession(parameters, md5_of, lambda: rospy.Time.now().to_nsec(),
+                                board_topics(parameters.topics))
         self._line = SerialLine(lambda: SerialPort(parameters.port, parameters.baud), session, self)
         self._connections = Connections(self._line.send, parameters.service_timeout_s)
         self._diagnostics = rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=DIAGNOSTICS_QUEUED)
@@ -64,13 +74,22 @@ class SerialBridgeNode(LineObserver):
             if problem:
                 rospy.logwarn_throttle(1.0, problem)
         elif event.opened:
-            info = event.opened.info
-            rospy.loginfo("Firmware: %s, %s.", info.name, info.type_name)
-            self._connections.open(event.opened)
+            self._open(event.opened)
         elif event.log:
             LOG[min(event.log.level, len(LOG) - 1)]("Firmware: %s", event.log.text)
         elif event.refused:
             rospy.logerr("%s", event.refused)
+
+    def _open(self, endpoint: Endpoint) -> None:
+        info = endpoint.info
+        rospy.loginfo("Firmware: %s, %s.", info.name, info.type_name)
+        try:
+            self._connections.open(endpoint)
+        # Of the name, the type, or the master: the board's other topics go on.
+        except (rospy.ROSException, ValueError, TypeError, OSError, xmlrpc.client.Error) as error:
+            sentence = f"{info.name} of the firmware could not be served: {error}."
+            if self._line.session.health.add_refusal(sentence):
+                rospy.logerr("%s", sentence)
 
     def closed(self, reason: str) -> None:
         """The port is gone; called in the line's thread."""
@@ -84,7 +103,7 @@ class SerialBridgeNode(LineObserver):
         """Report how the line is, and log it when it changes; called in the line's thread."""
         session = self._line.session
         status = line_status(self._parameters.port, self._line.trouble, session.problem(now_s),
-                             bool(session.health.refusals))
+                             bool(session.health.refusals), session.missing)
         if self._reports.is_due(status, now_s):
             self._diagnostics.publish(self._diagnostics_message(status))
         if status.sentence != self._logged:

@@ -4,15 +4,19 @@ Times are seconds of a clock that never steps; only the answer to the device's T
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Callable, Dict, List, NamedTuple, Optional
+from typing import Callable, Dict, List, NamedTuple, Optional, Sequence, Set
 
 from . import wire
+from .board_topics import BoardTopic
 from .endpoints import Endpoint, Endpoints
 from .frames import FrameParser, SerialFrame, encode
 from .health import LineHealth, LineProblem
 from .parameters import SerialParameters
 
-NS = 1e-9
+# Each question costs a tenth of a second of the line: one that was not answered is asked again after twice the time.
+MAX_MISSING_PERIOD_S = 8.0
+# Names of others are not kept.
+MAX_MISSED = 20
 
 
 class SessionEvent(NamedTuple):
@@ -29,25 +33,31 @@ class SerialSession:
 
     Attributes:
         endpoints: of the device, as far as it has described them.
+        missing: names of its topics for which it was asked again, as their description has not come whole.
         health: counters and the state of the line.
         outbox: bytes for the port, in order; whoever writes them takes them out.
     """
 
     def __init__(self, parameters: SerialParameters, md5_of: Callable[[str], Optional[str]],
-                 robot_clock_ns: Callable[[], int]):
+                 robot_clock_ns: Callable[[], int], expected: Sequence[BoardTopic] = ()):
         self._parameters = parameters
         self._robot_clock_ns = robot_clock_ns
         self._parser = FrameParser(parameters.max_payload_bytes)
         self._events: List[SessionEvent] = []
         self._asked_s = -math.inf
         self._byte_s = -math.inf
-        self.endpoints = Endpoints(md5_of)
+        self._missed: Set[str] = set()
+        self._missing_period_s = parameters.ask_every_s
+        self.missing: List[str] = []
+        self.endpoints = Endpoints(md5_of, expected)
         self.health = LineHealth(parameters)
         self.outbox: List[bytes] = []
 
     def start(self, now_s: float) -> None:
         """The port has just been opened."""
         self.health.start(now_s)
+        self._missed.clear()
+        self.missing, self._missing_period_s = [], self._parameters.ask_every_s
         self._ask(now_s)
 
     def receive(self, data: bytes, now_s: float) -> List[SessionEvent]:
@@ -70,6 +80,7 @@ class SerialSession:
         has_gap = self.problem(now_s) is not LineProblem.NONE or not self.endpoints.by_id
         if has_gap and now_s - self._asked_s >= self._parameters.ask_every_s:
             self._ask(now_s)
+        self._look_for_missing(now_s)
         return self._flush()
 
     def send(self, name: str, payload: bytes) -> bool:
@@ -77,6 +88,8 @@ class SerialSession:
         endpoint = self.endpoints.to_device.get(name)
         if endpoint is None or len(payload) > endpoint.info.buffer_bytes:
             self.health.add_dropped(name, len(payload), endpoint.info.buffer_bytes if endpoint else None)
+            if endpoint is None and len(self._missed) < MAX_MISSED:
+                self._missed.add(name)
             return False
         self._put(SerialFrame(endpoint.info.topic_id, payload))
         return True
@@ -104,8 +117,7 @@ class SerialSession:
 
     def _take_info(self, frame: SerialFrame, _: float) -> None:
         endpoint, refusal = self.endpoints.add(wire.ReservedId(frame.topic_id), wire.decode_topic_info(frame.payload))
-        if refusal:
-            self.health.add_refusal(refusal)
+        if refusal and self.health.add_refusal(refusal):
             self._events.append(SessionEvent(refused=refusal))
         if endpoint:
             self._events.append(SessionEvent(opened=endpoint))
@@ -123,6 +135,17 @@ class SerialSession:
         """The device goes on from an earlier session, or its description was lost on the way."""
         self.health.unknown_topics += 1
         if now_s - self._asked_s >= self._parameters.ask_every_s:
+            self._ask(now_s)
+
+    def _look_for_missing(self, now_s: float) -> None:
+        """Ask again for a topic whose description was damaged: nothing else would show that it is missing."""
+        self._missed -= set(self.endpoints.to_device)
+        missing = sorted(self._missed.union(self.endpoints.missing()))
+        if not missing:
+            self.missing, self._missing_period_s = [], self._parameters.ask_every_s
+        elif self.endpoints.by_id and now_s - self._asked_s >= self._missing_period_s:
+            self.missing = missing
+            self._missing_period_s = min(2.0 * self._missing_period_s, MAX_MISSING_PERIOD_S)
             self._ask(now_s)
 
     def _ask(self, now_s: float) -> None:

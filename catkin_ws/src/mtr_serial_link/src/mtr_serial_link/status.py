@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import enum
 import math
-from typing import NamedTuple, Optional
+from typing import NamedTuple, Optional, Sequence
 
 from .health import LineProblem
 
@@ -25,10 +25,20 @@ class SerialLineStatus(NamedTuple):
     sentence: str
 
 
-def line_status(path: str, trouble: str, problem: LineProblem, has_refused: bool) -> SerialLineStatus:
-    """Status of a port: trouble says why it is not open; has_refused: something of the device could not be served."""
+def line_status(path: str, trouble: str, problem: LineProblem, has_refused: bool,
+                missing: Sequence[str] = ()) -> SerialLineStatus:
+    """Status of a port.
+
+    Arguments:
+        trouble: why it is not open.
+        has_refused: something of the device could not be served.
+        missing: topics of the device whose description has not come.
+    """
     if trouble:
         return SerialLineStatus(Severity.ERROR, trouble)
+    if problem is LineProblem.NONE and missing:
+        return SerialLineStatus(Severity.WARN, f"{LINKED}, but the board has not described {', '.join(missing)}; it is "
+                                "asked again")
     if problem is LineProblem.NONE:
         return SerialLineStatus(Severity.WARN if has_refused else Severity.OK, LINKED)
     severity = Severity.WARN if problem is LineProblem.WAITING else Severity.ERROR

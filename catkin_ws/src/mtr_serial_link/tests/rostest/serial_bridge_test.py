@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
 """The serial bridge as its users see it: topics, a service, unplugging, a frozen device, and its sentences."""
 # SPDX-License-Identifier: Apache-2.0
+import json
 import pathlib
 import signal
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 
 import roslib.packages
 import rospy
 import rostest
 from device_on_pty import DeviceOnPty
-from diagnostic_msgs.msg import DiagnosticArray
+from diagnostic_msgs.msg import DiagnosticArray, KeyValue
 from roscpp.srv import GetLoggers
 
 from mtr_msgs.msg import FirmwareEcho, FirmwareHealth
@@ -23,6 +25,9 @@ from mtr_serial_link.frames import SerialFrame, encode
 from mtr_serial_link.wire import ReservedId, TopicInfo
 
 LIMIT_S = 10.0
+STOPPED_S = 1.5
+# An order on its way when the bridge was stopped may still leave; the bridge gives up what is older.
+MAX_ORDER_AGE_S = 0.6
 ECHO, HEALTH, CALL, ANSWER = 125, 126, 101, 127
 
 
@@ -42,6 +47,13 @@ ENDPOINTS = (
     (ReservedId.SERVICE_REQUEST, info(CALL, "/device/loggers", "roscpp/GetLoggers", "Request")),
     (ReservedId.SERVICE_RESPONSE, info(ANSWER, "/device/loggers", "roscpp/GetLoggers", "Response")),
 )
+
+
+# What the bridge is told to expect; the device describes more.
+EXPECTED = ("from /device/echo mtr_msgs/FirmwareEcho", "to /device/health mtr_msgs/FirmwareHealth",
+            "service /device/loggers roscpp/GetLoggers")
+WHEELS = "/jackal_velocity_controller/cmd_vel"
+FOREIGN = (ReservedId.PUBLISHER, info(128, WHEELS, "diagnostic_msgs/KeyValue"))
 
 
 class MessageRecorder:
@@ -77,7 +89,8 @@ class SerialBridgeTest(unittest.TestCase):
         self.diagnostics = MessageRecorder("/diagnostics", DiagnosticArray)
         self.echoes = MessageRecorder("/device/echo", FirmwareEcho)
         self.bridge = subprocess.Popen([roslib.packages.find_node("mtr_serial_link", "serial_bridge_node")[0],
-                                        f"_port:={self.port}", "_service_timeout_s:=0.5"])
+                                        f"_port:={self.port}", "_service_timeout_s:=0.5",
+                                        f"_topics:={json.dumps(EXPECTED)}"])
 
     def tearDown(self):
         self.bridge.send_signal(signal.SIGINT)
@@ -126,6 +139,41 @@ class SerialBridgeTest(unittest.TestCase):
         self.board.frozen = False
         self.diagnostics.clear()
         self.assertTrue(self.says("linked"))
+
+    def test_foreign_topic_of_the_board_is_not_served_and_told(self):  # F1
+        self.board.device.endpoints.append(FOREIGN)
+        wheels = MessageRecorder(WHEELS, KeyValue)
+        self.board.plug()
+        self.board.report = echo(5) + encode(SerialFrame(128, bytes_of(KeyValue())))
+        self.assertTrue(self.receives(5))
+        self.assertTrue(self.diagnostics.wait_for(
+            lambda message: message.status[0].level == 1 and any(WHEELS in value.key
+                                                                 for value in message.status[0].values)))
+        self.assertFalse(wheels.wait_for(lambda message: True, 1.0))
+
+    def test_bridge_that_was_stopped_sends_no_old_order(self):  # F2, B8
+        """Today four frames of before reach the board when the bridge goes on."""
+        self.board.plug()
+        publisher = rospy.Publisher("/device/health", FirmwareHealth, queue_size=1)
+        self.call()
+        started = time.monotonic()
+
+        def speak(duration_s):
+            until = time.monotonic() + duration_s
+            while time.monotonic() < until:
+                publisher.publish(FirmwareHealth(worst_loop_us=round(1e3 * (time.monotonic() - started))))
+                time.sleep(0.02)
+        speak(0.5)
+        self.assertTrue(self.board.received(LIMIT_S))
+        self.bridge.send_signal(signal.SIGSTOP)
+        speak(STOPPED_S)
+        self.board.device.received.clear()
+        self.bridge.send_signal(signal.SIGCONT)
+        went_on_ms = 1e3 * (time.monotonic() - started)
+        speak(1.0)
+        sent_ms = [FirmwareHealth().deserialize(payload).worst_loop_us for payload in self.board.received(LIMIT_S)]
+        self.assertGreater(min(sent_ms), went_on_ms - 1e3 * MAX_ORDER_AGE_S)
+        self.assertGreater(len(sent_ms), 5)
 
     def test_port_that_another_program_has_is_called_busy(self):
         self.board.plug()

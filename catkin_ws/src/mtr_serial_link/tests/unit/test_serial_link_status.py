@@ -19,6 +19,12 @@ ANSWER_S = 0.002
 TURN_S = TICK_S + 0.0001
 
 
+def test_topic_that_is_missing_is_told_and_is_a_warning():  # N1
+    status = line_status(PORT, "", LineProblem.NONE, has_refused=False, missing=["/press", "/state"])
+    assert status.severity is Severity.WARN and "/press, /state" in status.sentence
+    assert line_status(PORT, "", LineProblem.LOST, False, ["/press"]).severity is Severity.ERROR
+
+
 class Course:
     """The turns of a line with a device that says nothing unless it is asked, on a clock of their own.
 
