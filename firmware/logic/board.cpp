@@ -88,16 +88,28 @@ void Board::take(void* self, uint16_t topic, const uint8_t* payload, uint8_t len
 }
 
 void Board::on_command(const Command& command) {
-  hear();
   if (!send_echo(static_cast<uint8_t>(command.seq))) {
     count(&counters_.dropped_reports);
   }
+  // An old order proves no living host.
+  if (is_late(command.latest_us)) {
+    counters_.refuse(Refusal::kLate);
+    return;
+  }
+  hear();
   if (command.led_pattern < kLedPatternCount) {
     led_pattern_ = command.led_pattern;
   } else {
     counters_.refuse(Refusal::kLedPattern);
   }
-  const float height_m = command.lift_height_m;
+  is_stopped_ = command.stop != 0;
+  if (is_stopped_) {
+    presses_.abort();
+  }
+  move_lift(is_stopped_ ? NAN : command.lift_height_m);
+}
+
+void Board::move_lift(float height_m) {
   const int32_t stroke_um = memory_.calibration().stroke_um();
   const float least_m = -kHeightToleranceUm * 1e-6f, most_m = (stroke_um + kHeightToleranceUm) * 1e-6f;
   if (height_m >= least_m && height_m <= most_m) {
@@ -114,8 +126,13 @@ void Board::on_command(const Command& command) {
 }
 
 void Board::on_press(const Press& press) {
-  hear();
-  const Refusal refusal = presses_.order(press);
+  Refusal impediment = is_stopped_ ? Refusal::kStopped : Refusal::kNone;
+  if (is_late(press.latest_us)) {
+    impediment = Refusal::kLate;
+  } else {
+    hear();
+  }
+  const Refusal refusal = presses_.order(press, impediment);
   if (refusal != Refusal::kNone) {
     counters_.refuse(refusal);
   }

@@ -31,11 +31,14 @@ class Board {
   void on_command(const Command& command);
   void on_press(const Press& press);
   void on_calibrate(const Calibrate& calibrate);
+  /// True when an order of the host has been under way for too long, or was meant for another clock.
+  bool is_late(uint32_t latest_us) const { return latest_us - now_us_ > kMaxLeadUs; }
   /// The host lives.
   void hear();
   void lose_link();
 
   void tick();
+  void move_lift(float height_m);
   void step_lift();
   void step_leds();
   void report(uint32_t now_us);
@@ -62,6 +65,7 @@ class Board {
   uint8_t led_slot_ = 0;
   uint8_t led_ms_ = 0;
   bool link_lost_ = false;
+  bool is_stopped_ = false;
 };
 
 }  // namespace mtr

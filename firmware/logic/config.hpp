@@ -9,6 +9,7 @@ namespace mtr {
 
 // Link
 constexpr uint32_t kSilenceUs = 1000000;      ///< without a command for so long, everything stops
+constexpr uint32_t kMaxLeadUs = 5000000;      ///< an order that may begin later is one of another clock
 constexpr uint32_t kStatePeriodUs = 40000;    ///< FirmwareState
 constexpr uint32_t kHealthPeriodUs = 200000;  ///< FirmwareHealth
 constexpr uint32_t kTimePeriodUs = 500000;    ///< TIME requests; the upstream host gives up after 15 s without one

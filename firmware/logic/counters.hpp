@@ -18,6 +18,8 @@ enum class Refusal : uint8_t {
   kHold = 6,
   kBusy = 7,
   kCalibration = 8,
+  kLate = 9,
+  kStopped = 10,
 };
 
 struct Counters {

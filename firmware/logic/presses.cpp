@@ -51,7 +51,7 @@ void Presses::start() {
   note(report_.state);
 }
 
-Refusal Presses::order(const Press& press) {
+Refusal Presses::order(const Press& press, Refusal impediment) {
   if (press.id == 0) {
     return Refusal::kPressId;
   }
@@ -61,7 +61,7 @@ Refusal Presses::order(const Press& press) {
   if (phase_ != Phase::kIdle) {
     return Refusal::kBusy;
   }
-  const Refusal refusal = objection(press);
+  const Refusal refusal = impediment != Refusal::kNone ? impediment : objection(press);
   remember(press.id);
   report_ = PressReport();
   report_.id = press.id;

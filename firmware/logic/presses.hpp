@@ -28,8 +28,9 @@ class Presses {
   /// short.
   void start();
 
-  /// Takes an order; a known id is not taken again. Returns why it was refused, or kNone.
-  Refusal order(const Press& press);
+  /// Takes an order; a known id is not taken again, and one with an impediment is refused for it. Returns why it was
+  /// refused, or kNone.
+  Refusal order(const Press& press, Refusal impediment);
 
   /// Widths for the servo period that starts then.
   void step(uint32_t period_us);

@@ -15,7 +15,7 @@ from sensor_msgs.msg import Joy
 
 from mtr_core import names, schedule
 from mtr_core.lockstep import Ticker, TickInput
-from mtr_msgs.msg import ButtonPress, DesiredState, DriveStatus, PeripheralsState, RobotMode
+from mtr_msgs.msg import ButtonPress, DesiredState, DriveStatus, MotionLock, PeripheralsState, RobotMode
 from mtr_simulation.truth.log import FILE_NAME
 
 LOCK, UNLOCK = 1, 2
@@ -48,6 +48,7 @@ class Peripherals(unittest.TestCase):
         cls.mode = Speaker(names.ROBOT_MODE, RobotMode(mode=RobotMode.FOLLOWING_WAYPOINT), schedule.STATE_MACHINE)
         cls.drive = Speaker(names.DRIVE_STATUS, DriveStatus(), schedule.DRIVE_CONTROL)
         cls.joystick = Speaker(names.JOY, Joy(axes=[0.0] * 8, buttons=[0] * 12), schedule.CONTROLLER_INPUT)
+        cls.lock = Speaker(names.MOTION_LOCK, MotionLock(owner="emergency_button", emergency=True), schedule.DISPATCHER)
         cls.peripherals = TickInput(names.PERIPHERALS_STATE, PeripheralsState, schedule.PERIPHERALS)
         cls.ticker = Ticker(schedule.CLOCK_STEP)
 
@@ -70,7 +71,7 @@ class Peripherals(unittest.TestCase):
         state = None
         for _ in range(round(within_s / (schedule.CLOCK_STEP.period_ns * NS))):
             tick_ns = self.ticker.sleep()
-            for speaker in (self.desired, self.mode, self.drive, self.joystick):
+            for speaker in (self.desired, self.mode, self.drive, self.joystick, self.lock):
                 speaker.speak(tick_ns)
             state = self.peripherals.at(tick_ns)
             if state and condition(state):
@@ -140,6 +141,23 @@ class Peripherals(unittest.TestCase):
             self.assertAlmostEqual(there_m - before_m, way * LIFT_MPS * HELD_S, delta=0.3 * LIFT_MPS * HELD_S)
             self.assertAlmostEqual(self.advance(1.0).key_height_m, there_m, delta=0.002)
             before_m = there_m
+
+    def test_emergency_stop_holds_the_lift_lets_no_press_begin_and_says_so(self):  # A3
+        self.desired.message.key_height_m = 1.5
+        self.advance(2.0)
+        self.lock.message.engaged, self.lock.message.reason = True, "The button is pressed."
+        before = len(self.true_presses())
+        held = self.advance(1.0)
+        self.order_press(LOCK)
+        later = self.advance(2.0)
+        self.assertAlmostEqual(later.key_height_m, held.key_height_m, delta=0.002)
+        self.assertIn("The button is pressed.", later.message)
+        self.assertEqual((later.presses[-1].id, len(self.true_presses())), (self.press_id, before))
+        self.assertIn("was not begun", later.presses[-1].error)
+        self.lock.message.engaged = False
+        self.assertGreater(self.advance(1.0).key_height_m, later.key_height_m + 0.05)
+        self.desired.message.key_height_m = 0.8
+        self.advance(8.0)
 
     def test_leds_warn_while_a_robot_without_rear_lidar_drives_backwards(self):
         self.drive.message.linear_mps = -0.2

@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 import io
 import pathlib
-from typing import Any, List, Optional
+from typing import Any, List, Optional, Tuple
 
 from mtr_core import names
 from mtr_core.crc import is_sound
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import NO_PRESS, DesiredState, Press, PressReport
 from mtr_core.states import State
 from mtr_description.shipped import shipped_geometry
@@ -26,6 +27,13 @@ NS = 1e-9
 START_NS = 1_000_000_000
 SESSION = 5
 RELEASED_US = 1000
+# As the node's.
+COMMAND_LIFETIME_NS = 500_000_000
+
+
+def new_core() -> Peripherals:
+    """The peripherals as they start."""
+    return Peripherals(Parameters(), KeyLift(shipped_geometry().key()))
 
 
 class EmulatedBoard:
@@ -42,10 +50,11 @@ class EmulatedBoard:
     def __init__(self) -> None:
         self.board = Emulator("atmega2560", stepped=True, elf=ELF)
         self._firmware = EmulatedFirmware(self.board, md5_of)
-        self._core = Peripherals(Parameters(), KeyLift(shipped_geometry().key()))
+        self._core = new_core()
         self._clock = FirmwareClock()
         self._report: Any = None
         self._seq = 0
+        self._waiting: Optional[List[Tuple[str, bytes]]] = None
         self._ticks = 0
         self.now_ns = START_NS
         self.outcome: Optional[Outcome] = None
@@ -60,10 +69,14 @@ class EmulatedBoard:
     def __exit__(self, *_: object) -> None:
         self._firmware.close()
 
-    def run(self, duration_s: float, key_height_m: float, press: Press = NO_PRESS) -> None:
-        """Let time pass with these requests."""
-        desired = DesiredState(session_id=SESSION, link_alive=True, stop=False, key_height_m=key_height_m, press=press)
-        inputs = Inputs(desired, State.FOLLOWING_WAYPOINT)
+    def run(self, duration_s: float, key_height_m: float, press: Press = NO_PRESS, stop: bool = False,
+            emergency: Problem = NO_PROBLEM) -> None:
+        """Let time pass with these requests; stop is the Operator's."""
+        desired = DesiredState(session_id=SESSION, link_alive=True, stop=stop, key_height_m=key_height_m, press=press)
+        inputs = Inputs(desired, State.FOLLOWING_WAYPOINT, emergency=emergency)
+        if emergency and self.outcome and not self.outcome.stop:
+            # As the node does it, without waiting for the next tick.
+            self._decide(inputs)
         for _ in range(round(duration_s / (TICK_NS * NS))):
             if self._ticks % DECISION_TICKS == 0:
                 self._decide(inputs)
@@ -84,15 +97,36 @@ class EmulatedBoard:
         for result in self.outcome.results:
             if result not in self.results:
                 self.results.append(result)
+        latest_us = self._clock.firmware_us(self.now_ns + COMMAND_LIFETIME_NS)
+        if latest_us is None:
+            return
         self._seq += 1
-        self._send(names.FIRMWARE_COMMAND, command_message(self.outcome, self._seq))
-        if self.outcome.press:
-            self._send(names.FIRMWARE_PRESS, press_message(self.outcome.press))
+        self._send(names.FIRMWARE_COMMAND, command_message(self.outcome, self._seq, latest_us))
+        press = self.outcome.press
+        if press:
+            self._send(names.FIRMWARE_PRESS, press_message(press, self._clock.firmware_us(press.latest_ns) or 0))
+
+    def restart_node(self) -> None:
+        """The peripherals' node starts again and knows nothing."""
+        self._core, self._clock, self._report = new_core(), FirmwareClock(), None
+
+    def hold_line(self) -> None:
+        """What is ordered from now on waits in the host, as in a program that is stopped."""
+        self._waiting = []
+
+    def release_line(self) -> None:
+        """What has waited leaves, and what is ordered from now on."""
+        waiting, self._waiting = self._waiting or [], None
+        for topic, payload in waiting:
+            self._firmware.send(topic, payload)
 
     def _send(self, topic: str, message: Any) -> None:
         buffer = io.BytesIO()
         message.serialize(buffer)
-        self._firmware.send(topic, buffer.getvalue())
+        if self._waiting is None:
+            self._firmware.send(topic, buffer.getvalue())
+        else:
+            self._waiting.append((topic, buffer.getvalue()))
 
     def _listen(self) -> None:
         for topic, payload in self._firmware.take_messages():

@@ -4,6 +4,7 @@ import pytest
 from emulated_board import NS, RELEASED_US, SESSION, EmulatedBoard
 
 from mtr_core.requests import Press
+from mtr_peripherals.problems import EMERGENCY_ENGAGED
 
 LOW_M, HIGH_M = 0.4, 1.3
 HEIGHT_TOLERANCE_M = 2e-3
@@ -12,6 +13,7 @@ WORKING_WITHIN_S = 2.0
 PRESSES = 200
 HOLD_S = 0.15
 LONG_HOLD_S = 8.0
+ENGAGED = EMERGENCY_ENGAGED(owner="controller_input")
 
 
 def press(number, hold_s=HOLD_S):
@@ -76,6 +78,53 @@ def test_board_that_starts_again_is_safe_at_once_and_back_within_two_seconds(boa
     board.run(1.5, LOW_M, press(2))
     assert board.results[0].error and (board.results[-1].id, board.results[-1].error.text) == (2, "")
     assert board.closings() == 2
+
+
+# A3: today it goes on for 0.703 m in 5 s. Braking from 0.15 m/s with 0.3 m/s2 takes 38 mm.
+@pytest.mark.parametrize("stop", [{"emergency": ENGAGED}, {"stop": True}], ids=["emergency", "operator"])
+def test_rising_lift_stands_within_six_centimetres_of_a_stop_and_goes_on_after_it(board, stop):
+    board.run(2.0, HIGH_M)
+    moving_m = board.heights[-1][1]
+    board.run(SAFE_WITHIN_S, HIGH_M, **stop)
+    held_m = board.heights[-1][1]
+    assert held_m - moving_m < 0.06
+    board.run(5.0, HIGH_M, **stop)
+    assert board.heights[-1][1] == pytest.approx(held_m, abs=1e-3)
+    board.run(1.0, HIGH_M)
+    assert board.heights[-1][1] > held_m + 0.05
+
+
+def test_held_button_is_released_by_an_emergency_stop_within_a_tenth_of_a_second_and_no_press_begins(board):  # A3
+    board.run(1.0, LOW_M, press(1, LONG_HOLD_S))
+    assert board.pulses[-1][1] > 1900.0
+    board.run(0.1, LOW_M, press(1, LONG_HOLD_S), emergency=ENGAGED)
+    assert board.pulses[-1][1] <= RELEASED_US + 1
+    board.run(1.0, LOW_M, press(2), emergency=ENGAGED)
+    board.run(1.0, LOW_M, press(2))
+    assert board.closings() == 1
+    codes = [result.error.code for result in board.results]
+    assert codes == ["peripherals.press_cut_short", "peripherals.press_stopped"]
+
+
+def test_press_still_ordered_after_a_restart_of_the_node_is_made_once_and_reported(board):  # A9c
+    board.run(0.5, LOW_M, press(1, 1.0))
+    board.restart_node()
+    board.run(3.0, LOW_M, press(1, 1.0))
+    assert board.closings() == 1
+    assert [(result.id, result.error.text) for result in board.results] == [(1, "")]
+    pressed = [time_ns for time_ns, pulse in board.pulses if pulse > 1990.0]
+    assert board.results[0].start_ns * NS == pytest.approx(pressed[0] * NS, abs=0.025)
+
+
+def test_orders_that_waited_eight_seconds_in_the_host_reach_nothing(board):  # B8
+    """Today the press of 8 s ago is made."""
+    board.hold_line()
+    board.run(8.0, HIGH_M, press(1))
+    before_m = board.heights[-1][1]
+    board.release_line()
+    board.run(1.0, LOW_M)
+    assert board.closings() == 0 and board.results[0].error.code == "peripherals.press_late"
+    assert board.heights[-1][1] == pytest.approx(before_m, abs=1e-3)
 
 
 @pytest.mark.parametrize("fault, says", [("wire_break", "sensor of the lift is broken"), ("jam", "lift is jammed")])

@@ -63,6 +63,8 @@ bool read(const uint8_t* payload, uint8_t length, Command* message) {
   message->seq = reader.u32();
   message->lift_height_m = reader.f32();
   message->led_pattern = reader.u8();
+  message->stop = reader.u8();
+  message->latest_us = reader.u32();
   return is_sealed(payload, length, MTR_FIRMWARECOMMAND_BYTES);
 }
 
@@ -72,6 +74,7 @@ bool read(const uint8_t* payload, uint8_t length, Press* message) {
   message->servos = reader.u8();
   message->strength = reader.f32();
   message->hold_ms = reader.u16();
+  message->latest_us = reader.u32();
   return is_sealed(payload, length, MTR_FIRMWAREPRESS_BYTES);
 }
 

@@ -15,6 +15,8 @@ struct Command {
   uint32_t seq;
   float lift_height_m;
   uint8_t led_pattern;
+  uint8_t stop;
+  uint32_t latest_us;
 };
 
 /// mtr_msgs/FirmwarePress
@@ -23,6 +25,7 @@ struct Press {
   uint8_t servos;
   float strength;
   uint16_t hold_ms;
+  uint32_t latest_us;
 };
 
 /// mtr_msgs/FirmwareCalibrate

@@ -17,6 +17,9 @@ HEADER = struct.Struct("<BBHBH")
 STATE_FORMAT, HEALTH_FORMAT = struct.Struct("<IfHHIBIIBBBIBH"), struct.Struct("<BHHHHHHIHHBBH")
 STEP_US = 10_000
 COMMAND_PERIOD_US = 100_000
+# The firmware's clock at power on; an order of the host may begin so long after it leaves.
+CLOCK_START_US = 2 ** 32 - 1 - 120_000_000
+LEAD_US = 500_000
 
 
 class State(NamedTuple):
@@ -78,14 +81,14 @@ def sealed(fields: bytes) -> bytes:
     return fields + struct.pack("<H", binascii.crc_hqx(fields, 0xFFFF))
 
 
-def command(seq: int, height_m: float, led: int = 4) -> bytes:
+def command(seq: int, height_m: float, latest_us: int, led: int = 4, stop: int = 0) -> bytes:
     """A FirmwareCommand."""
-    return frame(COMMAND, sealed(struct.pack("<IfB", seq & 0xFFFFFFFF, height_m, led)))
+    return frame(COMMAND, sealed(struct.pack("<IfBBI", seq & 0xFFFFFFFF, height_m, led, stop, latest_us % 2 ** 32)))
 
 
-def press(id: int, servos: int = 1, strength: float = 1.0, hold_ms: int = 200) -> bytes:
+def press(id: int, latest_us: int, servos: int = 1, strength: float = 1.0, hold_ms: int = 200) -> bytes:
     """A FirmwarePress."""
-    return frame(PRESS, sealed(struct.pack("<IBfH", id, servos, strength, hold_ms)))
+    return frame(PRESS, sealed(struct.pack("<IBfHI", id, servos, strength, hold_ms, latest_us % 2 ** 32)))
 
 
 def calibrate(id: int, stroke_m: float) -> bytes:
@@ -117,7 +120,7 @@ class Host:
     Attributes:
         topics: what the device has announced, by id.
         states, healths, echoes: all that have arrived.
-        height_m, led: sent with each command.
+        height_m, led, stop: sent with each command.
         is_talking: False sends no commands.
         answers_time: False does not answer TIME.
     """
@@ -133,7 +136,8 @@ class Host:
         self.led = 4
         self.is_talking = self.answers_time = True
         self.log: List[Probe] = []
-        self._press: Optional[Tuple[int, bytes]] = None
+        self.stop = 0
+        self._press: Optional[Tuple[int, Dict[str, float]]] = None
         self._outbox: Deque[bytes] = collections.deque()
         self._port = os.open(str(board.pty), os.O_RDWR | os.O_NOCTTY)
         tty.setraw(self._port, termios.TCSANOW)
@@ -151,13 +155,18 @@ class Host:
         """The newest one."""
         return self.states[-1]
 
+    @property
+    def latest_us(self) -> int:
+        """Firmware's clock up to which an order of now may begin."""
+        return (self.state.time_us if self.states else CLOCK_START_US + self._time_us) + LEAD_US
+
     def send(self, data: bytes) -> None:
         """Send bytes before the next step."""
         self._outbox.append(data)
 
     def order_press(self, id: int, **fields: float) -> None:
         """Repeat a press with each command until it is reported."""
-        self._press = (id, press(id, **fields))
+        self._press = (id, fields)
 
     def run(self, seconds: float, step_us: int = STEP_US) -> Probe:
         """Let time pass; returns what the board shows then."""
@@ -171,9 +180,9 @@ class Host:
 
     def _speak(self) -> None:
         self._seq += 1
-        self._outbox.append(command(self._seq, self.height_m, self.led))
+        self._outbox.append(command(self._seq, self.height_m, self.latest_us, self.led, self.stop))
         if self._press:
-            self._outbox.append(self._press[1])
+            self._outbox.append(press(self._press[0], self.latest_us, **self._press[1]))
 
     def _step(self, step_us: int) -> None:
         while self._outbox:

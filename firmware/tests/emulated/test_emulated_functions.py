@@ -7,7 +7,19 @@ import subprocess
 
 import pytest
 from conftest import FIRMWARE, running_host
-from serial_host import COMMAND, PRESS, STATE, STOP, SUBSCRIBER, Host, calibrate, command, frame, press
+from serial_host import (
+    CLOCK_START_US,
+    COMMAND,
+    PRESS,
+    STATE,
+    STOP,
+    SUBSCRIBER,
+    Host,
+    calibrate,
+    command,
+    frame,
+    press,
+)
 
 from mtr_emulator import Emulator
 
@@ -15,7 +27,7 @@ FLASH_LIMIT, STATIC_RAM_LIMIT = 16 * 1024, 1024
 HEIGHT_TOLERANCE_M = 0.002
 PULSE_US = 20_000
 DONE, REFUSED = 2, 3
-CLOCK_START_US = 2 ** 32 - 1 - 120_000_000
+LATE, STOPPED = 9, 10
 # From power on to the start of the clock; most of it marks unused RAM.
 BOOT_US = {"atmega2560": 4_500, "atmega328p": 1_200}
 
@@ -71,7 +83,7 @@ def test_half_of_the_echoes_come_within_six_milliseconds(host):
     for seq in range(40):
         host.run(0.053, step_us=1000)
         host.echoes.clear()
-        host.send(command(seq, math.nan))
+        host.send(command(seq, math.nan, host.latest_us))
         waits_ms.append(0.0)
         while not host.echoes and waits_ms[-1] < 50.0:
             host.run(0.0005, step_us=500)
@@ -142,10 +154,38 @@ def test_press_travels_by_strength_is_held_and_reported_with_its_times(host, mcu
 def test_repeated_id_presses_once(host):
     host.log.clear()
     for _ in range(20):
-        host.send(press(1, hold_ms=100))
+        host.send(press(1, host.latest_us, hold_ms=100))
         host.run(0.1)
     pressed = [seen.servo_us[0] > 1999 for seen in host.log]
     assert sum(later and not earlier for earlier, later in zip(pressed, pressed[1:])) == 1
+
+
+def test_press_that_comes_late_is_refused_without_movement(host):  # B8
+    host.log.clear()
+    late_us = host.state.time_us - 1000
+    for _ in range(3):
+        host.send(press(9, late_us))
+        host.run(0.2)
+    assert (host.state.press_id, host.state.press_state) == (9, REFUSED)
+    assert {round(width) for seen in host.log for width in seen.servo_us} == {1000}
+    assert (host.healths[-1].refused_commands, host.healths[-1].last_refusal) == (1, LATE)
+
+
+def test_stop_of_an_order_brakes_the_lift_releases_the_servos_and_lets_no_press_begin(host):  # A3
+    host.height_m = 0.8
+    host.order_press(1, hold_ms=8000)
+    moving = host.run(2.0)
+    assert moving.lift_duty > 0.5 and moving.servo_us[0] > 1999
+    host.stop = 1
+    held = host.run(1.0)
+    assert held.lift_m < moving.lift_m + 0.06 and held.servo_us == pytest.approx((1000, 1000), abs=0.5)
+    host.order_press(2, hold_ms=100)
+    host.log.clear()
+    assert host.run(1.0).lift_m == pytest.approx(held.lift_m, abs=1e-4)
+    assert {round(width) for seen in host.log for width in seen.servo_us} == {1000}
+    assert (host.state.press_state, host.healths[-1].last_refusal) == (REFUSED, STOPPED)
+    host.stop = 0
+    assert host.run(1.0).lift_m > held.lift_m + 0.05
 
 
 def test_both_servos_press_together(host):
@@ -176,7 +216,7 @@ def test_unknown_topics_and_oversized_frames_are_skipped(host):
 
 
 def test_wrong_crc_inside_a_good_frame_is_not_obeyed(host):
-    good = press(1)
+    good = press(1, host.latest_us)
     host.send(frame(PRESS, good[7:-2] + bytes([good[-2] ^ 1])))
     host.run(0.5)
     assert host.state.press_id == 0 and host.healths[-1].checksum_errors == 1

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <vector>
 
+#include "../../hal_host/hal_host.hpp"
 #include "../../logic/crc16.hpp"
 
 namespace frames {
@@ -39,21 +40,29 @@ inline Bytes frame(std::uint16_t topic, const Bytes& payload) {
   return bytes;
 }
 
-inline Bytes command(std::uint32_t seq, float height_m, std::uint8_t led_pattern = 4) {
+/// Time of the firmware up to which an order of now may begin.
+inline std::uint32_t soon_us() { return hal_host::hardware().now_us + 500000U; }
+
+inline Bytes command(std::uint32_t seq, float height_m, std::uint8_t led_pattern = 4, std::uint8_t stop = 0,
+                     std::uint32_t latest_us = soon_us()) {
   Bytes payload;
   append(&payload, seq);
   append(&payload, height_m);
   payload.push_back(led_pattern);
+  payload.push_back(stop);
+  append(&payload, latest_us);
   seal(&payload);
   return frame(100, payload);
 }
 
-inline Bytes press(std::uint32_t id, std::uint8_t servos, float strength, std::uint16_t hold_ms) {
+inline Bytes press(std::uint32_t id, std::uint8_t servos, float strength, std::uint16_t hold_ms,
+                   std::uint32_t latest_us = soon_us()) {
   Bytes payload;
   append(&payload, id);
   payload.push_back(servos);
   append(&payload, strength);
   append(&payload, hold_ms);
+  append(&payload, latest_us);
   seal(&payload);
   return frame(101, payload);
 }

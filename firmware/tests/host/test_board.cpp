@@ -171,6 +171,59 @@ TEST_F(BoardTest, StopsReleasesAndSaysSoWhenTheHostIsSilent) {
   EXPECT_EQ(fault(), static_cast<int>(mtr::Fault::kNone));
 }
 
+// A3
+TEST_F(BoardTest, HoldsTheLiftReleasesTheServosAndTakesNoPressWhileItIsStopped) {
+  height_m_ = 0.5F;
+  send(frames::press(1, 3, 1.0F, 10000));
+  pass(350);
+  EXPECT_EQ(hardware().servo_us[0], 2000);
+  for (int i = 0; i < 10; ++i) {
+    send(frames::command(++seq_, height_m_, mtr::kLedMoving, 1));
+    send(frames::press(2, 1, 1.0F, 100));
+    pass(99, true);
+  }
+  EXPECT_EQ(hardware().duty, 0);
+  EXPECT_EQ(hardware().servo_us[0], 1000);
+  EXPECT_EQ(last_refusal(), static_cast<int>(mtr::Refusal::kStopped));
+  send(frames::press(2, 1, 1.0F, 100));
+  pass(350);
+  EXPECT_EQ(hardware().servo_us[0], 1000) << "what was refused is not taken later";
+  EXPECT_NE(hardware().duty, 0) << "the order of before holds again";
+}
+
+// B8
+TEST_F(BoardTest, RefusesAPressThatComesLaterThanItMayBegin) {
+  pass(300);
+  for (std::uint32_t latest_us : {hardware().now_us - 1000U, hardware().now_us + mtr::kMaxLeadUs + 1000000U}) {
+    send(frames::press(latest_us, 1, 1.0F, 100, latest_us));
+    pass(250);
+    EXPECT_EQ(hardware().servo_us[0], 1000);
+    EXPECT_EQ(last_refusal(), static_cast<int>(mtr::Refusal::kLate));
+  }
+}
+
+// B8
+TEST_F(BoardTest, LetsNoLateOrderMoveTheLiftOrStandForALivingHost) {
+  height_m_ = 0.0F;
+  pass(350);
+  for (int i = 0; i < 15; ++i) {
+    send(frames::command(++seq_, 0.5F, mtr::kLedMoving, 0, hardware().now_us - 1000U));
+    send(frames::press(7, 1, 1.0F, 100, hardware().now_us - 1000U));
+    pass(100, true);
+  }
+  EXPECT_EQ(hardware().duty, 0);
+  EXPECT_EQ(fault(), static_cast<int>(mtr::Fault::kLinkLost));
+}
+
+// B8
+TEST_F(BoardTest, ObeysOrdersAcrossTheWrapOfItsClock) {
+  pass(119900);
+  send(frames::press(1, 1, 1.0F, 200));
+  pass(250);
+  EXPECT_LT(hardware().now_us, 1000000U);
+  EXPECT_EQ(hardware().servo_us[0], 2000);
+}
+
 TEST_F(BoardTest, StopsAtOnceWhenTheHostSaysGoodbye) {
   height_m_ = 0.5F;
   pass(350);

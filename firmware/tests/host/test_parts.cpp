@@ -135,6 +135,7 @@ TEST(Memory, KeepsAGoodCopyWhenPowerFailsAtAnyByte) {
 class PressesTest : public testing::Test {
  protected:
   void start() { presses_.start(); }
+  mtr::Refusal order(const mtr::Press& press) { return presses_.order(press, mtr::Refusal::kNone); }
 
   /// Lets servo periods pass.
   void pass(int periods) {
@@ -151,7 +152,7 @@ class PressesTest : public testing::Test {
 
 TEST_F(PressesTest, TravelsByStrengthHoldsAndReleasesByItself) {
   start();
-  ASSERT_EQ(presses_.order({1, 2, 0.5F, 100}), mtr::Refusal::kNone);
+  ASSERT_EQ(order({1, 2, 0.5F, 100, 0}), mtr::Refusal::kNone);
   pass(mtr::kRampPeriods);
   EXPECT_EQ(presses_.width_us(0), 1000);
   EXPECT_EQ(presses_.width_us(1), 1500);
@@ -167,13 +168,13 @@ TEST_F(PressesTest, TravelsByStrengthHoldsAndReleasesByItself) {
 
 TEST_F(PressesTest, NeverPressesARepeatedIdTwice) {
   start();
-  presses_.order({1, 1, 1.0F, 20});
+  order({1, 1, 1.0F, 20, 0});
   pass(30);
   for (std::uint32_t id = 2; id < 2 + mtr::kRememberedPresses - 1; ++id) {
-    EXPECT_EQ(presses_.order({id, 1, 1.0F, 20}), mtr::Refusal::kNone);
+    EXPECT_EQ(order({id, 1, 1.0F, 20, 0}), mtr::Refusal::kNone);
     pass(30);
   }
-  presses_.order({1, 1, 1.0F, 20});
+  order({1, 1, 1.0F, 20, 0});
   pass(3);
   EXPECT_EQ(presses_.width_us(0), 1000);
   EXPECT_EQ(presses_.report().state, mtr::PressState::kDone);
@@ -181,40 +182,52 @@ TEST_F(PressesTest, NeverPressesARepeatedIdTwice) {
 
 TEST_F(PressesTest, RefusesWhatCannotBeAndRemembersIt) {
   start();
-  EXPECT_EQ(presses_.order({0, 1, 1.0F, 100}), mtr::Refusal::kPressId);
-  EXPECT_EQ(presses_.order({1, 0, 1.0F, 100}), mtr::Refusal::kServos);
-  EXPECT_EQ(presses_.order({2, 4, 1.0F, 100}), mtr::Refusal::kServos);
-  EXPECT_EQ(presses_.order({3, 1, NAN, 100}), mtr::Refusal::kStrength);
-  EXPECT_EQ(presses_.order({4, 1, -0.1F, 100}), mtr::Refusal::kStrength);
-  EXPECT_EQ(presses_.order({5, 1, 1.1F, 100}), mtr::Refusal::kStrength);
-  EXPECT_EQ(presses_.order({6, 1, INFINITY, 100}), mtr::Refusal::kStrength);
-  EXPECT_EQ(presses_.order({7, 1, 1.0F, 19}), mtr::Refusal::kHold);
-  EXPECT_EQ(presses_.order({8, 1, 1.0F, 10001}), mtr::Refusal::kHold);
+  EXPECT_EQ(order({0, 1, 1.0F, 100, 0}), mtr::Refusal::kPressId);
+  EXPECT_EQ(order({1, 0, 1.0F, 100, 0}), mtr::Refusal::kServos);
+  EXPECT_EQ(order({2, 4, 1.0F, 100, 0}), mtr::Refusal::kServos);
+  EXPECT_EQ(order({3, 1, NAN, 100, 0}), mtr::Refusal::kStrength);
+  EXPECT_EQ(order({4, 1, -0.1F, 100, 0}), mtr::Refusal::kStrength);
+  EXPECT_EQ(order({5, 1, 1.1F, 100, 0}), mtr::Refusal::kStrength);
+  EXPECT_EQ(order({6, 1, INFINITY, 100, 0}), mtr::Refusal::kStrength);
+  EXPECT_EQ(order({7, 1, 1.0F, 19, 0}), mtr::Refusal::kHold);
+  EXPECT_EQ(order({8, 1, 1.0F, 10001, 0}), mtr::Refusal::kHold);
   EXPECT_EQ(presses_.report().state, mtr::PressState::kRefused);
   EXPECT_EQ(presses_.report().id, 8U);
-  EXPECT_EQ(presses_.order({8, 1, 1.0F, 100}), mtr::Refusal::kNone);
+  EXPECT_EQ(order({8, 1, 1.0F, 100, 0}), mtr::Refusal::kNone);
   pass(10);
   EXPECT_EQ(presses_.width_us(0), 1000);
 }
 
+TEST_F(PressesTest, RefusesAndRemembersWhatHasAnImpedimentButNotARepetition) {
+  start();
+  EXPECT_EQ(presses_.order({1, 1, 1.0F, 100, 0}, mtr::Refusal::kLate), mtr::Refusal::kLate);
+  EXPECT_EQ(presses_.report().state, mtr::PressState::kRefused);
+  EXPECT_EQ(order({1, 1, 1.0F, 100, 0}), mtr::Refusal::kNone);
+  pass(30);
+  EXPECT_EQ(presses_.width_us(0), 1000);
+  order({2, 1, 1.0F, 100, 0});
+  EXPECT_EQ(presses_.order({2, 1, 1.0F, 100, 0}, mtr::Refusal::kLate), mtr::Refusal::kNone);
+  EXPECT_EQ(presses_.report().state, mtr::PressState::kPressing);
+}
+
 TEST_F(PressesTest, LeavesAPressUnderWayAloneAndTakesTheOtherLater) {
   start();
-  presses_.order({1, 1, 1.0F, 100});
+  order({1, 1, 1.0F, 100, 0});
   pass(3);
-  EXPECT_EQ(presses_.order({2, 2, 1.0F, 100}), mtr::Refusal::kBusy);
+  EXPECT_EQ(order({2, 2, 1.0F, 100, 0}), mtr::Refusal::kBusy);
   EXPECT_EQ(presses_.report().id, 1U);
   pass(20);
-  EXPECT_EQ(presses_.order({2, 2, 1.0F, 100}), mtr::Refusal::kNone);
+  EXPECT_EQ(order({2, 2, 1.0F, 100, 0}), mtr::Refusal::kNone);
   EXPECT_EQ(presses_.report().id, 2U);
 }
 
 TEST_F(PressesTest, LetsTheServoComeBackBeforeTheNextPress) {
   start();
-  presses_.order({1, 1, 1.0F, 20});
+  order({1, 1, 1.0F, 20, 0});
   while (presses_.report().state != mtr::PressState::kDone) {
     pass(1);
   }
-  presses_.order({2, 1, 1.0F, 20});
+  order({2, 1, 1.0F, 20, 0});
   pass(mtr::kReturnUs / mtr::kServoPeriodUs - 1);
   EXPECT_EQ(presses_.width_us(0), 1000);
   pass(mtr::kRampPeriods);
@@ -223,7 +236,7 @@ TEST_F(PressesTest, LetsTheServoComeBackBeforeTheNextPress) {
 
 TEST_F(PressesTest, AbortReleasesAndSaysCutShort) {
   start();
-  presses_.order({1, 1, 1.0F, 1000});
+  order({1, 1, 1.0F, 1000, 0});
   pass(10);
   EXPECT_EQ(presses_.width_us(0), 2000);
   presses_.abort();
@@ -234,13 +247,13 @@ TEST_F(PressesTest, AbortReleasesAndSaysCutShort) {
 
 TEST_F(PressesTest, RemembersIdsOverAReset) {
   start();
-  presses_.order({5, 1, 1.0F, 1000});
+  order({5, 1, 1.0F, 1000, 0});
   pass(10);
   mtr::Presses after(&memory_);
   after.start();
   EXPECT_EQ(after.report().id, 5U);
   EXPECT_EQ(after.report().state, mtr::PressState::kCutShort);
-  after.order({5, 1, 1.0F, 1000});
+  after.order({5, 1, 1.0F, 1000, 0}, mtr::Refusal::kNone);
   after.step(now_us_);
   EXPECT_EQ(after.width_us(0), 1000);
 }
@@ -250,7 +263,7 @@ TEST_F(PressesTest, ForgetsAMemoryThatPowerOffHasScrambled) {
   memory_.next = 200;
   start();
   EXPECT_EQ(presses_.report().id, 0U);
-  EXPECT_EQ(presses_.order({77, 1, 1.0F, 100}), mtr::Refusal::kNone);
+  EXPECT_EQ(order({77, 1, 1.0F, 100, 0}), mtr::Refusal::kNone);
   EXPECT_EQ(presses_.report().state, mtr::PressState::kPressing);
 }
 

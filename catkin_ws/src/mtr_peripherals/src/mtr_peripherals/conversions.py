@@ -9,7 +9,7 @@ from sensor_msgs.msg import JointState
 from mtr_core.conversions import desired_state_from
 from mtr_core.crc import seal
 from mtr_core.lockstep import clock
-from mtr_core.problems import messages_of
+from mtr_core.problems import NO_PROBLEM, messages_of, problem_of
 from mtr_core.requests import PressReport
 from mtr_msgs.msg import (
     DesiredState,
@@ -17,17 +17,21 @@ from mtr_msgs.msg import (
     FirmwareHealth,
     FirmwarePress,
     FirmwareState,
+    MotionLock,
     PeripheralsState,
     Problem,
     RobotMode,
 )
 from mtr_msgs.msg import PressReport as PressReportMessage
 
+from . import problems
 from .core import Inputs, Outcome
+from .emergency import EmergencyWord
 from .firmware import CALIBRATING, FirmwareReport, PressState, ServoPress
-from .firmware_clock import FirmwareClock, SharedClock
+from .firmware_clock import FirmwareClock, RobotClock, SharedClock
 from .health_watch import Health
 
+FirmwareTimes = Union[FirmwareClock, SharedClock]
 JOINTS = ("lift", "front_left_wheel", "front_right_wheel", "rear_left_wheel", "rear_right_wheel")
 
 
@@ -45,33 +49,43 @@ def inputs_from(desired: Optional[DesiredState], mode: Optional[RobotMode]) -> I
     return Inputs(wanted, mode.mode, bool(mode.goal.id)) if mode else Inputs(wanted)
 
 
-def firmware_report(state: FirmwareState, stamp_ns: int, times: Union[FirmwareClock, SharedClock]) -> FirmwareReport:
-    """A FirmwareState, sent at stamp_ns of the robot's clock."""
+def firmware_report(state: FirmwareState, stamp_ns: int, times: FirmwareTimes) -> FirmwareReport:
+    """A FirmwareState, sent at stamp_ns of the steady clock."""
     started = state.press_state in (PressState.PRESSING.value, PressState.DONE.value)
     return FirmwareReport(
         stamp_ns=stamp_ns, lift_height_m=state.lift_height_m, press_id=state.press_id,
         press_state=PressState(state.press_state),
-        press_start_ns=times.robot_ns(state.press_start_us, stamp_ns) if started else 0,
-        press_end_ns=times.robot_ns(state.press_end_us, stamp_ns) if started else 0,
+        press_start_ns=times.steady_ns(state.press_start_us, stamp_ns) if started else 0,
+        press_end_ns=times.steady_ns(state.press_end_us, stamp_ns) if started else 0,
         led_pattern=state.led_pattern, fault=state.fault, is_calibrating=state.lift_state == CALIBRATING)
 
 
-def command_message(outcome: Outcome, seq: int) -> FirmwareCommand:
-    """Lift and LEDs, for the firmware."""
-    return seal(FirmwareCommand(seq=seq % 2 ** 32, lift_height_m=outcome.lift_height_m, led_pattern=outcome.led.value))
+def command_message(outcome: Outcome, seq: int, latest_us: int) -> FirmwareCommand:
+    """Lift and LEDs, for the firmware, which obeys it until latest_us of its clock."""
+    return seal(FirmwareCommand(seq=seq % 2 ** 32, lift_height_m=outcome.lift_height_m, led_pattern=outcome.led.value,
+                                stop=outcome.stop, latest_us=latest_us))
 
 
-def press_message(press: ServoPress) -> FirmwarePress:
-    """One press, for the firmware."""
-    return seal(FirmwarePress(id=press.id, servos=press.servos, strength=press.strength, hold_ms=press.hold_ms))
+def press_message(press: ServoPress, latest_us: int) -> FirmwarePress:
+    """One press, for the firmware, which does not begin it after latest_us of its clock."""
+    return seal(FirmwarePress(id=press.id, servos=press.servos, strength=press.strength, hold_ms=press.hold_ms,
+                              latest_us=latest_us))
 
 
-def state_message(outcome: Outcome, battery: float, stamp: rospy.Time) -> PeripheralsState:
+def emergency_word(message: MotionLock, steady_stamp_ns: int) -> EmergencyWord:
+    """What the owner of a motion lock says of its emergency stop."""
+    reason = problem_of(message.problems, message.reason) or problems.EMERGENCY_ENGAGED(owner=message.owner)
+    return EmergencyWord(message.owner, reason if message.engaged else NO_PROBLEM, steady_stamp_ns, message.emergency)
+
+
+def state_message(outcome: Outcome, battery: float, stamp: rospy.Time, clock_of_robot: RobotClock,
+                  firmware_resets: int) -> PeripheralsState:
     """State in the terms of the domain."""
     message = PeripheralsState(
         alive=outcome.alive, key_height_m=outcome.key_height_m, pressed_buttons=list(outcome.pressed_buttons),
-        presses=[_report_message(report) for report in outcome.results], battery=battery, led=outcome.led_shown,
-        message=outcome.message.text, problems=messages_of(outcome.message, Problem))
+        presses=[_report_message(report, clock_of_robot) for report in outcome.results], battery=battery,
+        led=outcome.led_shown, message=outcome.message.text, problems=messages_of(outcome.message, Problem),
+        manual_lifts=outcome.manual_lifts, firmware_resets=firmware_resets)
     message.header.stamp = stamp
     return message
 
@@ -88,6 +102,7 @@ def battery_charge(percentage: Optional[float]) -> float:
     return percentage if percentage is not None and 0.0 <= percentage <= 1.0 else math.nan
 
 
-def _report_message(report: PressReport) -> PressReportMessage:
-    return PressReportMessage(report.session_id, report.id, clock.stamp_of(report.start_ns),
-                              clock.stamp_of(report.end_ns), report.error.text, messages_of(report.error, Problem))
+def _report_message(report: PressReport, clock_of_robot: RobotClock) -> PressReportMessage:
+    start, end = (clock.stamp_of(clock_of_robot.robot_ns(at_ns)) for at_ns in (report.start_ns, report.end_ns))
+    return PressReportMessage(report.session_id, report.id, start, end, report.error.text,
+                              messages_of(report.error, Problem))

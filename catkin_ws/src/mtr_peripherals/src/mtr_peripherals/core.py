@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import List, Optional, Tuple
 
+from mtr_core.liveness import is_fresh
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import NO_PRESS, DesiredState, PressReport
 from mtr_core.states import State
@@ -30,6 +31,7 @@ class Inputs:
         manual_lift_mps: rate that the manual controller wants, upwards; 0: it wants nothing.
         backs_unseen: the robot drives backwards, where no LiDAR looks.
         calibrates: a person's calibrate_lift repeats its request.
+        emergency: why an emergency stop is engaged, no problem when none is.
     """
 
     desired: DesiredState = DesiredState()
@@ -38,12 +40,21 @@ class Inputs:
     manual_lift_mps: float = 0.0
     backs_unseen: bool = False
     calibrates: bool = False
+    emergency: Problem = NO_PROBLEM
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What goes to the firmware (lift_height_m, led, press) and to the other nodes (the rest)."""
+    """What goes to the firmware (stop, lift_height_m, led, press) and to the other nodes (the rest).
 
+    Times are those of the steady clock.
+
+    Attributes:
+        stop: the firmware holds the lift, releases the servos and begins no press.
+        manual_lifts: times that the manual controller took the lift.
+    """
+
+    stop: bool
     lift_height_m: float
     led: Led
     press: Optional[ServoPress]
@@ -54,6 +65,13 @@ class Outcome:
     results: List[PressReport]
     led_shown: str
     message: Problem
+    manual_lifts: int
+
+
+# What goes to the firmware when an emergency stop is engaged between two ticks.
+STOPPED = Outcome(stop=True, lift_height_m=math.nan, led=Led.PAUSED, press=None, alive=False, lift_now_m=0.0,
+                  key_height_m=math.nan, pressed_buttons=(), results=[], led_shown="", message=NO_PROBLEM,
+                  manual_lifts=0)
 
 
 class Peripherals:
@@ -62,36 +80,54 @@ class Peripherals:
     def __init__(self, parameters: Parameters, lift: KeyLift):
         self._parameters, self._key_lift = parameters, lift
         self._presses = Presses(parameters.calibration)
+        self._manual_lifts = 0
+        self._is_manual = False
 
     def step(self, inputs: Inputs, report: Optional[FirmwareReport], now_ns: int) -> Outcome:
-        """Decide at one tick; report is the firmware's newest one."""
+        """Decide at now_ns of the steady clock; report is the firmware's newest one."""
         silence = self._silence(report, now_ns)
         lift_height_m, refusal = self._lift(inputs, report)
-        # A press that has begun ends by itself; a new one needs a live link.
-        press = self._presses.step(inputs.desired.press if inputs.desired.link_alive else NO_PRESS, report, now_ns)
+        press = self._press(inputs, report, now_ns)
+        self._count_manual_lift(inputs)
         fault = _fault(report) if report and not silence else NO_PROBLEM
         return Outcome(
-            lift_height_m, self._led(inputs, bool(silence or fault)), press, not silence,
+            bool(inputs.emergency), lift_height_m, self._led(inputs, bool(silence or fault)), press, not silence,
             lift_now_m=report.lift_height_m if report else 0.0,
             key_height_m=self._key_lift.key_height_m(report.lift_height_m) if report else math.nan,
             pressed_buttons=self._presses.pressed_buttons, results=list(self._presses.results),
-            led_shown=_led_name(report), message=silence or fault or refusal)
+            led_shown=_led_name(report), message=silence or fault or inputs.emergency or refusal,
+            manual_lifts=self._manual_lifts)
 
     def _silence(self, report: Optional[FirmwareReport], now_ns: int) -> Problem:
         if report is None:
             return problems.FIRMWARE_NOT_REPORTED()
         age_s = (now_ns - report.stamp_ns) * NS
-        if age_s > self._parameters.firmware_silent_after_s:
+        if not is_fresh(age_s, self._parameters.firmware_silent_after_s):
             return problems.FIRMWARE_SILENT(age_s=age_s)
         return NO_PROBLEM
 
+    def _press(self, inputs: Inputs, report: Optional[FirmwareReport], now_ns: int) -> Optional[ServoPress]:
+        desired = inputs.desired
+        if desired.session_id:
+            self._presses.take_up(desired.press, report, now_ns)
+        stop = inputs.emergency or (problems.STOPPED() if desired.stop else NO_PROBLEM)
+        # A press that has begun ends by itself; a new one needs a live link.
+        return self._presses.step(desired.press if desired.link_alive else NO_PRESS, report, now_ns, stop)
+
+    def _count_manual_lift(self, inputs: Inputs) -> None:
+        is_manual = bool(inputs.manual_lift_mps)
+        self._manual_lifts += is_manual and not self._is_manual
+        self._is_manual = is_manual
+
     def _lift(self, inputs: Inputs, report: Optional[FirmwareReport]) -> Tuple[float, Problem]:
+        if inputs.emergency:
+            return math.nan, NO_PROBLEM
         if report is not None and (inputs.calibrates or report.is_calibrating):
             return self._while_calibrating(inputs, report)
         if inputs.manual_lift_mps and report is not None:
             ahead_m = report.lift_height_m + MANUAL_LEAD_S * inputs.manual_lift_mps
             return self._key_lift.within_travel_m(ahead_m), NO_PROBLEM
-        if not inputs.desired.link_alive:
+        if not inputs.desired.link_alive or inputs.desired.stop:
             return math.nan, NO_PROBLEM
         try:
             return self._key_lift.height_m(inputs.desired.key_height_m), NO_PROBLEM

@@ -40,7 +40,7 @@ CALIBRATING = 2
 
 @dataclass(frozen=True)
 class FirmwareReport:
-    """One FirmwareState with its times on the robot's clock, in ns."""
+    """One FirmwareState with its times on the steady clock, in ns."""
 
     stamp_ns: int
     lift_height_m: float = 0.0
@@ -55,9 +55,10 @@ class FirmwareReport:
 
 @dataclass(frozen=True)
 class ServoPress:
-    """One press for the firmware: servos are bits."""
+    """One press for the firmware: servos are bits; it must not begin after latest_ns of the steady clock."""
 
     id: int
     servos: int
     strength: float
     hold_ms: int
+    latest_ns: int

@@ -1,14 +1,23 @@
-"""Maps the firmware's clock, 32-bit microseconds that wrap, to the robot's clock."""
+"""Maps the firmware's clock, 32-bit microseconds that wrap, to the robot's steady clock, and that to the robot's clock.
+
+Whatever is done to the robot's clock, the firmware's is compared with the steady one only.
+"""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Optional
+
+from mtr_core.liveness import Instant
 
 MICROSECOND_NS = 1000
 WRAP_US = 2 ** 32
 WRAP_NS = WRAP_US * MICROSECOND_NS
 # A ceramic resonator, as on an Arduino Mega, is off by up to 0.5 %; the estimate may follow twice that.
 DRIFT_LIMIT = 0.01
-# A message later than this against the estimate means that the firmware has started again.
+# A message earlier than this against the estimate, or that tells an earlier time, is of a firmware that has started
+# again; later ones waited on the way. When nothing but such have come for so long, the estimate is wrong.
 RESTART_NS = 1_000_000_000
+LATE_FOR_NS = 5_000_000_000
+# Two readings of the same offset differ by less, see mtr_core.lockstep.clock.
+SAME_OFFSET_NS = 2_000_000
 
 
 def nearest_unwrapped_ns(time_us: int, near_ns: int) -> int:
@@ -20,16 +29,22 @@ def nearest_unwrapped_ns(time_us: int, near_ns: int) -> int:
 class SharedClock:
     """The simulated firmware's clock is the robot's own but for a constant, modulo the wrap."""
 
+    restarts = 0
+
     def __init__(self, start_us: int = 0):
         self._start_us = start_us
 
     def observe(self, time_us: int, arrival_ns: int) -> int:
-        """Robot's time at which the firmware sent a message, from its time and the robot's time near arrival."""
+        """Steady time at which the firmware sent a message, from its time and the steady time near arrival."""
         return nearest_unwrapped_ns(time_us - self._start_us, arrival_ns)
 
-    def robot_ns(self, time_us: int, near_ns: int) -> int:
-        """Robot's time of an instant of the firmware's clock that lies near a known one."""
+    def steady_ns(self, time_us: int, near_ns: int) -> int:
+        """Steady time of an instant of the firmware's clock that lies near a known one."""
         return nearest_unwrapped_ns(time_us - self._start_us, near_ns)
+
+    def firmware_us(self, steady_ns: int) -> Optional[int]:
+        """The firmware's clock at a steady time."""
+        return (steady_ns // MICROSECOND_NS + self._start_us) % WRAP_US
 
 
 class FirmwareClock:
@@ -45,26 +60,54 @@ class FirmwareClock:
         self.restarts = 0
         self._offset_ns = 0
         self._last_firmware_ns: Optional[int] = None
+        self._in_time_ns = 0
 
     def observe(self, time_us: int, arrival_ns: int) -> int:
-        """Robot's time at which the firmware sent a message, from its time and the robot's time at arrival."""
+        """Steady time at which the firmware sent a message, from its time and the steady time at arrival."""
         if self._last_firmware_ns is None:
             return self._begin(time_us, arrival_ns)
         firmware_ns = nearest_unwrapped_ns(time_us, arrival_ns - self._offset_ns)
-        offset_ns = arrival_ns - firmware_ns
-        if firmware_ns < self._last_firmware_ns or abs(offset_ns - self._offset_ns) > RESTART_NS:
+        late_ns = arrival_ns - firmware_ns - self._offset_ns
+        if firmware_ns < self._last_firmware_ns or late_ns < -RESTART_NS:
             self.restarts += 1
             return self._begin(time_us, arrival_ns)
+        if late_ns <= RESTART_NS:
+            self._in_time_ns = arrival_ns
+        elif arrival_ns - self._in_time_ns > LATE_FOR_NS:
+            return self._begin(time_us, arrival_ns)
         leak_ns = int((firmware_ns - self._last_firmware_ns) * DRIFT_LIMIT)
-        self._offset_ns = min(offset_ns, self._offset_ns + leak_ns)
+        self._offset_ns += min(late_ns, leak_ns)
         self._last_firmware_ns = firmware_ns
         return firmware_ns + self._offset_ns
 
-    def robot_ns(self, time_us: int, near_ns: int) -> int:
-        """Robot's time of an instant of the firmware's clock that lies near a known one (robot's time)."""
+    def steady_ns(self, time_us: int, near_ns: int) -> int:
+        """Steady time of an instant of the firmware's clock that lies near a known steady time."""
         return nearest_unwrapped_ns(time_us, near_ns - self._offset_ns) + self._offset_ns
+
+    def firmware_us(self, steady_ns: int) -> Optional[int]:
+        """The firmware's clock at a steady time, None before its first message."""
+        if self._last_firmware_ns is None:
+            return None
+        return (steady_ns - self._offset_ns) // MICROSECOND_NS % WRAP_US
 
     def _begin(self, time_us: int, arrival_ns: int) -> int:
         self._last_firmware_ns = time_us * MICROSECOND_NS
         self._offset_ns = arrival_ns - self._last_firmware_ns
+        self._in_time_ns = arrival_ns
         return arrival_ns
+
+
+class RobotClock:
+    """Steady times on the robot's clock: what lies between the two changes only when the robot's clock is set."""
+
+    def __init__(self) -> None:
+        self._offset_ns: Optional[int] = None
+
+    def update(self, now: Instant) -> None:
+        """Take a reading of both clocks."""
+        if self._offset_ns is None or abs(now.offset_ns - self._offset_ns) > SAME_OFFSET_NS:
+            self._offset_ns = now.offset_ns
+
+    def robot_ns(self, steady_ns: int) -> int:
+        """The robot's time of a steady time, as its clock stands now."""
+        return steady_ns + (self._offset_ns or 0)

@@ -9,7 +9,8 @@ QUIET_S = 10.0
 ALL_COPIES = 2
 # By FirmwareHealth.last_refusal.
 REFUSED_FIELDS = {1: "the lift's height", 2: "the LED pattern", 3: "the press id", 4: "the servos", 5: "the strength",
-                  6: "the time to hold", 7: "another press under way", 8: "the calibration"}
+                  6: "the time to hold", 7: "another press under way", 8: "the calibration", 9: "its age",
+                  10: "an emergency stop"}
 
 
 @dataclass(frozen=True)

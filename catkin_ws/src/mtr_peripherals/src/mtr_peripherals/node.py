@@ -1,5 +1,6 @@
 """The peripherals' node: wires the topics to the core."""
 # SPDX-License-Identifier: Apache-2.0
+import threading
 from dataclasses import replace
 from typing import Any, Optional, Tuple
 
@@ -8,6 +9,7 @@ from sensor_msgs.msg import BatteryState, JointState
 
 from mtr_core import names, schedule
 from mtr_core.crc import is_sound
+from mtr_core.liveness import NS, is_fresh, steady_stamp_ns
 from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_core.lockstep.samples import Samples
 from mtr_core.requests import PressReport
@@ -21,6 +23,7 @@ from mtr_msgs.msg import (
     FirmwarePress,
     FirmwareState,
     LiftCommand,
+    MotionLock,
     PeripheralsState,
     RobotMode,
 )
@@ -28,6 +31,7 @@ from mtr_msgs.msg import (
 from .conversions import (
     battery_charge,
     command_message,
+    emergency_word,
     firmware_report,
     health_of,
     inputs_from,
@@ -35,14 +39,15 @@ from .conversions import (
     press_message,
     state_message,
 )
-from .core import Outcome, Peripherals
+from .core import STOPPED, Inputs, Outcome, Peripherals
+from .emergency import EmergencyStops
 from .firmware import FirmwareReport
-from .firmware_clock import FirmwareClock, SharedClock
+from .firmware_clock import FirmwareClock, RobotClock, SharedClock
 from .health_watch import HealthWatch
 from .key_lift import KeyLift
+from .latest import Latest
 from .parameters import Parameters
 
-NS = 1e-9
 # Each report of emulated firmware is there by then: it reports every 40 ms, needs 10 ms on the line, and the simulator
 # hands on every 20 ms.
 EMULATED_LAG_NS = 100_000_000
@@ -52,6 +57,10 @@ EMULATED_CLOCK_START_US = 2 ** 32 - 1 - 120_000_000
 MANUAL_LIFT_SILENT_S = 0.2
 # calibrate_lift repeats its order every 100 ms as long as the person lets it run.
 CALIBRATE_SILENT_S = 0.5
+# The firmware obeys an order for so long: longer than the period, shorter than the silence that stops it.
+COMMAND_LIFETIME_NS = 500_000_000
+# Of motion locks; each owner speaks ten times a second.
+LOCKS_QUEUED = 50
 
 
 class PeripheralsNode:
@@ -63,9 +72,13 @@ class PeripheralsNode:
         start_us, lag_ns = (EMULATED_CLOCK_START_US, EMULATED_LAG_NS) if parameters.emulated_firmware else (0, 0)
         self._times = SharedClock(start_us) if clock.is_simulated() else FirmwareClock()
         self._reports: Samples[FirmwareReport] = Samples(schedule.FIRMWARE, lag_ns, clock.is_simulated())
-        self._battery: Tuple[int, Optional[float]] = (0, None)
-        self._manual_lift = LiftCommand()
-        self._calibrate_ns: Optional[int] = None
+        self._robot_clock, self._before = RobotClock(), clock.reading()
+        self._battery: Latest[BatteryState] = Latest()
+        self._manual_lift: Latest[LiftCommand] = Latest()
+        self._calibrate: Latest[FirmwareCalibrate] = Latest()
+        self._emergency = EmergencyStops(parameters.emergency_owners, parameters.emergency_silent_after_s)
+        # From a decision to its last message; a stop that comes in between leaves after them.
+        self._deciding = threading.Lock()
         self._health = HealthWatch()
         self._seq = 0
         self._logged: Optional[Tuple[str, Optional[PressReport]]] = None
@@ -78,13 +91,15 @@ class PeripheralsNode:
         self._press = publisher(names.FIRMWARE_PRESS, FirmwarePress)
         self._state = publisher(names.PERIPHERALS_STATE, PeripheralsState)
         self._joints = publisher(names.JOINT_STATES, JointState)
+        self._ticker = Ticker(schedule.PERIPHERALS)
         self._subscribers = (
             rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, self._take_state, queue_size=50, tcp_nodelay=True),
             rospy.Subscriber(names.FIRMWARE_HEALTH, FirmwareHealth, self._take_health, queue_size=1),
             rospy.Subscriber(names.FIRMWARE_CALIBRATE, FirmwareCalibrate, self._take_calibrate, queue_size=1),
             rospy.Subscriber(names.BATTERY, BatteryState, self._take_battery, queue_size=1),
-            rospy.Subscriber(names.MANUAL_LIFT, LiftCommand, self._take_manual_lift, queue_size=1, tcp_nodelay=True))
-        self._ticker = Ticker(schedule.PERIPHERALS)
+            rospy.Subscriber(names.MANUAL_LIFT, LiftCommand, self._take_manual_lift, queue_size=1, tcp_nodelay=True),
+            rospy.Subscriber(names.MOTION_LOCK, MotionLock, self._take_lock, queue_size=LOCKS_QUEUED,
+                             tcp_nodelay=True))
 
     def spin(self) -> None:
         """Run until shutdown."""
@@ -92,66 +107,87 @@ class PeripheralsNode:
             self._step(self._ticker.sleep())
 
     def _step(self, tick: int) -> None:
-        inputs = inputs_from(self._fresh(self._desired.at(tick), tick), self._fresh(self._mode.at(tick), tick))
-        inputs = replace(inputs, manual_lift_mps=self._manual_lift_mps(tick), backs_unseen=self._backs_unseen(tick),
-                         calibrates=self._calibrates(tick))
-        outcome = self._core.step(inputs, self._reports.at(tick), tick)
-        self._seq += 1
-        self._send(self._command, command_message(outcome, self._seq))
-        if outcome.press:
-            self._send(self._press, press_message(outcome.press))
+        now_ns = clock.steady_at(tick)
+        inputs = inputs_from(self._fresh(self._desired, tick), self._fresh(self._mode, tick))
+        inputs = replace(inputs, manual_lift_mps=self._manual_lift_mps(now_ns), backs_unseen=self._backs_unseen(tick),
+                         calibrates=self._calibrate.at(now_ns, CALIBRATE_SILENT_S) is not None)
+        outcome = self._decide(inputs, self._reports.at(tick), now_ns)
+        self._robot_clock.update(clock.reading())
         stamp = clock.stamp_of(tick)
-        self._state.publish(state_message(outcome, self._charge(tick), stamp))
+        self._state.publish(state_message(outcome, self._charge(now_ns), stamp, self._robot_clock,
+                                          self._times.restarts))
         self._joints.publish(joint_message(outcome, stamp))
         self._log(outcome)
+
+    def _decide(self, inputs: Inputs, report: Optional[FirmwareReport], now_ns: int) -> Outcome:
+        with self._deciding:
+            outcome = self._core.step(replace(inputs, emergency=self._emergency.reason(now_ns)), report, now_ns)
+            self._order(outcome, now_ns)
+        return outcome
+
+    def _order(self, outcome: Outcome, now_ns: int) -> None:
+        """What the firmware shall do; nothing before its clock is known."""
+        latest_us = self._times.firmware_us(now_ns + COMMAND_LIFETIME_NS)
+        if latest_us is None:
+            return
+        self._seq += 1
+        self._send(self._command, command_message(outcome, self._seq, latest_us))
+        press_latest_us = self._times.firmware_us(outcome.press.latest_ns) if outcome.press else None
+        if outcome.press and press_latest_us is not None:
+            self._send(self._press, press_message(outcome.press, press_latest_us))
 
     def _send(self, publisher: rospy.Publisher, message: object) -> None:
         publisher.publish(message)
         self._ticker.messages_sent += 1
 
+    def _take_lock(self, message: MotionLock) -> None:
+        with self._deciding:
+            if self._emergency.take(emergency_word(message, self._steady_stamp_ns(message))):
+                self._order(STOPPED, clock.steady_ns())
+
     def _take_state(self, message: FirmwareState) -> None:
         if not is_sound(message):
             return
-        stamp_ns = self._times.observe(message.time_us, clock.now_ns())
+        stamp_ns = self._times.observe(message.time_us, clock.steady_ns())
         report = firmware_report(message, stamp_ns, self._times)
         self._reports.add(stamp_ns, report)
         self._reports.wait_until_wanted()
 
     def _take_health(self, message: FirmwareHealth) -> None:
-        sentence = self._health.sentence(health_of(message), clock.now_ns() * NS)
+        sentence = self._health.sentence(health_of(message), clock.steady_ns() * NS)
         if sentence:
             rospy.logwarn("%s", sentence)
 
     def _take_battery(self, message: BatteryState) -> None:
-        self._battery = (clock.now_ns(), message.percentage)
+        self._battery.take(message, clock.steady_ns())
 
     def _take_manual_lift(self, message: LiftCommand) -> None:
-        self._manual_lift = message
+        self._manual_lift.take(message, self._steady_stamp_ns(message))
 
-    def _take_calibrate(self, _message: FirmwareCalibrate) -> None:
-        self._calibrate_ns = clock.now_ns()
+    def _take_calibrate(self, message: FirmwareCalibrate) -> None:
+        self._calibrate.take(message, clock.steady_ns())
 
-    def _calibrates(self, tick: int) -> bool:
-        return self._calibrate_ns is not None and (tick - self._calibrate_ns) * NS <= CALIBRATE_SILENT_S
+    def _steady_stamp_ns(self, message: Any) -> int:
+        now, before = clock.reading(), self._before
+        self._before = now
+        return steady_stamp_ns(message.header.stamp.to_nsec(), now, before)
 
-    def _manual_lift_mps(self, tick: int) -> float:
+    def _manual_lift_mps(self, now_ns: int) -> float:
         """Rate wanted by the manual controller, 0 when it wants nothing or is silent."""
-        age_s = (tick - self._manual_lift.header.stamp.to_nsec()) * NS
-        return self._manual_lift.rate_mps if age_s <= MANUAL_LIFT_SILENT_S else 0.0
+        message = self._manual_lift.at(now_ns, MANUAL_LIFT_SILENT_S)
+        return message.rate_mps if message else 0.0
 
     def _backs_unseen(self, tick: int) -> bool:
-        drive = self._fresh(self._drive.at(tick), tick) if self._drive else None
+        drive = self._fresh(self._drive, tick) if self._drive else None
         return drive is not None and drive.linear_mps < 0.0
 
-    def _charge(self, tick: int) -> float:
-        taken_ns, percentage = self._battery
-        stale = (tick - taken_ns) * NS > self._parameters.battery_silent_after_s
-        return battery_charge(None if stale else percentage)
+    def _charge(self, now_ns: int) -> float:
+        message = self._battery.at(now_ns, self._parameters.battery_silent_after_s)
+        return battery_charge(message.percentage if message else None)
 
-    def _fresh(self, message: Optional[Any], tick: int) -> Optional[Any]:
-        if message is None or (tick - message.header.stamp.to_nsec()) * NS > self._parameters.order_silent_after_s:
-            return None
-        return message
+    def _fresh(self, topic: TickInput, tick: int) -> Optional[Any]:
+        message = topic.at(tick)
+        return message if is_fresh(topic.age_s(tick), self._parameters.order_silent_after_s) else None
 
     def _log(self, outcome: Outcome) -> None:
         newest = outcome.results[-1] if outcome.results else None

@@ -1,6 +1,7 @@
 """Parameters of the peripherals' node."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
+from typing import Tuple
 
 from mtr_core.parameters import ParameterSet, number
 
@@ -14,6 +15,8 @@ class Parameters(ParameterSet):
     Attributes:
         firmware_silent_after_s: age of the newest FirmwareState at which the firmware has failed.
         order_silent_after_s: age of DesiredState and RobotMode at which they hold no longer.
+        emergency_silent_after_s: age of an emergency stop's word at which it counts as engaged; it speaks every 0.1 s.
+        emergency_owners: emergency stops that have to be heard; each other one counts from its first word on.
         battery_silent_after_s: age at which the battery's charge is unknown.
         emulated_firmware: in simulation, the firmware is the flashed one on an emulated board: its clock starts
             elsewhere, and its reports take time to come.
@@ -23,6 +26,8 @@ class Parameters(ParameterSet):
 
     firmware_silent_after_s: float = number(1.0, 0.2, 5.0, "s")
     order_silent_after_s: float = number(0.5, 0.2, 5.0, "s")
+    emergency_silent_after_s: float = number(0.5, 0.2, 2.0, "s")
+    emergency_owners: Tuple[str, ...] = ()
     battery_silent_after_s: float = number(30.0, 1.0, 600.0, "s")
     emulated_firmware: bool = False
     rear_lidar: bool = True

@@ -1,5 +1,7 @@
 """Carries out each press once and keeps the reports."""
 # SPDX-License-Identifier: Apache-2.0
+import struct
+import zlib
 from collections import deque
 from dataclasses import dataclass
 from typing import Deque, Optional, Tuple
@@ -12,10 +14,20 @@ from .calibration import Calibration, RequestRefused
 from .firmware import FirmwareReport, PressState, ServoPress
 
 KEPT_REPORTS = 8
+# The firmware must not begin a press later than this after it was first ordered.
+BEGIN_WITHIN_NS = 2_000_000_000
 # Travel of the servo, transport and repetition; a press that is not done after its hold and this has failed.
 PRESS_MARGIN_NS = 3_000_000_000
 MILLISECOND_NS = 1_000_000
 MAX_FIRMWARE_ID = 2 ** 32 - 1
+
+
+def firmware_id_of(press: Press) -> int:
+    """Id of a press for the firmware, the same whoever asks: this node may have started again since it was ordered.
+
+    Presses of a session count up, so they never meet; those of another session begin elsewhere.
+    """
+    return (zlib.crc32(struct.pack("<Q", press.session_id)) + press.id) % MAX_FIRMWARE_ID + 1
 
 
 @dataclass
@@ -37,39 +49,58 @@ class Presses:
         self._calibration = calibration
         self.results: Deque[PressReport] = deque(maxlen=KEPT_REPORTS)
         self._running: Optional[_Running] = None
-        self._newest = (0, 0)
-        self._firmware_id: Optional[int] = None
+        self._newest: Optional[Tuple[int, int]] = None
 
     @property
     def pressed_buttons(self) -> Tuple[int, ...]:
         """Buttons held down now."""
         return self._running.press.buttons if self._running and self._running.seen else ()
 
-    def step(self, press: Press, report: Optional[FirmwareReport], now_ns: int) -> Optional[ServoPress]:
-        """Take the wanted press and the firmware's newest report; returns what to send the firmware now."""
+    def take_up(self, press: Press, report: Optional[FirmwareReport], now_ns: int) -> None:
+        """Take the first press that an application wants after the start of this node: perhaps an old one.
+
+        What the firmware knows of it is followed; one that it does not know is not ordered again, as nobody knows
+        what became of it.
+        """
+        if self._newest is not None or report is None:
+            return
+        self._newest = press.session_id, press.id
+        if not press.id:
+            return
+        if report.press_id == firmware_id_of(press):
+            self._begin(press, now_ns)
+        else:
+            self._finish(press, now_ns, now_ns, problems.PRESS_UNKNOWN())
+
+    def step(self, press: Press, report: Optional[FirmwareReport], now_ns: int,
+             stop: Problem = NO_PROBLEM) -> Optional[ServoPress]:
+        """Take the wanted press and the firmware's newest report; returns what to send the firmware now.
+
+        stop: why no press may begin.
+        """
         if report is None:
             return None
-        if self._firmware_id is None:
-            # Ids go on where the firmware stands: it outlives this node, and must not take a new press for an old one.
-            self._firmware_id = report.press_id
         if self._running:
-            self._follow(self._running, report, now_ns)
+            self._follow(self._running, report, now_ns, stop)
         if self._running is None and press.id and (press.session_id, press.id) != self._newest:
-            self._begin(press, self._firmware_id % MAX_FIRMWARE_ID + 1, now_ns)
+            self._newest = press.session_id, press.id
+            if stop:
+                self._finish(press, now_ns, now_ns, problems.PRESS_STOPPED(cause=stop))
+            else:
+                self._begin(press, now_ns)
         return self._running.firmware if self._running and not self._running.seen else None
 
-    def _begin(self, press: Press, firmware_id: int, now_ns: int) -> None:
-        self._newest, self._firmware_id = (press.session_id, press.id), firmware_id
+    def _begin(self, press: Press, now_ns: int) -> None:
         try:
-            firmware = ServoPress(firmware_id, self._calibration.servos(press.buttons),
+            firmware = ServoPress(firmware_id_of(press), self._calibration.servos(press.buttons),
                                   self._calibration.strength(press.strength),
-                                  self._calibration.hold_ms(press.duration_s))
+                                  self._calibration.hold_ms(press.duration_s), now_ns + BEGIN_WITHIN_NS)
         except RequestRefused as refused:
             self._finish(press, now_ns, now_ns, refused.problem)
             return
         self._running = _Running(press, firmware, now_ns + firmware.hold_ms * MILLISECOND_NS + PRESS_MARGIN_NS)
 
-    def _follow(self, running: _Running, report: FirmwareReport, now_ns: int) -> None:
+    def _follow(self, running: _Running, report: FirmwareReport, now_ns: int, stop: Problem) -> None:
         if report.press_id == running.firmware.id:
             running.seen = True
             if report.press_state is PressState.DONE:
@@ -80,6 +111,9 @@ class Presses:
                 self._finish(running.press, now_ns, now_ns, problems.PRESS_CUT_SHORT())
         elif running.seen:
             self._finish(running.press, now_ns, now_ns, problems.PRESS_RESTARTED())
+        elif stop:
+            # It may be on its way, and be taken before the stop.
+            self._finish(running.press, now_ns, now_ns, problems.PRESS_CUT_SHORT())
         if self._running and now_ns > running.deadline_ns:
             self._finish(running.press, now_ns, now_ns, problems.PRESS_LATE())
 

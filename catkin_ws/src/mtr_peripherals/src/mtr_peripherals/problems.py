@@ -10,6 +10,13 @@ UNKNOWN_BUTTON = Sentence("peripherals.unknown_button",
 STRENGTH = Sentence("peripherals.strength", "Strength {value} was refused; allowed is {low} to {high}.")
 DURATION = Sentence("peripherals.duration", "Duration {value} s was refused; allowed is above 0 to {high} s.")
 
+# What stops lift and servos
+EMERGENCY_STOP = Sentence("peripherals.emergency_stop", "Lift and servos stand still: {cause}")
+EMERGENCY_ENGAGED = Sentence("peripherals.emergency_engaged", "The emergency stop of {owner} is engaged.")
+EMERGENCY_SILENT = Sentence("peripherals.emergency_silent", "The emergency stop of {owner} is silent.")
+EMERGENCY_NOT_HEARD = Sentence("peripherals.emergency_not_heard", "The emergency stop of {owner} was not heard yet.")
+STOPPED = Sentence("peripherals.stopped", "The robot is stopped.")
+
 # The firmware
 FIRMWARE_NOT_REPORTED = Sentence("peripherals.firmware_not_reported",
                                  "The firmware of lift and buttons has not reported yet.")
@@ -24,6 +31,9 @@ OTHER_FAULT = Sentence("peripherals.other_fault", "The firmware reports fault {f
 # A press
 PRESS_REFUSED = Sentence("peripherals.press_refused", "The firmware refused the press.")
 PRESS_CUT_SHORT = Sentence("peripherals.press_cut_short", "The press was cut short; it may have pressed or not.")
+PRESS_STOPPED = Sentence("peripherals.press_stopped", "The press was not begun: {cause}")
+PRESS_UNKNOWN = Sentence("peripherals.press_unknown", "The node of lift and buttons started again during the press; "
+                         "it may have pressed or not.")
 PRESS_RESTARTED = Sentence("peripherals.press_restarted", "The firmware started again during the press.")
 PRESS_LATE = Sentence("peripherals.press_late", "The firmware did not report the press as done in time.")
 

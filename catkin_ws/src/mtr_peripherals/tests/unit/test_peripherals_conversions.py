@@ -2,38 +2,49 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 
+import pytest
 import rospy
 
 from mtr_core.crc import is_sound
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import Press, PressReport
-from mtr_msgs.msg import ButtonPress, DesiredState, FirmwareState, RobotMode, Waypoint
+from mtr_msgs.msg import ButtonPress, DesiredState, FirmwareState, MotionLock, RobotMode, Waypoint
 from mtr_peripherals.conversions import (
     battery_charge,
     command_message,
+    emergency_word,
     firmware_report,
     inputs_from,
     joint_message,
     press_message,
     state_message,
 )
-from mtr_peripherals.core import Outcome
+from mtr_peripherals.core import STOPPED, Outcome
 from mtr_peripherals.firmware import Led, PressState, ServoPress
-from mtr_peripherals.firmware_clock import SharedClock
+from mtr_peripherals.firmware_clock import RobotClock, SharedClock
 
 SECOND_NS = 1_000_000_000
 REFUSED = Problem("peripherals.refused", "A sentence.")
 STAMP = rospy.Time(5)
-OUTCOME = Outcome(0.5, Led.MOVING, ServoPress(3, 2, 0.5, 250), True, 0.4, 0.75, (2,),
+OUTCOME = Outcome(False, 0.5, Led.MOVING, ServoPress(3, 2, 0.5, 250, 0), True, 0.4, 0.75, (2,),
                   [PressReport(8, 7, 4 * SECOND_NS, 4 * SECOND_NS + 1, NO_PROBLEM),
-                   PressReport(9, 7, 5 * SECOND_NS, 5 * SECOND_NS, REFUSED)], "moving", REFUSED)
+                   PressReport(9, 7, 5 * SECOND_NS, 5 * SECOND_NS, REFUSED)], "moving", REFUSED, 4)
 
 
 def test_leds_are_those_of_the_message():
     assert {led.value for led in Led} == set(range(10))
-    command = command_message(OUTCOME, 6)
+    command = command_message(OUTCOME, 6, 9)
     assert (command.seq, command.lift_height_m, command.led_pattern) == (6, 0.5, 4)
-    assert is_sound(command) and is_sound(press_message(OUTCOME.press))
+    assert (command.stop, command.latest_us) == (0, 9)
+    assert is_sound(command) and is_sound(press_message(OUTCOME.press, 9))
+    assert command_message(STOPPED, 7, 9).stop == 1 and math.isnan(command_message(STOPPED, 7, 9).lift_height_m)
+
+
+@pytest.mark.parametrize("engaged", [False, True])
+def test_lock_of_an_emergency_stop_is_a_word_with_its_reason(engaged):
+    word = emergency_word(MotionLock(owner="remote", engaged=engaged, reason="Pressed.", emergency=True), 5)
+    assert (word.owner, word.reason.text, word.steady_stamp_ns) == ("remote", "Pressed." if engaged else "", 5)
+    assert emergency_word(MotionLock(owner="remote", engaged=True), 5).reason.text, "a lock without a reason is one"
 
 
 def test_inputs_take_session_height_and_press():
@@ -60,8 +71,9 @@ def test_firmware_state_gets_the_robots_clock():
 
 
 def test_outcome_becomes_messages():
-    state, joints = state_message(OUTCOME, 0.9, STAMP), joint_message(OUTCOME, STAMP)
-    press = press_message(OUTCOME.press)
+    robot = RobotClock()
+    state, joints = state_message(OUTCOME, 0.9, STAMP, robot, 3), joint_message(OUTCOME, STAMP)
+    press = press_message(OUTCOME.press, 9)
     assert (state.alive, state.key_height_m, state.pressed_buttons, state.battery) == (True, 0.75, [2], 0.9)
     assert [(report.session_id, report.id, report.start) for report in state.presses] == [
         (7, 8, rospy.Time(4)), (7, 9, rospy.Time(5))]
@@ -69,7 +81,8 @@ def test_outcome_becomes_messages():
         ("", []), (REFUSED.text, [REFUSED.code])]
     assert [problem.code for problem in state.problems] == [REFUSED.code]
     assert (state.led, state.message, state.header.stamp) == ("moving", "A sentence.", STAMP)
-    assert (press.id, press.servos, press.strength, press.hold_ms) == (3, 2, 0.5, 250)
+    assert (press.id, press.servos, press.strength, press.hold_ms, press.latest_us) == (3, 2, 0.5, 250, 9)
+    assert (state.manual_lifts, state.firmware_resets) == (4, 3)
     assert joints.name[0] == "lift" and joints.position[0] == 0.4 and len(joints.name) == len(joints.position) == 5
 
 

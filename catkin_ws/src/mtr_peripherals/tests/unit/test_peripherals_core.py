@@ -8,10 +8,12 @@ import pytest
 from mtr_core.problems import NO_PROBLEM
 from mtr_core.requests import NO_PRESS, DesiredState, Press
 from mtr_description.shipped import shipped_geometry
+from mtr_peripherals import problems
 from mtr_peripherals.core import Inputs, Peripherals
 from mtr_peripherals.firmware import FirmwareReport, Led, PressState
 from mtr_peripherals.key_lift import KeyLift
 from mtr_peripherals.parameters import Parameters
+from mtr_peripherals.presses import PRESS_MARGIN_NS, firmware_id_of
 
 MS = 1_000_000
 TICK = 100 * MS
@@ -58,7 +60,10 @@ class FakeFirmware:
 
 @pytest.fixture
 def core():
-    return Peripherals(Parameters(), KeyLift(shipped_geometry().key()))
+    """One that has heard of an application that wants no press."""
+    found = Peripherals(Parameters(), KeyLift(shipped_geometry().key()))
+    found.step(LIVE, FirmwareReport(START), START)
+    return found
 
 
 def run(core, inputs, firmware, ticks, first=0):
@@ -100,10 +105,41 @@ def test_new_press_during_another_waits_for_it(core):
     assert outcome.results[0].end_ns <= outcome.results[1].start_ns
 
 
-def test_ids_go_on_where_the_firmware_stands(core):
-    firmware = FakeFirmware(last_id=1)
-    run(core, PRESSING_LIVE, firmware, 10)
-    assert [order.id for order in firmware.pressed] == [2]
+def test_ids_of_a_session_never_meet_and_another_session_begins_elsewhere():
+    ids = {firmware_id_of(replace(PRESS, id=number)) for number in range(1, 10_001)}
+    assert len(ids) == 10_000 and 0 not in ids
+    assert firmware_id_of(replace(PRESS, session_id=2 ** 64 - 1)) not in ids
+    assert 0 < firmware_id_of(replace(PRESS, id=2 ** 64 - 1)) < 2 ** 32
+
+
+def restarted():
+    return Peripherals(Parameters(), KeyLift(shipped_geometry().key()))
+
+
+def test_press_still_ordered_after_a_restart_of_the_node_is_followed_and_not_made_twice(core):  # A9c
+    firmware = FakeFirmware()
+    run(core, PRESSING_LIVE, firmware, 3)
+    outcome = run(restarted(), PRESSING_LIVE, firmware, 20, 3)
+    assert len(firmware.pressed) == 1
+    assert [(result.id, result.error) for result in outcome.results] == [(1, NO_PROBLEM)]
+    assert outcome.results[0].start_ns == firmware.report.press_start_ns
+
+
+def test_press_done_before_a_restart_of_the_node_is_reported_again_and_not_made_twice(core):  # A9c
+    firmware = FakeFirmware()
+    before = run(core, PRESSING_LIVE, firmware, 20)
+    after = run(restarted(), PRESSING_LIVE, firmware, 20, 20)
+    assert len(firmware.pressed) == 1 and after.results == before.results
+
+
+@pytest.mark.parametrize("last_id", [0, 77], ids=["board-forgot", "board-knows-another"])
+def test_press_that_the_firmware_does_not_know_after_a_restart_is_not_made_and_told(last_id):  # A9c
+    firmware = FakeFirmware(last_id)
+    after = restarted()
+    outcome = run(after, PRESSING_LIVE, firmware, 20)
+    assert not firmware.pressed and "may have pressed or not" in outcome.results[0].error.text
+    run(after, desired(press=replace(PRESS, id=2)), firmware, 20, 20)
+    assert len(firmware.pressed) == 1, "the next one is made"
 
 
 def test_held_buttons_are_shown(core):
@@ -152,12 +188,57 @@ def test_nothing_is_pressed_without_a_live_order(core, inputs):
     assert not firmware.pressed
 
 
-def test_lift_follows_the_live_order_even_while_the_robot_is_stopped(core):
+def test_lift_follows_the_live_order_and_holds_while_the_operator_stops_the_robot_or_is_silent(core):  # A3
     firmware = FakeFirmware()
-    outcome = run(core, desired(stop=True, key_height_m=1.0), firmware, 1)
-    assert outcome.lift_height_m == pytest.approx(0.65)
-    dead = run(core, desired(link_alive=False, key_height_m=1.0), firmware, 1)
-    assert math.isnan(dead.lift_height_m)
+    assert run(core, desired(key_height_m=1.0), firmware, 1).lift_height_m == pytest.approx(0.65)
+    for changes in ({"stop": True}, {"link_alive": False}):
+        assert math.isnan(run(core, desired(key_height_m=1.0, **changes), firmware, 1).lift_height_m)
+
+
+ENGAGED = problems.EMERGENCY_ENGAGED(owner="controller_input")
+
+
+@pytest.mark.parametrize("inputs", [desired(key_height_m=1.0), replace(LIVE, manual_lift_mps=0.1),
+                                    Inputs(calibrates=True)], ids=["operator", "manual", "calibration"])
+def test_emergency_stop_holds_the_lift_whoever_moves_it_and_releases_the_servos(core, inputs):  # A3
+    report = FirmwareReport(START, is_calibrating=inputs.calibrates)
+    assert not math.isnan(core.step(inputs, report, START).lift_height_m)
+    outcome = core.step(replace(inputs, emergency=ENGAGED), report, START)
+    assert math.isnan(outcome.lift_height_m) and outcome.stop and outcome.message == ENGAGED
+    after = core.step(inputs, report, START)
+    assert not after.stop and not math.isnan(after.lift_height_m), "the order still holds"
+
+
+@pytest.mark.parametrize("stopped", [replace(PRESSING_LIVE, emergency=ENGAGED), desired(PRESSING_LIVE, stop=True)],
+                         ids=["emergency", "operator"])
+def test_press_ordered_during_a_stop_is_refused_and_not_made_after_it(core, stopped):  # A3
+    firmware = FakeFirmware()
+    outcome = run(core, stopped, firmware, 5)
+    run(core, PRESSING_LIVE, firmware, 5, 5)
+    assert not firmware.pressed
+    assert [result.error.code for result in outcome.results] == ["peripherals.press_stopped"]
+
+
+def test_press_that_the_firmware_has_not_taken_at_an_emergency_stop_is_sent_no_longer(core):  # A3
+    firmware = FakeFirmware()
+    firmware.deaf = 1000
+    run(core, PRESSING_LIVE, firmware, 2)
+    outcome = core.step(replace(PRESSING_LIVE, emergency=ENGAGED), firmware.report, START + 2 * TICK)
+    assert outcome.press is None and outcome.results[0].error.code == "peripherals.press_cut_short"
+
+
+def test_press_must_begin_before_it_is_given_up(core):  # B8
+    order = core.step(PRESSING_LIVE, FirmwareReport(START), START).press
+    later = core.step(PRESSING_LIVE, FirmwareReport(START), START + 10 * TICK).press
+    assert order.latest_ns == START + 2_000 * MS and later == order
+    assert order.latest_ns < START + order.hold_ms * MS + PRESS_MARGIN_NS
+
+
+def test_times_that_the_manual_controller_takes_the_lift_are_counted(core):
+    manual = replace(LIVE, manual_lift_mps=0.1)
+    counts = [core.step(inputs, FirmwareReport(START), START).manual_lifts
+              for inputs in (LIVE, manual, manual, LIVE, manual)]
+    assert counts == [0, 1, 1, 1, 2]
 
 
 def test_height_out_of_range_holds_the_lift_and_says_why(core):
@@ -173,6 +254,7 @@ def test_reported_height_is_above_ground(core):
 def test_silent_firmware_is_not_alive_and_says_so(core):
     report = FirmwareReport(START)
     assert core.step(LIVE, report, START + 1_000 * MS).alive
+    assert not core.step(LIVE, report, START - 1_001 * MS).alive, "A10: a report of the future is not alive"
     outcome = core.step(LIVE, report, START + 1_001 * MS)
     assert not outcome.alive and "silent for 1.0 s" in outcome.message.text and outcome.led is Led.ERROR
 

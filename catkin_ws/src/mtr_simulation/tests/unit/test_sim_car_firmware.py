@@ -138,6 +138,29 @@ def test_invalid_press_is_refused_and_moves_nothing(bench, servos, strength, hol
     assert set(bench.pulses) == {(1000, 1000)}
 
 
+@pytest.mark.parametrize("early_us, pressed", [(1000, True), (0, True), (-1, False), (-3_600_000_000, False)])
+def test_order_is_obeyed_up_to_its_time_and_not_later(bench, early_us, pressed):  # B8
+    latest_us = (bench.state.time_us + early_us) % 2 ** 32
+    bench.firmware.press(1, 1, 1.0, 100, latest_us)
+    bench.firmware.command(0.5, 2, latest_us=latest_us)
+    assert bench.state.press_state == (PRESSING if pressed else REFUSED)
+    bench.run(400, silent=True)
+    assert (bench.state.lift_height_m > 0.0) is pressed
+
+
+def test_stop_holds_the_lift_releases_the_servos_and_lets_no_press_begin(bench):  # A3
+    bench.run(2_000, height_m=1.0)
+    bench.firmware.press(1, 1, 1.0, 5_000)
+    bench.run(200, height_m=1.0)
+    bench.firmware.command(1.0, 2, stop=True)
+    bench.firmware.press(2, 1, 1.0, 100)
+    bench.run(600, silent=True)
+    held_m = bench.state.lift_height_m
+    bench.run(200, silent=True)
+    assert bench.state.lift_height_m == held_m < 0.5
+    assert (bench.state.press_id, bench.state.press_state, bench.state.servo_us) == (2, REFUSED, (1000, 1000))
+
+
 def test_press_id_0_is_no_press(bench):
     bench.firmware.press(0, 1, 1.0, 100)
     assert bench.state[3:5] == (0, NONE)

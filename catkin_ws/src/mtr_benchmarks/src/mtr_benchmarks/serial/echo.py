@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import io
 import statistics
+import struct
 import threading
 import time
 from dataclasses import dataclass
@@ -28,6 +29,8 @@ ECHO_LIMIT_S = 1.0
 MIN_ECHOES = 20
 # The lift stays where it is.
 KEPT_HEIGHT_M = float("nan")
+# The firmware's time, first field of FirmwareState; it obeys a command up to so much later.
+TIME_US, LEAD_US = struct.Struct("<I"), 500_000
 
 
 class EchoTimer(LineObserver):
@@ -35,6 +38,7 @@ class EchoTimer(LineObserver):
 
     Attributes:
         linked: the device takes commands.
+        time_us: newest time of the firmware's clock.
     """
 
     def __init__(self, session: SerialSession) -> None:
@@ -42,12 +46,16 @@ class EchoTimer(LineObserver):
         self._arrivals: Dict[int, float] = {}
         self._arrived = threading.Condition()
         self.linked = threading.Event()
+        self.time_us = 0
 
     def event(self, event: SessionEvent) -> None:
         """The session has something to act on."""
         if event.opened and names.FIRMWARE_COMMAND in self._session.endpoints.to_device:
             self.linked.set()
-        if event.message and self._session.endpoints.by_id[event.message.topic_id].info.name == names.FIRMWARE_ECHO:
+        name = self._session.endpoints.by_id[event.message.topic_id].info.name if event.message else ""
+        if event.message and name == names.FIRMWARE_STATE:
+            self.time_us = TIME_US.unpack_from(event.message.payload)[0]
+        if event.message and name == names.FIRMWARE_ECHO:
             with self._arrived:
                 self._arrivals[event.message.payload[0]] = time.monotonic()
                 self._arrived.notify_all()
@@ -104,7 +112,8 @@ def figures_of(trips_ms: List[float], baud: int) -> EchoFigures:
 def round_trip(line: SerialLine, timer: EchoTimer, number: int) -> List[float]:
     """Time in ms from queueing a command to receiving its echo; nothing when it was lost."""
     buffer = io.BytesIO()
-    seal(FirmwareCommand(seq=number, lift_height_m=KEPT_HEIGHT_M, led_pattern=2)).serialize(buffer)
+    seal(FirmwareCommand(seq=number, lift_height_m=KEPT_HEIGHT_M, led_pattern=2,
+                         latest_us=(timer.time_us + LEAD_US) % 2 ** 32)).serialize(buffer)
     timer.clear()
     begun = time.monotonic()
     line.send(names.FIRMWARE_COMMAND, buffer.getvalue())

@@ -50,11 +50,15 @@ class SimulatedTopics:
         self._state = direct_publisher(names.FIRMWARE_STATE, FirmwareState)
         self.publishers = [self._state]
         self.subscriptions: List[Subscription] = [
-            (names.FIRMWARE_COMMAND, FirmwareCommand,
-             lambda message: firmware.command(message.lift_height_m, message.led_pattern)),
-            (names.FIRMWARE_PRESS, FirmwarePress,
-             lambda message: firmware.press(message.id, message.servos, message.strength, message.hold_ms)),
+            (names.FIRMWARE_COMMAND, FirmwareCommand, self._command),
+            (names.FIRMWARE_PRESS, FirmwarePress, self._press),
         ]
+
+    def _command(self, message: Any) -> None:
+        self._firmware.command(message.lift_height_m, message.led_pattern, bool(message.stop), message.latest_us)
+
+    def _press(self, message: Any) -> None:
+        self._firmware.press(message.id, message.servos, message.strength, message.hold_ms, message.latest_us)
 
     def publish(self, time_ns: int) -> None:
         """Its report, when it is due."""

@@ -1,6 +1,7 @@
 """The peripherals' firmware as the host sees it: lift, servos, LEDs, and what it does when the host falls silent."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
+import math
 from typing import Deque, NamedTuple, Optional, Tuple
 
 from .lift import Lift
@@ -13,6 +14,9 @@ LED_LAST = 9
 
 # Its clock starts two minutes before it wraps, so that each longer run meets the wrap (each 71 minutes on hardware).
 CLOCK_START_US = (1 << 32) - 120_000_000
+CLOCK_WRAP_US = 1 << 32
+# An order that may begin later is one of another clock.
+MAX_LEAD_US = 5_000_000
 # A host may repeat a request for some time after the next one; these many ids are remembered.
 _REMEMBERED_IDS = 16
 
@@ -57,6 +61,7 @@ class SimulatedFirmware:
         self._press_end_us = 0
         self._led = 0
         self._fault = 0
+        self._stopped = False
 
     @property
     def lift_height_m(self) -> float:
@@ -68,22 +73,30 @@ class SimulatedFirmware:
         """Pulse widths of lock and unlock servo."""
         return self._presser.servo_us
 
-    def command(self, lift_height_m: float, led_pattern: int) -> None:
+    def command(self, lift_height_m: float, led_pattern: int, stop: bool = False,
+                latest_us: Optional[int] = None) -> None:
         """Take a FirmwareCommand; a height that is out of range leaves the lift's order as it was."""
+        if self._is_late(latest_us):
+            self.refused_commands += 1
+            return
         if not self._is_receiving():
             return
-        if not self._lift.order(lift_height_m):
+        self._stopped = stop
+        if stop:
+            self._abort_press()
+        if not self._lift.order(math.nan if stop else lift_height_m):
             self.refused_commands += 1
         if 0 <= led_pattern <= LED_LAST:
             self._led = led_pattern
 
-    def press(self, id: int, servos: int, strength: float, hold_ms: int) -> None:
+    def press(self, id: int, servos: int, strength: float, hold_ms: int, latest_us: Optional[int] = None) -> None:
         """Take a FirmwarePress. What has been taken once, done or refused, is not taken again."""
-        if not self._is_receiving() or id == 0 or id in self._seen_ids:
+        is_late = self._is_late(latest_us)
+        if not (is_late or self._is_receiving()) or id == 0 or id in self._seen_ids:
             return
         self._seen_ids.append(id)
         request = PressRequest(id, servos, strength, hold_ms)
-        if self._presser.is_busy or not request.is_valid():
+        if is_late or self._stopped or self._presser.is_busy or not request.is_valid():
             self._report(id, PressState.REFUSED)
             return
         self._presser.start(request, self._now_ns)
@@ -140,7 +153,16 @@ class SimulatedFirmware:
 
     def _lose_link(self) -> None:
         self._fault, self._led = FAULT_LINK_LOST, LED_LINK_LOST
-        self._lift.order(float("nan"))
+        self._lift.order(math.nan)
+        self._abort_press()
+
+    def _is_late(self, latest_us: Optional[int]) -> bool:
+        """True for an order that was under way for too long, or meant for another clock; None: it is never late."""
+        if latest_us is None or self._boot_ns is None:
+            return False
+        return (latest_us - self._clock_us(self._now_ns)) % CLOCK_WRAP_US > MAX_LEAD_US
+
+    def _abort_press(self) -> None:
         if self._presser.is_busy:
             self._presser.abort(self._now_ns)
             # A travel that was cut short may have pressed or not: nobody shall rely on it.
