@@ -20,6 +20,8 @@ from .radio.key_antenna import Attitude
 Point = Tuple[float, float, float]
 
 STEP_NS = 20_000_000
+# Hands that come while nobody looks (the ECU boots, passive entry is off) are not all remembered.
+_MAX_REQUESTS = 4
 
 
 class HonestCar:
@@ -42,7 +44,7 @@ class HonestCar:
         self._passive = PassiveEntry(passive)
         self._polls = _Period(seed, "poll_phase", passive.poll_period_ms * 1_000_000)
         self._hand = _Period(seed, "hand_phase", round(passive.handle_period_s * 1e9))
-        self._handle_requests: Deque[Command] = collections.deque()
+        self._handle_requests: Deque[Command] = collections.deque(maxlen=_MAX_REQUESTS)
         contact = RemoteParameters(contact_travel=remote.contact_travel, contact_ms=remote.contact_ms)
         self._contacts = ((Command.LOCK, ButtonContact(contact)), (Command.UNLOCK, ButtonContact(contact)))
 
