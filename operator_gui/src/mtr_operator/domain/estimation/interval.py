@@ -1,0 +1,61 @@
+"""A value with the interval that holds it with a stated probability.
+
+Intervals are credible ones with equal tails: below and above lies the same share, (1 - level) / 2, of what the
+measurements leave possible.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+
+LEVEL = 0.95
+# Half the width of a normal distribution's 95 % interval, in sigmas.
+SIGMAS_OF_LEVEL = 1.959964
+
+
+@dataclass(frozen=True)
+class Interval:
+    """Median and 95 % interval of a distance, in m; sigma_m is one standard deviation."""
+
+    value_m: float
+    low_m: float
+    high_m: float
+    sigma_m: float
+
+    @property
+    def half_width_m(self) -> float:
+        """Half of the distance between the ends; NaN when nothing is known."""
+        return (self.high_m - self.low_m) / 2.0
+
+    def holds(self, value_m: float) -> bool:
+        """True when a value lies within; never for NaN."""
+        return self.low_m <= value_m <= self.high_m
+
+
+UNKNOWN = Interval(math.nan, math.nan, math.nan, math.nan)
+
+
+def interval_of(edges_m: FloatArray, weights: FloatArray, level: float = LEVEL) -> Interval:
+    """Of a histogram: weights between edges, with even density in between; UNKNOWN without a finite weight."""
+    total = float(np.sum(weights))
+    if not math.isfinite(total) or total <= 0.0:
+        return UNKNOWN
+    share = weights / total
+    below = np.concatenate(([0.0], np.cumsum(share)))
+    tail = (1.0 - level) / 2.0
+    low, value, high = np.interp([tail, 0.5, 1.0 - tail], below, edges_m)
+    middles, widths = (edges_m[1:] + edges_m[:-1]) / 2.0, np.diff(edges_m)
+    mean = float(share @ middles)
+    variance = float(share @ ((middles - mean) ** 2 + widths ** 2 / 12.0))
+    return Interval(float(value), float(low), float(high), math.sqrt(variance))
+
+
+def difference_holds(first: Interval, second: Interval) -> bool:
+    """True when two independent values agree: zero lies within the 95 % interval of their difference."""
+    return abs(first.value_m - second.value_m) <= SIGMAS_OF_LEVEL * math.hypot(first.sigma_m, second.sigma_m)

@@ -1,0 +1,69 @@
+"""What the radials of a campaign have in common: the transition's shape, and roughly where it lies.
+
+Shape: each radial's own evidence is its likelihood with d50 integrated out. Widths of radials differ a little around a
+common one (the antenna's pattern, the way's loss), by a normal of SPREAD in the logarithm, K:
+
+    prior of r(shape) = sum over common of  K(shape | common) * prior(common) *
+                        product over the other radials of  sum over theirs of  K(theirs | common) * evidence(theirs)
+
+Place: a radial's d50 is taken to be near that of another one, within NEAR of the range that is searched.
+
+Both are mixed with the chance that a radial is unlike the others, so that one behind a pillar is not argued away. No
+radial's presses count twice. Sources: Gelman et al., Bayesian Data Analysis, chapter 5 (hierarchy); Schmidli et al.,
+Biometrics 70 (2014) (robust mixture).
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+
+from ..interval import FloatArray
+from .hypotheses import Hypotheses
+
+# Standard deviation of the logarithm of the width among the radials of a Car.
+SPREAD = 0.1
+# Of the difference between the d50 of radials, by the range.
+NEAR = 0.05
+# Probability that a radial's width, and its place, have nothing in common with the others.
+UNLIKE_WIDTH, UNLIKE_PLACE = 0.03, 0.3
+_TINY = float(np.finfo(float).tiny)
+
+
+class Campaign:
+    """What is known of each radial, by its number."""
+
+    def __init__(self, hypotheses: Hypotheses):
+        self._prior = hypotheses.shape_prior()
+        logs = np.log(hypotheses.width_m)
+        kernel = np.exp(-0.5 * ((logs[:, None] - logs) / SPREAD) ** 2)
+        self._kernel: FloatArray = kernel / np.sum(kernel, axis=0)
+        self._evidence: dict[int, FloatArray] = {}
+        self._places: dict[int, FloatArray] = {}
+        self._count = len(hypotheses.d50_m)
+
+    def keep_evidence(self, radial: int, log_evidence: FloatArray) -> None:
+        """Take or replace what a radial says of the shape; axes [shared, lapse, width]."""
+        evidence = np.exp(log_evidence - np.max(log_evidence))
+        self._evidence[radial] = np.log(np.maximum(evidence @ self._kernel, _TINY))
+
+    def keep_place(self, radial: int, d50: FloatArray) -> None:
+        """Take or replace a radial's probabilities of d50."""
+        self._places[radial] = d50
+
+    def log_shape_prior(self, radial: int) -> FloatArray:
+        """What all other radials say of the shape of one; axes [shared, lapse, width]."""
+        common = np.log(self._prior) + sum(evidence for number, evidence in self._evidence.items() if number != radial)
+        like_others: FloatArray = np.exp(common - np.max(common)) @ self._kernel.T
+        like_others /= np.sum(like_others)
+        any_width = np.mean(like_others, axis=-1, keepdims=True)
+        return np.asarray(np.log((1.0 - UNLIKE_WIDTH) * like_others + UNLIKE_WIDTH * any_width))
+
+    def log_place_prior(self, radial: int) -> FloatArray:
+        """What all other radials say of where one's d50 lies."""
+        even = np.full(self._count, 1.0 / self._count)
+        others = [place for number, place in self._places.items() if number != radial]
+        if not others:
+            return np.asarray(np.log(even))
+        near = gaussian_filter1d(np.mean(others, axis=0), NEAR * self._count, mode="constant")
+        return np.asarray(np.log((1.0 - UNLIKE_PLACE) * near + UNLIKE_PLACE * even))

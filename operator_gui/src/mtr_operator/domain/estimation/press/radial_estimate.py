@@ -1,0 +1,109 @@
+"""What is recorded of a radial: distances with intervals, the farthest success, the nearest failure, and doubts.
+
+Fit quality: the presses' surprise S = -sum ln P(y) against its expectation and spread by the median curve,
+
+    z = (S - sum H(p)) / sqrt(sum p (1-p) ln^2(p / (1-p))),   quality = 1 - Phi(z):
+
+the share of radials on such a curve that would fit worse. Near 0 the curve does not describe the radial.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import enum
+import math
+from dataclasses import dataclass
+from typing import Sequence
+
+import numpy as np
+from scipy.special import ndtr
+from scipy.stats import binom
+
+from ..interval import Interval
+from .likelihood import Press
+from .plan import SearchPlan
+from .posterior import RadialPosterior
+from .radial_search import PRESSES_IN_DOUBT, SURE_TO_WORK, RadialSearch
+from .transition import falling
+
+# A place is called a hole when so many failures would be rarer than this on the curve.
+_RARE = 0.005
+
+
+class Reach(enum.Enum):
+    """Where the boundary lies."""
+
+    MEASURED = "measured"
+    NEARER = "nearer"  # than the nearest place: only an upper bound is known
+    FARTHER = "farther"  # than the farthest place: only a lower bound is known
+    NO_ANSWER = "no_answer"  # nowhere: does the key sleep, or is its battery empty?
+
+
+@dataclass(frozen=True)
+class RadialEstimate:
+    """Of one radial; distances in m.
+
+    Attributes:
+        farthest_success_m, nearest_failure_m: of the presses made; None without one.
+        holes_m: places inside that failed again and again although farther ones worked.
+        lapse: share of presses that fail at any distance.
+        quality: share of radials on the curve found that would fit worse.
+    """
+
+    reach: Reach
+    d50: Interval
+    d95: Interval
+    farthest_success_m: float | None
+    nearest_failure_m: float | None
+    presses: int
+    holes_m: tuple[float, ...]
+    lapse: float
+    quality: float
+
+
+def estimate(plan: SearchPlan, search: RadialSearch) -> RadialEstimate:
+    """With what the other radials say by now."""
+    posterior, presses = search.revisit(), search.presses
+    worked = [press.distance_m for press in presses if press.worked]
+    failed = [press.distance_m for press in presses if not press.worked]
+    d50 = posterior.d50()
+    return RadialEstimate(_reach(plan, d50, presses), d50, posterior.d95(), max(worked, default=None),
+                          min(failed, default=None), len(presses), _holes(search), posterior.lapse,
+                          _quality(posterior, presses))
+
+
+def _reach(plan: SearchPlan, d50: Interval, presses: Sequence[Press]) -> Reach:
+    at_nearest = sum(press.distance_m <= plan.minimum_m + plan.half_wavelength_m / 2.0 for press in presses)
+    if not any(press.worked for press in presses) and at_nearest >= PRESSES_IN_DOUBT:
+        return Reach.NO_ANSWER
+    if not d50.low_m > plan.minimum_m:
+        return Reach.NEARER
+    return Reach.MEASURED if d50.high_m < plan.maximum_m else Reach.FARTHER
+
+
+def _curve(posterior: RadialPosterior, distance_m: float) -> float:
+    """Probability that a press works, by the medians."""
+    width_m = math.exp(float(posterior.widths() @ np.log(posterior.hypotheses.width_m)))
+    return (1.0 - posterior.lapse) * float(falling(distance_m, posterior.d50().value_m, width_m))
+
+
+def _holes(search: RadialSearch) -> tuple[float, ...]:
+    """Places that fail more often than what is known without them allows."""
+    presses, found = search.presses, []
+    farthest_m = max((press.distance_m for press in presses if press.worked), default=0.0)
+    for distance_m in sorted({press.distance_m for press in presses if press.distance_m < farthest_m}):
+        here = [press.worked for press in presses if press.distance_m == distance_m]
+        failures = here.count(False)
+        if failures >= 2:
+            works = min(_curve(search.posterior_without(distance_m), distance_m), SURE_TO_WORK)
+            if float(binom.sf(failures - 1, len(here), 1.0 - works)) < _RARE:
+                found.append(distance_m)
+    return tuple(found)
+
+
+def _quality(posterior: RadialPosterior, presses: Sequence[Press]) -> float:
+    works = np.clip([_curve(posterior, press.distance_m) for press in presses], 1e-9, 1.0 - 1e-9)
+    worked = np.array([press.worked for press in presses])
+    surprise = -np.sum(np.log(np.where(worked, works, 1.0 - works)))
+    expected = -np.sum(works * np.log(works) + (1.0 - works) * np.log(1.0 - works))
+    spread = math.sqrt(float(np.sum(works * (1.0 - works) * np.log(works / (1.0 - works)) ** 2)))
+    return float(1.0 - ndtr((surprise - expected) / spread)) if spread > 0.0 else math.nan

@@ -1,0 +1,119 @@
+"""One radial measured by Bayesian search: the next press is the one that is expected to tell most per second.
+
+It ends when the 95 % interval of d50 is as narrow as wanted, or after the presses allowed. Two things go before: a
+press that failed where it should have worked is repeated at its place, so that a hole is told from a lapse, and where
+nothing worked at all the nearest place is tried several times, so that a key that sleeps is no range of zero.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import numpy as np
+
+from ..interval import FloatArray
+from .campaign import Campaign
+from .hypotheses import Hypotheses
+from .information import PressInformation
+from .likelihood import Press, PressLikelihood
+from .plan import SearchPlan
+from .posterior import RadialPosterior, log_evidence
+
+# Of what is still possible for d50: places that are tried when an interval below half a wavelength is wanted.
+_QUANTILES = np.linspace(0.1, 0.9, 9)
+# A press that fails although it should work with this probability is repeated, until there are so many at its place.
+SURE_TO_WORK = 0.95
+PRESSES_IN_DOUBT = 3
+
+
+class RadialSearch:
+    """State of one radial.
+
+    Attributes:
+        presses: so far, in order.
+        place_m: where the key is.
+    """
+
+    def __init__(self, plan: SearchPlan, hypotheses: Hypotheses, campaign: Campaign, radial: int, place_m: float):
+        self._plan = plan
+        self._hypotheses = hypotheses
+        self._campaign = campaign
+        self._radial = radial
+        self._likelihood = PressLikelihood(hypotheses, plan.half_wavelength_m, plan.minimum_m)
+        self._posterior: RadialPosterior | None = None
+        self._doubted_m: float | None = None
+        self.presses: list[Press] = []
+        self.place_m = place_m
+
+    def posterior(self) -> RadialPosterior:
+        """What is possible after the presses so far."""
+        if self._posterior is None:
+            self._posterior = self._given(self._likelihood.log)
+            self._campaign.keep_place(self._radial, self._posterior.places())
+        return self._posterior
+
+    def posterior_without(self, distance_m: float) -> RadialPosterior:
+        """What all presses but those at a place say."""
+        return self._given(self._likelihood.without(distance_m))
+
+    def revisit(self) -> RadialPosterior:
+        """The posterior anew, when other radials have been measured since."""
+        self._posterior = None
+        return self.posterior()
+
+    def add(self, press: Press) -> None:
+        """Take what a press did."""
+        expected, _ = PressInformation(self.posterior()).at(np.array([press.distance_m]))
+        doubtful = expected[0] >= SURE_TO_WORK or press.distance_m == self._doubted_m
+        self._doubted_m = press.distance_m if doubtful and not press.worked else None
+        self.presses.append(press)
+        self.place_m = press.distance_m
+        self._likelihood.add(press)
+        self._campaign.keep_evidence(self._radial, log_evidence(self._likelihood.log))
+        self._posterior = None
+
+    def is_finished(self) -> bool:
+        """True when the interval is reached, or no press is left."""
+        if len(self.presses) >= self._plan.attempts_limit:
+            return True
+        if not self.presses or self._place_in_doubt() is not None:
+            return False
+        return self.posterior().d50().half_width_m <= self._plan.interval_m
+
+    def next_place_m(self) -> float:
+        """Where the next press tells most per second of robot time."""
+        doubted_m = self._place_in_doubt()
+        if doubted_m is not None:
+            return doubted_m
+        posterior = self.posterior()
+        places_m = self._candidates(posterior)
+        works, information = PressInformation(posterior).at(places_m)
+        beside = np.array([self._likelihood.presses_beside(place) for place in places_m])
+        own = information * (1.0 - posterior.fading + posterior.fading / (1.0 + beside) ** 2)
+        seconds = self._plan.times.expected_s(np.abs(places_m - self.place_m), works)
+        return float(places_m[np.argmax(own / seconds)])
+
+    def _given(self, log_likelihood: FloatArray) -> RadialPosterior:
+        return RadialPosterior(self._hypotheses, log_likelihood, self._campaign.log_shape_prior(self._radial),
+                               self._campaign.log_place_prior(self._radial))
+
+    def _place_in_doubt(self) -> float | None:
+        nearest_m = self._plan.minimum_m
+        tried = self._likelihood.presses_beside(nearest_m)
+        if 0 < tried < PRESSES_IN_DOUBT and not any(press.worked for press in self.presses):
+            return nearest_m
+        doubted_m = self._doubted_m
+        if doubted_m is not None and self._likelihood.presses_beside(doubted_m) < PRESSES_IN_DOUBT:
+            return doubted_m
+        return None
+
+    def _candidates(self, posterior: RadialPosterior) -> FloatArray:
+        """Places half a wavelength apart; not the present one before the boundary is known that well."""
+        plan = self._plan
+        step_m = plan.half_wavelength_m
+        places_m = plan.places_m()
+        if posterior.d50().half_width_m > step_m:
+            here = self._likelihood.place_of(self.place_m)
+            return places_m[[self._likelihood.place_of(place) != here for place in places_m]]
+        if plan.interval_m >= step_m / 2.0:
+            return places_m
+        inner = np.interp(_QUANTILES, np.cumsum(posterior.places()), posterior.hypotheses.d50_m)
+        return np.clip(np.concatenate((places_m, inner)), plan.minimum_m, plan.maximum_m)
