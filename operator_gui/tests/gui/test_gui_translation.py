@@ -25,10 +25,10 @@ PLACEHOLDER = re.compile(r"\{[^}]*\}")
 LAYERS = ("domain", "storage", "station", "car_link")
 LINK_FILES = ("address.py", "client.py", "probe.py", "sockets.py")
 # Raised within a layer, and caught there.
-INTERNAL = ("LookupError", "ValueError", "TypeError")
+INTERNAL = ("LookupError", "ValueError", "TypeError", "BadYaml", "OSError")
 # Told on the command line alone, or of the substitutes.
 NOT_SHOWN = ("--continue", "of another test; choose another folder.", "parameter file", "Parameter file",
-             "stands twice in the file", "'parameter: value'", "Parameter threshold", "Parameter period_s",
+             "'parameter: value'", "Parameter threshold", "Parameter period_s",
              # Put together from two halves; both wholes are listed.
              "The {} {}; check the channel")
 

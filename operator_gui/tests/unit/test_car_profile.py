@@ -98,7 +98,7 @@ def test_other_frames_are_not_the_lock_message(tmp_path):
     (("1: locked", "1: unknown"), "must name a value for locked and one for unlocked"),
     (("{0: unlocked, 1: locked}", "locked"), "must be a table"),
     (("description: another car", "colour: red"), "unknown entry colour"),
-    (("description: another car", "{"), "is not valid YAML; a profile is a YAML file that names the CAN database"),
+    (("description: another car", "{"), "is not valid YAML in line 3; a profile is"),
     ((OTHER_PROFILE, "just words"), "no table")])
 def test_wrong_profile_is_refused_with_a_sentence(tmp_path, change, words):
     with pytest.raises(ConnectionFailed) as raised:

@@ -100,7 +100,7 @@ def test_example_of_every_scenario_is_shipped():
 
 
 @pytest.mark.parametrize(("text", "part"), [
-    ("minimum_distance_m: 0.5\nminimum_distance_m: 0.6\n", "minimum_distance_m stands twice"),
+    ("minimum_distance_m: 0.5\nminimum_distance_m: 0.6\n", "says minimum_distance_m twice"),
     ("a: [1,\n", "not valid YAML in line 2"),
     ("- 1\n", "parameter: value"),
     ("just text", "parameter: value"),

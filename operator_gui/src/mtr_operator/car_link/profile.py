@@ -8,14 +8,16 @@ from dataclasses import dataclass
 from typing import Any, Mapping, NamedTuple
 
 import cantools
-import yaml
 
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, LockState
+from mtr_operator.storage.plain_yaml import BadYaml, load_yaml
 
 PROFILE_FOLDER = pathlib.Path(__file__).parent / "profiles"
 _MIN_CYCLE_S = 0.001
 _MAX_CYCLE_S = 10.0
+# Databases of a whole car have some megabytes; reading one takes the library ten seconds and more.
+_MAX_DATABASE_BYTES = 16 * 1024 * 1024
 _REQUIRED = ("database", "message", "signal", "states", "cycle_time_s")
 _OPTIONAL = ("description", "sent_on_change", "source_signal", "sources")
 _STATES = {state.value: state for state in LockState}
@@ -104,11 +106,11 @@ def _find(name_or_path: str) -> pathlib.Path:
 
 def _read(path: pathlib.Path) -> dict[str, Any]:
     try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
+        content = load_yaml(path)
+    except OSError as error:
         raise ConnectionFailed(f"Car profile {path} cannot be read: {_one_line(error)}.") from None
-    except (yaml.YAMLError, RecursionError):
-        raise ConnectionFailed(f"Car profile {path} is not valid YAML; a profile is a YAML file that names the CAN "
+    except BadYaml as error:
+        raise ConnectionFailed(f"Car profile {path} {error}; a profile is a YAML file that names the CAN "
                                "database.") from None
     if not isinstance(content, dict):
         raise ConnectionFailed(f"Car profile {path} is no table of names and values.")
@@ -154,6 +156,9 @@ def _cycle_time(path: pathlib.Path, content: dict[str, Any]) -> float:
 def _message(path: pathlib.Path, content: dict[str, Any]) -> Any:
     database_path = path.parent / str(content["database"])
     try:
+        if database_path.stat().st_size > _MAX_DATABASE_BYTES:
+            raise ConnectionFailed(f"CAN database {database_path} is larger than {_MAX_DATABASE_BYTES // 1024} KiB; "
+                                   "leave the messages that the profile does not name out of it.")
         database = cantools.database.load_file(str(database_path), strict=False)
         if not isinstance(database, cantools.database.can.Database):
             raise KeyError(content["message"])
@@ -162,6 +167,9 @@ def _message(path: pathlib.Path, content: dict[str, Any]) -> Any:
         raise ConnectionFailed(f"CAN database {database_path} has no message {content['message']}.") from None
     except (OSError, UnicodeDecodeError, cantools.database.errors.Error) as error:
         raise ConnectionFailed(f"CAN database {database_path} cannot be read: {_one_line(error)}.") from None
+    # The library's readers of some five formats raise whatever a damaged file leads them to.
+    except (ValueError, TypeError, AttributeError, LookupError, ArithmeticError, RecursionError):
+        raise ConnectionFailed(f"CAN database {database_path} cannot be read: it is damaged.") from None
 
 
 def _signal(path: pathlib.Path, content: dict[str, Any], key: str, message: Any) -> str:

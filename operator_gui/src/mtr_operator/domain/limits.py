@@ -77,3 +77,7 @@ CHECK_DIFFERENCE = Limit("difference found by the check of the Car", 0.0, 1000.0
 DISTANCE = Limit("distance", -30.0, 1000.0, "m")
 DISTANCE_SIGMA = Limit("uncertainty of the distance", 0.0, 10.0, "m")
 LINE_NUMBER = Limit("number of the line", 1, 100_000)
+
+# Columns of results by their unit, where nothing narrower is known; without one a number counts or is a direction.
+OF_UNIT = {"m": DISTANCE, "s": STAMP, "deg": Limit("angle", -720.0, 720.0, "deg"), "m/s": SPEED}
+PLAIN = Limit("number", -1e6, 1e6)

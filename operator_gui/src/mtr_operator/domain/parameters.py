@@ -15,6 +15,7 @@ import dataclasses
 import difflib
 import math
 import re
+import reprlib
 import sys
 from dataclasses import dataclass
 from typing import Any, Mapping, TypeVar
@@ -88,7 +89,7 @@ class Declaration:
                                    f"allowed is {self.allowed}.")
 
     def _hint(self, value: Any) -> str:
-        if isinstance(value, str) and _DECIMAL_COMMA.fullmatch(value.strip()):
+        if isinstance(value, str) and len(value) <= _MAX_SHOWN and _DECIMAL_COMMA.fullmatch(value.strip()):
             return f"write a decimal point: {value.strip().replace(',', '.')}."
         return f"allowed is a number, {self.allowed}."
 
@@ -116,7 +117,12 @@ def with_unit(value: float, unit: str) -> str:
 
 
 def _short(value: Any) -> str:
-    text = repr(value)
+    # Abbreviates while it writes: the whole text of a nested value may be longer than the memory.
+    try:
+        text = reprlib.repr(value)
+    # A whole number of more digits than Python writes.
+    except ValueError:
+        text = f"a value of the kind {type(value).__name__}"
     return text if len(text) <= _MAX_SHOWN else text[:_MAX_SHOWN] + "..."
 
 
@@ -183,7 +189,8 @@ class ParameterSet:
                 name, declared = fields[key]
                 values[name] = declared.to_si(value)
             else:
-                raise InvalidParameter(f"Parameter {key} is unknown; {_alternatives(str(key), [*fields, *flags])}")
+                name = key[:_MAX_SHOWN] if isinstance(key, str) else _short(key)
+                raise InvalidParameter(f"Parameter {name} is unknown; {_alternatives(name, [*fields, *flags])}")
         return cls(**values)
 
     def to_mapping(self) -> dict[str, Any]:

@@ -7,11 +7,15 @@ import pathlib
 from dataclasses import dataclass, field
 from typing import Any
 
+from mtr_operator.domain.results.document import read_record
+
 from .connection import CanChoice, Connection, RobotChoice
 
 FORMAT = "mtr-operator settings"
 VERSION = 1
 REMEMBERED_HOSTS = 8
+# No parameter comes near it.
+_LARGEST = 1e12
 THEMES = ("system", "light", "dark")
 LANGUAGES = ("system", "en", "cs")
 
@@ -66,14 +70,30 @@ def settings_from_document(document: Any) -> Settings:
         connection = document["connection"]
         can = connection["can"]
         return Settings(
-            Connection(RobotChoice(**connection["robot"]), None if can is None else CanChoice(**can)),
-            tuple(str(host) for host in document["hosts"]),
+            Connection(read_record(RobotChoice, connection["robot"]),
+                       None if can is None else read_record(CanChoice, can)),
+            tuple(str(host) for host in document["hosts"])[:REMEMBERED_HOSTS],
             _one_of(THEMES, document["theme"]), _one_of(LANGUAGES, document["language"]),
-            pathlib.Path(document["result_folder"]), pathlib.Path(document["progress_folder"]),
-            {str(name): dict(values) for name, values in document["parameters"].items()},
-            None if document["unfinished"] is None else pathlib.Path(document["unfinished"]))
-    except (KeyError, TypeError, ValueError, AttributeError):
+            _path(document["result_folder"]), _path(document["progress_folder"]),
+            {str(name): _numbers(values) for name, values in document["parameters"].items()},
+            None if document["unfinished"] is None else _path(document["unfinished"]))
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError):
         raise NotSettings("They are damaged.") from None
+
+
+def _path(text: Any) -> pathlib.Path:
+    if not isinstance(text, str) or "\0" in text:
+        raise TypeError("path")
+    return pathlib.Path(text)
+
+
+def _numbers(values: Any) -> dict[str, Any]:
+    """Parameters as they are remembered; what does not fit a scenario any more is seen when it is used."""
+    known = {str(name): value for name, value in values.items()}
+    if not all(value is None or (isinstance(value, (bool, int, float)) and abs(value) < _LARGEST)
+               for value in known.values()):
+        raise TypeError("parameters")
+    return known
 
 
 def _one_of(allowed: tuple[str, ...], value: Any) -> str:

@@ -18,6 +18,7 @@ from .settings import NotSettings, Settings, settings_from_document
 
 FOLDER_NAME = "mtr-operator"
 FILE_NAME = "settings.json"
+_MAX_BYTES = 256 * 1024
 
 
 def default_path() -> pathlib.Path:
@@ -54,10 +55,12 @@ class SettingsStore:
         """Read the file; without a good one the defaults stay, and a bad one is not overwritten before a change."""
         path = self._moved_here()
         try:
+            if path.stat().st_size > _MAX_BYTES:
+                raise NotSettings(f"They are larger than {_MAX_BYTES // 1024} KiB.")
             self.settings = settings_from_document(json.loads(path.read_text(encoding="utf-8")))
         except FileNotFoundError:
             pass
-        except (OSError, ValueError, RecursionError) as error:
+        except (OSError, ValueError, ArithmeticError, RecursionError) as error:
             reason = str(error) if isinstance(error, NotSettings) else "They cannot be read."
             self.problem = f"The settings in {path} were not used. {reason}"
 

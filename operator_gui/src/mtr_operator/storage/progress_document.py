@@ -6,7 +6,7 @@ import json
 import pathlib
 from typing import Any, Mapping, NoReturn, Sequence
 
-from mtr_operator.domain.errors import ProgressFileError
+from mtr_operator.domain.errors import InvalidParameter, ProgressFileError
 from mtr_operator.domain.results.document import read_record
 from mtr_operator.domain.results.frame_record import record_from
 from mtr_operator.domain.results.line_result import LineResult, result_from_document
@@ -15,6 +15,7 @@ from mtr_operator.domain.scenario import AnyScenario
 
 # A test of some hundred lines takes 100 kB; a larger file is something else.
 MAX_BYTES = 16 * 1024 * 1024
+_MAX_SHOWN = 60
 DAMAGED = "It is damaged: parts of it are missing or of the wrong kind."
 
 
@@ -56,15 +57,27 @@ def progress_from_document(document: Any, scenario: AnyScenario, parameters: dic
         raise ProgressFileError(f"It belongs to the scenario {document.get('scenario')}, not to {scenario.name}.")
     _check_parameters(document.get("parameters"), parameters, scenario)
     try:
-        progress = Progress(scenario.name, parameters, dict(document["session"]),
+        progress = Progress(scenario.name, parameters, _session_from(document["session"]),
                             None if document["car"] is None else car_from(document["car"]),
                             _results_from(document["results"], scenario),
-                            [int(number) for number in document["retried"]],
+                            _retried_from(document["retried"]),
                             record_from(document.get("frame_record")), mark_in(document))
-        _check_lines(progress)
-    except (KeyError, TypeError, ValueError, AttributeError):
+        _check_lines(progress, scenario)
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError):
         raise ProgressFileError(DAMAGED) from None
     return progress
+
+
+def _session_from(session: Any) -> dict[str, str]:
+    if not isinstance(session, dict) or not all(isinstance(text, str) for text in session.values()):
+        raise TypeError("session")
+    return dict(session)
+
+
+def _retried_from(numbers: Any) -> list[int]:
+    if not isinstance(numbers, list) or not all(type(number) is int for number in numbers):
+        raise TypeError("numbers of the lines")
+    return list(numbers)
 
 
 def _check_parameters(stored: Any, wanted: dict[str, Any], scenario: AnyScenario) -> None:
@@ -73,17 +86,30 @@ def _check_parameters(stored: Any, wanted: dict[str, Any], scenario: AnyScenario
     # Whether the Car is checked before a test changes no distance.
     for name in sorted((set(stored) | set(wanted)) - set(scenario.parameters_type.flags())):
         if stored.get(name) != wanted.get(name):
-            raise ProgressFileError(f"It was measured with other parameters: {name} was {stored.get(name)}, "
-                                    f"now it is {wanted.get(name)}.")
+            raise ProgressFileError(f"It was measured with other parameters: {name[:_MAX_SHOWN]} was "
+                                    f"{_shown(stored.get(name))}, now it is {_shown(wanted.get(name))}.")
+
+
+def _shown(value: Any) -> str:
+    is_short = value is None or isinstance(value, (bool, float)) or (isinstance(value, int) and abs(value) < 1e15)
+    return str(value) if is_short else f"of the kind {type(value).__name__}"
 
 
 def _results_from(documents: Sequence[Mapping[str, Any]], scenario: AnyScenario) -> list[LineResult]:
     return [result_from_document(scenario.result_type, document) for document in documents]
 
 
-def _check_lines(progress: Progress) -> None:
-    if progress.results and progress.car is None:
-        raise ValueError("results without a Car")
+def _check_lines(progress: Progress, scenario: AnyScenario) -> None:
     numbers = progress.measured()
-    if numbers != sorted(set(numbers)):
+    if numbers and progress.car is None:
+        raise ValueError("results without a Car")
+    if numbers != sorted(set(numbers)) or not set(progress.retried) <= set(numbers):
         raise ValueError("numbers of the lines")
+    if numbers:
+        try:
+            lines = scenario.lines(scenario.parameters_type.from_mapping(progress.parameters), progress.measured_car)
+        except InvalidParameter as error:
+            raise ProgressFileError(f"Its Car and its parameters do not fit together. {error}") from None
+        if not set(numbers) <= {line.number for line in lines}:
+            raise ProgressFileError(f"The progress file holds {scenario.line_word} {max(numbers)}; this test has "
+                                    f"{len(lines)}.")

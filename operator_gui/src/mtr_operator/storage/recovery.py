@@ -108,7 +108,7 @@ def _replayed(journal: Recovered, scenario: AnyScenario, parameters: dict[str, A
                 progress = progress_from_document(entry.values["progress"], scenario, parameters)
             elif progress is not None:
                 apply(progress, scenario.result_type, entry.kind, entry.values)
-    except (KeyError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError):
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError):
         raise ProgressFileError(DAMAGED) from None
     if progress is None:
         raise ProgressFileError(DAMAGED)

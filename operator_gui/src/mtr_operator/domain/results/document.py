@@ -7,6 +7,8 @@ import enum
 from typing import Any, Mapping, Optional, TypeVar, Union, get_args, get_origin, get_type_hints
 
 Record = TypeVar("Record")
+# Ids have 64 bits.
+_LARGEST = 2 ** 64
 # Python 3.9 cannot evaluate "float | None", and read_record has to.
 OptionalFloat = Optional[float]
 OptionalInt = Optional[int]
@@ -17,6 +19,8 @@ def read_record(record_type: type[Record], document: Mapping[str, Any]) -> Recor
 
     A field with a default may be missing. What does not fit raises KeyError, TypeError or ValueError.
     """
+    if not isinstance(document, Mapping):
+        raise TypeError("no table of names and values")
     kinds = get_type_hints(record_type)
     values = {}
     for field in dataclasses.fields(record_type):  # type: ignore[arg-type]  # typeshed knows no type[dataclass]
@@ -40,5 +44,8 @@ def _value(kind: Any, value: Any) -> Any:
     # JSON writes 2.0 as it is, but another program may have written 2.
     accepted = (int, float) if kind is float else kind
     if not isinstance(value, accepted) or (isinstance(value, bool) and kind is not bool):
-        raise TypeError(f"{value!r} is no {kind.__name__}")
+        raise TypeError(f"no {kind.__name__}")
+    # Also false for NaN; no number in a file comes near it.
+    if kind in (int, float) and not -_LARGEST <= value <= _LARGEST:
+        raise ValueError("a number without sense")
     return value

@@ -11,11 +11,14 @@ import math
 from dataclasses import dataclass, field, replace
 from typing import Any, Iterator
 
+from .. import limits
+from ..limits import first_violation
 from ..robot_status import CarCheck
 from .document import OptionalFloat, OptionalInt, read_record
 from .frame_history import KnownFrame
 
 _CM_PER_M = 100.0
+_MAX_DIGITS = 10
 
 
 @dataclass(frozen=True)
@@ -112,9 +115,29 @@ def record_from(document: Any) -> FrameRecord:
         return FrameRecord()
     record = FrameRecord([read_record(FrameEntry, frame) for frame in document["frames"]], dict(document["lines"]),
                          [read_record(CheckEntry, check) for check in document["checks"]])
-    if not all(isinstance(index, int) and 0 <= index < len(record.frames) for index in record.lines.values()):
+    indices = [*record.lines.values(), *(check.frame for check in record.checks if check.frame is not None)]
+    if not all(type(index) is int and 0 <= index < len(record.frames) for index in indices):
         raise ValueError("frame of a line")
+    if not all(number.isdecimal() and limits.LINE_NUMBER.allows(int(number[:_MAX_DIGITS])) for number in record.lines):
+        raise ValueError("number of a line")
+    if first_violation([*(value for frame in record.frames for value in _limits_of_frame(frame)),
+                        *(value for check in record.checks for value in _limits_of_check(check))]):
+        raise ValueError("a number that cannot be true")
     return record
+
+
+def _limits_of_frame(entry: FrameEntry) -> Iterator[tuple[limits.Limit, object]]:
+    yield limits.STAMP, entry.since_s
+    yield limits.CORRECTION, entry.correction_x_m
+    yield limits.CORRECTION, entry.correction_y_m
+    yield limits.HEADING, entry.correction_heading_rad
+
+
+def _limits_of_check(entry: CheckEntry) -> Iterator[tuple[limits.Limit, object]]:
+    yield limits.STAMP, entry.robot_time_s
+    for value in (entry.difference_m, entry.difference_rad, entry.limit_m, entry.limit_rad):
+        if value is not None:
+            yield limits.CHECK_DIFFERENCE, value
 
 
 def check_entry(check: CarCheck, time_s: float) -> CheckEntry:

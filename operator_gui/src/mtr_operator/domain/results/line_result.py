@@ -8,6 +8,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
+from .. import limits
 from .document import OptionalFloat, plain, read_record
 
 Result = TypeVar("Result", bound="LineResult")
@@ -100,10 +101,26 @@ class LineResult(ABC):
 def result_from_document(result_type: type[Result], document: Any) -> Result:
     """Result in a progress file; KeyError, TypeError or ValueError when it is damaged."""
     result = read_record(result_type, document)
+    for name, unit in ((item.name, item.unit) for item in result.columns()):
+        value = getattr(result, name)
+        if isinstance(value, float) and not limits.OF_UNIT.get(unit, limits.PLAIN).allows(value):
+            raise ValueError(f"{name} is beyond all limits")
     for distance in result.distances:
-        if distance.status is LineStatus.OK and distance.distance_m is None:
-            raise ValueError(f"{distance.word} without a distance")
+        _check(distance)
+    if not limits.LINE_NUMBER.allows(result.number) or bool(result.reason) != bool(result.invalid_count):
+        raise ValueError("number or reason of a line")
     return result
+
+
+def _check(distance: MeasuredDistance) -> None:
+    """Raise ValueError for a distance that cannot be one."""
+    has_distance = distance.distance_m is not None
+    if has_distance != (distance.status is LineStatus.OK):
+        raise ValueError(f"distance of {distance.word}")
+    if has_distance and not limits.DISTANCE.allows(distance.distance_m):
+        raise ValueError(f"distance of {distance.word}")
+    if distance.uncertainty_m is not None and not limits.DISTANCE_SIGMA.allows(distance.uncertainty_m):
+        raise ValueError(f"uncertainty of {distance.word}")
 
 
 def _fields(result_type: type[LineResult]) -> tuple[dataclasses.Field[Any], ...]:

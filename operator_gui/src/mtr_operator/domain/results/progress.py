@@ -6,7 +6,9 @@ import dataclasses
 from dataclasses import dataclass, field
 from typing import Any, Mapping
 
+from .. import limits
 from ..errors import ProgressFileError
+from ..limits import first_violation
 from ..robot_status import CarDimensions
 from .frame_history import KnownFrame
 from .frame_record import FrameRecord
@@ -118,6 +120,13 @@ class Progress:
 
 
 def car_from(document: Mapping[str, Any]) -> CarDimensions:
-    """The Car in a file; KeyError, TypeError, ValueError or AttributeError when it is damaged."""
-    sizes = {name: float(document[name]) for name in document if name != "outline"}
-    return CarDimensions(**sizes, outline=tuple((float(x), float(y)) for x, y in document.get("outline", ())))
+    """The Car in a file; LookupError, TypeError, ValueError or AttributeError when it is damaged."""
+    outline = document.get("outline", ())
+    car = CarDimensions(**{name: document[name] for name in document if name != "outline"},
+                        outline=tuple((x, y) for x, y in outline))
+    checked = [(limits.CAR_LENGTH, car.length), (limits.CAR_WIDTH, car.width), (limits.CAR_SIGMA, car.length_sigma),
+               (limits.CAR_SIGMA, car.width_sigma), *((limits.OUTLINE, value) for point in outline for value in point)]
+    violation = first_violation(checked)
+    if violation or len(outline) > limits.MAX_OUTLINE_POINTS:
+        raise ValueError(violation)
+    return car
