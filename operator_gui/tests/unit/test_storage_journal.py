@@ -95,7 +95,7 @@ def test_torn_last_entry_is_left_out_and_said_and_the_test_goes_on(killed, cut):
     assert "its last entry was cut off" in progress.notice
     with Store(killed, progress) as store:
         measure(Notebook(progress, KeyPressResult, store), 4)
-    assert not read_journal(journal).damage
+    assert not read_journal(journal).is_damaged
     assert loaded(killed).measured() == [1, 2, 4]
 
 
@@ -108,7 +108,7 @@ def test_flipped_byte_is_found_wherever_it_is_and_nothing_wrong_is_taken(killed)
         place, bit = chance.randrange(len(content)), 1 << chance.randrange(8)
         journal.write_bytes(content[:place] + bytes([content[place] ^ bit]) + content[place + 1:])
         recovered = read_journal(journal)
-        assert recovered.damage
+        assert recovered.is_damaged
         assert {json.dumps(entry.values) for entry in recovered.entries} < whole
         assert loaded(killed).measured() in ([1], [1, 2])
 
@@ -119,7 +119,7 @@ def test_damaged_journal_is_kept_aside_when_the_test_goes_on(killed):
     content[len(content) // 2] ^= 1
     journal.write_bytes(content)
     progress = loaded(killed)
-    assert "it is damaged after entry" in progress.notice
+    assert "is damaged; its first" in progress.notice
     with Store(killed, progress) as store:
         measure(Notebook(progress, KeyPressResult, store), 7)
     assert (killed.parent / "progress.journal.damaged-1").read_bytes() == bytes(content)

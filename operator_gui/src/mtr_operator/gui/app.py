@@ -16,8 +16,10 @@ from mtr_operator.station.settings_file import SettingsStore, default_path, form
 from mtr_operator.station.view_model import ViewModel
 
 from .bridge import Bridge
+from .defects import Defects
 from .flow import Flow
 from .i18n import Language
+from .report_writer import ReportWriter
 from .theme.appearance import Appearance
 from .windows.connection_window import ConnectionWindow
 from .windows.main_window import MainWindow
@@ -34,10 +36,13 @@ class Application:
         self.flow = Flow(self.bridge, self._store, opener or LinkOpener())
         self.appearance = Appearance()
         self.language = Language()
+        self.defects = Defects()
+        self.defects.found.connect(self.flow.keep_after_defect)
         self.window: QWidget | None = None
 
     def open(self, robot: Mapping[str, Any] | None = None, can: Mapping[str, Any] | None = None) -> None:
         """Load the settings and show the connection window; robot, can: what to fill in instead of the last choice."""
+        self.defects.install()
         self._store.load()
         settings = self._store.settings
         self.language.use(settings.language)
@@ -51,6 +56,8 @@ class Application:
         if self.window is not None:
             self.window.hide()
         self.flow.close()
+        ReportWriter.finish_all()
+        self.defects.remove()
 
     def _show_main(self) -> None:
         self._show(MainWindow(self.flow, self.appearance))

@@ -95,6 +95,12 @@ class Flow(QObject):
         """Stop the robot and disconnect; True when that has succeeded in time."""
         return self._worker is None or self._worker.close(CLOSE_LIMIT_S)
 
+    def keep_after_defect(self, text: str) -> None:
+        """The application has a defect: write what is measured, and say it."""
+        if self._worker is not None and self.model.test is not None and self.model.test.progress.has_findings:
+            self._worker.save(self.model.test)
+        self.failed.emit(text)
+
     # Screens
 
     def show(self, step: Step) -> None:

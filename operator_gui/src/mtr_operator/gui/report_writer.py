@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import logging
 import pathlib
-from typing import Sequence
+from typing import ClassVar, Sequence
 
 from PyQt5.QtCore import QObject, QThread, pyqtSignal
 
@@ -17,6 +18,8 @@ from .pictures.protocol_picture import Protocol
 from .pictures.protocol_sheet import ProtocolSheet
 
 CSV, PNG, PDF, SVG = "csv", "png", "pdf", "svg"
+# A large protocol in all its forms takes some seconds.
+FINISH_LIMIT_MS = 20_000
 _PICTURES = {PNG: export.png, PDF: export.pdf, SVG: export.svg}
 
 
@@ -25,12 +28,21 @@ class ReportWriter(QThread):
 
     written = pyqtSignal(list)
     refused = pyqtSignal(str)
+    _running: ClassVar[set[ReportWriter]] = set()
 
     def __init__(self, protocol: Protocol, folder: pathlib.Path, kinds: Sequence[str], parent: QObject | None = None):
         super().__init__(parent)
         self._protocol = protocol
         self._folder = folder
         self._kinds = tuple(kinds)
+        self._running.add(self)
+        self.finished.connect(lambda: self._running.discard(self))
+
+    @classmethod
+    def finish_all(cls) -> None:
+        """Wait for what is being written: a thread that Qt ends with the window leaves half a file, or a crash."""
+        for writer in list(cls._running):
+            writer.wait(FINISH_LIMIT_MS)
 
     def run(self) -> None:
         """See QThread."""
@@ -39,6 +51,10 @@ class ReportWriter(QThread):
                 self.written.emit([self._write(kind) for kind in self._kinds])
         except OutputError as error:
             self.refused.emit(str(error))
+        # Qt ends the process when an exception leaves this function.
+        except Exception as error:
+            logging.exception("The protocol was not written because of a defect of the application.")
+            self.refused.emit(f"The application has a defect: {type(error).__name__}: {error}")
 
     def _write(self, kind: str) -> pathlib.Path:
         protocol = self._protocol

@@ -45,14 +45,13 @@ class Recovered:
     """The good entries of a journal.
 
     Attributes:
-        content: their lines. damage: where reading ended early and why, as the end of a sentence; empty when it did
-            not.
+        content: their lines. is_damaged: reading ended before the end of the file.
         is_torn: the last line only lacks its end, as after a loss of power; nothing that was complete is lost.
     """
 
     entries: tuple[Entry, ...]
     content: bytes
-    damage: str = ""
+    is_damaged: bool = False
     is_torn: bool = False
 
     @property
@@ -101,10 +100,10 @@ def read_journal(path: pathlib.Path) -> Recovered:
     for line in lines:
         entry = _entry(line + b"\n")
         if entry is None or not _follows(entry, entries):
-            return Recovered(tuple(entries), content[:used], f"it is damaged after entry {len(entries)}")
+            return Recovered(tuple(entries), content[:used], is_damaged=True)
         entries.append(entry)
         used += len(line) + 1
-    return Recovered(tuple(entries), content[:used], "its last entry was cut off" if tail else "", is_torn=bool(tail))
+    return Recovered(tuple(entries), content[:used], is_damaged=bool(tail), is_torn=bool(tail))
 
 
 def _follows(entry: Entry, before: Sequence[Entry]) -> bool:

@@ -91,4 +91,4 @@ def _is_empty_journal(path: pathlib.Path) -> bool:
     except ProgressFileError:
         return False
     # Damage before the first finding may have taken what came after it.
-    return not recovered.holds_findings and (recovered.is_torn or not recovered.damage)
+    return not recovered.holds_findings and (recovered.is_torn or not recovered.is_damaged)

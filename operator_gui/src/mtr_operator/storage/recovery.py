@@ -72,9 +72,10 @@ def _read(path: pathlib.Path) -> tuple[Any, Recovered, str]:
     notice = ""
     try:
         journal = journal_of(path)
-        if journal.damage:
-            notice = (f"Of the journal of {path}, {journal.damage}; the {len(journal.entries)} entries before that are "
-                      "used.")
+        if journal.is_damaged:
+            count = len(journal.entries)
+            notice = (f"Of the journal of {path}, its last entry was cut off; the {count} entries before that are used."
+                      if journal.is_torn else f"The journal of {path} is damaged; its first {count} entries are used.")
     except ProgressFileError as error:
         journal, notice = Recovered((), b""), str(error)
     if path.suffix == SUFFIX and journal.entries:

@@ -97,7 +97,7 @@ class Store(Journal):
         recovered = journal_of(self.path)
         self._check(recovered.mark)
         self._check(journal_mark(self.path))
-        if recovered.damage and not recovered.is_torn:
+        if recovered.is_damaged and not recovered.is_torn:
             _copy_aside(journal_path(self.path))
         return recovered
 

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
+from . import keeping
+
 SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "wait for robot and Car"),
     QT_TRANSLATE_NOOP("Sentence", "move the key to {} cm"),
@@ -76,6 +78,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "It is damaged: parts of it are missing or of the wrong kind."),
     QT_TRANSLATE_NOOP("Sentence", "It was measured with other parameters: {} was {}, now it is {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is larger than {} MiB."),
+    *keeping.SENTENCES,
     QT_TRANSLATE_NOOP("Sentence", "It cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is truncated or not a JSON file."),
     QT_TRANSLATE_NOOP("Sentence", "The progress file belongs to another Car: its {} was {} m, now it measures {} m."),
@@ -142,8 +145,6 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} must be a table from raw value to {}."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: cycle_time_s is {}; allowed is {} to {} s."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {} cannot be read: {}."),
-    QT_TRANSLATE_NOOP("Sentence", "Car profile {} is not valid YAML; a profile is a YAML file that names the CAN "
-                                  "database."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: unknown entry {}; allowed are {}."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {} lacks the entry {}."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} has {}: {}; allowed is a whole number with {}."),

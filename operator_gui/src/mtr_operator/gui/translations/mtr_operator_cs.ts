@@ -896,679 +896,829 @@
 <context>
     <name>Sentence</name>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>wait for robot and Car</source>
         <translation>čekám na robot a auto</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>move the key to {} cm</source>
         <translation>klíč jede do výšky {} cm</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>map the Car</source>
         <translation>robot mapuje auto</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>the robot stands still</source>
         <translation>robot stojí</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>the robot does not confirm that it stands still; without an application it stops by itself</source>
         <translation>robot nepotvrdil, že stojí; bez aplikace se zastaví sám</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>axis {} ({}): go to the start</source>
         <translation>osa {} ({}): jízda na začátek</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>approach until the Car unlocks</source>
         <translation>přibližování, dokud se auto neodemkne</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>retreat until the Car locks</source>
         <translation>couvání, dokud se auto nezamkne</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>radial {} ({}): go to the start</source>
         <translation>paprsek {} ({}): jízda na začátek</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>press at {} m</source>
         <translation>stisk ve vzdálenosti {} m</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The Car&apos;s lock state is unknown: {}</source>
         <translation>Stav zámků auta není znám: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The bus does not carry it.</source>
         <translation>Sběrnice jej nepřenáší.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The Car fell silent: {}</source>
         <translation>Auto se odmlčelo: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot did not start within {} s. {}</source>
         <translation>Robot se do {} s nespustil. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot did not start within {} s.</source>
         <translation>Robot se do {} s nespustil.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot did not find the Car within {} s. {}</source>
         <translation>Robot do {} s nenašel auto. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot did not find the Car within {} s.</source>
         <translation>Robot do {} s nenašel auto.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot is controlled by another application; end that one, then start again.</source>
         <translation>Robot ovládá jiná aplikace; ukončete ji a začněte znovu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The Remote key did not reach the height of {} cm within {} s; it is at {} cm.</source>
         <translation>Klíč nedosáhl výšky {} cm do {} s; je ve výšce {} cm.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot refused the waypoint: {}</source>
         <translation>Robot odmítl cílový bod: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot did not reach the waypoint within {} s. {}</source>
         <translation>Robot nedojel do cílového bodu do {} s. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot did not reach the waypoint within {} s.</source>
         <translation>Robot nedojel do cílového bodu do {} s.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The button could not be pressed: {}</source>
         <translation>Tlačítko nešlo stisknout: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot did not confirm a button press within {} s.</source>
         <translation>Robot do {} s nepotvrdil stisk tlačítka.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>No poses of the robot enclose the instant {} s.</source>
         <translation>Kolem okamžiku {} s nejsou známy polohy robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot&apos;s pose is unknown for {} s around the instant {} s.</source>
         <translation>Poloha robotu není po dobu {} s kolem okamžiku {} s známa.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The progress file holds {} {}; this test has {}.</source>
         <translation>Soubor průběhu obsahuje číslo {1} ({0}); tento test jich má {2}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The Car was still unlocked {} s after the robot had reached the starting distance of {} m; lock it with its key, or increase maximum_distance_m if it locks farther away.</source>
         <translation>Auto bylo ještě {} s po dosažení počáteční vzdálenosti {} m odemčené; zamkněte je klíčem, nebo zvětšete počáteční vzdálenost, zamyká-li dále.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The Car was {} by the button of a key, not by the Remote key&apos;s vicinity; leave the keys alone during the test.</source>
         <translation>Stav auta („{}“) způsobilo tlačítko klíče, ne blízkost klíče; během testu na klíče nesahejte.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The Car was {} by the vicinity of a key, not by the press at {} m; switch passive entry off, or increase minimum_distance_m.</source>
         <translation>Stav auta („{}“) způsobila blízkost klíče, ne stisk ve vzdálenosti {} m; vypněte bezklíčový přístup, nebo zvětšete nejmenší vzdálenost.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot has been silent for {} s; check the Wi-Fi and that its software runs.</source>
         <translation>Robot mlčí {} s; zkontrolujte Wi-Fi a zda běží jeho software.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot&apos;s ports are open, but no Status has come for {} s; check that both ports are the robot&apos;s. {}</source>
         <translation>Porty robotu jsou otevřené, ale {} s nepřišla zpráva o stavu; zkontrolujte, zda oba porty patří robotu. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot&apos;s ports are open, but no Status has come for {} s; check that both ports are the robot&apos;s.</source>
         <translation>Porty robotu jsou otevřené, ale {} s nepřišla zpráva o stavu; zkontrolujte, zda oba porty patří robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot started anew during the test; the measured lines are kept, go on with a continued test.</source>
         <translation>Robot se během testu spustil znovu; změřené přímky zůstaly uloženy, pokračujte v testu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Another application has taken over the control of the robot.</source>
         <translation>Řízení robotu převzala jiná aplikace.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The test was interrupted.</source>
         <translation>Test byl přerušen.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The link to the robot was interrupted for {} s.</source>
         <translation>Spojení s robotem bylo na {} s přerušeno.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The link to the robot was interrupted: {}</source>
         <translation>Spojení s robotem bylo přerušeno: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot does not know its position relative to the Car.</source>
         <translation>Robot nezná svou polohu vůči autu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The Car does not say whether it is locked.</source>
         <translation>Auto nesděluje, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot has restarted; the present order was sent to it again.</source>
         <translation>Robot se spustil znovu; současný příkaz mu byl odeslán ještě jednou.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot is not connected.</source>
         <translation>Robot není připojen.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Parameter {} is {}; it has to be below {}, {}.</source>
         <translation>Parametr {} je {}; musí být menší než {}, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Parameter {} is {}; allowed is at most {}, {}.</source>
         <translation>Parametr {} je {}; povoleno je nejvýše {}, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Parameter {} is {}; allowed is clearance_m, {}, and more.</source>
         <translation>Parametr {} je {}; povolen je odstup, {}, a více.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Parameter {} is {}; allowed is {}.</source>
         <translation>Parametr {} je {}; povoleno je {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Parameter {} is {}; allowed are {}.</source>
         <translation>Parametr {} je {}; povoleno je {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Parameter {} is {}; {}</source>
         <translation>Parametr {} je {}; {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Parameter {} is unknown; {}</source>
         <translation>Parametr {} není znám; {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>allowed is a number, {}.</source>
         <translation>povoleno je číslo, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>write a decimal point: {}.</source>
         <translation>pište desetinnou tečku: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>did you mean {}?</source>
         <translation>nemá to být {}?</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>known are {}.</source>
         <translation>známé jsou {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Parameter minimum_distance_m is {} m; on the radial of {} degrees that leaves {} m between Remote key and Car, and clearance_m, {} m, has to remain.</source>
         <translation>Nejmenší vzdálenost je {} m; na paprsku {} stupňů tak mezi klíčem a autem zbude {} m, zůstat ale musí odstup {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The test cannot be continued from {}. {}</source>
         <translation>V testu ze souboru {} nelze pokračovat. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>It is not a progress file of this application.</source>
         <translation>Není to soubor průběhu této aplikace.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>It is not a progress file of this application, or of a scenario that it does not know.</source>
         <translation>Není to soubor průběhu této aplikace, nebo patří ke scénáři, který aplikace nezná.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>It has version {}; this application reads version {}.</source>
         <translation>Má verzi {}; tato aplikace čte verzi {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>It belongs to the scenario {}, not to {}.</source>
         <translation>Patří ke scénáři {}, ne k {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>It is damaged: the parameters are missing.</source>
         <translation>Je poškozený: chybí parametry.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>It is damaged: parts of it are missing or of the wrong kind.</source>
         <translation>Je poškozený: části chybí nebo jsou nesprávného druhu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>It was measured with other parameters: {} was {}, now it is {}.</source>
         <translation>Byl změřen s jinými parametry: {} bylo {}, nyní je {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>It is larger than {} MiB.</source>
         <translation>Je větší než {} MiB.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>It cannot be read: {}.</source>
         <translation>Nelze jej přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>It is truncated or not a JSON file.</source>
         <translation>Je useknutý, nebo to není soubor JSON.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The progress file belongs to another Car: its {} was {} m, now it measures {} m.</source>
         <translation>Soubor průběhu patří k jinému autu: {} byla {} m, nyní je {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The file {} cannot be written: {}.</source>
         <translation>Soubor {} nelze zapsat: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Results cannot be written to the folder {}: {}.</source>
         <translation>Výsledky nelze zapsat do složky {}: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The settings in {} were not used. {}</source>
         <translation>Nastavení v souboru {} nebylo použito. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The settings cannot be kept: {}</source>
         <translation>Nastavení nelze uložit: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>They are of another format or version.</source>
         <translation>Má jiný formát nebo verzi.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>They are damaged.</source>
         <translation>Je poškozené.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>They cannot be read.</source>
         <translation>Nelze je přečíst.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The application has a defect: {}: {}</source>
         <translation>Aplikace má chybu: {}: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Robot address is {}; allowed is an IPv4 address or a host name.</source>
         <translation>Adresa robotu je {}; povolena je adresa IPv4 nebo jméno počítače.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Robot address is {}; an IPv4 address is four numbers from 0 to 255 with dots between them.</source>
         <translation>Adresa robotu je {}; adresa IPv4 jsou čtyři čísla od 0 do 255 oddělená tečkami.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The {} is {}; allowed is a whole number from {} to {}.</source>
         <translation>Pole „{}“ obsahuje {}; povoleno je celé číslo od {} do {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The {} is {}; allowed is a whole number.</source>
         <translation>Pole „{}“ obsahuje {}; povoleno je celé číslo.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Subscriber port and publisher port are both {}; the robot uses two different ones.</source>
         <translation>Port odběratele i vydavatele je {}; robot používá dva různé.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>No host of the name {} is known; check the robot&apos;s address.</source>
         <translation>Počítač jménem {} není znám; zkontrolujte adresu robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>No answer from {} within {} s; check the address, the Wi-Fi and that the robot is on.</source>
         <translation>{} do {} s neodpovídá; zkontrolujte adresu, Wi-Fi a zda je robot zapnutý.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Nothing listens on {}; check the port and that the robot&apos;s software runs.</source>
         <translation>Na adrese {} nic neposlouchá; zkontrolujte port a zda běží software robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Cannot reach {}: {}.</source>
         <translation>{} není dosažitelný: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The {} port {} is open, but not the robot&apos;s; subscriber and publisher port may be swapped, or another program listens there.</source>
         <translation>Port {1} ({0}) je otevřený, ale nepatří robotu; porty odběratele a vydavatele jsou možná zaměněny, nebo tam poslouchá jiný program.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>CAN interface is {}; allowed are {}.</source>
         <translation>Rozhraní CAN je {}; povolena jsou {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>CAN channel is empty; give the adapter&apos;s port, e.g. /dev/ttyACM0, can0 or PCAN_USBBUS1.</source>
         <translation>Kanál CAN je prázdný; zadejte port adaptéru, např. /dev/ttyACM0, can0 nebo PCAN_USBBUS1.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>CAN bit rate is {}; allowed is {} to {} bit/s.</source>
         <translation>Přenosová rychlost CAN je {}; povoleno je {} až {} bit/s.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>There is no CAN adapter at {}; check the channel and the USB plug.</source>
         <translation>Na {} není adaptér CAN; zkontrolujte kanál a zástrčku USB.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>{} is no serial port; give the CAN adapter&apos;s, e.g. /dev/ttyACM0.</source>
         <translation>{} není sériový port; zadejte port adaptéru CAN, např. /dev/ttyACM0.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Cannot open the {} at {} bit/s: {}.</source>
         <translation>Nelze otevřít {} při {} bit/s: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The {} has gone: {}.</source>
         <translation>Zařízení zmizelo ({}): {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The {} sends something else than the slcan protocol; check the channel, and that the device is a CAN adapter.</source>
         <translation>Zařízení ({}) neposílá protokol slcan; zkontrolujte kanál a zda jde o adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The {} does not answer; check the channel, and that the device is a CAN adapter.</source>
         <translation>Zařízení ({}) neodpovídá; zkontrolujte kanál a zda jde o adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>CAN adapter {} ({})</source>
         <translation>adaptér CAN {} ({})</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>another program uses it</source>
         <translation>používá jej jiný program</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The CAN bus has errors ({} error frames); check bit rate, plug and termination.</source>
         <translation>Na sběrnici CAN jsou chyby (chybových rámců: {}); zkontrolujte rychlost, zástrčku a zakončení.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The Car&apos;s CAN bus is not connected.</source>
         <translation>Sběrnice CAN auta není připojena.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>No CAN adapter is chosen.</source>
         <translation>Není vybrán adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>No CAN frame for {} s; check the plug, the bit rate and that the Car is awake.</source>
         <translation>Už {} s nepřišel rámec CAN; zkontrolujte zástrčku, rychlost a zda je auto probuzené.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>No message {} (id 0x{}) for {} s although the CAN bus is alive; check the car profile.</source>
         <translation>Zpráva {} (id 0x{}) už {} s nepřišla, ačkoli sběrnice CAN žije; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The clock of the CAN frames is not mapped to the robot&apos;s yet; this takes about two seconds.</source>
         <translation>Hodiny rámců CAN ještě nejsou přepočteny na hodiny robotu; trvá to asi dvě sekundy.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The CAN adapter reports errors on the bus or has left it (bus-off); check bit rate, plug and termination.</source>
         <translation>Adaptér CAN hlásí chyby na sběrnici, nebo se odpojil (bus-off); zkontrolujte rychlost, zástrčku a zakončení.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The CAN adapter is error-passive; check bit rate, plug and termination.</source>
         <translation>Adaptér CAN je ve stavu error-passive; zkontrolujte rychlost, zástrčku a zakončení.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The CAN adapter has failed: {}.</source>
         <translation>Adaptér CAN selhal: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>There is no car profile {}; shipped are: {}; a path to a YAML file works too.</source>
         <translation>Profil auta {} neexistuje; dodávané jsou: {}; lze zadat i cestu k souboru YAML.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Car profile {}: states must name a value for locked and one for unlocked.</source>
         <translation>Profil auta {}: states musí uvést hodnotu pro locked a pro unlocked.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Car profile {} is no table of names and values.</source>
         <translation>Profil auta {} není tabulka jmen a hodnot.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Car profile {}: source_signal and sources belong together; give both or none.</source>
         <translation>Profil auta {}: source_signal a sources patří k sobě; uveďte obojí, nebo nic.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Car profile {}: {} must be a table from raw value to {}.</source>
         <translation>Profil auta {}: {} musí být tabulka, která hodnotám přiřadí {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Car profile {}: cycle_time_s is {}; allowed is {} to {} s.</source>
         <translation>Profil auta {}: cycle_time_s je {}; povoleno je {} až {} s.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Car profile {} cannot be read: {}.</source>
         <translation>Profil auta {} nelze přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
-        <source>Car profile {} is not valid YAML; a profile is a YAML file that names the CAN database.</source>
-        <translation>Profil auta {} není platný YAML; profil je soubor YAML, který uvádí databázi CAN.</translation>
-    </message>
-    <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Car profile {}: unknown entry {}; allowed are {}.</source>
         <translation>Profil auta {}: neznámá položka {}; povoleny jsou {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Car profile {} lacks the entry {}.</source>
         <translation>V profilu auta {} chybí položka {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Car profile {}: {} has {}: {}; allowed is a whole number with {}.</source>
         <translation>Profil auta {}: {} obsahuje {}: {}; povoleno je celé číslo a k němu {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Message {} of CAN database {} has no signal {}.</source>
         <translation>Zpráva {} databáze CAN {} nemá signál {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>CAN database {} has no message {}.</source>
         <translation>Databáze CAN {} nemá zprávu {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>CAN database {} cannot be read: {}.</source>
         <translation>Databázi CAN {} nelze přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>A message of {} bytes was ignored; allowed is at most {} bytes.</source>
         <translation>Zpráva o {} bajtech byla ignorována; povoleno je nejvýše {} bajtů.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>A message was ignored: {}</source>
         <translation>Zpráva byla ignorována: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>wait for the robot</source>
         <translation>čekám na robot</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>check where the Car stands</source>
         <translation>robot ověřuje, kde auto stojí</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>warning: the robot&apos;s software is too old to check where the Car stands; it is taken as it is</source>
         <translation>pozor: software robotu je příliš starý na ověření, kde auto stojí; bere se, jak je</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot has not found the Car yet, so there is nothing to check; a test begins with it.</source>
         <translation>Robot ještě nenašel auto, takže není co ověřit; test tím začíná.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot&apos;s software is too old to check where the Car stands.</source>
         <translation>Software robotu je příliš starý na ověření, kde auto stojí.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot did not check the Car within {} s. {}</source>
         <translation>Robot auto do {} s neověřil. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot did not check the Car within {} s.</source>
         <translation>Robot auto do {} s neověřil.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The test does not begin. {}</source>
         <translation>Test nezačne. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The Car coordinate system was corrected during the measurement.</source>
         <translation>Souřadnicová soustava auta byla během měření opravena.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The Car&apos;s bus is not connected.</source>
         <translation>Sběrnice auta není připojena.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The package mtr_proto, the contract with the robot, is not installed; pip install the folder proto of the project.</source>
         <translation>Balíček mtr_proto, rozhraní k robotu, není nainstalován; nainstalujte složku proto projektu příkazem pip install.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The robot&apos;s clock was set; the clock of the CAN frames is mapped to it anew, which takes about two seconds.</source>
         <translation>Hodiny robotu byly přestaveny; hodiny rámců CAN se na ně přepočítávají znovu, trvá to asi dvě sekundy.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The clock of the CAN adapter jumped; it is mapped to the robot&apos;s anew, which takes about two seconds.</source>
         <translation>Hodiny adaptéru CAN poskočily; přepočítávají se na hodiny robotu znovu, trvá to asi dvě sekundy.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>Frames or messages of the robot are late, or a clock was set; the time at which the locks changed is not known yet.</source>
         <translation>Rámce nebo zprávy robotu se opožďují, nebo byly přestaveny hodiny; čas změny zámků ještě není znám.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="5"/>
+        <location filename="../texts/application.py" line="7"/>
         <source>The instant of the event is not known.</source>
         <translation>Okamžik události není znám.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>Another application (process {}) is measuring the test in the folder {}; end it there first, or choose another folder.</source>
+        <translation>Test ve složce {1} právě měří jiná aplikace (proces {0}); nejprve ji ukončete, nebo vyberte jinou složku.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>Another application is measuring the test in the folder {}; end it there first, or choose another folder.</source>
+        <translation>Test ve složce {} právě měří jiná aplikace; nejprve ji ukončete, nebo vyberte jinou složku.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The folder {} cannot be locked against other applications: {}.</source>
+        <translation>Složku {} nelze uzamknout proti jiným aplikacím: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The files of {} belong to another test; choose another folder.</source>
+        <translation>Soubory {} patří jinému testu; vyberte jinou složku.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The test in {} was gone on with since it was opened here; open it again.</source>
+        <translation>V testu {} se od jeho otevření pokračovalo jinde; otevřete jej znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>{} What was measured is in {}.</source>
+        <translation>{} Co bylo změřeno, je v souboru {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>{} What was measured is kept in {}, with which the test can be continued.</source>
+        <translation>{} Co bylo změřeno, je uloženo v souboru {}, s nímž lze v testu pokračovat.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>{} No second place could be written either; what was measured last is in this application only.</source>
+        <translation>{} Ani na náhradní místo nelze zapisovat; co bylo změřeno naposledy, je jen v této aplikaci.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>A finding cannot be kept, for a value in it is no finite number.</source>
+        <translation>Zjištění nelze uložit, protože některá jeho hodnota není konečné číslo.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The test&apos;s files are not open.</source>
+        <translation>Soubory testu nejsou otevřené.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The journal {} is not open.</source>
+        <translation>Deník {} není otevřený.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The journal {} is larger than {} MiB.</source>
+        <translation>Deník {} je větší než {} MiB.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The journal {} cannot be read: {}.</source>
+        <translation>Deník {} nelze číst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The journal beside it belongs to another test; move that file elsewhere.</source>
+        <translation>Deník vedle něj patří jinému testu; přesuňte ho jinam.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The journal does not fit together; the progress file alone counts.</source>
+        <translation>Deník si odporuje; platí jen soubor s průběhem.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>Of the journal of {}, its last entry was cut off; the {} entries before that are used.</source>
+        <translation>Poslední zápis v deníku testu {} byl useknut; použito je {} zápisů před ním.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The journal of {} is damaged; its first {} entries are used.</source>
+        <translation>Deník testu {} je poškozený; použito je prvních {} zápisů.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The progress file {} was recovered from its journal. {}</source>
+        <translation>Soubor s průběhem {} byl obnoven z deníku. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>Its Car and its parameters do not fit together. {}</source>
+        <translation>Jeho vozidlo a jeho parametry k sobě nepatří. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>CAN database {} is larger than {} KiB; leave the messages that the profile does not name out of it.</source>
+        <translation>Databáze CAN {} je větší než {} KiB; vynechte z ní zprávy, které profil nejmenuje.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>CAN database {} cannot be read: it is damaged.</source>
+        <translation>Databázi CAN {} nelze číst: je poškozená.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>Car profile {} {}; a profile is a YAML file that names the CAN database.</source>
+        <translation>Profil vozidla {} {}; profil je soubor YAML, který jmenuje databázi CAN.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>is larger than {} KiB</source>
+        <translation>je větší než {} KiB</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>is not a text file in UTF-8</source>
+        <translation>není textový soubor v UTF-8</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>is not valid YAML</source>
+        <translation>není platný YAML</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>is not valid YAML in line {}</source>
+        <translation>není platný YAML na řádku {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>is not valid YAML: a value in it cannot be read</source>
+        <translation>není platný YAML: některou jeho hodnotu nelze přečíst</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>is not valid YAML: too many lists lie within each other</source>
+        <translation>není platný YAML: příliš mnoho seznamů v sobě</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>refers to another part of itself; write the value out</source>
+        <translation>odkazuje na jinou svou část; hodnotu vypište</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>says {} twice</source>
+        <translation>uvádí {} dvakrát</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>They are larger than {} KiB.</source>
+        <translation>Jsou větší než {} KiB.</translation>
     </message>
 </context>
 <context>

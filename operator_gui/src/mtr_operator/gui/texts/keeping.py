@@ -1,0 +1,42 @@
+"""Sentences on what is kept of a test, with {} for what varies."""
+# SPDX-License-Identifier: Apache-2.0
+from PyQt5.QtCore import QT_TRANSLATE_NOOP
+
+SENTENCES = (
+    QT_TRANSLATE_NOOP("Sentence", "Another application (process {}) is measuring the test in the folder {}; end it "
+                                  "there first, or choose another folder."),
+    QT_TRANSLATE_NOOP("Sentence", "Another application is measuring the test in the folder {}; end it there first, or "
+                                  "choose another folder."),
+    QT_TRANSLATE_NOOP("Sentence", "The folder {} cannot be locked against other applications: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The files of {} belong to another test; choose another folder."),
+    QT_TRANSLATE_NOOP("Sentence", "The test in {} was gone on with since it was opened here; open it again."),
+    QT_TRANSLATE_NOOP("Sentence", "{} What was measured is in {}."),
+    QT_TRANSLATE_NOOP("Sentence", "{} What was measured is kept in {}, with which the test can be continued."),
+    QT_TRANSLATE_NOOP("Sentence", "{} No second place could be written either; what was measured last is in this "
+                                  "application only."),
+    QT_TRANSLATE_NOOP("Sentence", "A finding cannot be kept, for a value in it is no finite number."),
+    QT_TRANSLATE_NOOP("Sentence", "The test's files are not open."),
+    QT_TRANSLATE_NOOP("Sentence", "The journal {} is not open."),
+    QT_TRANSLATE_NOOP("Sentence", "The journal {} is larger than {} MiB."),
+    QT_TRANSLATE_NOOP("Sentence", "The journal {} cannot be read: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The journal beside it belongs to another test; move that file elsewhere."),
+    QT_TRANSLATE_NOOP("Sentence", "The journal does not fit together; the progress file alone counts."),
+    QT_TRANSLATE_NOOP("Sentence", "Of the journal of {}, its last entry was cut off; the {} entries before that are "
+                                  "used."),
+    QT_TRANSLATE_NOOP("Sentence", "The journal of {} is damaged; its first {} entries are used."),
+    QT_TRANSLATE_NOOP("Sentence", "The progress file {} was recovered from its journal. {}"),
+    QT_TRANSLATE_NOOP("Sentence", "Its Car and its parameters do not fit together. {}"),
+    QT_TRANSLATE_NOOP("Sentence", "CAN database {} is larger than {} KiB; leave the messages that the profile does not "
+                                  "name out of it."),
+    QT_TRANSLATE_NOOP("Sentence", "CAN database {} cannot be read: it is damaged."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {} {}; a profile is a YAML file that names the CAN database."),
+    QT_TRANSLATE_NOOP("Sentence", "is larger than {} KiB"),
+    QT_TRANSLATE_NOOP("Sentence", "is not a text file in UTF-8"),
+    QT_TRANSLATE_NOOP("Sentence", "is not valid YAML"),
+    QT_TRANSLATE_NOOP("Sentence", "is not valid YAML in line {}"),
+    QT_TRANSLATE_NOOP("Sentence", "is not valid YAML: a value in it cannot be read"),
+    QT_TRANSLATE_NOOP("Sentence", "is not valid YAML: too many lists lie within each other"),
+    QT_TRANSLATE_NOOP("Sentence", "refers to another part of itself; write the value out"),
+    QT_TRANSLATE_NOOP("Sentence", "says {} twice"),
+    QT_TRANSLATE_NOOP("Sentence", "They are larger than {} KiB."),
+)
