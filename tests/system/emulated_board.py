@@ -12,10 +12,11 @@ from mtr_core.states import State
 from mtr_description.shipped import shipped_geometry
 from mtr_emulator import Emulator
 from mtr_msgs.msg import FirmwareState
-from mtr_peripherals.conversions import command_message, firmware_report, press_message
+from mtr_peripherals.conversions import firmware_report
 from mtr_peripherals.core import Inputs, Outcome, Peripherals
 from mtr_peripherals.firmware_clock import FirmwareClock
 from mtr_peripherals.key_lift import KeyLift
+from mtr_peripherals.orders import FirmwareOrders
 from mtr_peripherals.parameters import Parameters
 from mtr_serial_link.connections import md5_of
 from mtr_simulation.firmware.emulated import EmulatedFirmware
@@ -27,8 +28,6 @@ NS = 1e-9
 START_NS = 1_000_000_000
 SESSION = 5
 RELEASED_US = 1000
-# As the node's.
-COMMAND_LIFETIME_NS = 500_000_000
 
 
 def new_core() -> Peripherals:
@@ -52,8 +51,8 @@ class EmulatedBoard:
         self._firmware = EmulatedFirmware(self.board, md5_of)
         self._core = new_core()
         self._clock = FirmwareClock()
+        self._orders = self._new_orders()
         self._report: Any = None
-        self._seq = 0
         self._waiting: Optional[List[Tuple[str, bytes]]] = None
         self._ticks = 0
         self.now_ns = START_NS
@@ -97,18 +96,16 @@ class EmulatedBoard:
         for result in self.outcome.results:
             if result not in self.results:
                 self.results.append(result)
-        latest_us = self._clock.firmware_us(self.now_ns + COMMAND_LIFETIME_NS)
-        if latest_us is None:
-            return
-        self._seq += 1
-        self._send(names.FIRMWARE_COMMAND, command_message(self.outcome, self._seq, latest_us))
-        press = self.outcome.press
-        if press:
-            self._send(names.FIRMWARE_PRESS, press_message(press, self._clock.firmware_us(press.latest_ns) or 0))
+        self._orders.send(self.outcome, self.now_ns)
 
     def restart_node(self) -> None:
         """The peripherals' node starts again and knows nothing."""
         self._core, self._clock, self._report = new_core(), FirmwareClock(), None
+        self._orders = self._new_orders()
+
+    def _new_orders(self) -> FirmwareOrders:
+        return FirmwareOrders(self._clock, lambda message: self._send(names.FIRMWARE_COMMAND, message),
+                              lambda message: self._send(names.FIRMWARE_PRESS, message))
 
     def hold_line(self) -> None:
         """What is ordered from now on waits in the host, as in a program that is stopped."""

@@ -38,7 +38,7 @@ JOINTS = ("lift", "front_left_wheel", "front_right_wheel", "rear_left_wheel", "r
 def health_of(message: FirmwareHealth) -> Health:
     """The firmware's counters that a person may have to know of."""
     return Health(message.refused_commands, message.last_refusal, message.checksum_errors, message.skipped_frames,
-                  message.calibration_copies)
+                  message.calibration_copies, message.resets, message.reset_cause)
 
 
 def inputs_from(desired: Optional[DesiredState], mode: Optional[RobotMode]) -> Inputs:

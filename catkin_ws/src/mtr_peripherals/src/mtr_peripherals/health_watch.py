@@ -12,16 +12,22 @@ REFUSED_FIELDS = {1: "the lift's height", 2: "the LED pattern", 3: "the press id
                   6: "the time to hold", 7: "another press under way", 8: "the calibration", 9: "its age",
                   10: "an emergency stop"}
 
+# By the bits of FirmwareHealth.reset_cause.
+RESET_CAUSES = {1: "its power came back", 2: "reset by its port or button",
+                4: "its supply was too low; check the servos' supply", 8: "its program hung"}
+
 
 @dataclass(frozen=True)
 class Health:
-    """Counters since the board's reset, and its last refusal, as in FirmwareHealth."""
+    """Counters since the board's reset, its last refusal, and its resets, as in FirmwareHealth."""
 
     refused_commands: int = 0
     last_refusal: int = 0
     checksum_errors: int = 0
     skipped_frames: int = 0
     calibration_copies: int = ALL_COPIES
+    resets: int = 0
+    reset_cause: int = 0
 
 
 class HealthWatch:
@@ -35,13 +41,13 @@ class HealthWatch:
         """Sentence for the Operator, empty when there is nothing new or it is too early to say it."""
         known = self._known or replace(health, calibration_copies=ALL_COPIES)
         if _was_reset(known, health):
-            known = Health(calibration_copies=known.calibration_copies)
+            known = Health(calibration_copies=known.calibration_copies, resets=known.resets)
         if health.calibration_copies > known.calibration_copies:
             known = replace(known, calibration_copies=health.calibration_copies)
         self._known = known
         if self._spoken_s is not None and now_s - self._spoken_s < QUIET_S:
             return ""
-        parts = (_refused(known, health), _line(known, health), _copies(known, health))
+        parts = (_restarted(known, health), _refused(known, health), _line(known, health), _copies(known, health))
         text = " ".join(part for part in parts if part)
         if text:
             self._known, self._spoken_s = health, now_s
@@ -49,9 +55,16 @@ class HealthWatch:
 
 
 def _was_reset(known: Health, health: Health) -> bool:
-    """A counter that steps back counts from 0 again."""
-    return (health.refused_commands < known.refused_commands or health.checksum_errors < known.checksum_errors
-            or health.skipped_frames < known.skipped_frames)
+    """It says so, or a counter has stepped back; each counts from 0 again."""
+    return (health.resets != known.resets or health.refused_commands < known.refused_commands
+            or health.checksum_errors < known.checksum_errors or health.skipped_frames < known.skipped_frames)
+
+
+def _restarted(known: Health, health: Health) -> str:
+    if health.resets == known.resets:
+        return ""
+    causes = [cause for bit, cause in RESET_CAUSES.items() if health.reset_cause & bit]
+    return f"The peripherals' firmware has started again: {', '.join(causes) or 'the cause is not known'}."
 
 
 def _refused(known: Health, health: Health) -> str:

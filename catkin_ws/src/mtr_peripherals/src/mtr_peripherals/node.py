@@ -30,13 +30,11 @@ from mtr_msgs.msg import (
 
 from .conversions import (
     battery_charge,
-    command_message,
     emergency_word,
     firmware_report,
     health_of,
     inputs_from,
     joint_message,
-    press_message,
     state_message,
 )
 from .core import STOPPED, Inputs, Outcome, Peripherals
@@ -46,6 +44,7 @@ from .firmware_clock import FirmwareClock, RobotClock, SharedClock
 from .health_watch import HealthWatch
 from .key_lift import KeyLift
 from .latest import Latest
+from .orders import FirmwareOrders
 from .parameters import Parameters
 
 # Each report of emulated firmware is there by then: it reports every 40 ms, needs 10 ms on the line, and the simulator
@@ -57,8 +56,6 @@ EMULATED_CLOCK_START_US = 2 ** 32 - 1 - 120_000_000
 MANUAL_LIFT_SILENT_S = 0.2
 # calibrate_lift repeats its order every 100 ms as long as the person lets it run.
 CALIBRATE_SILENT_S = 0.5
-# The firmware obeys an order for so long: longer than the period, shorter than the silence that stops it.
-COMMAND_LIFETIME_NS = 500_000_000
 # Of motion locks; each owner speaks ten times a second.
 LOCKS_QUEUED = 50
 
@@ -80,15 +77,16 @@ class PeripheralsNode:
         # From a decision to its last message; a stop that comes in between leaves after them.
         self._deciding = threading.Lock()
         self._health = HealthWatch()
-        self._seq = 0
         self._logged: Optional[Tuple[str, Optional[PressReport]]] = None
         self._desired = TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER)
         # Lock-step waits for each input, so only for what is needed.
         self._drive = None if parameters.rear_lidar else TickInput(names.DRIVE_STATUS, DriveStatus,
                                                                    schedule.DRIVE_CONTROL)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
-        self._command = publisher(names.FIRMWARE_COMMAND, FirmwareCommand)
-        self._press = publisher(names.FIRMWARE_PRESS, FirmwarePress)
+        command, press = (publisher(names.FIRMWARE_COMMAND, FirmwareCommand),
+                          publisher(names.FIRMWARE_PRESS, FirmwarePress))
+        self._orders = FirmwareOrders(self._times, lambda message: self._send(command, message),
+                                      lambda message: self._send(press, message))
         self._state = publisher(names.PERIPHERALS_STATE, PeripheralsState)
         self._joints = publisher(names.JOINT_STATES, JointState)
         self._ticker = Ticker(schedule.PERIPHERALS)
@@ -102,7 +100,8 @@ class PeripheralsNode:
                              tcp_nodelay=True))
 
     def spin(self) -> None:
-        """Run until shutdown."""
+        """Run until shutdown; lift and servos then stop at once, and not when the firmware misses the orders."""
+        rospy.on_shutdown(self._stop)
         while not rospy.is_shutdown():
             self._step(self._ticker.sleep())
 
@@ -122,19 +121,8 @@ class PeripheralsNode:
     def _decide(self, inputs: Inputs, report: Optional[FirmwareReport], now_ns: int) -> Outcome:
         with self._deciding:
             outcome = self._core.step(replace(inputs, emergency=self._emergency.reason(now_ns)), report, now_ns)
-            self._order(outcome, now_ns)
+            self._orders.send(outcome, now_ns)
         return outcome
-
-    def _order(self, outcome: Outcome, now_ns: int) -> None:
-        """What the firmware shall do; nothing before its clock is known."""
-        latest_us = self._times.firmware_us(now_ns + COMMAND_LIFETIME_NS)
-        if latest_us is None:
-            return
-        self._seq += 1
-        self._send(self._command, command_message(outcome, self._seq, latest_us))
-        press_latest_us = self._times.firmware_us(outcome.press.latest_ns) if outcome.press else None
-        if outcome.press and press_latest_us is not None:
-            self._send(self._press, press_message(outcome.press, press_latest_us))
 
     def _send(self, publisher: rospy.Publisher, message: object) -> None:
         publisher.publish(message)
@@ -143,7 +131,11 @@ class PeripheralsNode:
     def _take_lock(self, message: MotionLock) -> None:
         with self._deciding:
             if self._emergency.take(emergency_word(message, self._steady_stamp_ns(message))):
-                self._order(STOPPED, clock.steady_ns())
+                self._orders.send(STOPPED, clock.steady_ns())
+
+    def _stop(self) -> None:
+        with self._deciding:
+            self._orders.end(clock.steady_ns())
 
     def _take_state(self, message: FirmwareState) -> None:
         if not is_sound(message):

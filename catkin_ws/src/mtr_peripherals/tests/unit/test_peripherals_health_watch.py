@@ -25,6 +25,10 @@ def test_counters_that_stay_say_nothing():
     ({"refused_commands": 1, "last_refusal": 99}, ("1 order", "unknown reason")),
     ({"checksum_errors": 4}, ("4 frame", "checksum", "cable")),
     ({"skipped_frames": 5}, ("5 skipped", "cable")),
+    ({"resets": 8, "reset_cause": 4}, ("started again", "supply")),
+    ({"resets": 8, "reset_cause": 9}, ("power came back", "hung")),
+    ({"resets": 8}, ("cause is not known",)),
+    ({"resets": 8, "refused_commands": 1}, ("started again", "1 order")),
     ({"calibration_copies": 1}, ("One of two copies",)),
     ({"calibration_copies": 0}, ("not calibrated", "nominal"))])
 def test_change_is_said_once(changed, words):
@@ -63,6 +67,14 @@ def test_any_counter_that_steps_back_tells_of_a_reset(counter):
     watch = watching(Health(**{**others, counter: 9}))
     text = watch.sentence(Health(**{**others, counter: 2}), 1.0)
     assert "2 " in text and "5 " in text
+
+
+def test_reset_in_quiet_time_is_said_after_it():
+    watch = watching()
+    assert watch.sentence(Health(checksum_errors=1), 100.0)
+    assert watch.sentence(Health(resets=1), 101.0) == ""
+    text = watch.sentence(Health(resets=1, checksum_errors=2), 100.0 + QUIET_S)
+    assert "started again" in text and "2 frame" in text
 
 
 def test_quiet_time_is_counted_from_the_last_sentence():

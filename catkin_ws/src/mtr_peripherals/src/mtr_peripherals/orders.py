@@ -1,0 +1,35 @@
+"""What the core has decided, as orders that the firmware may obey until a time of its own clock."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import Any, Callable
+
+from .conversions import FirmwareTimes, command_message, press_message
+from .core import STOPPED, Outcome
+
+# The firmware obeys a command for so long: longer than the period, shorter than the silence that stops it.
+COMMAND_LIFETIME_NS = 500_000_000
+
+
+class FirmwareOrders:
+    """Sends nothing before the firmware's clock is known, and nothing after the end."""
+
+    def __init__(self, times: FirmwareTimes, send_command: Callable[[Any], None], send_press: Callable[[Any], None]):
+        self._times = times
+        self._send_command, self._send_press = send_command, send_press
+        self._seq = 0
+        self._has_ended = False
+
+    def send(self, outcome: Outcome, now_ns: int) -> None:
+        """What the firmware shall do, decided at now_ns of the steady clock."""
+        latest_us = self._times.firmware_us(now_ns + COMMAND_LIFETIME_NS)
+        if latest_us is None or self._has_ended:
+            return
+        self._seq += 1
+        self._send_command(command_message(outcome, self._seq, latest_us))
+        press_latest_us = self._times.firmware_us(outcome.press.latest_ns) if outcome.press else None
+        if outcome.press and press_latest_us is not None:
+            self._send_press(press_message(outcome.press, press_latest_us))
+
+    def end(self, now_ns: int) -> None:
+        """Lift and servos stop now, and not when the firmware misses the orders."""
+        self.send(STOPPED, now_ns)
+        self._has_ended = True
