@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations clean \
-	bench bench-motion bench-localization firmware flash bare-root docs tidy mutants
+	bench bench-motion bench-localization bench-truth firmware flash bare-root docs tidy mutants
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -116,6 +116,9 @@ bench-localization: setup build ## Localization and Car locator against the trut
 	@setup/install.sh setup/debian-bench-packages.txt
 	@cmake -S catkin_ws/src/mtr_benchmarks/mrpt_icp_slam -B out/bench/mrpt >/dev/null && cmake --build out/bench/mrpt >/dev/null
 	@$(RUN) python -m mtr_benchmarks.localization --mrpt out/bench/mrpt/mrpt_icp_slam --out out/bench $(BENCH_OPTIONS)
+
+bench-truth: setup build ## Lines of both scenarios, one disturbance each, against the truth; figures in out/bench/truth.json
+	@$(RUN) python -m mtr_benchmarks.truth --seed $(SEED) --out out/bench
 
 clean: ## Remove everything that was built or written
 	rm -rf out firmware/build $(STAMPS) .venv catkin_ws/{build,devel,logs,.catkin_tools} proto/src/mtr_proto/*_pb2.py

@@ -1,0 +1,159 @@
+"""Robot, Car and the clocks between them, and the two links through which the application sees them."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass, field
+from typing import Callable, List, Optional, Tuple
+
+from mtr_operator.car_link.lock_watch import CanFrame, LockWatch
+from mtr_operator.car_link.profile import CarProfile
+from mtr_operator.domain.ports import CarEvent, CarLink, LinkStatistics, LockState, RobotLink
+from mtr_operator.domain.requests import DesiredState
+from mtr_operator.domain.robot_status import CarDimensions, Mode, PressReport, RobotStatus
+
+from .car import LOCK_ID, CarBody, Frame
+from .clocks import Clock, Way
+from .robot import KEY_X_M, RobotBody
+
+CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
+STATUS_PERIOD_S = 0.1
+STEPS = 10
+# As in car_link/bus.py.
+CATCH_UP_LIMIT_S = 0.25
+# A pose is that old when it is sent.
+POSE_AGE_S = 0.06
+
+
+@dataclass
+class World:
+    """True time is the laptop's. loses: whether a Status that is sent now is lost."""
+
+    robot: RobotBody
+    car: CarBody
+    robot_clock: Clock
+    adapter_clock: Clock
+    status_way: Way
+    frame_way: Way
+    press_range_m: float
+    reaction_s: float
+    is_stamped: bool
+    loses: Callable[[float], bool] = lambda time_s: False
+    time_s: float = 0.0
+    _status_id: int = 0
+    _arrived: List[Tuple[float, Frame]] = field(default_factory=list)
+    _poses: List[Tuple[float, float, float, float, float]] = field(default_factory=list)
+
+    def step(self) -> None:
+        """Let the time of one Status pass."""
+        dt_s = STATUS_PERIOD_S / STEPS
+        for _ in range(STEPS):
+            before_s, gap_before_m = self.time_s, self._gap_m()
+            self.time_s = round(self.time_s + dt_s, 9)
+            for press in self.robot.step(self.time_s, dt_s):
+                if math.hypot(press.place.x, press.place.y) <= self.press_range_m:
+                    self.car.press(press.id, press.locks, press.start_s + self.reaction_s)
+            self.car.step(before_s, self.time_s, gap_before_m, self._gap_m(), self.robot.key(self.time_s))
+            robot = self.robot
+            self._poses.append((self.time_s, robot.x, robot.y, robot.heading, robot.speed_mps))
+            self._arrived += [(self.frame_way.arrival_s(frame.time_s), frame) for frame in self.car.frames(self.time_s)]
+        del self._poses[:-2 * STEPS]
+
+    def frames_until(self, arrival_s: float) -> List[CanFrame]:
+        """Frames that have arrived and were not taken before."""
+        count = 0
+        while count < len(self._arrived) and self._arrived[count][0] <= arrival_s:
+            count += 1
+        taken, self._arrived = self._arrived[:count], self._arrived[count:]
+        return [CanFrame(LOCK_ID, False, frame.data, arrival, self._stamp_ms(frame)) for arrival, frame in taken]
+
+    def status(self) -> RobotStatus:
+        """What the robot tells now."""
+        robot, clock, now_s = self.robot, self.robot_clock, self.time_s
+        self._status_id += 1
+        pose_s, x, y, heading, speed_mps = next(pose for pose in self._poses if pose[0] >= now_s - POSE_AGE_S - 1e-6)
+        return RobotStatus(
+            id=self._status_id, robot_session_id=7, stamp_s=clock.at(pose_s), sent_s=clock.at(now_s),
+            steady_s=clock.steady_s(now_s) - 1e6, x=x, y=y, heading=heading, speed_mps=speed_mps, pose_valid=True,
+            position_sigma_m=0.03, heading_sigma_rad=0.01, key_x=KEY_X_M, key_height_m=robot.height_m(now_s),
+            mode=Mode.FOLLOWING_WAYPOINT, car=CAR, waypoint_result=robot.result,
+            waypoint_id=robot.waypoint.id if robot.waypoint else 0, interventions=robot.interventions(now_s),
+            presses=tuple(PressReport(press.id, clock.at(press.start_s), clock.at(press.end_s))
+                          for press in robot.presses if press.end_s <= now_s))
+
+    def _gap_m(self) -> float:
+        key = self.robot.key(self.time_s)
+        return math.hypot(max(abs(key.x) - CAR.length / 2, 0.0), max(abs(key.y) - CAR.width / 2, 0.0))
+
+    def _stamp_ms(self, frame: Frame) -> Optional[int]:
+        return int(self.adapter_clock.at(frame.time_s) * 1000.0) % 60_000 if self.is_stamped else None
+
+
+class WorldRobot(RobotLink):
+    """Each next_status lets the time of one Status pass.
+
+    Attributes:
+        arrival_s: when the newest Status arrived, true time.
+    """
+
+    def __init__(self, world: World):
+        self.statistics = LinkStatistics()
+        self.arrival_s = 0.0
+        self._world = world
+
+    def connect(self) -> None:
+        """See RobotLink."""
+
+    def next_status(self, timeout_s: float) -> Optional[RobotStatus]:
+        """See RobotLink."""
+        for _ in range(max(round(timeout_s / STATUS_PERIOD_S), 1)):
+            self._world.step()
+            status = self._world.status()
+            if not self._world.loses(self._world.time_s):
+                self.arrival_s = self._world.status_way.arrival_s(self._world.time_s)
+                return status
+        return None
+
+    def send(self, desired: DesiredState) -> None:
+        """See RobotLink."""
+        if not self._world.loses(self._world.time_s):
+            self._world.robot.take(desired, self._world.time_s)
+
+    def close(self) -> None:
+        """See RobotLink."""
+
+
+class WorldCar(CarLink):
+    """As CanCarLink: a LockWatch that is fed with frames in the order of their arrival; without threads."""
+
+    def __init__(self, world: World, robot_link: WorldRobot, profile: CarProfile):
+        self._world, self._robot_link, self._watch = world, robot_link, LockWatch(profile)
+
+    def connect(self) -> None:
+        """See CarLink."""
+
+    def observe(self, status: RobotStatus) -> List[CarEvent]:
+        """See CarLink."""
+        watch, now_s = self._watch, self._robot_link.arrival_s
+        self._feed(now_s)
+        watch.status(status, now_s)
+        limit_s = now_s + CATCH_UP_LIMIT_S
+        while not watch.has_caught_up() and now_s < limit_s:
+            now_s += 0.01
+            self._feed(now_s)
+        return watch.release(now_s)
+
+    @property
+    def lock_state(self) -> LockState:
+        """See CarLink."""
+        return self._watch.lock_state
+
+    @property
+    def problem(self) -> str:
+        """See CarLink."""
+        return self._watch.problem
+
+    def close(self) -> None:
+        """See CarLink."""
+
+    def _feed(self, until_s: float) -> None:
+        for frame in self._world.frames_until(until_s):
+            self._watch.frame(frame)
