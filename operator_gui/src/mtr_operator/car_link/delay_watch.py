@@ -10,8 +10,6 @@ import collections
 import math
 from typing import NamedTuple
 
-# Smallest step that is noticed. Clocks 200 ppm apart drift 2 ms in the window.
-STEP_S = 0.012
 _WINDOW_S = 10.0
 # The best stamp of each such piece is kept.
 _PIECE_S = 0.1
@@ -30,12 +28,16 @@ class _Piece(NamedTuple):
 class DelayWatch:
     """Both clocks run at true rate.
 
+    step_s: smallest step that is noticed, more than the least delays of pieces of the window differ by; clocks 200 ppm
+    apart drift 2 ms in it.
+
     Attributes:
         in_time_s, in_time_arrival_s: the newest stamp that was under way about as long as the fastest, and its arrival.
             What is newer may be late, or the clock was set back: that cannot be told yet.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, step_s: float) -> None:
+        self._step_s = step_s
         self._pieces: collections.deque[_Piece] = collections.deque()
         self._best_s = -math.inf
         self.in_time_s = self.in_time_arrival_s = -math.inf
@@ -43,10 +45,10 @@ class DelayWatch:
     def add(self, stamp_s: float, arrival_s: float) -> bool:
         """A stamp of the clock arrived; True when the clock was set since the one before, and all begins anew."""
         ahead_s = stamp_s - arrival_s
-        if ahead_s > self._best_s + STEP_S and self._pieces:
+        if ahead_s > self._best_s + self._step_s and self._pieces:
             return self._begin(ahead_s, arrival_s)
         self._keep(ahead_s, arrival_s)
-        if ahead_s >= self._best_s - STEP_S:
+        if ahead_s >= self._best_s - self._step_s:
             self.in_time_s, self.in_time_arrival_s = stamp_s, arrival_s
         return self._is_behind(arrival_s) and self._begin(ahead_s, arrival_s)
 
@@ -70,8 +72,8 @@ class DelayWatch:
 
     def _is_behind(self, arrival_s: float) -> bool:
         since_s = arrival_s - _PATIENCE_S
-        if self._pieces[0].begin_s > since_s or self._pieces[-1].ahead_s > self._best_s - STEP_S:
+        if self._pieces[0].begin_s > since_s or self._pieces[-1].ahead_s > self._best_s - self._step_s:
             return False
         newest = [piece for piece in self._pieces if piece.begin_s > since_s]
         return (sum(piece.stamps for piece in newest) >= _MIN_STAMPS
-                and max(piece.ahead_s for piece in newest) < self._best_s - STEP_S)
+                and max(piece.ahead_s for piece in newest) < self._best_s - self._step_s)

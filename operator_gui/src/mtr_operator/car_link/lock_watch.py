@@ -25,6 +25,8 @@ _LOST_CYCLES = 2.5
 _EVEN_CYCLES = (0.5, 1.5)
 # Stamps that start again each minute cannot be followed over a longer silence.
 _MAX_FOLLOWED_SILENCE_S = 50.0
+# Adapters hand frames on in batches, each 16 ms with common USB chips, 20 ms in simulation.
+_ADAPTER_STEP_S = 0.022
 # Robot time for which an event may wait until it is clear whether a clock was set or its messages are late.
 _MAX_DOUBT_S = 0.3
 _UNMAPPED = "The clock of the CAN frames is not mapped to the robot's yet; this takes about two seconds."
@@ -87,7 +89,7 @@ class LockWatch:
         self.lock_state = LockState.UNKNOWN
         self._map: ClockMap | None = None
         self._unwrapper = StampUnwrapper()
-        self._delays = DelayWatch()
+        self._delays = DelayWatch(_ADAPTER_STEP_S)
         self._why_unmapped = ""
         self._in_doubt_since_s = math.inf
         self._is_stamped = False
@@ -111,7 +113,7 @@ class LockWatch:
         if self._is_stamped and self._robot_clock.is_real_time and self._delays.add(local_s, frame.arrival_s):
             self._unwrapper = StampUnwrapper()
             local_s = self._local_s(frame)
-            self._delays = DelayWatch()
+            self._delays = DelayWatch(_ADAPTER_STEP_S)
             self._begin_new_time(_ADAPTER_CLOCK_SET)
             self._newest_s = self._state_s = math.nan
         # A late frame does not set the time back; NaN before the first frame.

@@ -7,8 +7,10 @@ import math
 from mtr_operator.domain.clock_step import clock_was_set
 from mtr_operator.domain.robot_status import RobotStatus
 
-from .delay_watch import STEP_S, DelayWatch
+from .delay_watch import DelayWatch
 
+# Some Status of each piece of time comes over a Wi-Fi almost as fast as the fastest.
+STEP_S = 0.012
 # In simulation the two clocks are one, to the rounding of their messages.
 _SAME_CLOCK_S = 1e-6
 # A robot that does not tell its steady clock runs at true rate when its best stamps of some such pieces agree; a
@@ -32,14 +34,14 @@ class RobotClock:
     def __init__(self) -> None:
         self.is_real_time = False
         self._before: RobotStatus | None = None
-        self._delays = DelayWatch()
+        self._delays = DelayWatch(STEP_S)
         self._rate = _RateCheck()
 
     def status(self, status: RobotStatus, arrival_s: float) -> bool:
         """A Status arrived; True when the clock was set since the one before."""
         before, self._before = self._before, status
         if before is not None and clock_was_set(before, status):
-            self._delays = DelayWatch()
+            self._delays = DelayWatch(STEP_S)
             self._delays.add(sent_s(status), arrival_s)
             return True
         if math.isnan(status.steady_s):
