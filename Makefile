@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations clean \
-	bench bench-motion bench-localization bench-truth firmware flash bare-root docs tidy mutants
+	bench bench-kills fuzz bench-motion bench-localization bench-truth firmware flash bare-root docs tidy mutants
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -17,6 +17,8 @@ PERIPHERALS ?= fake
 # For `make flash`: mega or uno, and its serial port.
 BOARD ?= mega
 PORT ?=
+# For `make bench-kills`: how many of each scenario.
+KILLS ?= 1000
 RVIZ ?= $(if $(DISPLAY),true,false)
 
 STAMPS := .setup
@@ -119,6 +121,13 @@ bench-localization: setup build ## Localization and Car locator against the trut
 
 bench-truth: setup build ## Lines of both scenarios, one disturbance each, against the truth; figures in out/bench/truth.json
 	@$(RUN) python -m mtr_benchmarks.truth --seed $(SEED) --out out/bench
+
+bench-kills: setup build ## kill -9 at 1000 random instants of each scenario: nothing lost, doubled or changed; KILLS=1000
+	@$(RUN) python operator_gui/tests/proofs/kills.py --kills $(KILLS) --seed $(SEED) --out out/bench
+
+fuzz: setup build ## 10,000 mutated progress files and journals, 100,000 Statuses; figures in out/bench/fuzz.json
+	@mkdir -p out/bench
+	@$(RUN) python operator_gui/tests/proofs/fuzz.py --seed $(SEED) --out out/bench 2>out/bench/fuzz.log
 
 clean: ## Remove everything that was built or written
 	rm -rf out firmware/build $(STAMPS) .venv catkin_ws/{build,devel,logs,.catkin_tools} proto/src/mtr_proto/*_pb2.py
