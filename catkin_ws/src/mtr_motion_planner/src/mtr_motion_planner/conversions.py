@@ -79,7 +79,7 @@ def status_message(output: PlannerOutput, header: Header) -> MotionStatus:
     goal_id = output.goal_id
     return MotionStatus(header=header, requester=goal_id.requester, goal_id=goal_id.waypoint_id,
                         goal_attempt=goal_id.attempt, result=int(output.result), remaining_m=output.remaining_m,
-                        message=output.message.text,
+                        message=output.message.text, replans=output.replans,
                         problems=messages_of(output.message, Problem))
 
 

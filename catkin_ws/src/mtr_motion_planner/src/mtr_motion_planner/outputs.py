@@ -20,7 +20,11 @@ class Path:
 
 @dataclass(frozen=True)
 class PlannerOutput:
-    """Velocity and status of one tick; path only when it is new."""
+    """Velocity and status of one tick; path only when it is new.
+
+    replans: paths to goals under way that were planned anew since the start, as the robot or the Car was not where it
+    was taken to be. A change of speed or a correction at the goal is none.
+    """
 
     linear_mps: float
     angular_radps: float
@@ -30,3 +34,4 @@ class PlannerOutput:
     remaining_m: float
     message: Problem
     path: Optional[Path] = None
+    replans: int = 0

@@ -1,5 +1,6 @@
 """The motion planner: at each tick from the inputs to a velocity and a status."""
 # SPDX-License-Identifier: Apache-2.0
+import logging
 from concurrent.futures import Executor
 from typing import Optional
 
@@ -48,6 +49,7 @@ class MotionPlanner:
         self._result, self._message = Result.IDLE, NO_PROBLEM
         self._corrections = 0
         self._settled_at: Optional[Pose2] = None
+        self._replans = 0
         self.site: Optional[Site] = None
 
     @property
@@ -81,6 +83,11 @@ class MotionPlanner:
         self._settled_at = None
         self._stall.reset()
 
+    def _begin_again(self) -> None:
+        """Another path to a goal under way: the robot leaves the one that was ordered."""
+        self._replans += 1
+        self._begin(Result.PENDING)
+
     def _stop_at_once(self, fault: Problem) -> PlannerOutput:
         self._ramp.drop()
         self._stall.reset()
@@ -95,7 +102,7 @@ class MotionPlanner:
             return
         self.site = None
         if self._result != Result.REACHED:
-            self._begin(Result.PENDING)
+            self._begin_again()
 
     def _pursue(self, now: Situation) -> PlannerOutput:
         site = self.site or self._arranged(now.car)
@@ -106,7 +113,7 @@ class MotionPlanner:
         if self._result in SETTLED:
             if not was_displaced(self._settled_at, pose):
                 return self._stay()
-            self._begin(Result.PENDING)
+            self._begin_again()
         speed = self._speed(now)
         self._keep_planned(site, pose, now, speed)
         follower = self._replanning.follower
@@ -137,6 +144,10 @@ class MotionPlanner:
             self._replanning.change_over(site, now.tick_s, speed)
         except RobotError as refusal:
             self._settle(Result.REFUSED, problem_in(refusal), pose)
+        # Whatever it was, perhaps in a thread: the robot has no plan, and without this node it would never have one.
+        except Exception as defect:
+            logging.exception("No plan was made for a defect of the planner.")
+            self._settle(Result.REFUSED, problems.PLANNING_DEFECT(what=type(defect).__name__), pose)
 
     def _direction(self) -> Direction:
         number = self._goal.waypoint.direction
@@ -147,6 +158,7 @@ class MotionPlanner:
             self._replanning.is_needed = True
         wanted = follower.step(pose, now.robot, self._ramp.step_s)
         if wanted.lost:
+            self._replans += 1
             self._replanning.stop()
             self._ramp.brake()
             return self._output(Result.PENDING, wanted.remaining_m)
@@ -189,4 +201,4 @@ class MotionPlanner:
     def _output(self, result: Result, remaining_m: float = 0.0, message: Problem = NO_PROBLEM) -> PlannerOutput:
         active = self._goal.waypoint.id != 0 or not self._ramp.is_still
         return PlannerOutput(self._ramp.linear_mps, self._ramp.angular_radps, active, self._goal.id, result,
-                             remaining_m, message, self._replanning.take_path())
+                             remaining_m, message, self._replanning.take_path(), self._replans)

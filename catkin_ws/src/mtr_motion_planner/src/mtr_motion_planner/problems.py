@@ -44,6 +44,9 @@ NO_WAY = Sentence("motion_planner.no_way", "No way to the goal was found that ke
 NO_WAY_INSIDE = Sentence(
     "motion_planner.no_way_inside",
     "No way to the goal was found that keeps the robot away from the Car and inside the test area.")
+PLANNING_DEFECT = Sentence(
+    "motion_planner.planning_defect",
+    "No plan was made for a defect of the planner ({what}); give another waypoint and send us the robot's log.")
 
 # On the way
 OFF_GOAL = Sentence(

@@ -86,6 +86,9 @@ class Replanning:
 
     def restart(self) -> None:
         """Have another plan made; the present one is followed until that goes on from its motion."""
+        if self._pending is not None:
+            # One that has not been begun shall not be: goals that change quickly would pile up work.
+            self._pending.plan.cancel()
         self._pending, self.is_needed = None, True
 
     def stop(self) -> None:

@@ -55,6 +55,7 @@ def test_approach_along_axis_keeps_within_2_cm_and_retreat_too(speed):
     assert_stands_at_goal(robot)
     assert max(abs(pose.x - 0.5) for pose in robot.poses) <= 0.02
     assert all(output.linear_mps <= 0.02 for output in robot.outputs[-50:])
+    assert robot.outputs[-1].replans == 0
 
 
 @pytest.mark.parametrize("offset", [0.10, -0.10])
@@ -195,3 +196,12 @@ def test_goal_in_map_before_the_car_is_located_avoids_the_prior_outline():
     robot.go(1, -4.0, -2.6, 0.0, in_car=False)
     assert robot.run().result == Result.REACHED
     assert robot.least_clearance > 0.10
+
+
+def test_path_planned_anew_to_a_goal_under_way_is_counted():  # B5
+    robot = SimulatedRobot(Pose2(0.0, -6.0, math.radians(90.0)))
+    robot.go(1, 0.0, -1.65, 90.0, Direction.FORWARD)
+    robot.run_for(3.0)
+    assert robot.outputs[-1].replans == 0
+    robot.pose = robot.pose @ Pose2(0.0, 1.0, 0.0)
+    assert robot.run().replans >= 1

@@ -28,7 +28,13 @@ class Later(Executor):
     def work(self, which=-1):
         """Do one job."""
         done, work, arguments, named = self.jobs[which]
-        done.set_result(work(*arguments, **named))
+        if not done.cancelled():
+            done.set_result(work(*arguments, **named))
+
+    def fail(self, error):
+        """The newest job ends by an error."""
+        if not self.jobs[-1][0].done():
+            self.jobs[-1][0].set_exception(error)
 
 
 @pytest.fixture(name="later")
@@ -108,3 +114,28 @@ def test_goal_inside_the_car_is_refused_at_once_in_mid_motion(robot, later):
     robot.go(2, 0.0, 0.0, 0.0)
     assert robot.tick().result == Result.REFUSED
     assert len(later.jobs) == 1
+
+
+@pytest.mark.parametrize("error", [ZeroDivisionError("x"), IndexError(), AssertionError("y"), MemoryError()])
+def test_defect_in_planning_refuses_the_goal_and_the_next_one_is_reached(robot, later, error):  # A11
+    robot.go(2, -4.5, -2.5, 30.0)
+    robot.tick()
+    later.fail(error)
+    # While it brakes it tries once more.
+    robot.run_for(LEAD_S + 2.0)
+    later.fail(error)
+    output = robot.run_for(2.0)
+    assert output.result == Result.REFUSED and output.message.code == "motion_planner.planning_defect"
+    assert type(error).__name__ in output.message.text and robot.speed == pytest.approx(0.0, abs=0.02)
+    robot.go(3, -4.0, 2.5, 0.0)
+    robot.tick()
+    later.work()
+    assert robot.run().result == Result.REACHED
+
+
+def test_plans_that_nobody_wants_any_more_are_not_made(robot, later):  # D8
+    for number in range(2, 12):
+        robot.go(number, 4.0 + 0.01 * number, 2.5, 0.0)
+        robot.tick()
+    waiting = [future for future, *_ in later.jobs if not future.done()]
+    assert len(later.jobs) > 5 and len(waiting) <= 1

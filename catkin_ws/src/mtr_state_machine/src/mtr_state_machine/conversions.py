@@ -8,19 +8,21 @@ from mtr_core.conversions import desired_state_from, goal_report_from, waypoint_
 from mtr_core.problems import NO_PROBLEM, Problem, messages_of, problem_of
 from mtr_core.requests import DesiredState
 from mtr_core.states import CarState, Check
-from mtr_msgs.msg import CarCheck, CarEstimate, MotionLock, RobotMode
+from mtr_msgs.msg import CarCheck, CarEstimate, DriveStatus, MotionLock, RobotMode
 from mtr_msgs.msg import Problem as ProblemMessage
 
 from . import problems
 from .core import Decision
-from .observation import Car, CheckReport, Observation, Part
+from .observation import Car, CheckReport, Drive, Observation, Part
 
 OWNER = "state_machine"
+# Word of DriveStatus.
+MANUAL = "manual"
 
 
-def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], ages_s: Dict[Part, float]
-                ) -> Observation:
-    """What the newest message of each part, with its age, and the self-check's tell at the tick."""
+def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], ages_s: Dict[Part, float],
+                now_s: float) -> Observation:
+    """What the newest message of each part, with its age, and the self-check's tell at a time of the steady clock."""
     arrived = {part: message for part, message in messages.items() if message is not None}
     age_s = {part: ages_s[part] for part in arrived}
     complaint = {part: complaint_of(arrived[part]) for part, complaint_of in COMPLAINTS.items() if part in arrived}
@@ -30,7 +32,7 @@ def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], 
         check=check_report(check or CarCheck()),
         map_revision=arrived[Part.LOCALIZATION].map_revision if Part.LOCALIZATION in arrived else 0,
         motion=goal_report_from(arrived.get(Part.MOTION_PLANNER)),
-        age_s=age_s, complaint=complaint)
+        age_s=age_s, complaint=complaint, drive=drive(arrived.get(Part.DRIVE_CONTROL, DriveStatus())), now_s=now_s)
 
 
 def car(message: CarEstimate) -> Car:
@@ -43,6 +45,11 @@ def check_report(message: CarCheck) -> CheckReport:
     return CheckReport(message.id, Check(message.state), _problem(message))
 
 
+def drive(message: DriveStatus) -> Drive:
+    """Who moves the wheels, and how often somebody or something else did."""
+    return Drive(message.source == MANUAL, message.manual_drives, message.blockages)
+
+
 def mode_message(decision: Decision, stamp: rospy.Time) -> RobotMode:
     """Mode and goal, for the other nodes."""
     goal = decision.goal
@@ -52,7 +59,7 @@ def mode_message(decision: Decision, stamp: rospy.Time) -> RobotMode:
         map_car_id=decision.map_car_id, session_id=decision.session_id, waypoint_id=decision.waypoint_id,
         waypoint_result=decision.waypoint_result.value, message=decision.message.text,
         problems=messages_of(decision.message, ProblemMessage),
-        check_car_id=decision.check_car_id)
+        check_car_id=decision.check_car_id, hold_id=decision.hold_id)
     message.header.stamp = stamp
     return message
 

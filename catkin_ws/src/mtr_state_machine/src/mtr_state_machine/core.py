@@ -9,6 +9,7 @@ from mtr_core.states import CarState, Check, Result, State
 
 from . import problems
 from .goals import Goals, WaypointResult
+from .hold import Hold
 from .observation import Observation, Part
 from .parameters import Parameters
 from .table import AGAIN, Event, StateTable
@@ -36,6 +37,7 @@ class Decision:
     message: Problem
     lock_reason: Problem
     check_car_id: int = 0
+    hold_id: int = 0
 
 
 class StateMachine:
@@ -46,10 +48,13 @@ class StateMachine:
         self._table = StateTable()
         self._goals = Goals()
         self._waypoint = WaypointResult()
+        self._hold = Hold(parameters.resume_by_operator)
         self._map_car_id = 0
         self._check_car_id = 0
         self._map_revision = 0
         self._before_fault = State.READY_TO_MAP_CAR
+        self._fault = NO_PROBLEM
+        self._is_map_lost = False
         self._failed_waypoint = (0, 0)
         self._failure_is_old = False
 
@@ -68,6 +73,9 @@ class StateMachine:
                 break
             self._fire(event, seen)
             problem = self._problem(seen)
+        if self.state is State.FAULT:
+            self._keep_fault(seen, problem)
+        self._hold.update(seen, self._goals.goal)
         self._pursue(seen)
         return self._decision(seen, problem)
 
@@ -89,7 +97,9 @@ class StateMachine:
         if seen.car.state is not CarState.LOCATED:
             failed = seen.car.state is CarState.FAILED
             return seen.car.message if failed and seen.car.message else problems.CAR_LOST()
-        if seen.map_revision != self._map_revision:
+        # A localization that was restarted may come by the same number again: once lost, the map stays lost.
+        self._is_map_lost = self._is_map_lost or seen.map_revision != self._map_revision
+        if self._is_map_lost:
             return problems.OTHER_MAP(cause=problems.CAR_LOST())
         if state is State.CHECKING_CAR and self._check_is(Check.FAILED, seen):
             return seen.check.message or problems.CAR_ELSEWHERE()
@@ -121,6 +131,11 @@ class StateMachine:
         return None
 
     def _fire(self, event: Event, seen: Observation) -> None:
+        if event is Event.ALL_RUNNING:
+            self._hold.begin(problems.HELD_START(), seen)
+        if self.state is State.FAULT and self._fault:
+            self._hold.begin(problems.HELD_FAULT(cause=self._fault), seen)
+            self._fault = NO_PROBLEM
         if event is Event.PART_FAILED:
             self._before_fault = self.state
             self._failed_waypoint = _waypoint_key(seen)
@@ -129,7 +144,7 @@ class StateMachine:
         if event is Event.MAP_ORDERED:
             self._map_car_id = seen.desired.map_car_id
         if event is Event.CAR_LOCATED:
-            self._map_revision = seen.map_revision
+            self._map_revision, self._is_map_lost = seen.map_revision, False
         if event is Event.CHECK_ORDERED:
             self._check_car_id = seen.desired.check_car_id
             self._waypoint.reopen()
@@ -163,9 +178,9 @@ class StateMachine:
         desired = seen.desired
         if desired.link_alive:
             self._waypoint.expect(desired.session_id, desired.waypoint.id)
-        wanted = self._wanted(seen) if self._may_move(seen) else None
+        wanted = self._wanted(seen) if self._may_move(seen) and not self._hold.id else None
         if wanted:
-            self._goals.pursue(*wanted)
+            self._goals.pursue(*wanted, seen.now_s)
         else:
             self._goals.pause()
         following = self.state is State.FOLLOWING_WAYPOINT
@@ -190,9 +205,17 @@ class StateMachine:
         message = problem if locked else self._message(seen)
         return Decision(self.state, self._goals.goal, seen.desired.max_speed_mps, self.state is State.MAPPING_CAR,
                         self._map_car_id, self._waypoint.session_id, self._waypoint.waypoint_id,
-                        self._waypoint.result, message, message if locked else NO_PROBLEM, self._check_car_id)
+                        self._waypoint.result, message, message if locked else NO_PROBLEM, self._check_car_id,
+                        self._hold.id)
+
+    def _keep_fault(self, seen: Observation, problem: Problem) -> None:
+        """A part that failed is a reason for a person to come near; a Car that was not found is none."""
+        if problem and problem != self._car_problem(seen):
+            self._fault = problem
 
     def _message(self, seen: Observation) -> Problem:
+        if self._hold.id:
+            return self._hold.reason
         if self.state is State.READY_TO_MAP_CAR:
             return problems.WAITS_FOR_WAYPOINT()
         if self.state is State.FOLLOWING_WAYPOINT:

@@ -6,6 +6,8 @@ from mtr_core.problems import NO_PROBLEM
 from mtr_core.requests import NO_GOAL, Goal, GoalReport, Waypoint
 from mtr_core.states import Result
 
+MICROSECONDS_PER_S = 1e6
+
 
 class Goals:
     """Makes goals of waypoints: each time that one is taken up it is a new goal.
@@ -19,11 +21,15 @@ class Goals:
         self._attempts = 0
         self._wanted: Optional[Hashable] = None
 
-    def pursue(self, waypoint: Waypoint, purpose: Hashable) -> None:
-        """Make the waypoint the goal; the same one for another purpose is taken up anew."""
+    def pursue(self, waypoint: Waypoint, purpose: Hashable, now_s: float) -> None:
+        """Make the waypoint the goal; the same one for another purpose is taken up anew.
+
+        now_s, of the steady clock, makes an attempt that none of before had, not even before a restart of this node:
+        the motion planner may remember it.
+        """
         wanted = (waypoint.requester, waypoint.id, purpose)
         if wanted != self._wanted:
-            self._attempts += 1
+            self._attempts = max(self._attempts + 1, round(now_s * MICROSECONDS_PER_S))
             self._wanted, self.goal = wanted, Goal(waypoint, self._attempts)
 
     def pause(self) -> None:

@@ -5,6 +5,7 @@ from typing import Optional, Tuple
 import rospy
 
 from mtr_core import names, schedule
+from mtr_core.liveness import NS
 from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_core.requests import NO_GOAL_ID, Goal, GoalId
 from mtr_core.states import State
@@ -53,7 +54,8 @@ class StateMachineNode:
     def _step(self, tick: int) -> None:
         messages = {part: topic.at(tick) for part, topic in self._inputs.items()}
         ages_s = {part: topic.age_s(tick) for part, topic in self._inputs.items()}
-        decision = self._core.step(observation(messages, self._check.at(tick), ages_s))
+        decision = self._core.step(observation(messages, self._check.at(tick), ages_s,
+                                               clock.steady_at(tick) * NS))
         stamp = clock.stamp_of(tick)
         self._lock.publish(lock_message(decision, stamp))
         self._mode.publish(mode_message(decision, stamp))

@@ -43,10 +43,20 @@ class Car:
 
 
 @dataclass(frozen=True)
+class Drive:
+    """What drive control says of who moved the wheels and what stopped them; counts since its start."""
+
+    is_manual: bool = False
+    manual_drives: int = 0
+    blockages: int = 0
+
+
+@dataclass(frozen=True)
 class Observation:
     """Everything known at one tick.
 
     Attributes:
+        now_s: the steady clock.
         map_revision: map that the robot's pose is in.
         age_s: age of each part's newest message; a part that is missing has not reported yet.
         complaint: of a part that reports but is not well, e.g. a localization that is lost.
@@ -59,6 +69,8 @@ class Observation:
     motion: GoalReport = GoalReport()
     age_s: Dict[Part, float] = field(default_factory=dict)
     complaint: Dict[Part, Problem] = field(default_factory=dict)
+    drive: Drive = Drive()
+    now_s: float = 0.0
 
     def part_problem(self, part: Part, silent_after_s: float) -> Problem:
         """What is wrong when the part is silent or not well."""

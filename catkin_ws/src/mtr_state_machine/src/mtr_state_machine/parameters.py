@@ -11,6 +11,9 @@ class Parameters(ParameterSet):
 
     Attributes:
         silent_after_s: age of a part's newest message at which the part has failed.
+        resume_by_operator: after a fault, an obstacle or manual driving the robot stands until the Operator has it go
+            on.
     """
 
     silent_after_s: float = number(0.5, 0.2, 5.0, "s")
+    resume_by_operator: bool = True

@@ -17,6 +17,18 @@ OTHER_MAP = Sentence("state_machine.other_map",
                      "Localization has another map than the one in which the Car was found. {cause}")
 CAR_ELSEWHERE = Sentence("state_machine.car_elsewhere", "The Car does not stand where it was measured.")
 
+# Why it stands until the Operator has it go on
+HELD_FAULT = Sentence("state_machine.held_fault",
+                      "The robot stands after a fault until the Operator has it go on. {cause}")
+HELD_BLOCKED = Sentence("state_machine.held_blocked",
+                        "The robot stands after an obstacle until the Operator has it go on.")
+HELD_BLOCKED_BECAUSE = Sentence("state_machine.held_blocked_because",
+                                "The robot stands after an obstacle until the Operator has it go on. {cause}")
+HELD_MANUAL = Sentence("state_machine.held_manual",
+                       "The robot was driven by hand; it stands until the Operator has it go on.")
+HELD_START = Sentence("state_machine.held_start",
+                      "The robot's state machine started anew; the robot stands until the Operator has it go on.")
+
 # What it waits for or does
 WAITS_FOR_WAYPOINT = Sentence("state_machine.waits_for_waypoint", "Waits for the first waypoint to map the Car.")
 CHECKS_CAR = Sentence("state_machine.checks_car", "Looks at the Car again.")

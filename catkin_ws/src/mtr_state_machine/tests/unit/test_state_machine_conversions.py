@@ -32,7 +32,7 @@ def test_messages_become_an_observation():
         Part.MOTION_PLANNER: stamped(MotionStatus(requester=CAR_LOCATOR, goal_id=2, goal_attempt=8, result=4,
                                                   message="Blocked.")),
         Part.LOCALIZATION: stamped(LocalizedPose(valid=True, map_revision=3)),
-        Part.PERIPHERALS: None}, CarCheck(id=6, state=CarCheck.FAILED, message="Moved."), AGES_S)
+        Part.PERIPHERALS: None}, CarCheck(id=6, state=CarCheck.FAILED, message="Moved."), AGES_S, 10.02)
     assert (seen.check.id, seen.check.state, seen.check.message.text) == (6, Check.FAILED, "Moved.")
     assert (seen.map_revision, seen.desired.check_car_id) == (3, 6)
     assert (seen.desired.session_id, seen.desired.link_alive, seen.desired.stop) == (3, True, False)
@@ -44,13 +44,14 @@ def test_messages_become_an_observation():
 
 
 def test_without_a_message_nothing_is_wanted():
-    desired = observation({}, None, AGES_S).desired
+    desired = observation({}, None, AGES_S, 10.02).desired
     assert desired.stop and not desired.link_alive and not desired.waypoint.id
 
 
 def test_lost_localization_and_silent_firmware_are_complaints():
     lost = LocalizedPose(message="No IMU.", problems=[ProblemMessage(code="localization.no_imu", text="No IMU.")])
-    seen = observation({Part.LOCALIZATION: stamped(lost), Part.PERIPHERALS: stamped(PeripheralsState())}, None, AGES_S)
+    seen = observation({Part.LOCALIZATION: stamped(lost), Part.PERIPHERALS: stamped(PeripheralsState())}, None,
+                       AGES_S, 10.02)
     problem = seen.part_problem(Part.LOCALIZATION, 0.5)
     assert problem.text == "Localization is lost. No IMU."
     assert problem.cause == Problem("localization.no_imu", "No IMU.")
@@ -58,7 +59,7 @@ def test_lost_localization_and_silent_firmware_are_complaints():
 
 
 def test_localization_that_says_nothing_is_lost_without_a_cause():
-    seen = observation({Part.LOCALIZATION: stamped(LocalizedPose())}, None, AGES_S)
+    seen = observation({Part.LOCALIZATION: stamped(LocalizedPose())}, None, AGES_S, 10.02)
     assert seen.part_problem(Part.LOCALIZATION, 0.5).text == "Localization is lost."
 
 

@@ -32,7 +32,8 @@ def seen(**changes):
 
 @pytest.fixture
 def machine():
-    return StateMachine(Parameters())
+    """One near which nobody comes; of holds see test_state_machine_hold.py."""
+    return StateMachine(Parameters(resume_by_operator=False))
 
 
 @pytest.fixture

@@ -1,0 +1,55 @@
+"""Holds: after a fault, an obstacle or manual driving the robot stands until the Operator has it go on."""
+# SPDX-License-Identifier: Apache-2.0
+from mtr_core.problems import NO_PROBLEM, Problem
+from mtr_core.requests import Goal
+from mtr_core.states import Result
+
+from . import problems
+from .observation import Observation
+
+MICROSECONDS_PER_S = 1e6
+
+
+class Hold:
+    """At most one at a time; a new cause makes a new one of it, which the Operator has to look at again.
+
+    Attributes:
+        id: not 0 while the robot is held.
+        reason: its sentence.
+    """
+
+    def __init__(self, is_wanted: bool):
+        """is_wanted: false for a robot near which nobody comes, such as a simulated one."""
+        self._is_wanted = is_wanted
+        self._newest_id = self.id = 0
+        self.reason = NO_PROBLEM
+        self._seen_drives = self._seen_blockages = -1
+
+    def update(self, seen: Observation, goal: Goal) -> None:
+        """Begin with what an observation shows, and end by the Operator's word."""
+        if self.id and seen.desired.link_alive and seen.desired.resume_hold_id == self.id:
+            self.id, self.reason = 0, NO_PROBLEM
+        drive = seen.drive
+        was_blocked = 0 <= self._seen_blockages < drive.blockages
+        was_driven = 0 <= self._seen_drives < drive.manual_drives
+        self._seen_blockages, self._seen_drives = drive.blockages, drive.manual_drives
+        if was_driven or (drive.is_manual and self.reason != problems.HELD_MANUAL()):
+            self.begin(problems.HELD_MANUAL(), seen)
+        elif seen.motion.is_about(goal) and seen.motion.result is Result.BLOCKED:
+            self.begin(problems.HELD_BLOCKED_BECAUSE(cause=seen.motion.message), seen)
+        elif was_blocked and goal.waypoint.id:
+            self.begin(problems.HELD_BLOCKED(), seen)
+
+    def begin(self, reason: Problem, seen: Observation) -> None:
+        """Hold the robot from now on, when an order could move it."""
+        if not (self._is_wanted and is_ordered(seen)):
+            return
+        # The steady time, so that no hold of before has the id, not even one from before a restart of this node.
+        self._newest_id = self.id = max(self._newest_id + 1, round(seen.now_s * MICROSECONDS_PER_S))
+        self.reason = reason
+
+
+def is_ordered(seen: Observation) -> bool:
+    """True when the application wants something for which the robot moves, also while it is to stop for a moment."""
+    desired = seen.desired
+    return bool(desired.session_id and (desired.waypoint.id or desired.map_car_id or desired.check_car_id))

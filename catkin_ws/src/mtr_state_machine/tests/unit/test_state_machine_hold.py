@@ -1,0 +1,198 @@
+"""After a fault, an obstacle or manual driving the robot goes on by the Operator's word only. A8, A9b"""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
+
+import pytest
+
+from mtr_core.problems import Problem
+from mtr_core.requests import CAR_LOCATOR, NO_GOAL, DesiredState, GoalReport, Waypoint
+from mtr_core.se2 import Pose2
+from mtr_core.states import CarState, Result, State
+from mtr_state_machine.core import StateMachine
+from mtr_state_machine.observation import Car, Drive, Observation, Part
+from mtr_state_machine.parameters import Parameters
+
+ALL_WELL = {part: 0.1 for part in Part}
+SILENT = {**ALL_WELL, Part.LOCALIZATION: 0.6}
+WAYPOINT = Waypoint(7, "application/9", "car", Pose2(3.0, 1.0, 0.5), 2)
+MAP_PLACE = Waypoint(1, CAR_LOCATOR, "map", Pose2(5.0, 5.0, 0.0))
+WANTS = DesiredState(session_id=9, link_alive=True, stop=False, waypoint=WAYPOINT, max_speed_mps=0.8)
+IDLE = replace(WANTS, waypoint=Waypoint())
+STOPPED = replace(WANTS, stop=True)
+COLLECTING, LOCATED = Car(CarState.COLLECTING, MAP_PLACE), Car(CarState.LOCATED)
+OBSTACLE = Problem("motion_planner.obstacle", "The robot is blocked by an obstacle.")
+
+
+class Robot:
+    """A state machine and what it sees; each step is a tick of 0.1 s."""
+
+    def __init__(self, resume_by_operator=True, now_s=50.0):
+        self.machine = StateMachine(Parameters(resume_by_operator=resume_by_operator))
+        self.now_s = now_s
+        self.seen = Observation(desired=IDLE, car=Car(), age_s=ALL_WELL)
+
+    def step(self, **changes):
+        """One tick; what has changed stays so."""
+        self.now_s += 0.1
+        self.seen = replace(self.seen, now_s=self.now_s, **changes)
+        self.decision = self.machine.step(self.seen)
+        return self.decision
+
+    def block(self):
+        """The planner reports an obstacle for the present goal, and at the next tick none."""
+        goal = self.decision.goal
+        held = self.step(motion=GoalReport(goal.id, Result.BLOCKED, OBSTACLE))
+        self.step(motion=GoalReport())
+        return held
+
+    def follow(self):
+        """Get under way to the waypoint."""
+        self.step()
+        self.step(desired=WANTS, car=COLLECTING)
+        self.step(car=LOCATED)
+        assert self.step().goal.waypoint == WAYPOINT and self.machine.state is State.FOLLOWING_WAYPOINT
+        return self
+
+
+@pytest.fixture
+def robot():
+    return Robot().follow()
+
+
+def fault(robot):
+    robot.step(age_s=SILENT)
+    assert robot.machine.state is State.FAULT and not robot.decision.hold_id
+    robot.step(age_s=ALL_WELL)
+
+
+def manual(robot):
+    robot.step(drive=Drive(is_manual=True, manual_drives=1))
+    robot.step(drive=Drive(is_manual=False, manual_drives=1))
+
+
+def manual_for_a_moment(robot):
+    robot.step(drive=replace(robot.seen.drive, manual_drives=robot.seen.drive.manual_drives + 1))
+
+
+def blocked_for_a_moment(robot):
+    robot.step(drive=replace(robot.seen.drive, blockages=robot.seen.drive.blockages + 1))
+
+
+CAUSES = {"fault": (fault, "state_machine.held_fault"), "manual": (manual, "state_machine.held_manual"),
+          "manual-between-ticks": (manual_for_a_moment, "state_machine.held_manual"),
+          "blocked": (Robot.block, "state_machine.held_blocked_because"),
+          "blocked-between-ticks": (blocked_for_a_moment, "state_machine.held_blocked")}
+every_cause = pytest.mark.parametrize("cause, code", CAUSES.values(), ids=CAUSES)
+
+
+@every_cause
+def test_robot_stands_after_the_cause_until_the_operator_has_it_go_on(robot, cause, code):
+    first = robot.decision.goal
+    cause(robot)
+    for _ in range(50):
+        held = robot.step()
+        assert held.goal == NO_GOAL and held.hold_id and held.message.code == code
+    resumed = robot.step(desired=replace(WANTS, resume_hold_id=held.hold_id))
+    assert not resumed.hold_id and resumed.goal.waypoint == WAYPOINT and resumed.goal.attempt > first.attempt
+
+
+@every_cause
+def test_robot_near_which_nobody_comes_goes_on_by_itself(cause, code):
+    robot = Robot(resume_by_operator=False).follow()
+    cause(robot)
+    assert robot.step().goal.waypoint == WAYPOINT and not robot.decision.hold_id
+
+
+@every_cause
+@pytest.mark.parametrize("wrong", [1, 2 ** 63])
+def test_another_holds_word_does_not_count(robot, cause, code, wrong):
+    cause(robot)
+    assert robot.step(desired=replace(WANTS, resume_hold_id=wrong)).hold_id
+
+
+@every_cause
+@pytest.mark.parametrize("between", [STOPPED, replace(WANTS, link_alive=False, stop=True),
+                                     replace(WANTS, waypoint=replace(WAYPOINT, id=8))],
+                         ids=["stop", "silence", "another-waypoint"])
+def test_neither_stop_nor_silence_nor_another_waypoint_is_the_operators_word(robot, cause, code, between):
+    cause(robot)
+    hold_id = robot.decision.hold_id
+    robot.step(desired=between)
+    assert robot.step(desired=replace(between, stop=False, link_alive=True)).hold_id == hold_id
+    assert robot.decision.goal == NO_GOAL
+
+
+def test_word_of_a_silent_application_does_not_count(robot):
+    manual(robot)
+    gone = replace(WANTS, link_alive=False, stop=True, resume_hold_id=robot.decision.hold_id)
+    assert robot.step(desired=gone).hold_id
+
+
+def test_second_cause_needs_a_second_look(robot):
+    manual(robot)
+    first = robot.decision.hold_id
+    manual_for_a_moment(robot)
+    second = robot.decision.hold_id
+    assert second > first
+    assert robot.step(desired=replace(WANTS, resume_hold_id=first)).hold_id == second
+    assert not robot.step(desired=replace(WANTS, resume_hold_id=second)).hold_id
+
+
+def test_hold_does_not_end_while_the_robot_is_driven_by_hand(robot):
+    hold_id = robot.step(drive=Drive(is_manual=True, manual_drives=1)).hold_id
+    assert robot.step(desired=replace(WANTS, resume_hold_id=hold_id)).hold_id > hold_id
+    assert robot.decision.goal == NO_GOAL
+
+
+def test_manual_driving_without_an_order_is_free():
+    robot = Robot()
+    robot.step()
+    manual(robot)
+    assert not robot.decision.hold_id
+    robot.follow()
+
+
+def test_hold_is_no_motion_lock_so_that_the_robot_can_be_driven_by_hand(robot):
+    robot.block()
+    assert robot.decision.hold_id and not robot.decision.lock_reason
+
+
+def test_car_that_was_not_found_holds_nobody():
+    robot = Robot()
+    robot.step()
+    robot.step(desired=WANTS, car=COLLECTING)
+    robot.step(car=Car(CarState.FAILED, message=Problem(text="No Car was found.")))
+    assert robot.machine.state is State.FAULT
+    robot.step(desired=replace(WANTS, waypoint=replace(WAYPOINT, id=8)), car=COLLECTING)
+    assert robot.machine.state is State.MAPPING_CAR and not robot.decision.hold_id
+
+
+def test_state_machine_that_was_restarted_during_a_test_moves_nothing_by_itself():  # A9b, A11
+    robot = Robot()
+    robot.step(desired=WANTS, car=LOCATED)
+    robot.step()
+    assert robot.decision.hold_id and robot.decision.goal == NO_GOAL
+    assert robot.decision.message.code == "state_machine.held_start"
+
+
+def test_goal_and_hold_after_a_restart_have_ids_that_none_of_before_had():  # A9b
+    before = Robot(now_s=50.0).follow()
+    manual(before)
+    after = Robot(now_s=before.now_s + 1.0)
+    after.step(desired=WANTS, car=COLLECTING)
+    hold_id = after.decision.hold_id
+    assert hold_id > before.decision.hold_id
+    first = before.machine._goals._attempts
+    assert after.step(desired=replace(WANTS, resume_hold_id=hold_id)).goal.attempt > first
+
+
+@pytest.mark.parametrize("revisions", [(5, 0, 5), (5, 6, 5)])
+def test_map_that_comes_by_its_old_number_again_is_another_one(robot, revisions):  # A11
+    robot = Robot(resume_by_operator=False)
+    robot.step(map_revision=revisions[0])
+    robot.step(desired=WANTS, car=COLLECTING)
+    robot.step(car=LOCATED)
+    assert robot.machine.state is State.FOLLOWING_WAYPOINT
+    for revision in revisions[1:]:
+        robot.step(map_revision=revision)
+    assert robot.machine.state is State.FAULT and "map the Car again" in robot.decision.message.text
