@@ -5,14 +5,14 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.actions.car import Car
-from mtr_operator.domain.actions.control_loop import ControlLoop
+from mtr_operator.domain.actions.control_loop import MAX_BLIND_S, POLL_PERIOD_S, RESEND_POLLS, ControlLoop
 from mtr_operator.domain.actions.preparation import prepare
 from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.actions.trouble import Cancelled, LineInvalid
 from mtr_operator.domain.errors import ConnectionFailed, LinkLost, RobotFailed
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.requests import Direction
-from mtr_operator.domain.robot_status import Notification
+from mtr_operator.domain.robot_status import Interventions, Notification
 
 AHEAD = Ray(0.0, 0.0, 1.0, 0.0)
 
@@ -40,9 +40,9 @@ def test_decision_after_a_status_is_the_answer_to_that_status(session, robot_lin
 
 def test_desired_state_is_sent_again_while_the_robot_is_silent(session, robot_link, world):
     session.step()
-    world.spoil = lambda status: None if status.id < 6 else status
+    world.spoil = lambda status: None if status.id < 2 + 3 * RESEND_POLLS else status
     session.step()
-    assert len(robot_link.answers) == 5
+    assert len(robot_link.answers) == 4
     assert len({desired for _, desired in robot_link.answers}) == 1
 
 
@@ -190,3 +190,98 @@ def test_silent_bus_at_the_start_is_an_error(session, world):
         Car(session).prepare()
     with pytest.raises(LinkLost, match="No frame for 2 s"):
         Car(session).wait_for_bus()
+
+
+class Wish:
+    """The Operator's wish to end, after so many questions for it."""
+
+    def __init__(self, after):
+        self.after = after
+
+    def __call__(self):
+        self.after -= 1
+        return self.after < 0
+
+
+def test_stop_leaves_within_50_ms_and_then_every_50_ms_while_the_robot_is_silent(robot_link, car_link, world):  # A6
+    loop = ControlLoop(robot_link, car_link, is_cancelled=Wish(after=1 + 5))
+    loop.change(max_speed_mps=0.5)
+    loop.step()
+    world.spoil = lambda status: None
+    with pytest.raises(Cancelled):
+        loop.step()
+    answers = [desired for _, desired in robot_link.answers]
+    first_stop = [desired.stop for desired in answers].index(True)
+    # The order itself, and one repetition in the 0.25 s before the wish.
+    assert first_stop == 2 and all(desired.stop for desired in answers[first_stop:])
+    polls = robot_link.status_id - 1
+    assert POLL_PERIOD_S == 0.05 and len(answers) - first_stop == polls - 5 - 1
+
+
+def test_nothing_that_moves_is_sent_after_a_second_of_silence(session, robot_link, world):  # A5, A6
+    session.change(max_speed_mps=0.5)
+    session.step()
+    world.spoil = lambda status: None
+    with pytest.raises(LinkLost):
+        session.step()
+    moving = [status_id for status_id, desired in robot_link.answers if not desired.stop]
+    assert (moving[-1] - 1) * POLL_PERIOD_S <= MAX_BLIND_S
+    assert robot_link.answers[-1][1].stop and not session.desired.stop
+
+
+def test_order_goes_on_as_it_was_after_an_interruption(session, robot_link, world):
+    session.change(max_speed_mps=0.5)
+    session.step()
+    world.spoil = lambda status: None if status.id < 60 else status
+    session.step()
+    session.step()
+    assert not robot_link.answers[-1][1].stop
+
+
+@pytest.mark.parametrize("step_s", [-0.15, -0.4, -3600.0])
+def test_robots_clock_that_is_set_back_is_no_restart(session, world, step_s):  # D7
+    session.step()
+    session.step()
+    world.spoil = lambda status: replace(status, stamp_s=status.stamp_s + step_s,
+                                         interventions=Interventions(clock_steps=1))
+    session.step()
+    now_s = session.step().stamp_s
+    assert session.poses.at(now_s).stamp_s == now_s
+
+
+def test_pose_that_becomes_valid_again_with_an_older_stamp_is_no_restart(session, world):  # D7
+    session.step()
+    world.spoil = lambda status: replace(status, stamp_s=status.stamp_s - 0.12)
+    session.step()
+
+
+class Person:
+    """Releases the hold that the robot says after some questions."""
+
+    def __init__(self, after):
+        self.after, self.hold_id = after, 0
+
+    def __call__(self):
+        self.after -= 1
+        return self.hold_id if self.after < 0 else 0
+
+
+def test_test_waits_while_the_robot_is_held_and_goes_on_by_the_operators_word(robot_link, car_link, world):  # A8
+    person = Person(after=30)
+    person.hold_id = 77
+    loop = ControlLoop(robot_link, car_link, resumed_hold=person)
+    loop.change(max_speed_mps=0.5)
+
+    def held(status):
+        released = world.desired is not None and world.desired.resume_hold_id == 77
+        return replace(status, hold_id=0 if released else 77)
+    world.spoil = held
+    status = loop.step()
+    assert status.hold_id == 0 and status.id > 30
+    assert robot_link.answers[-1][1].resume_hold_id == 77
+
+
+def test_held_test_can_be_ended(robot_link, car_link, world):  # A8
+    world.spoil = lambda status: replace(status, hold_id=77)
+    with pytest.raises(Cancelled):
+        ControlLoop(robot_link, car_link, is_cancelled=Wish(after=10)).step()

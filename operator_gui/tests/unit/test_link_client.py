@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import pytest
 
-from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.errors import ConnectionFailed, LinkLost
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.requests import DesiredState, Waypoint
 from mtr_operator.domain.robot_status import CarCheck, CheckState, PressReport, RobotStatus, WaypointResult
-from mtr_operator.robot_link.client import ZmqRobotLink
+from mtr_operator.robot_link.client import MAX_FREE_STATUSES, ZmqRobotLink
 from mtr_operator.robot_link.conversions import decode_command, status_message_from
 from mtr_operator.robot_link.inbox import MAX_BACKLOG
 from mtr_operator.robot_link.server import ConnectionServer
@@ -259,3 +259,30 @@ def test_a_link_without_a_connection_says_so():
         link.next_status(0.0)
     with pytest.raises(ConnectionFailed):
         link.send(GO)
+
+
+def test_command_answers_with_the_time_of_sending_and_not_of_the_pose(robot):
+    robot.send_status(RobotStatus(2, 1, 0.15, pose_valid=True, x=1.0, y=1.0, heading=0.0, sent_s=0.2))
+    robot.take()
+    robot.link.send(GO)
+    assert robot.command().seen_robot_time_s == 0.2
+
+
+def test_application_goes_on_where_somebody_has_sent_in_its_name(robot):  # D3
+    robot.link.send(GO)
+    before = robot.command().id
+    robot.send_status(RobotStatus(2, 1, 0.2, session_id=robot.link.session_id, command_id=before + 900))
+    robot.take()
+    robot.link.send(GO)
+    assert robot.command().id == before + 901
+
+
+def test_application_whose_session_the_robot_takes_for_ended_says_so_instead_of_waiting(robot):  # D3
+    robot.send_status(RobotStatus(2, 1, 0.2, session_id=robot.link.session_id))
+    robot.take()
+    for status_id in range(3, 3 + MAX_FREE_STATUSES):
+        robot.send(status_id)
+        robot.take()
+    robot.send(3 + MAX_FREE_STATUSES)
+    with pytest.raises(LinkLost, match="no longer takes this application's Commands"):
+        robot.take()

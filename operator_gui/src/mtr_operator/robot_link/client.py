@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import zmq
 
-from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.errors import ConnectionFailed, LinkLost
 from mtr_operator.domain.ports import LinkStatistics, RobotLink
 from mtr_operator.domain.requests import DesiredState
 from mtr_operator.domain.robot_status import CarCheck, RobotStatus, WaypointResult
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 # Wall time for which closing waits at most until the goodbye has left.
 _GOODBYE_LINGER_MS = 300
 _SESSION_BITS = 63
+# Statuses in a row, about 2 s, in which the robot that we controlled says that nobody does.
+MAX_FREE_STATUSES = 20
 
 
 class ZmqRobotLink(RobotLink):
@@ -51,6 +53,8 @@ class ZmqRobotLink(RobotLink):
         self._command_id = 0
         self._seen: RobotStatus | None = None
         self._answered: RobotStatus | None = None
+        self._controls = False
+        self._free_count = 0
 
     def connect(self) -> None:
         """See RobotLink."""
@@ -68,6 +72,7 @@ class ZmqRobotLink(RobotLink):
             self._receive_waiting(subscriber)
             status = self._inbox.take()
             if status is not None:
+                self._check_control(status)
                 self._seen = self._own_view(status)
                 return self._seen
             left_s = deadline - time.monotonic()
@@ -95,6 +100,19 @@ class ZmqRobotLink(RobotLink):
         sockets.subscriber.close(linger=0)
         sockets.context.term()
 
+    def _check_control(self, status: RobotStatus) -> None:
+        """Go on where somebody has sent in our name; LinkLost when the robot takes this session for ended."""
+        if status.session_id == self.session_id:
+            self._controls, self._free_count = True, 0
+            # So that the next Command, the same content even, is newer than what the robot has taken.
+            if status.command_id > self._command_id:
+                self._command_id = status.command_id + 1
+        elif self._controls and status.session_id == 0:
+            self._free_count += 1
+            if self._free_count > MAX_FREE_STATUSES:
+                raise LinkLost("The robot no longer takes this application's Commands, as if it had said goodbye; "
+                               "connect again, or go on with a continued test.")
+
     def _own_view(self, status: RobotStatus) -> RobotStatus:
         """The Status without confirmations that are another session's: its ids count from 1 as ours do."""
         if status.session_id in (0, self.session_id):
@@ -119,9 +137,13 @@ class ZmqRobotLink(RobotLink):
         seen = self._seen
         header = CommandHeader(self.session_id, self._command_id, time.monotonic(),
                                seen_status_id=seen.id if seen else None,
-                               seen_robot_time_s=seen.stamp_s if seen else None, end_session=end_session)
+                               seen_robot_time_s=_time_of_sending(seen) if seen else None, end_session=end_session)
         payload = command_from_desired(desired, header).SerializeToString()
         with self._lock:
             if self._sockets is None:
                 raise ConnectionFailed("The robot is not connected.")
             self._sockets.publisher.send(payload)
+
+
+def _time_of_sending(status: RobotStatus) -> float:
+    return status.stamp_s if math.isnan(status.sent_s) else status.sent_s

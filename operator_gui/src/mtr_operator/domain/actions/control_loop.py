@@ -20,8 +20,13 @@ from .observer import RunObserver
 from .pose_history import PoseHistory
 from .trouble import Cancelled, LineInvalid, trouble_between
 
-# Wall time after which the desired state is sent again when no Status comes.
-RESEND_PERIOD_S = 0.2
+# Wall time of one look for a Status, after which a stop leaves, and another one as long as no Status comes.
+POLL_PERIOD_S = 0.05
+# So many looks after which the desired state is sent again when no Status comes.
+RESEND_POLLS = 4
+# Wall time of silence after which nothing that moves is sent: the robot has stopped by itself, and shall not be moved by
+# an order that nobody sees the effect of.
+MAX_BLIND_S = 1.0
 # Wall time of silence at which a test ends; an interruption of the Wi-Fi is shorter.
 SILENCE_LIMIT_S = 30.0
 # Wall time within which the first Status has to come.
@@ -32,6 +37,7 @@ _SILENCE_SHOWN_S = 1.0
 _STOP_LIMIT_S = 3.0
 _STANDING_MPS = 0.02
 _KEPT_EVENTS = 1000
+HELD = "the robot stands until you have it go on"
 
 
 class ControlLoop:
@@ -47,7 +53,8 @@ class ControlLoop:
     """
 
     def __init__(self, robot_link: RobotLink, car_link: CarLink, observer: RunObserver | None = None,
-                 is_cancelled: Callable[[], bool] = lambda: False):
+                 is_cancelled: Callable[[], bool] = lambda: False, resumed_hold: Callable[[], int] = lambda: 0):
+        """resumed_hold: the newest hold that the Operator has released."""
         self.desired = DesiredState()
         self.poses = PoseHistory()
         self.events: list[CarEvent] = []
@@ -58,6 +65,7 @@ class ControlLoop:
         self._robot_link = robot_link
         self._car_link = car_link
         self._is_cancelled = is_cancelled
+        self._resumed_hold = resumed_hold
         self._status: RobotStatus | None = None
         self._watched = False
         self._was_in_control = False
@@ -82,7 +90,19 @@ class ControlLoop:
         self.desired = replace(self.desired, **changes)
 
     def step(self) -> RobotStatus:
-        """Answer the newest Status and take the next one; Cancelled when the Operator wants to end."""
+        """Answer the newest Status and take the next one; Cancelled when the Operator wants to end.
+
+        While the robot is held it stands, and so does the test, until the Operator has both go on.
+        """
+        status = self._step()
+        if status.hold_id:
+            self.observer.on_action(HELD)
+        while status.hold_id:
+            status = self._step()
+        return status
+
+    def _step(self) -> RobotStatus:
+        self.desired = replace(self.desired, resume_hold_id=self._resumed_hold())
         status = self._exchange()
         if self._is_cancelled():
             raise Cancelled("The test was interrupted.")
@@ -122,9 +142,8 @@ class ControlLoop:
         if before is not None:
             self._robot_link.send(self.desired)
         status = self._next_status(FIRST_STATUS_LIMIT_S if before is None else patience_s)
-        restarted = before is not None and (status.robot_session_id != before.robot_session_id
-                                            or status.stamp_s < before.stamp_s)
-        if self.frames.add(status) or restarted:
+        restarted = before is not None and status.robot_session_id != before.robot_session_id
+        if self.frames.add(status) or restarted or _is_clock_set(before, status):
             self.poses.clear()
         self.poses.add(status)
         self._status = status
@@ -145,21 +164,28 @@ class ControlLoop:
 
     def _next_status(self, patience_s: float) -> RobotStatus:
         silent_s = 0.0
-        while silent_s < patience_s:
-            status = self._robot_link.next_status(RESEND_PERIOD_S)
+        for poll in range(1, round(patience_s / POLL_PERIOD_S) + 1):
+            status = self._robot_link.next_status(POLL_PERIOD_S)
             if status is not None:
                 return status
-            silent_s += RESEND_PERIOD_S
-            if silent_s >= _SILENCE_SHOWN_S:
+            silent_s = poll * POLL_PERIOD_S
+            cancelled = self._is_cancelled()
+            if silent_s >= _SILENCE_SHOWN_S and poll % RESEND_POLLS == 0:
                 self.observer.on_link_silent(silent_s)
-            if self._is_cancelled() and silent_s >= _STOP_LIMIT_S:
+            if cancelled and silent_s >= _STOP_LIMIT_S:
                 raise Cancelled("The test was interrupted.")
-            if self._status is not None:
-                self._robot_link.send(self.desired)
+            if self._status is not None and (cancelled or poll % RESEND_POLLS == 0):
+                self._send_blindly(cancelled or silent_s >= MAX_BLIND_S)
+        error = self._robot_link.statistics.last_error
         if self._status is None:
             raise LinkLost(f"The robot's ports are open, but no Status has come for {silent_s:.0f} s; check that both "
-                           f"ports are the robot's. {self._robot_link.statistics.last_error}".rstrip())
-        raise LinkLost(f"The robot has been silent for {silent_s:.0f} s; check the Wi-Fi and that its software runs.")
+                           f"ports are the robot's. {error}".rstrip())
+        raise LinkLost(f"The robot has been silent for {silent_s:.0f} s; check the Wi-Fi and that its software runs. "
+                       f"{error}".rstrip())
+
+    def _send_blindly(self, stop: bool) -> None:
+        """Send the desired state again without knowing what the robot does; a stop waits for no Status."""
+        self._robot_link.send(replace(self.desired, stop=True) if stop else self.desired)
 
     def _check_control(self, status: RobotStatus) -> None:
         if status.controlled_by_other and self._was_in_control:
@@ -171,3 +197,8 @@ class ControlLoop:
             trouble = trouble_between(before, status, self._car_link)
             if trouble:
                 raise LineInvalid(trouble)
+
+
+def _is_clock_set(before: RobotStatus | None, status: RobotStatus) -> bool:
+    """True when the robot's clock was set between the two: what was known by time is known no more."""
+    return before is not None and before.interventions.clock_steps != status.interventions.clock_steps
