@@ -6,6 +6,7 @@ import shutil
 
 import pytest
 
+from mtr_operator.domain.robot_status import Notification
 from mtr_operator.station.readiness import Phase
 
 LINES = 4
@@ -248,3 +249,19 @@ def test_waypoint_trail_and_robot_are_in_the_picture(operator):
     operator.wait(lambda: screen.picture.robot.waypoint is not None and screen.picture.robot.pose is not None)
     assert len(screen.picture.trail.places) > 10
     assert screen.picture.robot.key == (0.25, 0.0)
+
+
+def test_robot_that_is_held_goes_on_by_a_click(operator, opener):  # A8
+    screen = operator.begin()
+    operator.wait(lambda: operator.model.done >= 1)
+    assert not screen.go_on.isVisible() and not screen.held.isVisible()
+    held = "The robot was driven by hand; it stands until the Operator has it go on."
+    opener.spoil_with(hold_id=77, notifications=(Notification("held", 3, held),))
+    operator.wait(lambda: screen.go_on.isVisible())
+    assert screen.held.text() == held
+    done = operator.model.done
+    operator.click(screen.go_on)
+    operator.wait(lambda: opener.sent[-1].resume_hold_id == 77)
+    assert operator.model.done == done
+    opener.spoil_with()
+    operator.finish()

@@ -261,7 +261,7 @@ class Person:
     def __init__(self, after):
         self.after, self.hold_id = after, 0
 
-    def __call__(self):
+    def __call__(self, _hold_id):
         self.after -= 1
         return self.hold_id if self.after < 0 else 0
 

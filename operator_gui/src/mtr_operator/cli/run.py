@@ -29,6 +29,7 @@ from mtr_operator.storage.store import Store
 from .display import Display
 from .interrupt import Interrupt
 from .links import car_link, robot_link
+from .release import Release
 
 # What results call a robot and a Car inside the application.
 SUBSTITUTE = "substitute"
@@ -82,7 +83,7 @@ class CommandLineRun:
                 link.connect()
                 if interrupt.requested:
                     raise Cancelled("Interrupted; the robot was not moved.")
-            loop = ControlLoop(robot, car, display, interrupt.is_requested)
+            loop = ControlLoop(robot, car, display, interrupt.is_requested, Release(display.say))
             rejected_before = loop.status.rejected_messages
             self._progress.session[ROBOT_SOFTWARE] = loop.status.software_version
             try:

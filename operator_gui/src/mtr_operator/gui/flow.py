@@ -136,6 +136,11 @@ class Flow(QObject):
         self.model.phase = Phase.STOPPING
         self._links.stop_test()
 
+    def release_hold(self) -> None:
+        """Have a robot go on that is held."""
+        if self.model.robot is not None:
+            self._links.release_hold(self.model.robot.status.hold_id)
+
     def save_progress(self) -> None:
         """Write the progress now; saved or folder_wanted follows."""
         self._links.save(self.model.current_test)

@@ -57,6 +57,8 @@ class Cause(enum.Enum):
 
 
 # In these the robot itself says what is the matter.
+# Red, and no reason not to start: a robot may have no emergency stop, and one that is held is released during the test.
+_NOT_BLOCKING = ("no_emergency_stop", "held")
 _MODE_CODES = ("fault", "link_lost", "not_localized")
 
 
@@ -118,7 +120,8 @@ def _robot_reasons(status: RobotStatus) -> list[Reason]:
         is_empty = status.battery_percent < EMPTY_BATTERY_PERCENT
         reasons.append(Reason(Cause.BATTERY_EMPTY if is_empty else Cause.BATTERY_LOW, is_empty,
                               str(status.battery_percent)))
-    reasons += [Reason(Cause.NOTIFICATION, notification.severity >= ERROR, notification.text)
+    reasons += [Reason(Cause.NOTIFICATION, notification.severity >= ERROR and code not in _NOT_BLOCKING,
+                       notification.text)
                 for code, notification in notified.items()
                 if notification.severity >= WARNING and code not in (*_MODE_CODES, "low_battery")]
     return reasons

@@ -53,8 +53,8 @@ class ControlLoop:
     """
 
     def __init__(self, robot_link: RobotLink, car_link: CarLink, observer: RunObserver | None = None,
-                 is_cancelled: Callable[[], bool] = lambda: False, resumed_hold: Callable[[], int] = lambda: 0):
-        """resumed_hold: the newest hold that the Operator has released."""
+                 is_cancelled: Callable[[], bool] = lambda: False, resumed_hold: Callable[[int], int] = lambda _: 0):
+        """resumed_hold: takes the hold in force, 0 for none; gives the newest one that the Operator has released."""
         self.desired = DesiredState()
         self.poses = PoseHistory()
         self.events: list[CarEvent] = []
@@ -102,7 +102,9 @@ class ControlLoop:
         return status
 
     def _step(self) -> RobotStatus:
-        self.desired = replace(self.desired, resume_hold_id=self._resumed_hold())
+        hold_id = self._resumed_hold(self._status.hold_id if self._status else 0)
+        if hold_id != self.desired.resume_hold_id:
+            self.change(resume_hold_id=hold_id)
         status = self._exchange()
         if self._is_cancelled():
             raise Cancelled("The test was interrupted.")

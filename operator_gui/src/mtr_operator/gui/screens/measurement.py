@@ -20,16 +20,19 @@ from ..theme.scale import L, M
 from .measurement_facts import MeasurementFacts
 
 _SIDE_WIDTH = 400
+HELD_CODE = "held"
 
 
 class MeasurementScreen(QWidget):
     """Attributes: panel: the picture. facts: progress and state in words. stop, resume, save, leave: buttons.
 
-    Signals: stop_wanted, resume_wanted, save_wanted, leave_wanted.
+    held: why the robot stands until the Operator has it go on. go_on: the button for that.
+    Signals: stop_wanted, resume_wanted, release_wanted, save_wanted, leave_wanted.
     """
 
     stop_wanted = pyqtSignal()
     resume_wanted = pyqtSignal()
+    release_wanted = pyqtSignal()
     save_wanted = pyqtSignal()
     leave_wanted = pyqtSignal()
 
@@ -43,10 +46,14 @@ class MeasurementScreen(QWidget):
         self.trouble = QLabel()
         self.trouble.setWordWrap(True)
         self.trouble.setProperty("role", "banner")
+        self.held = QLabel()
+        self.held.setWordWrap(True)
+        self.held.setProperty("role", "banner")
         self.note = QLabel()
         self.note.setWordWrap(True)
         self.note.setProperty("role", "soft")
         self.stop = self._button(self.tr("Stop"), "danger", self.stop_wanted)
+        self.go_on = self._button(self.tr("Have the robot go on"), "primary", self.release_wanted)
         self.resume = self._button(self.tr("Resume"), "primary", self.resume_wanted)
         self.save = self._button(self.tr("Save progress"), "", self.save_wanted)
         self.leave = self._button(self.tr("Back to the beginning"), "", self.leave_wanted)
@@ -66,9 +73,10 @@ class MeasurementScreen(QWidget):
         side = QVBoxLayout()
         side.setSpacing(M)
         side.addWidget(self.trouble)
+        side.addWidget(self.held)
         side.addWidget(self.facts, 1)
         side.addWidget(self.note)
-        for button in (self.stop, self.resume, self.save, self.leave):
+        for button in (self.stop, self.go_on, self.resume, self.save, self.leave):
             side.addWidget(button)
         holder = QWidget()
         holder.setFixedWidth(_SIDE_WIDTH)
@@ -89,11 +97,20 @@ class MeasurementScreen(QWidget):
         self.facts.show_model(model)
         self.trouble.setVisible(bool(model.trouble) and model.phase is Phase.PAUSED)
         self.trouble.setText(translated(model.trouble))
+        self._show_hold()
         self.stop.setVisible(model.phase in (Phase.MEASURING, Phase.STOPPING))
         self.stop.setEnabled(model.phase is Phase.MEASURING)
         self.resume.setVisible(model.phase is Phase.PAUSED)
         self.resume.setEnabled(can_resume(model.readiness))
         self.leave.setVisible(model.phase is Phase.PAUSED)
+
+    def _show_hold(self) -> None:
+        reason = next((notification.text for notification in self._model.notifications
+                       if notification.code == HELD_CODE), "")
+        is_held = self._model.robot is not None and self._model.robot.status.hold_id != 0
+        self.held.setText(translated(reason))
+        self.held.setVisible(is_held and bool(reason))
+        self.go_on.setVisible(is_held)
 
     def say(self, sentence: str) -> None:
         """Show a sentence above the buttons."""

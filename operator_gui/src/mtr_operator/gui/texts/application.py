@@ -40,7 +40,12 @@ SENTENCES = (
                                   "the keys alone during the test."),
     QT_TRANSLATE_NOOP("Sentence", "The Car was {} by the vicinity of a key, not by the press at {} m; switch "
                                   "passive entry off, or increase minimum_distance_m."),
+    QT_TRANSLATE_NOOP("Sentence", "the robot stands until you have it go on"),
     QT_TRANSLATE_NOOP("Sentence", "The robot has been silent for {} s; check the Wi-Fi and that its software runs."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot has been silent for {} s; check the Wi-Fi and that its software runs. {}"),
+    QT_TRANSLATE_NOOP("Sentence", "Status {} was ignored: {}"),
+    QT_TRANSLATE_NOOP("Sentence", "The robot no longer takes this application's Commands, as if it had said goodbye; "
+                                  "connect again, or go on with a continued test."),
     QT_TRANSLATE_NOOP("Sentence", "The robot's ports are open, but no Status has come for {} s; check that both "
                                   "ports are the robot's. {}"),
     QT_TRANSLATE_NOOP("Sentence", "The robot's ports are open, but no Status has come for {} s; check that both "

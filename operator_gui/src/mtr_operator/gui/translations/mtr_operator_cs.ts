@@ -296,32 +296,32 @@
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="120"/>
+        <location filename="../windows/main_window.py" line="121"/>
         <source>Continue test</source>
         <translation>Pokračovat v testu</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="129"/>
+        <location filename="../windows/main_window.py" line="130"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="131"/>
+        <location filename="../windows/main_window.py" line="132"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="146"/>
+        <location filename="../windows/main_window.py" line="147"/>
         <source>A test is running. Stop the robot and close? What is measured is kept; the next start offers to go on.</source>
         <translation>Test běží. Zastavit robot a zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="148"/>
+        <location filename="../windows/main_window.py" line="149"/>
         <source>Stop and close</source>
         <translation>Zastavit a zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="148"/>
+        <location filename="../windows/main_window.py" line="149"/>
         <source>Go on measuring</source>
         <translation>Měřit dál</translation>
     </message>
@@ -407,24 +407,29 @@
 <context>
     <name>MeasurementScreen</name>
     <message>
-        <location filename="../screens/measurement.py" line="49"/>
+        <location filename="../screens/measurement.py" line="55"/>
         <source>Stop</source>
         <translation>Zastavit</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="50"/>
+        <location filename="../screens/measurement.py" line="57"/>
         <source>Resume</source>
         <translation>Pokračovat</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="51"/>
+        <location filename="../screens/measurement.py" line="58"/>
         <source>Save progress</source>
         <translation>Uložit průběh</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="52"/>
+        <location filename="../screens/measurement.py" line="59"/>
         <source>Back to the beginning</source>
         <translation>Zpět na začátek</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="56"/>
+        <source>Have the robot go on</source>
+        <translation>Nechat robot pokračovat</translation>
     </message>
 </context>
 <context>
@@ -1719,6 +1724,26 @@
         <location filename="../texts/keeping.py" line="5"/>
         <source>They are larger than {} KiB.</source>
         <translation>Jsou větší než {} KiB.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>the robot stands until you have it go on</source>
+        <translation>robot stojí, dokud nedáte pokyn pokračovat</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>The robot has been silent for {} s; check the Wi-Fi and that its software runs. {}</source>
+        <translation>Robot mlčí už {} s; zkontrolujte Wi-Fi a zda běží jeho software. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>Status {} was ignored: {}</source>
+        <translation>Stav {} byl ignorován: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>The robot no longer takes this application&apos;s Commands, as if it had said goodbye; connect again, or go on with a continued test.</source>
+        <translation>Robot už nepřijímá příkazy této aplikace, jako by se rozloučila; připojte se znovu, nebo v testu pokračujte.</translation>
     </message>
 </context>
 <context>

@@ -90,6 +90,7 @@ class MainWindow(QMainWindow):
             screen.started.connect(lambda parameters, name=name: flow.start(SCENARIOS[name], parameters))
         self.measurement.stop_wanted.connect(flow.stop)
         self.measurement.resume_wanted.connect(flow.resume)
+        self.measurement.release_wanted.connect(flow.release_hold)
         self.measurement.save_wanted.connect(flow.save_progress)
         self.measurement.leave_wanted.connect(flow.to_welcome)
         self.protocol.closed.connect(flow.to_welcome)

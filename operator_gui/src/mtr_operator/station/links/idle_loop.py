@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import enum
 from dataclasses import dataclass, replace
+from typing import Callable
 
 from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.requests import DesiredState, Press
@@ -37,8 +38,9 @@ class CalibrationRequest:
 class IdleLoop:
     """One Status, one answer; without a request the answer asks for nothing."""
 
-    def __init__(self, robot: WatchedRobotLink, car: CarLink):
+    def __init__(self, robot: WatchedRobotLink, car: CarLink, resumed_hold: Callable[[int], int] = lambda _: 0):
         self._robot = robot
+        self._resumed_hold = resumed_hold
         self._car = car
         self._desired = DesiredState()
         self._press_id = self._check_id = self._map_id = 0
@@ -78,6 +80,7 @@ class IdleLoop:
         self._has_status, self.silent_s = True, 0.0
         self._car.observe(status)
         self._forget_done_press(status)
+        self._desired = replace(self._desired, resume_hold_id=self._resumed_hold(status.hold_id))
         self._robot.send(self._desired)
         return RobotSnapshot(status, self._car.lock_state, self._car.problem, None, self._robot.is_secret)
 

@@ -24,11 +24,13 @@ from .watched_link import WatchedRobotLink
 class MeasurementRun:
     """Measures what is left of a test with the runner of the command line."""
 
-    def __init__(self, test: Test, new_robot: Callable[[], WatchedRobotLink], car: CarLink, mailbox: Mailbox):
+    def __init__(self, test: Test, new_robot: Callable[[], WatchedRobotLink], car: CarLink, mailbox: Mailbox,
+                 resumed_hold: Callable[[int], int] = lambda _: 0):
         self._test = test
         self._new_robot = new_robot
         self._car = car
         self._mailbox = mailbox
+        self._resumed_hold = resumed_hold
 
     def run(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> RunEnded:
         """Measure; never raises, for what is measured has to be reported in any case."""
@@ -65,6 +67,6 @@ class MeasurementRun:
         with contextlib.closing(self._new_robot()) as robot:
             robot.connect()
             reporter = Reporter(self._mailbox, robot, self._car, test.progress, after_status)
-            loop = ControlLoop(robot, self._car, reporter, is_cancelled)
+            loop = ControlLoop(robot, self._car, reporter, is_cancelled, self._resumed_hold)
             test.progress.session[ROBOT_SOFTWARE] = loop.status.software_version
             Runner(test.scenario, test.parameters, loop, test.progress, lambda _: test.save(), journal=store).run()

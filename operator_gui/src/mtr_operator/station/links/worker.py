@@ -38,6 +38,7 @@ class Worker:
         self._short_requests: queue.Queue[Callable[[], None]] = queue.Queue()
         self._closing = threading.Event()
         self._stopping = threading.Event()
+        self._released_hold = 0
         self._thread = threading.Thread(target=self._run, name="links", daemon=True)
         self._robot: WatchedRobotLink | None = None
         self._car: CarLink = AbsentCarLink()
@@ -63,6 +64,10 @@ class Worker:
     def stop_test(self) -> None:
         """Stop the robot and end the running test; what is measured is kept."""
         self._stopping.set()
+
+    def release_hold(self, hold_id: int) -> None:
+        """Have the robot go on that is held under this id."""
+        self._released_hold = hold_id
 
     def save(self, test: Test) -> None:
         """Write a test's progress; Saved comes into the mailbox."""
@@ -131,7 +136,7 @@ class Worker:
         except OperatorError as error:
             self._mailbox.put(LinkRefused(part, str(error)))
             return False
-        self._idle = IdleLoop(self._robot, self._car)
+        self._idle = IdleLoop(self._robot, self._car, self._released)
         return True
 
     def _new_robot(self) -> WatchedRobotLink:
@@ -145,7 +150,7 @@ class Worker:
         except OperatorError:
             self._mailbox.put(RobotSilent(SILENCE_SHOWN_S))
             return None
-        self._robot, self._idle = robot, IdleLoop(robot, self._car)
+        self._robot, self._idle = robot, IdleLoop(robot, self._car, self._released)
         return self._idle
 
     def _change_car(self, choice: CanChoice | None) -> None:
@@ -173,8 +178,11 @@ class Worker:
 
     def _measure(self, test: Test) -> None:
         self._close_robot()
-        run = MeasurementRun(test, self._new_robot, self._car, self._mailbox)
+        run = MeasurementRun(test, self._new_robot, self._car, self._mailbox, self._released)
         self._mailbox.put(run.run(self._stopping.is_set, self._run_short_requests))
+
+    def _released(self, _hold_id: int) -> int:
+        return self._released_hold
 
     def _close_robot(self) -> None:
         robot, self._robot, self._idle = self._robot, None, None

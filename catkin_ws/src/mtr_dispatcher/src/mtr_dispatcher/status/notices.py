@@ -74,7 +74,7 @@ def _foreign_problem(controlling_id: int, session_id: int) -> Problem:
 def standing_notices(desired: SessionState, fresh: Inputs, parameters: Parameters) -> Iterator[Notice]:
     """Notices that hold as long as their cause."""
     if fresh.mode is not None and fresh.mode.hold_id:
-        yield Notice("held", WARNING, problem_of(fresh.mode.problems, fresh.mode.message))
+        yield Notice("held", ERROR, problem_of(fresh.mode.problems, fresh.mode.message))
     if desired.session_id and not desired.link_alive:
         yield Notice("link_lost", ERROR, desired.stop_reason)
     elif desired.session_id and desired.stop_reason and not desired.command.stop:
@@ -85,7 +85,7 @@ def standing_notices(desired: SessionState, fresh: Inputs, parameters: Parameter
                      or problems.POSITION_UNKNOWN())
     yield from _peripherals_notices(fresh, parameters.low_battery)
     if parameters.warn_without_emergency_stop and fresh.emergency_stop is EmergencyStop.ABSENT:
-        yield Notice("no_emergency_stop", WARNING, problems.NO_EMERGENCY_STOP())
+        yield Notice("no_emergency_stop", ERROR, problems.NO_EMERGENCY_STOP())
 
 
 def _mode_notices(fresh: Inputs) -> Iterator[Notice]:
