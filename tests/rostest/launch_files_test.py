@@ -39,6 +39,12 @@ class LaunchFiles(unittest.TestCase):
                 command = create_local_process_args(node, None)
                 self.assertTrue(os.access(command[0], os.X_OK), command)
 
+    def test_nodes_of_the_robot_are_started_again_and_none_ends_the_others(self):  # A11
+        robot = load("robot.launch", [])
+        self.assertEqual({node.name for node in robot.nodes if node.required or not node.respawn}, set())
+        simulated = load("sim.launch", NEEDED["sim.launch"])
+        self.assertEqual({node.name for node in simulated.nodes if node.required}, {"simulator", "dispatcher"})
+
     def test_missing_argument_is_named(self):
         with self.assertRaisesRegex(Exception, "car_port_link"):
             load("sim.launch", [])

@@ -32,6 +32,14 @@ def test_every_node_of_a_launch_file_exists(path):
         assert executable in cmake, f"{package} does not build or install {executable}"
 
 
+def test_end_of_one_node_of_the_robot_ends_no_other_and_it_is_started_again():  # A11
+    nodes = list(ElementTree.parse(TOP / "launch" / "launch" / "robot.launch").getroot().iter("node"))
+    assert len(nodes) > 10
+    for node in nodes:
+        assert node.get("respawn") in ("true", "$(arg respawn)") and float(node.get("respawn_delay")) >= 1.0, node.attrib
+        assert node.get("required") in (None, "$(eval not respawn)"), node.attrib
+
+
 @pytest.mark.parametrize("path", YAML_FILES, ids=lambda path: str(path.relative_to(TOP)))
 def test_every_configuration_file_loads(path):
     assert isinstance(yaml.safe_load(path.read_text(encoding="utf-8")), dict)

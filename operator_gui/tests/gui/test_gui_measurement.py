@@ -257,7 +257,7 @@ def test_robot_that_is_held_goes_on_by_a_click(operator, opener):  # A8
     assert not screen.go_on.isVisible() and not screen.held.isVisible()
     held = "The robot was driven by hand; it stands until the Operator has it go on."
     opener.spoil_with(hold_id=77, notifications=(Notification("held", 3, held),))
-    operator.wait(lambda: screen.go_on.isVisible())
+    operator.wait(screen.go_on.isVisible)
     assert screen.held.text() == held
     done = operator.model.done
     operator.click(screen.go_on)

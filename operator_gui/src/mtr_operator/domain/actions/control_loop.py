@@ -24,8 +24,8 @@ from .trouble import Cancelled, LineInvalid, trouble_between
 POLL_PERIOD_S = 0.05
 # So many looks after which the desired state is sent again when no Status comes.
 RESEND_POLLS = 4
-# Wall time of silence after which nothing that moves is sent: the robot has stopped by itself, and shall not be moved by
-# an order that nobody sees the effect of.
+# Wall time of silence after which nothing that moves is sent: the robot has stopped by itself, and shall not be moved
+# by an order that nobody sees the effect of.
 MAX_BLIND_S = 1.0
 # Wall time of silence at which a test ends; an interruption of the Wi-Fi is shorter.
 SILENCE_LIMIT_S = 30.0
