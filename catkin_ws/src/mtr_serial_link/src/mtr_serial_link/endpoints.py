@@ -5,6 +5,9 @@ from typing import Callable, Dict, List, NamedTuple, Optional, Sequence, Set, Tu
 from .board_topics import DIRECTION_OF, BoardTopic
 from .wire import ReservedId, TopicInfo
 
+# Damaged names are not kept without end.
+MAX_REFUSED = 20
+
 
 class Endpoint(NamedTuple):
     """One direction of a topic or service; kind says which."""
@@ -18,6 +21,7 @@ class Endpoints:
 
     Attributes:
         by_id: endpoints by their topic id.
+        refused: kinds and names that cannot be served as the device describes them now.
         to_device: those that the host sends to (topics the device subscribes to, requests it serves), by name.
     """
 
@@ -28,6 +32,7 @@ class Endpoints:
         self._described: Set[BoardTopic] = set()
         self.by_id: Dict[int, Endpoint] = {}
         self.to_device: Dict[str, Endpoint] = {}
+        self.refused: Set[Tuple[ReservedId, str]] = set()
 
     def add(self, kind: ReservedId, info: TopicInfo) -> Tuple[Optional[Endpoint], str]:
         """Take a description.
@@ -37,7 +42,10 @@ class Endpoints:
         """
         refusal = self._refusal(kind, info)
         if refusal:
+            if len(self.refused) < MAX_REFUSED:
+                self.refused.add((kind, info.name))
             return None, refusal
+        self.refused.discard((kind, info.name))
         endpoint = Endpoint(kind, info)
         if self.by_id.get(info.topic_id) == endpoint:
             return None, ""
@@ -56,6 +64,7 @@ class Endpoints:
     def clear(self) -> None:
         """Forget everything: another device may be plugged in."""
         self._described.clear()
+        self.refused.clear()
         self.by_id.clear()
         self.to_device.clear()
 

@@ -14,6 +14,8 @@ MIN_REVISION_1_SYNCS = 3
 MAX_REFUSALS = 20
 MAX_REFUSAL_CHARACTERS = 200
 OTHER_REFUSALS = "other refusals"
+# One message that was too long, or one damaged description, is a warning for so long.
+REFUSAL_SHOWN_S = 60.0
 
 
 class LineProblem(enum.Enum):
@@ -40,7 +42,7 @@ class LineHealth:
 
     def __init__(self, parameters: SerialParameters):
         self._parameters = parameters
-        self._started_s = -math.inf
+        self._started_s = self._now_s = self._refused_s = -math.inf
         self._frame_s: Optional[float] = None
         self._bytes_at_frame = 0
         self.bytes_in = self.frames = self.oversized = self.unroutable = self.unknown_topics = 0
@@ -50,7 +52,7 @@ class LineHealth:
 
     def start(self, now_s: float) -> None:
         """The port has just been opened."""
-        self._started_s, self._frame_s = now_s, None
+        self._started_s, self._now_s, self._frame_s = now_s, now_s, None
         self._bytes_at_frame = self.bytes_in
         self._revision_1_at_start = self.counts.revision_1_syncs
 
@@ -64,7 +66,7 @@ class LineHealth:
     def add_frame(self, now_s: float) -> None:
         """Count a good frame."""
         self.frames += 1
-        self._frame_s = now_s
+        self._frame_s = self._now_s = now_s
 
     def add_dropped(self, name: str, size: int, limit: Optional[int]) -> None:
         """Count a message for the device that was not sent."""
@@ -80,7 +82,12 @@ class LineHealth:
         if key not in self.refusals and len(self.refusals) >= MAX_REFUSALS:
             key = OTHER_REFUSALS
         self.refusals[key] = self.refusals.get(key, 0) + 1
+        self._refused_s = self._now_s
         return key != OTHER_REFUSALS and self.refusals[key] == 1
+
+    def has_refused_lately(self, now_s: float) -> bool:
+        """True for some time after a refusal."""
+        return now_s - self._refused_s <= REFUSAL_SHOWN_S
 
     def problem(self, now_s: float) -> LineProblem:
         """What is wrong now."""

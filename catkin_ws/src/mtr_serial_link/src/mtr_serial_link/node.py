@@ -103,7 +103,8 @@ class SerialBridgeNode(LineObserver):
         """Report how the line is, and log it when it changes; called in the line's thread."""
         session = self._line.session
         status = line_status(self._parameters.port, self._line.trouble, session.problem(now_s),
-                             bool(session.health.refusals), session.missing)
+                             bool(session.endpoints.refused) or session.health.has_refused_lately(now_s),
+                             session.missing)
         if self._reports.is_due(status, now_s):
             self._diagnostics.publish(self._diagnostics_message(status))
         if status.sentence != self._logged:

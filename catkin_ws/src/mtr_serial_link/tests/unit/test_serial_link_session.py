@@ -5,7 +5,13 @@ import pytest
 from mtr_serial_link.board_topics import board_topics
 from mtr_serial_link.fake_device import FakeSerialDevice
 from mtr_serial_link.frames import SerialFrame, encode
-from mtr_serial_link.health import MAX_REFUSAL_CHARACTERS, MAX_REFUSALS, OTHER_REFUSALS, LineProblem
+from mtr_serial_link.health import (
+    MAX_REFUSAL_CHARACTERS,
+    MAX_REFUSALS,
+    OTHER_REFUSALS,
+    REFUSAL_SHOWN_S,
+    LineProblem,
+)
 from mtr_serial_link.parameters import SerialParameters
 from mtr_serial_link.session import SerialSession
 from mtr_serial_link.wire import LogLine, ReservedId, TopicInfo, encode_log
@@ -199,6 +205,17 @@ def test_board_that_gives_a_topic_ever_new_ids_fills_no_memory():  # F2
         line.device.endpoints = [(ReservedId.PUBLISHER, STATE[1]._replace(topic_id=topic_id)), COMMAND]
         line.session.receive(line.device.receive(encode(SerialFrame(0, b""))), line.now_s)
     assert len(line.session.endpoints.by_id) == 2
+
+
+def test_topic_that_cannot_be_served_lasts_until_it_is_described_otherwise_and_a_single_refusal_a_minute():
+    line = Cable((ReservedId.PUBLISHER, STATE[1]._replace(md5="f" * 32)), COMMAND).plug().run(100.0, line_message())
+    assert line.session.endpoints.refused
+    line.device.endpoints = [STATE, COMMAND]
+    line.session.receive(line.device.receive(encode(SerialFrame(0, b""))), line.now_s)
+    assert not line.session.endpoints.refused
+    assert not line.session.send("/command", bytes(21))
+    assert line.session.health.has_refused_lately(line.now_s + REFUSAL_SHOWN_S - 1.0)
+    assert not line.session.health.has_refused_lately(line.now_s + REFUSAL_SHOWN_S + 0.1)
 
 
 def test_refusals_of_a_line_that_damages_texts_are_bounded():  # F2
