@@ -1,0 +1,75 @@
+"""Autolock: the static boundary and the Car's reaction time from passes, and the speed that a budget allows."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from mtr_operator.domain.estimation.passes.boundary import BoundaryCampaign, Pass
+from mtr_operator.domain.estimation.passes.reaction import STEP_M, depths, reaction_table
+from mtr_operator.domain.estimation.passes.speeds import intercept_sigma, pass_sigma, proposed_speed
+from mtr_operator.domain.estimation.passes.timing import TIMINGS, CarTiming
+
+CYCLE_S = 0.2
+
+
+def passed(rng, boundary_m, speed_mps, timing, *, delay_s=0.04, outward=False):
+    """A pass simulated in time: polls with a random phase, then the bus' cycle."""
+    time_s, agreeing = -rng.uniform(0.0, timing.poll_s) - 0.5 / speed_mps, 0
+    while agreeing < timing.debounce:
+        time_s += timing.poll_s
+        agreeing = agreeing + 1 if speed_mps * time_s > timing.noise_m * rng.standard_normal() else 0
+    told_s = time_s + delay_s + rng.uniform(-0.5, 0.5) * CYCLE_S
+    depth_m = speed_mps * told_s + 0.002 * rng.standard_normal()
+    return Pass(boundary_m + depth_m if outward else boundary_m - depth_m, speed_mps, outward)
+
+
+@pytest.mark.parametrize("speed_mps", [0.1, 0.5])
+@pytest.mark.parametrize("timing", [CarTiming(0.3, 2, 0.012), CarTiming(0.7, 1, 0.025), CarTiming(0.1, 3, 0.005)])
+def test_table_of_depths_agrees_with_passes_simulated_in_time(speed_mps, timing):
+    table = reaction_table(speed_mps, CYCLE_S, 0.002)[TIMINGS.index(timing)]
+    weights, rng = (table - table.min()) / np.sum(table - table.min()), np.random.default_rng(1)
+    drawn = np.array([-passed(rng, 0.0, speed_mps, timing, delay_s=0.0).distance_m for _ in range(1500)])
+    mean = weights @ depths()
+    assert table.sum() * STEP_M == pytest.approx(1.0, abs=0.01)
+    assert mean == pytest.approx(drawn.mean(), abs=4.0 * drawn.std() / math.sqrt(1500.0) + 0.001)
+    assert math.sqrt(weights @ (depths() - mean) ** 2) == pytest.approx(drawn.std(), rel=0.12, abs=0.001)
+
+
+@pytest.mark.parametrize("outward", [False, True])
+def test_two_speeds_find_the_static_boundary_and_the_reaction_time(outward):
+    rng, timing, campaign = np.random.default_rng(2), CarTiming(0.3, 2, 0.012), BoundaryCampaign(CYCLE_S)
+    true_m = rng.uniform(1.0, 2.0, 24)
+    for axis, boundary_m in enumerate(true_m):
+        campaign.keep(axis, [passed(rng, boundary_m, speed, timing, outward=outward) for speed in (0.1, 0.4)])
+    found = [campaign.boundary(axis) for axis in range(24)]
+    errors = np.array([each.static.value_m for each in found]) - true_m
+    assert np.sqrt(np.mean(errors ** 2)) < 0.025 and abs(np.mean(errors)) < 0.012
+    assert sum(each.static.holds(value) for each, value in zip(found, true_m)) >= 21
+    # Half a poll of phase and one of debounce; the delay beside them.
+    assert np.median([each.reaction_s.value_m for each in found]) == pytest.approx(0.49, abs=0.1)
+
+
+def test_one_pass_leaves_the_reaction_time_inside_the_distance():
+    rng, timing, campaign = np.random.default_rng(3), CarTiming(0.3, 2, 0.012), BoundaryCampaign(CYCLE_S)
+    for axis in range(12):
+        campaign.keep(axis, [passed(rng, 1.5, 0.4, timing)])
+    alone = campaign.boundary(0).static
+    for axis in range(12):
+        campaign.keep(axis, [passed(rng, 1.5, speed, timing) for speed in (0.1, 0.4)])
+    assert alone.half_width_m > 2.0 * campaign.boundary(0).static.half_width_m
+    assert alone.holds(1.5)
+
+
+def test_proposed_speed_keeps_the_budget_for_polls_and_cycle():
+    speed_mps = proposed_speed(0.01, 0.3, 0.2)
+    assert pass_sigma(speed_mps, 0.3, 0.2) == pytest.approx(0.01)
+    assert speed_mps == pytest.approx(0.096, abs=0.001)
+    assert proposed_speed(0.01, 0.0, 0.0) == math.inf
+
+
+def test_equal_speeds_say_nothing_of_the_reaction_time():
+    assert intercept_sigma(0.3, 0.3, 0.3, 0.2) == math.inf
+    assert intercept_sigma(0.1, 0.4, 0.3, 0.2) == pytest.approx(0.0196, abs=0.0002)
