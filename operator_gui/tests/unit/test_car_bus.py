@@ -10,12 +10,13 @@ import can
 import pytest
 
 from mtr_operator.car_link.bus import CanCarLink
+from mtr_operator.car_link.fake_message import DemoLockMessage
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter, OperatorError
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import RobotStatus
 
 LOCK_ID = 0x320
-LOCKED, UNLOCKED = b"\x00\x00\x00\x00", b"\x01\x00\x00\x00"
+LOCKED, UNLOCKED = True, False
 WAIT_S = 5.0
 
 
@@ -83,6 +84,7 @@ class Course:
         self.link, self.send = link, send
         self.start_s = start_s
         self.step = 0
+        self.message = DemoLockMessage()
 
     @property
     def now_s(self):
@@ -96,7 +98,8 @@ class Course:
             self.step += 1
             if data is not None:
                 before = self.link.frames_received
-                self.send(data, self.now_s - 0.013)
+                self.message.is_locked = data
+                self.send(self.message.next(), self.now_s - 0.013)
                 wait_for(lambda: self.link.frames_received > before)  # noqa: B023
             if self.step % 5 == 0:
                 now_s = round(self.now_s, 6)
@@ -133,7 +136,8 @@ def test_observe_waits_for_frames_that_precede_the_status(adapter, link):
     course.run(4.0)
     course.run(0.08)
     course.step += 1
-    late = threading.Timer(0.05, adapter.send, (UNLOCKED, course.now_s - 0.013))
+    course.message.is_locked = UNLOCKED
+    late = threading.Timer(0.05, adapter.send, (course.message.next(), course.now_s - 0.013))
     late.start()
     events = link.observe(RobotStatus(9999, 1, round(course.now_s, 6)))
     late.join()

@@ -9,8 +9,10 @@ from typing import NamedTuple
 
 import pytest
 
+from mtr_operator.car_link.fake_message import DemoLockMessage
 from mtr_operator.car_link.lock_watch import CanFrame, LockWatch
 from mtr_operator.car_link.profile import load_profile
+from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import RobotStatus
 
 LOCK_ID = 0x320
@@ -98,6 +100,10 @@ class Course:
             events = watch.release(now_s)
             problem_s = now_s if watch.problem else problem_s
             for event in events:
+                # A doubtful frame without a change: the adapter's stamps went back.
+                if event.lock_state is (LockState.UNLOCKED if len(told) % 2 else LockState.LOCKED):
+                    assert event.doubt
+                    continue
                 true_s = self.changes[len(told)]
                 told.append(Told(true_s, event.time_s - self.robot.at(true_s), event.time_sigma_s,
                                  math.isfinite(event.time_sigma_s) and problem_s < true_s))
@@ -116,13 +122,13 @@ class Course:
 
     def _frames(self) -> list[tuple[float, CanFrame]]:
         chance, ways, arrived = random.Random(self.seed + 1), self.ways, []
-        last_s, phase_s = 0.0, chance.uniform(0.0, CYCLE_S)
+        last_s, phase_s, message = 0.0, chance.uniform(0.0, CYCLE_S), DemoLockMessage()
         for index in range(round((self.duration_s + 1.0) / CYCLE_S)):
             time_s = index * CYCLE_S + phase_s
-            unlocked = sum(change_s <= time_s for change_s in self.changes) % 2
+            message.is_locked = sum(change_s <= time_s for change_s in self.changes) % 2 == 0
             last_s = max(last_s, ways.arrival_s(time_s, ways.frame_s, ways.frame_jitter_s, chance))
             stamp_ms = int(self.adapter.at(time_s) * 1000.0) % 60_000 if self.is_stamped else None
-            arrived.append((last_s, CanFrame(LOCK_ID, False, bytes([unlocked, 0, index % 16, 0]), last_s, stamp_ms)))
+            arrived.append((last_s, CanFrame(LOCK_ID, False, message.next(), last_s, stamp_ms)))
         return arrived
 
 

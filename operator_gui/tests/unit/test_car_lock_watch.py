@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
+from mtr_operator.car_link.fake_message import DemoLockMessage
 from mtr_operator.car_link.lock_watch import CanFrame, LockWatch
 from mtr_operator.car_link.profile import load_profile
 from mtr_operator.domain.ports import LockState
@@ -9,7 +10,6 @@ from mtr_operator.domain.robot_status import RobotStatus
 
 LOCK_ID = 0x320
 SPEED_ID = 0x1A0
-LOCKED, UNLOCKED = b"\x00\x00\x00\x00", b"\x01\x00\x00\x00"
 # The adapter's clock was started 58 s before the robot's: its stamps begin anew 2 s later.
 ADAPTER_AHEAD_S = 58.0
 WALL_PER_ROBOT_S = 0.25
@@ -22,7 +22,8 @@ class Bench:
         self.watch = LockWatch(load_profile("mtr_demo_car"))
         self.stamped = stamped
         self.step = 50
-        self.data = LOCKED
+        self.message = DemoLockMessage()
+        self.spoil = lambda data: data
         self.can_id = LOCK_ID
         self.bus_speaks = True
         self.robot_session_id = 1
@@ -36,7 +37,7 @@ class Bench:
     def frame(self):
         """The frame of the step before."""
         stamp_s = self.now_s - 0.013 + ADAPTER_AHEAD_S
-        self.watch.frame(CanFrame(self.can_id, False, self.data, self.now_s * WALL_PER_ROBOT_S,
+        self.watch.frame(CanFrame(self.can_id, False, self.spoil(self.message.next()), self.now_s * WALL_PER_ROBOT_S,
                                   round(stamp_s * 1000) % 60_000 if self.stamped else None))
 
     def status(self):
@@ -75,7 +76,7 @@ def test_initial_state_is_no_event(bench):
 def test_event_is_timed_by_the_frame_less_half_a_cycle(bench, steps_after_status):
     bench.run(0.02 * steps_after_status - 0.02)
     changed_s = bench.now_s
-    bench.data = UNLOCKED
+    bench.message.is_locked = False
     bench.run(0.2)
     event, = bench.events
     # The frame that shows it is stamped 7 ms after the step of the change.
@@ -88,7 +89,7 @@ def test_event_times_do_not_depend_on_the_laptops_clock():
     def course(wall_factor):
         bench = Bench()
         bench.run(4.0)
-        bench.data = UNLOCKED
+        bench.message.is_locked = False
         bench.run(1.0 * wall_factor)
         return bench.events[0]
 
@@ -97,7 +98,7 @@ def test_event_times_do_not_depend_on_the_laptops_clock():
 
 def test_later_frame_read_early_waits_for_its_status(bench):
     bench.step += 1
-    bench.data = UNLOCKED
+    bench.message.is_locked = False
     bench.frame()
     bench.step -= 1
     bench.status()
@@ -111,7 +112,7 @@ def test_later_frame_read_early_waits_for_its_status(bench):
 def test_result_is_the_same_whichever_of_status_and_frame_is_read_first(bench):
     bench.run(0.08)
     bench.step += 1
-    bench.data = UNLOCKED
+    bench.message.is_locked = False
     status = RobotStatus(9999, 1, round(bench.now_s, 6))
     bench.watch.status(status, 0.0)
     assert not bench.watch.has_caught_up()
@@ -125,7 +126,7 @@ def test_events_are_held_back_until_the_clock_is_mapped():
     bench = Bench()
     bench.run(1.0)
     changed_s = bench.now_s
-    bench.data = UNLOCKED
+    bench.message.is_locked = False
     bench.run(0.5)
     assert bench.events == [] and "not mapped" in bench.watch.problem
     bench.run(3.0)
@@ -153,7 +154,7 @@ def test_bus_that_was_silent_from_the_start_is_a_problem():
 def test_change_during_silence_is_as_uncertain_as_the_silence_is_long(bench):
     bench.bus_speaks = False
     bench.run(2.0)
-    bench.bus_speaks, bench.data = True, UNLOCKED
+    bench.bus_speaks, bench.message.is_locked = True, False
     bench.run(0.5)
     event, = bench.events
     assert event.time_s == pytest.approx(bench.now_s - 1.5, abs=0.02)
@@ -164,7 +165,7 @@ def test_change_during_silence_is_as_uncertain_as_the_silence_is_long(bench):
 def test_after_a_minute_of_silence_everything_is_learnt_again(bench):
     bench.bus_speaks = False
     bench.run(65.0)
-    bench.bus_speaks, bench.data = True, UNLOCKED
+    bench.bus_speaks, bench.message.is_locked = True, False
     bench.run(1.0)
     assert "not mapped" in bench.watch.problem
     bench.run(3.0)
@@ -187,25 +188,27 @@ def test_restarted_robot_needs_a_new_map(bench):
     assert bench.watch.problem == ""
 
 
-def test_unknown_state_is_an_event_too(bench):
-    bench.data = b"\x02\x00\x00\x00"
+def test_unknown_state_is_a_doubt_and_the_return_to_the_state_before_no_event(bench):  # B1
+    bench.spoil = lambda data: bench.message.encoded(2)
     bench.run(0.2)
-    bench.data = UNLOCKED
+    assert bench.watch.lock_state is LockState.UNKNOWN
+    bench.spoil = lambda data: data
     bench.run(0.2)
-    assert [event.lock_state for event in bench.events] == [LockState.UNKNOWN, LockState.UNLOCKED]
+    assert {event.lock_state for event in bench.events} == {LockState.UNKNOWN}
+    assert "LockState of the Car's lock message has the unknown value 2" in bench.events[0].doubt
+    assert bench.watch.lock_state is LockState.LOCKED
 
 
-@pytest.mark.parametrize(("data", "source"), [
-    (b"\x11\x00\x00\x00", "passive_entry"), (b"\x21\x00\x00\x00", "key_button"), (UNLOCKED, "")])
-def test_event_carries_what_made_the_locks_move(bench, data, source):
-    bench.data = data
+@pytest.mark.parametrize(("raw", "source"), [(1, "passive_entry"), (2, "key_button"), (0, ""), (7, "")])
+def test_event_carries_what_made_the_locks_move(bench, raw, source):
+    bench.message.is_locked, bench.message.source = False, raw
     bench.run(0.2)
     event, = bench.events
     assert (event.lock_state, event.source) == (LockState.UNLOCKED, source)
 
 
 def test_another_source_without_a_change_is_no_event(bench):
-    bench.data = b"\x10\x00\x00\x00"
+    bench.message.source = 1
     bench.run(0.2)
     assert bench.events == []
 
@@ -214,7 +217,7 @@ def test_frames_without_stamps_are_timed_by_their_arrival():
     bench = Bench(stamped=False)
     bench.run(4.0)
     changed_s = bench.now_s
-    bench.data = UNLOCKED
+    bench.message.is_locked = False
     bench.run(0.3)
     event, = bench.events
     # Written one step after the change; half a cycle is taken off.

@@ -8,7 +8,7 @@ import time
 from typing import Any
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import CarEvent, CarLink, LockState
+from mtr_operator.domain.ports import CarEvent, CarLink, LockFacts, LockState
 from mtr_operator.domain.robot_status import RobotStatus
 
 from .adapter import AdapterSettings, open_adapter
@@ -80,6 +80,11 @@ class CanCarLink(CarLink, FrameSink):
         """See CarLink."""
         with self._changed:
             return LockState.UNKNOWN if self._watch is None or self._bus_problem() else self._watch.lock_state
+
+    @property
+    def facts(self) -> LockFacts:
+        """See CarLink."""
+        return LockFacts() if self.profile is None else self.profile.facts
 
     @property
     def problem(self) -> str:

@@ -1,4 +1,8 @@
-"""Substitute of the Car: a timer on the robot's clock, and a random number against a threshold at each turn."""
+"""Substitute of the Car: a timer on the robot's clock, and a random number against a threshold at each turn.
+
+Once a button was pressed, the presses are the turns and the timer rests: a Car whose locks move between two presses can
+only be measured as invalid.
+"""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,6 +14,10 @@ from mtr_operator.domain.ports import CarEvent, CarLink, LockState
 from mtr_operator.domain.robot_status import RobotStatus
 
 _TIME_SIGMA_S = 0.005
+# A press is obeyed this long after its beginning, at its end at the latest.
+_REACTION_S = 0.1
+# A person tries again where a press failed, so that a test finds some places that work.
+_OBEYED = 0.5
 _OTHER_STATE = {LockState.LOCKED: LockState.UNLOCKED, LockState.UNLOCKED: LockState.LOCKED}
 
 
@@ -30,6 +38,7 @@ class FakeCarLink(CarLink):
         self._is_active = False
         self._turn_s = math.nan
         self._state = LockState.LOCKED
+        self._pressed_s = -math.inf
 
     def connect(self) -> None:
         """See CarLink."""
@@ -41,13 +50,25 @@ class FakeCarLink(CarLink):
             return []
         if math.isnan(self._turn_s):
             self._turn_s = status.stamp_s + self._period_s
-        events = []
+        events = self._answers(status)
         while self._turn_s <= status.stamp_s:
-            if self._chance.random() < self._threshold:
-                self._state = _OTHER_STATE[self._state]
-                events.append(CarEvent(self._turn_s, _TIME_SIGMA_S, self._state))
+            if self._pressed_s == -math.inf and self._chance.random() < self._threshold:
+                events.append(self._change(self._turn_s))
             self._turn_s += self._period_s
         return events
+
+    def _answers(self, status: RobotStatus) -> list[CarEvent]:
+        events = []
+        for press in sorted(status.presses, key=lambda press: press.start_s):
+            if press.start_s > self._pressed_s and not press.error:
+                self._pressed_s = press.start_s
+                if self._chance.random() < _OBEYED:
+                    events.append(self._change(min(press.start_s + _REACTION_S, press.end_s)))
+        return events
+
+    def _change(self, time_s: float) -> CarEvent:
+        self._state = _OTHER_STATE[self._state]
+        return CarEvent(time_s, _TIME_SIGMA_S, self._state)
 
     @property
     def lock_state(self) -> LockState:

@@ -13,6 +13,7 @@ from .adapter_clock import AdapterClockMap, StampUnwrapper
 from .arrival_clock import ArrivalClockMap
 from .clock_map import LEAST_WAY_S, ClockMap
 from .delay_watch import DelayWatch
+from .frame_judge import FrameJudge
 from .liveness import Liveness
 from .profile import CarProfile, LockReading
 from .robot_clock import RobotClock, sent_s
@@ -27,6 +28,11 @@ _EVEN_CYCLES = (0.5, 1.5)
 _MAX_FOLLOWED_SILENCE_S = 50.0
 # Adapters hand frames on in batches, each 16 ms with common USB chips, 20 ms in simulation.
 _ADAPTER_STEP_S = 0.022
+# Frames of the lock message kept as evidence, and so many cycles of them to both sides of a change.
+_KEPT_FRAMES = 64
+_EVIDENCE_CYCLES = 10.0
+# Without Statuses nothing is released, and a link that is silent for so long makes each line invalid anyway.
+_KEPT_CHANGES = 1000
 # Robot time for which an event may wait until it is clear whether a clock was set or its messages are late.
 _MAX_DOUBT_S = 0.3
 _UNMAPPED = "The clock of the CAN frames is not mapped to the robot's yet; this takes about two seconds."
@@ -61,13 +67,18 @@ class CanFrame:
 
 @dataclass(frozen=True)
 class _Change:
-    """is_timed: its time can be told; a clock was not set meanwhile."""
+    """A change of the locks, a doubtful frame, or both.
+
+    is_timed: its time can be told; a clock was not set meanwhile. is_event: false for a return from an unknown state.
+    """
 
     local_s: float
     previous_local_s: float
     arrival_s: float
     reading: LockReading
     is_timed: bool = True
+    doubt: str = ""
+    is_event: bool = True
 
 
 class LockWatch:
@@ -94,9 +105,12 @@ class LockWatch:
         self._in_doubt_since_s = math.inf
         self._is_stamped = False
         self._newest_s = math.nan
+        self._judge = FrameJudge(self._profile)
+        self._frames: collections.deque[tuple[float, bytes]] = collections.deque(maxlen=_KEPT_FRAMES)
         self._state: LockState | None = None
+        self._known: LockState | None = None
         self._state_s = self._before_s = math.nan
-        self._changes: collections.deque[_Change] = collections.deque()
+        self._changes: collections.deque[_Change] = collections.deque(maxlen=_KEPT_CHANGES)
         self._released_state = LockState.UNKNOWN
 
     def restart(self) -> None:
@@ -116,13 +130,16 @@ class LockWatch:
             self._delays = DelayWatch(_ADAPTER_STEP_S)
             self._begin_new_time(_ADAPTER_CLOCK_SET)
             self._newest_s = self._state_s = math.nan
+            self._judge = FrameJudge(self._profile)
         # A late frame does not set the time back; NaN before the first frame.
         self._newest_s = max(local_s, self._newest_s)
         self._map.frame(local_s)
         reading = self._profile.decode(frame.can_id, frame.is_extended, frame.data)
-        self._liveness.frame(is_lock_message=reading is not None)
         if reading is not None:
+            self._frames.append((local_s, frame.data))
             self._follow(local_s, frame.arrival_s, reading)
+        # A gateway that goes on with the last frame is as good as silent.
+        self._liveness.frame(is_lock_message=reading is not None and not self._judge.is_repeated)
 
     def status(self, status: RobotStatus, arrival_s: float) -> None:
         """Take a Status, before waiting for the frames that precede it."""
@@ -159,7 +176,8 @@ class LockWatch:
                 and self._is_due(self._changes[0], clock_map):
             change = self._changes.popleft()
             self._released_state = change.reading.state
-            events.append(self._event(change, clock_map))
+            if change.is_event:
+                events.append(self._event(change, clock_map))
         self.lock_state = LockState.UNKNOWN if self._liveness.problem else self._released_state
         return events
 
@@ -198,18 +216,22 @@ class LockWatch:
         if self._map is not None:
             self._map = self._new_map()
         self._why_unmapped, self._in_doubt_since_s = why, math.inf
-        self._changes = collections.deque(replace(change, is_timed=False) for change in self._changes)
+        self._changes = collections.deque((replace(change, is_timed=False) for change in self._changes),
+                                          maxlen=_KEPT_CHANGES)
 
     def _follow(self, local_s: float, arrival_s: float, reading: LockReading) -> None:
+        doubt, is_changed = self._judge.judge(reading, local_s), reading.state is not self._state
         if self._state is None:
             self._released_state = reading.state
             self._state_s = local_s
-        elif reading.state is not self._state:
-            self._changes.append(_Change(local_s, self._state_s, arrival_s, reading,
-                                         is_timed=not math.isnan(self._state_s)))
+        elif is_changed or (doubt and not (self._changes and self._changes[-1].doubt)):
+            self._changes.append(_Change(local_s, self._state_s, arrival_s, reading, not math.isnan(self._state_s),
+                                         doubt, bool(doubt) or reading.state is not self._known))
         if self._is_even(local_s - self._before_s):
             self._state_s = local_s
         self._state, self._before_s = reading.state, local_s
+        if reading.state is not LockState.UNKNOWN:
+            self._known = reading.state
 
     def _is_even(self, gap_s: float) -> bool:
         """False for a frame that had waited: its state may be as old as the last one that had not."""
@@ -219,7 +241,7 @@ class LockWatch:
 
     def _event(self, change: _Change, clock_map: ClockMap) -> CarEvent:
         if not change.is_timed:
-            return CarEvent(self._stamp_s, math.inf, change.reading.state, change.reading.source)
+            return CarEvent(self._stamp_s, math.inf, change.reading.state, change.reading.source, change.doubt)
         time_s = clock_map.to_robot(change.local_s)
         # A cyclic message shows a change that happened at any time since the message before.
         gap_s = time_s - clock_map.to_robot(change.previous_local_s)
@@ -227,4 +249,11 @@ class LockWatch:
         spread_s = gap_s if vague else 0.0
         way_s = LEAST_WAY_S if self._is_stamped and self._robot_clock.is_real_time else 0.0
         sigma_s = math.hypot(clock_map.sigma_s, way_s, spread_s / math.sqrt(12.0))
-        return CarEvent(time_s - spread_s / 2, sigma_s, change.reading.state, change.reading.source)
+        return CarEvent(time_s - spread_s / 2, sigma_s, change.reading.state, change.reading.source, change.doubt,
+                        self._evidence(change, clock_map))
+
+    def _evidence(self, change: _Change, clock_map: ClockMap) -> tuple[str, ...]:
+        """Frames around a change, with robot time, as candump writes them."""
+        around_s = _EVIDENCE_CYCLES * self._profile.cycle_time_s
+        return tuple(f"({clock_map.to_robot(local_s):.4f}) {self._profile.message.frame_id:03X}#{data.hex().upper()}"
+                     for local_s, data in self._frames if abs(local_s - change.local_s) <= around_s)

@@ -10,7 +10,7 @@ from typing import Any, Mapping, NamedTuple
 import cantools
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, LockState
+from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, LockFacts, LockState
 from mtr_operator.storage.plain_yaml import BadYaml, load_yaml
 
 PROFILE_FOLDER = pathlib.Path(__file__).parent / "profiles"
@@ -19,16 +19,29 @@ _MAX_CYCLE_S = 10.0
 # Databases of a whole car have some megabytes; reading one takes the library ten seconds and more.
 _MAX_DATABASE_BYTES = 16 * 1024 * 1024
 _REQUIRED = ("database", "message", "signal", "states", "cycle_time_s")
-_OPTIONAL = ("description", "sent_on_change", "source_signal", "sources")
+_WITNESSES = ("alive_signal", "command_signal", "changed_signal")
+_OPTIONAL = ("description", "sent_on_change", "source_signal", "sources", *_WITNESSES, "min_state_s", "relock_after_s")
+# Motors of door locks need some tenths of a second; a state that is over sooner was none.
+_MIN_STATE_S = 0.1
+# A change is shown by two frames more before a glitch of one frame can be told from it.
+_CONFIRMING_CYCLES = 2.0
+_MAX_RELOCK_S = 3600.0
 _STATES = {state.value: state for state in LockState}
 _SOURCES = {source: source for source in (PASSIVE_ENTRY, KEY_BUTTON)}
 
 
 class LockReading(NamedTuple):
-    """What one frame says. source: of the last change, empty when it is not known."""
+    """What one frame says. source: of the last change, empty when it is not known.
+
+    raw: value of the state's signal. alive, commands, changed: see CarProfile, None when it declares no such signal.
+    """
 
     state: LockState
     source: str = ""
+    raw: int = 0
+    alive: int | None = None
+    commands: int | None = None
+    changed: bool | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +52,11 @@ class CarProfile:
     cycle_time_s: period of the message. sent_on_change: it is also sent at once when the state changes.
     source_signal: signal of the same message that tells what made the locks move, empty when there is none.
     sources: its raw values; one that is not listed is an unknown source.
+    alive_signal: signal that counts the frames of the message. command_signal: signal that counts accepted commands, so
+    that a change comes with one. changed_signal: flag that begins with each change. Each wraps, and is empty when there
+    is none.
+    min_state_s: shortest time between two changes. relock_after_s: time after which the car locks by itself when it was
+    unlocked and not opened, None when it does not.
     """
 
     name: str
@@ -50,6 +68,23 @@ class CarProfile:
     sent_on_change: bool
     source_signal: str
     sources: dict[int, str]
+    alive_signal: str = ""
+    command_signal: str = ""
+    changed_signal: str = ""
+    min_state_s: float = _MIN_STATE_S
+    relock_after_s: float | None = None
+
+    @property
+    def facts(self) -> LockFacts:
+        """What a scenario has to know of it."""
+        # A change that a second signal vouches for needs no second frame.
+        is_vouched = bool(self.command_signal or self.changed_signal)
+        confirm_s = 0.0 if is_vouched else max(self.min_state_s, _CONFIRMING_CYCLES * self.cycle_time_s)
+        return LockFacts(frozenset(self.sources.values()), self.relock_after_s, confirm_s)
+
+    def modulus(self, signal: str) -> int:
+        """How many values a counter has."""
+        return 1 << int(self.message.get_signal_by_name(signal).length)
 
     def decode(self, can_id: int, is_extended: bool, data: bytes) -> LockReading | None:
         """What a frame says; None when the frame is another message, too short, or of another multiplex page."""
@@ -67,8 +102,10 @@ class CarProfile:
         value = values.get(self.signal)
         if value is None:
             return None
-        source = self.sources.get(values.get(self.source_signal), "")
-        return LockReading(self.states.get(value, LockState.UNKNOWN), source)
+        changed = values.get(self.changed_signal)
+        return LockReading(self.states.get(value, LockState.UNKNOWN),
+                           self.sources.get(values.get(self.source_signal), ""), value, values.get(self.alive_signal),
+                           values.get(self.command_signal), None if changed is None else bool(changed))
 
 
 def load_profile(name_or_path: str) -> CarProfile:
@@ -81,10 +118,14 @@ def load_profile(name_or_path: str) -> CarProfile:
     message = _message(path, content)
     return CarProfile(
         name=path.stem, description=str(content.get("description", "")), message=message,
-        signal=_signal(path, content, "signal", message), states=states, cycle_time_s=_cycle_time(path, content),
+        signal=_signal(path, content, "signal", message), states=states,
+        cycle_time_s=_duration(path, content, "cycle_time_s", (_MIN_CYCLE_S, _MAX_CYCLE_S)),
         sent_on_change=bool(content.get("sent_on_change", False)),
         source_signal=_signal(path, content, "source_signal", message) if "sources" in content else "",
-        sources=_table(path, content, "sources", _SOURCES) if "sources" in content else {})
+        sources=_table(path, content, "sources", _SOURCES) if "sources" in content else {},
+        **{key: _signal(path, content, key, message) for key in _WITNESSES if key in content},
+        min_state_s=_duration(path, content, "min_state_s", (0.0, _MAX_CYCLE_S), _MIN_STATE_S),
+        relock_after_s=_duration(path, content, "relock_after_s", (1.0, _MAX_RELOCK_S)))
 
 
 def profile_names() -> tuple[str, ...]:
@@ -144,13 +185,15 @@ def _either(words: Mapping[str, Any]) -> str:
     return f"{', '.join(others)} or {last}"
 
 
-def _cycle_time(path: pathlib.Path, content: dict[str, Any]) -> float:
-    cycle_s = content["cycle_time_s"]
-    if isinstance(cycle_s, bool) or not isinstance(cycle_s, (int, float)) \
-            or not _MIN_CYCLE_S <= cycle_s <= _MAX_CYCLE_S:
-        raise ConnectionFailed(f"Car profile {path}: cycle_time_s is {cycle_s}; allowed is {_MIN_CYCLE_S:g} to "
-                               f"{_MAX_CYCLE_S:g} s.")
-    return float(cycle_s)
+def _duration(path: pathlib.Path, content: dict[str, Any], key: str, limits_s: tuple[float, float],
+              default_s: Any = None) -> Any:
+    """Time in s of an entry, the default when it is absent."""
+    if key not in content:
+        return default_s
+    time_s, (low_s, high_s) = content[key], limits_s
+    if isinstance(time_s, bool) or not isinstance(time_s, (int, float)) or not low_s <= time_s <= high_s:
+        raise ConnectionFailed(f"Car profile {path}: {key} is {time_s}; allowed is {low_s:g} to {high_s:g} s.")
+    return float(time_s)
 
 
 def _message(path: pathlib.Path, content: dict[str, Any]) -> Any:

@@ -35,13 +35,29 @@ class CarEvent:
     """The Car's locks changed.
 
     time_s: robot's clock; time_sigma_s: 1 sigma of that time. source: PASSIVE_ENTRY or KEY_BUTTON, empty when the
-    Car's bus does not say it.
+    Car's bus does not say it. doubt: why it is not to be believed, or what else on the bus is not; empty when it is.
+    evidence: the frames around it, one text each.
     """
 
     time_s: float
     time_sigma_s: float
     lock_state: LockState
     source: str = ""
+    doubt: str = ""
+    evidence: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class LockFacts:
+    """What is known of a car beforehand.
+
+    sources: those that its bus can name; empty when it names none. relock_after_s: it locks by itself so long after it
+    was unlocked, None when it does not. confirm_s: a change is to be believed when it was not taken back for so long.
+    """
+
+    sources: frozenset[str] = frozenset()
+    relock_after_s: float | None = None
+    confirm_s: float = 0.0
 
 
 @dataclass
@@ -110,6 +126,11 @@ class CarLink(ABC):
     @abstractmethod
     def lock_state(self) -> LockState:
         """Lock state at the stamp of the last observed Status; UNKNOWN while the bus is silent or in error."""
+
+    @property
+    def facts(self) -> LockFacts:
+        """What is known of this car beforehand."""
+        return LockFacts()
 
     @property
     @abstractmethod
