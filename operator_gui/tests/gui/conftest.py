@@ -48,9 +48,10 @@ class KeyCar(CarLink):
         elif self._opener.passive and gap_m > LOCK_M:
             wanted = LockState.LOCKED
         for press in status.presses:
-            if press.start_s > self._answered and math.hypot(key_x, key_y) < PRESS_M:
+            if press.start_s > self._answered:
                 self._answered = press.start_s
-                wanted = LockState.UNLOCKED if self._state is LockState.LOCKED else LockState.LOCKED
+                if math.hypot(key_x, key_y) < PRESS_M:
+                    wanted = LockState.UNLOCKED if self._state is LockState.LOCKED else LockState.LOCKED
         if wanted is self._state:
             return []
         self._state = wanted

@@ -15,7 +15,7 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.gui.i18n import FOLDER, Language, duration, number
 from mtr_operator.gui.names import domain_word, parameter_title
 from mtr_operator.gui.sentences import robot_sentences, translated
-from mtr_operator.gui.texts import application, parameter_docs, scenarios, words
+from mtr_operator.gui.texts import application, judgement, parameter_docs, scenarios, words
 
 SOURCE = pathlib.Path(mtr_operator.__file__).parent
 GUI = SOURCE / "gui"
@@ -98,7 +98,8 @@ def raised_sentences():
 
 @pytest.mark.parametrize("text", raised_sentences())
 def test_sentence_from_below_is_listed_for_translation(text):
-    patterns = [re.escape(template).replace(r"\{\}", "(.+?)") for template in application.SENTENCES]
+    patterns = [re.escape(template).replace(r"\{\}", "(.+?)")
+                for template in application.SENTENCES + judgement.SENTENCES]
     assert any(re.fullmatch(pattern, text.replace("{}", "4.5")) for pattern in patterns), text
 
 
@@ -112,7 +113,7 @@ def test_every_parameter_scenario_and_word_is_listed():
         assert {flag.doc for flag in scenario.parameters_type.flags().values()} <= set(parameter_docs.SENTENCES)
 
 
-@pytest.mark.parametrize("sentence", application.SENTENCES)
+@pytest.mark.parametrize("sentence", application.SENTENCES + judgement.SENTENCES)
 def test_sentence_with_values_becomes_czech_with_the_same_values(czech, sentence):
     values = [f"x{index}y" for index in range(sentence.count("{}"))]
     shown = translated(sentence.format(*values))

@@ -7,7 +7,16 @@ from dataclasses import replace
 
 import pytest
 
-from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, CarEvent, CarLink, LinkStatistics, LockState, RobotLink
+from mtr_operator.domain.ports import (
+    KEY_BUTTON,
+    PASSIVE_ENTRY,
+    CarEvent,
+    CarLink,
+    LinkStatistics,
+    LockFacts,
+    LockState,
+    RobotLink,
+)
 from mtr_operator.domain.requests import Direction
 from mtr_operator.domain.robot_status import CarDimensions, CarFrame, Mode, PressReport, RobotStatus, WaypointResult
 
@@ -28,7 +37,9 @@ class World:
         spoil: changes a Status before it leaves; returning None loses it.
         car_problem: sentence of the Car's bus at a time.
         refuses: reason why a waypoint is refused, empty when it is not.
-        source_of: what the Car says for the true source of a change.
+        press_delay_s, reaction_s: from an order to the press, and from the press to the locks.
+        foreign: changes of the locks by something else: time, whether locked then, source.
+        source_of: what the Car says for the true source of a change. facts: what is known of the Car beforehand.
         check: what a self-check finds, None for a robot that knows none.
         frame: Car coordinate system of the poses.
     """
@@ -36,6 +47,7 @@ class World:
     def __init__(self):
         self.unlock_m, self.lock_m, self.press_range_m = 1.5, 2.5, 5.2
         self.time_s, self.x, self.y, self.heading, self.speed_mps = 1.0, 4.0, 2.6, math.pi, 0.0
+        self.near, self.facts = False, LockFacts(frozenset({PASSIVE_ENTRY, KEY_BUTTON}))
         self.height_m, self.locked, self.car, self.mode = 0.35, True, CAR, Mode.FOLLOWING_WAYPOINT
         self.spoil = lambda status: status
         self.car_problem = lambda time_s: ""
@@ -43,6 +55,7 @@ class World:
         self.source_of = lambda source: source
         self.check, self.frame, self.checked_id = None, CarFrame(), 0
         self.desired, self.waypoint, self.result, self.message = None, None, WaypointResult.NONE, ""
+        self.press_delay_s, self.reaction_s, self.foreign = 0.03, REACTION_S, []
         self.pressed, self.presses, self.toggles, self.events = set(), [], [], []
 
     def take(self, desired):
@@ -57,10 +70,10 @@ class World:
         press = desired.press
         if press is not None and press.id not in self.pressed:
             self.pressed.add(press.id)
-            start_s = self.time_s + 0.03
+            start_s = self.time_s + self.press_delay_s
             self.presses.append(PressReport(press.id, start_s, start_s + press.duration_s))
             if math.hypot(*self.key()) <= self.press_range_m:
-                self.toggles.append((start_s + REACTION_S, press.buttons[0] == 1))
+                self.toggles.append((start_s + self.reaction_s, press.buttons[0] == 1))
 
     def key(self):
         return self.x + KEY_X_M * math.cos(self.heading), self.y + KEY_X_M * math.sin(self.heading)
@@ -90,13 +103,19 @@ class World:
     def _watch_key(self):
         x, y = self.key()
         gap_m = math.hypot(max(abs(x) - CAR.length / 2, 0.0), max(abs(y) - CAR.width / 2, 0.0))
-        if self.locked and gap_m < self.unlock_m:
+        # A departure that was no arrival locks nothing, as in the simulated Car.
+        if not self.near and gap_m < self.unlock_m:
+            self.near = True
             self.turn_locks(False, self.time_s, PASSIVE_ENTRY)
-        elif not self.locked and self.unlock_m < gap_m and self.lock_m < gap_m and self.lock_m > 0:
+        elif self.near and self.unlock_m < gap_m and self.lock_m < gap_m and self.lock_m > 0:
+            self.near = False
             self.turn_locks(True, self.time_s, PASSIVE_ENTRY)
         for toggle in [toggle for toggle in self.toggles if toggle[0] <= self.time_s]:
             self.toggles.remove(toggle)
             self.turn_locks(toggle[1], toggle[0], KEY_BUTTON)
+        for change in [change for change in self.foreign if change[0] <= self.time_s]:
+            self.foreign.remove(change)
+            self.turn_locks(change[1], change[0], change[2])
 
     def turn_locks(self, locked, time_s, source):
         if locked is not self.locked:
@@ -149,6 +168,10 @@ class FakeCar(CarLink):
         due = [event for event in self.world.events if event.time_s <= status.stamp_s]
         self.world.events = [event for event in self.world.events if event not in due]
         return due
+
+    @property
+    def facts(self):
+        return self.world.facts
 
     @property
     def lock_state(self):

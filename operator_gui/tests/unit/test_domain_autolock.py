@@ -74,7 +74,7 @@ def test_car_that_never_locks_again_is_not_reached_and_then_invalid(run_scenario
 
 
 def test_car_found_unlocked_is_invalid_and_says_what_to_do(run_scenario, world):
-    world.locked, world.lock_m = False, 99.0
+    world.locked, world.near, world.lock_m = False, True, 99.0
     results = run_scenario(SCENARIO, PARAMETERS)
     assert set(statuses(results, "unlock")) == set(statuses(results, "lock")) == {"invalid"}
     assert "lock it with its key, or increase maximum_distance_m" in results[0].reason
@@ -230,7 +230,7 @@ def test_picture_shows_points_and_gaps_in_order(run_scenario, world):
 
 
 def test_car_that_locks_a_while_after_the_start_was_reached_is_waited_for(run_scenario, world):
-    world.locked, world.lock_m = False, 99.0
+    world.locked, world.near, world.lock_m = False, True, 99.0
     reached_s = []
 
     def lock_after_two_seconds(status):

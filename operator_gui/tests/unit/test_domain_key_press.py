@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.errors import InvalidParameter
-from mtr_operator.domain.ports import PASSIVE_ENTRY
+from mtr_operator.domain.ports import PASSIVE_ENTRY, LockFacts
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios.key_press import SCENARIO
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
@@ -68,9 +68,10 @@ def test_each_place_gets_all_its_attempts(run_scenario):
     assert results[0].failed_distance_m == pytest.approx(5.5)
 
 
-def test_reaction_after_the_time_limit_does_not_count(run_scenario):
+def test_reaction_after_the_time_limit_is_invalid_and_says_so(run_scenario):  # B10
     results = run_scenario(SCENARIO, replace(PARAMETERS, response_timeout_s=0.1, press_duration_s=0.05))
-    assert results[0].status.value == "not_reached"
+    assert results[0].status.value == "invalid"
+    assert "too late for the press at 5.00 m; increase response_timeout_s" in results[0].reason
 
 
 def test_change_by_the_keys_vicinity_is_no_answer_to_a_press(run_scenario, world):
@@ -90,9 +91,17 @@ def test_line_spoilt_once_by_the_keys_vicinity_is_measured_again(run_scenario, w
     assert results[0].distance_m == pytest.approx(5.0)
 
 
-def test_car_that_does_not_name_the_source_is_believed(run_scenario, world):
+def test_car_that_names_no_sources_is_believed_and_the_cause_recorded_as_unknown(run_scenario, world):  # B2
+    world.source_of, world.facts = lambda source: "", LockFacts()
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert [(result.status.value, result.cause) for result in results] == 4 * [("ok", "unknown")]
+
+
+def test_source_that_the_profile_does_not_list_is_invalid(run_scenario, world):  # B2
     world.source_of = lambda source: ""
-    assert [result.status.value for result in run_scenario(SCENARIO, PARAMETERS)] == 4 * ["ok"]
+    results = run_scenario(SCENARIO, PARAMETERS)
+    assert [result.status.value for result in results] == 4 * ["invalid"]
+    assert "by something that its profile does not list, not by the press at 5.00 m" in results[0].reason
 
 
 def test_press_that_the_robot_cannot_make_is_invalid(run_scenario, world):

@@ -46,11 +46,20 @@ def test_round_trip(path, progress):
 
 
 @pytest.mark.parametrize("name", list(SCENARIOS))
-def test_files_of_version_0_1_are_read_and_written_again_byte_for_byte(tmp_path, name):
+def test_files_of_version_0_1_are_read_and_written_again_with_nothing_changed(tmp_path, name):
     scenario, _, progress = open_progress(WRITTEN_BEFORE / name / "progress.json", SCENARIOS)
     save_progress(tmp_path / "progress.json", progress)
-    assert (tmp_path / "progress.json").read_bytes() == (WRITTEN_BEFORE / name / "progress.json").read_bytes()
-    assert results_csv(scenario, progress) == (WRITTEN_BEFORE / name / "results.csv").read_text(encoding="utf-8")
+    before, after = (json.loads((folder / "progress.json").read_text(encoding="utf-8"))
+                     for folder in (WRITTEN_BEFORE / name, tmp_path))
+    assert {**after, "parameters": before["parameters"]} == before
+    assert before["parameters"].items() <= after["parameters"].items()
+    # Columns and parameters that came later stand behind the former ones.
+    lines = results_csv(scenario, progress).splitlines()
+    rows = [line for line in lines if not line.startswith("#")]
+    former = (WRITTEN_BEFORE / name / "results.csv").read_text(encoding="utf-8").splitlines()
+    assert [line for line in former if line.startswith("#") and line not in lines] == []
+    table = [line for line in former if not line.startswith("#")]
+    assert [new.startswith(old + ",") for old, new in zip(table, rows)] == len(rows) * [True] == len(table) * [True]
 
 
 def test_only_the_file_itself_is_left(path):

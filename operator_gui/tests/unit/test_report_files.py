@@ -21,8 +21,11 @@ from mtr_operator.report.table import results_table
 HEADERS = {
     "autolock": "axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unlock_status,unlock_distance_m,"
                 "unlock_uncertainty_m,unlock_robot_time_s,lock_status,lock_distance_m,lock_uncertainty_m,"
-                "lock_robot_time_s",
-    "key_press": "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s",
+                "lock_robot_time_s,unlock_lateral_offset_m,unlock_heading_offset_deg,unlock_key_height_m,"
+                "unlock_speed_mps,unlock_cause,lock_lateral_offset_m,lock_heading_offset_deg,lock_key_height_m,"
+                "lock_speed_mps,lock_cause",
+    "key_press": "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
+                 "lateral_offset_m,heading_offset_deg,key_height_m,speed_mps,cause",
 }
 
 
@@ -33,7 +36,8 @@ def axis(number, unlock="ok", lock="ok", reason=""):
         unlock_status=LineStatus(unlock), unlock_distance_m=1.23456 if unlocked else None,
         unlock_uncertainty_m=0.03 if unlocked else None, unlock_robot_time_s=12.3456 if unlocked else None,
         lock_status=LineStatus(lock), lock_distance_m=2.0 if locked else None, lock_uncertainty_m=None,
-        lock_robot_time_s=14.0 if locked else None, reason=reason)
+        lock_robot_time_s=14.0 if locked else None, reason=reason, unlock_cause="passive_entry" if unlocked else "",
+        unlock_lateral_offset_m=-0.01234 if unlocked else None)
 
 
 def progress_of(scenario, results):
@@ -55,8 +59,9 @@ def test_header_is_the_promised_one(name):
 def test_values_are_written_with_points_and_missing_ones_are_empty():
     scenario = SCENARIOS["autolock"]
     _, rows = lines_of(results_csv(scenario, progress_of(scenario, [axis(1), axis(2, "not_reached", "invalid")])))
-    assert rows[1] == "1,left,0.0000,0.9000,0.000000,1.000000,ok,1.2346,0.0300,12.346,ok,2.0000,,14.000"
-    assert rows[2] == "2,left,0.0000,0.9000,0.000000,1.000000,not_reached,,,,invalid,,,"
+    assert rows[1] == "1,left,0.0000,0.9000,0.000000,1.000000,ok,1.2346,0.0300,12.346,ok,2.0000,,14.000," \
+        "-0.0123,,,,passive_entry,,,,,"
+    assert rows[2] == "2,left,0.0000,0.9000,0.000000,1.000000,not_reached,,,,invalid,,," + 10 * ","
 
 
 def test_metadata_names_parameters_units_version_profile_and_reasons():

@@ -166,10 +166,11 @@ class ParameterSet:
 
     @classmethod
     def declarations(cls) -> dict[str, Declaration]:
-        """Declarations of the numbers by field name."""
+        """Declarations of the numbers by field name: a scenario's own, then those of every scenario."""
+        declared = [item for item in dataclasses.fields(cls) if "declared" in item.metadata]
         return {item.name: dataclasses.replace(item.metadata["declared"],
                                                file_key=item.metadata["declared"].file_key or item.name)
-                for item in dataclasses.fields(cls) if "declared" in item.metadata}
+                for item in sorted(declared, key=lambda item: item.name not in cls.__annotations__)}
 
     @classmethod
     def flags(cls) -> dict[str, Flag]:

@@ -7,14 +7,14 @@ from typing import Any, Generic, Protocol, Sequence, TypeVar
 
 from .actions.car import Car
 from .actions.robot import Robot
+from .actions.tolerances import Tolerances
 from .geometry.ray import Ray
-from .parameters import ParameterSet
 from .results.line_result import LineResult
 from .results.picture import Picture
 from .robot_status import CarDimensions
 
 
-class ScenarioParameters(ParameterSet):
+class ScenarioParameters(Tolerances):
     """What runner and preview need of every scenario's parameters; m and m/s."""
 
     minimum_distance_m: float

@@ -29,6 +29,10 @@ def parameter_title(name: str, declared: Declaration) -> str:
         "press_duration_s": translate("Parameter", "Press duration"),
         "settle_time_s": translate("Parameter", "Standstill before a press"),
         "attempts": translate("Parameter", "Attempts"),
+        "lateral_tolerance_m": translate("Parameter", "Distance beside the line"),
+        "heading_tolerance_rad": translate("Parameter", "Turn from the line"),
+        "height_tolerance_m": translate("Parameter", "Difference in height"),
+        "speed_tolerance_mps": translate("Parameter", "Difference in speed"),
     }
     return titles.get(name) or plain_words(name, declared)
 

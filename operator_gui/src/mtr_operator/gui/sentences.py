@@ -15,7 +15,7 @@ from mtr_operator.domain.parameters import KILOMETRES_PER_HOUR, ParameterSet, wi
 from .i18n import ENGLISH, decimal_sign, language_code, translate
 from .names import domain_word, parameter_title
 from .robot_sentences import RobotSentences
-from .texts import application
+from .texts import application, judgement
 
 robot_sentences = RobotSentences()
 
@@ -67,6 +67,6 @@ def _value(text: str) -> str:
 @functools.lru_cache(maxsize=1)
 def _patterns() -> list[tuple[str, re.Pattern[str]]]:
     # The one with the most fixed text says most.
-    templates = sorted(application.SENTENCES, key=lambda text: -len(text.replace("{}", "")))
+    templates = sorted(application.SENTENCES + judgement.SENTENCES, key=lambda text: -len(text.replace("{}", "")))
     return [(template, re.compile("(.+?)".join(map(re.escape, template.split("{}"))), re.DOTALL))
             for template in templates]

@@ -83,11 +83,13 @@ def _retried_from(numbers: Any) -> list[int]:
 def _check_parameters(stored: Any, wanted: dict[str, Any], scenario: AnyScenario) -> None:
     if not isinstance(stored, dict):
         raise ProgressFileError("It is damaged: the parameters are missing.")
+    # A parameter that came after the file had its default then.
+    former = {**{item.file_key: item.default for item in scenario.parameters_type.declarations().values()}, **stored}
     # Whether the Car is checked before a test changes no distance.
-    for name in sorted((set(stored) | set(wanted)) - set(scenario.parameters_type.flags())):
-        if stored.get(name) != wanted.get(name):
+    for name in sorted((set(former) | set(wanted)) - set(scenario.parameters_type.flags())):
+        if former.get(name) != wanted.get(name):
             raise ProgressFileError(f"It was measured with other parameters: {name[:_MAX_SHOWN]} was "
-                                    f"{_shown(stored.get(name))}, now it is {_shown(wanted.get(name))}.")
+                                    f"{_shown(former.get(name))}, now it is {_shown(wanted.get(name))}.")
 
 
 def _shown(value: Any) -> str:

@@ -68,6 +68,7 @@ class ControlLoop:
         self._resumed_hold = resumed_hold
         self._status: RobotStatus | None = None
         self._watched = False
+        self._check_line: Callable[[RobotStatus], None] = lambda status: None
         self._was_in_control = False
 
     @property
@@ -111,9 +112,9 @@ class ControlLoop:
         return status
 
     @contextlib.contextmanager
-    def watched(self) -> Iterator[None]:
-        """Within the context anything that makes a measurement doubtful raises LineInvalid."""
-        self._watched = True
+    def watched(self, check: Callable[[RobotStatus], None] = lambda status: None) -> Iterator[None]:
+        """Within the context anything that makes a measurement doubtful raises LineInvalid, as check does."""
+        self._watched, self._check_line = True, check
         try:
             yield
         finally:
@@ -196,6 +197,8 @@ class ControlLoop:
 
     def _check(self, before: RobotStatus | None, status: RobotStatus) -> None:
         if self._watched:
+            # First: it knows more of an unknown lock state than that it is unknown.
+            self._check_line(status)
             trouble = trouble_between(before, status, self._car_link)
             if trouble:
                 raise LineInvalid(trouble)

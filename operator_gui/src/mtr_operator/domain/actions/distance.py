@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ..geometry.pose import wrap_angle
 from ..geometry.ray import Ray
 from ..robot_status import CarDimensions
 from .pose_history import PoseSample
@@ -22,11 +23,20 @@ from .pose_history import PoseSample
 
 @dataclass(frozen=True)
 class Distance:
-    """Measured distance of the Remote key, in m, with 1 sigma, at an instant of robot time."""
+    """Measured distance of the Remote key, in m, with 1 sigma, at an instant of robot time, and how it was carried.
+
+    lateral_m: of the key, to the left of the ray seen from the Car. heading_rad: of the robot, from the way to the Car.
+    source: what moved the Car's locks, see CarEvent.
+    """
 
     distance_m: float
     uncertainty_m: float
     robot_time_s: float
+    lateral_m: float = math.nan
+    heading_rad: float = math.nan
+    key_height_m: float = math.nan
+    speed_mps: float = math.nan
+    source: str = ""
 
 
 def recorded_values(distance: Distance | None) -> tuple[float | None, float | None, float | None]:
@@ -45,7 +55,9 @@ def measure(ray: Ray, sample: PoseSample, time_sigma_s: float, origin_sigma_m: f
     across_m = ray.direction_y * lever_x - ray.direction_x * lever_y
     sigma_m = math.hypot(position_sigma(ray, sample), sample.heading_sigma_rad * across_m,
                          time_sigma_s * sample.speed_mps, origin_sigma_m)
-    return Distance(ray.distance_of(sample.pose.apply(key_in_base)), sigma_m, sample.stamp_s)
+    return Distance(ray.distance_of(sample.pose.apply(key_in_base)), sigma_m, sample.stamp_s,
+                    ray.offset_of(sample.pose.apply(key_in_base)), wrap_angle(sample.pose.heading - ray.heading),
+                    sample.key_height_m, sample.speed_mps)
 
 
 def position_sigma(ray: Ray, sample: PoseSample) -> float:

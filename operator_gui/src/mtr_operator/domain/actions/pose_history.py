@@ -38,6 +38,15 @@ class PoseSample:
     key_x: float
     key_y: float
     covariance: tuple[float, float, float] = (math.nan, math.nan, math.nan)
+    key_height_m: float = math.nan
+
+
+def sample_of(status: RobotStatus) -> PoseSample:
+    """What a Status says of the pose, whether it is valid or not."""
+    return PoseSample(
+        status.stamp_s, Pose(status.x, status.y, status.heading), status.speed_mps, status.position_sigma_m,
+        status.heading_sigma_rad, status.key_x, status.key_y,
+        (status.variance_x_m2, status.variance_y_m2, status.covariance_xy_m2), status.key_height_m)
 
 
 class PoseHistory:
@@ -62,10 +71,7 @@ class PoseHistory:
             return
         if self._samples and status.stamp_s <= self._samples[-1].stamp_s:
             return
-        self._samples.append(PoseSample(
-            status.stamp_s, Pose(status.x, status.y, status.heading), status.speed_mps, status.position_sigma_m,
-            status.heading_sigma_rad, status.key_x, status.key_y,
-            (status.variance_x_m2, status.variance_y_m2, status.covariance_xy_m2)))
+        self._samples.append(sample_of(status))
         while status.stamp_s - self._samples[0].stamp_s > KEPT_S:
             self._samples.popleft()
 
@@ -108,4 +114,5 @@ def _between(a: PoseSample, b: PoseSample, part: float, time_s: float) -> PoseSa
     turn = wrap_angle(b.pose.heading - a.pose.heading)
     pose = Pose(mix(a.pose.x, b.pose.x), mix(a.pose.y, b.pose.y), wrap_angle(a.pose.heading + part * turn))
     return PoseSample(time_s, pose, mix(a.speed_mps, b.speed_mps), max(a.position_sigma_m, b.position_sigma_m),
-                      max(a.heading_sigma_rad, b.heading_sigma_rad), b.key_x, b.key_y, b.covariance)
+                      max(a.heading_sigma_rad, b.heading_sigma_rad), b.key_x, b.key_y, b.covariance,
+                      mix(a.key_height_m, b.key_height_m))

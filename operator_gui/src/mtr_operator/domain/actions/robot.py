@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import contextlib
 import math
-from contextlib import AbstractContextManager
-from typing import Callable, TypeVar
+from typing import Callable, Iterator, TypeVar
 
 from ..errors import RobotFailed
 from ..geometry.pose import Pose
@@ -15,7 +15,9 @@ from ..results.line_result import LineStatus
 from ..robot_status import CarCheck, CheckState, PressReport, RobotStatus, WaypointResult
 from .control_loop import ControlLoop
 from .distance import Distance, measure
+from .line_watch import LineWatch
 from .pose_history import PoseUnknown
+from .tolerances import Tolerances
 from .trouble import LineInvalid
 
 Answer = TypeVar("Answer")
@@ -158,9 +160,12 @@ class Robot:
             "word": word, "status": status.value, "distance": None if distance is None else plain_fields(distance),
             "frame": None if self._loop.frames.newest is None else plain_fields(self._loop.frames.newest)})
 
-    def watched(self) -> AbstractContextManager[None]:
+    @contextlib.contextmanager
+    def watched(self, tolerances: Tolerances) -> Iterator[LineWatch]:
         """Within the context anything that makes a measurement doubtful raises LineInvalid."""
-        return self._loop.watched()
+        line = LineWatch(self._loop, tolerances)
+        with self._loop.watched(line.check):
+            yield line
 
     def trouble(self) -> str:
         """Why nothing can be measured now; empty when it can."""

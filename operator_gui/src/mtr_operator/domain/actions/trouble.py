@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import math
+
 from ..ports import CarLink, LockState
 from ..robot_status import RobotStatus
 
@@ -11,7 +13,17 @@ _LINK_LOST_CODE = "link_lost"
 
 
 class LineInvalid(Exception):
-    """The line at hand cannot be measured now; the text says why. The test goes on with the next one."""
+    """The line at hand cannot be measured now; the text says why. The test goes on with the next one.
+
+    Attributes:
+        evidence: what a person has to see of it, one text each: frames of the Car's bus.
+        since_s: what was measured on this line at this robot time or later is void too.
+    """
+
+    def __init__(self, reason: str, evidence: tuple[str, ...] = (), since_s: float = math.inf):
+        super().__init__(reason)
+        self.evidence = evidence
+        self.since_s = since_s
 
 
 class Cancelled(Exception):

@@ -25,6 +25,10 @@ class Ray:
         """Component along the ray of a point's distance from the origin."""
         return (point[0] - self.origin_x) * self.direction_x + (point[1] - self.origin_y) * self.direction_y
 
+    def offset_of(self, point: Point) -> float:
+        """Distance of a point from the ray, positive to the left of its direction."""
+        return (point[1] - self.origin_y) * self.direction_x - (point[0] - self.origin_x) * self.direction_y
+
     @property
     def heading(self) -> float:
         """Heading of a robot on the ray that faces the Car."""

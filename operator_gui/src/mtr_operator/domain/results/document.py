@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import enum
-from typing import Any, Mapping, Optional, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Any, Mapping, Optional, Tuple, TypeVar, Union, get_args, get_origin, get_type_hints
 
 Record = TypeVar("Record")
 # Ids have 64 bits.
@@ -12,10 +12,12 @@ _LARGEST = 2 ** 64
 # Python 3.9 cannot evaluate "float | None", and read_record has to.
 OptionalFloat = Optional[float]
 OptionalInt = Optional[int]
+Texts = Tuple[str, ...]
 
 
 def read_record(record_type: type[Record], document: Mapping[str, Any]) -> Record:
-    """Record of a dataclass whose fields are numbers, texts and enumerations, or None where they are optional.
+    """Record of a dataclass whose fields are numbers, texts, lists of texts and enumerations, or None where they are
+    optional.
 
     A field with a default may be missing. What does not fit raises KeyError, TypeError or ValueError.
     """
@@ -31,6 +33,8 @@ def read_record(record_type: type[Record], document: Mapping[str, Any]) -> Recor
 
 def plain(value: Any) -> Any:
     """Value for a file."""
+    if isinstance(value, tuple):
+        return list(value)
     return value.value if isinstance(value, enum.Enum) else value
 
 
@@ -39,6 +43,8 @@ def _value(kind: Any, value: Any) -> Any:
     if value is None and type(None) in kinds:
         return None
     kind = kinds[0]
+    if kind is Texts:
+        return _texts(value)
     if issubclass(kind, enum.Enum):
         return kind(value)
     # JSON writes 2.0 as it is, but another program may have written 2.
@@ -49,3 +55,9 @@ def _value(kind: Any, value: Any) -> Any:
     if kind in (int, float) and not -_LARGEST <= value <= _LARGEST:
         raise ValueError("a number without sense")
     return value
+
+
+def _texts(value: Any) -> Texts:
+    if not isinstance(value, (list, tuple)) or not all(isinstance(text, str) for text in value):
+        raise TypeError("no list of texts")
+    return tuple(value)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
 from .. import limits
-from .document import OptionalFloat, plain, read_record
+from .document import OptionalFloat, Texts, plain, read_record
 
 Result = TypeVar("Result", bound="LineResult")
 
@@ -45,14 +45,14 @@ class MeasuredDistance:
     uncertainty_m: OptionalFloat
 
 
-def column(doc: str, unit: str = "", digits: int = 4) -> Any:
-    """Field of a LineResult that is a column of results.csv."""
-    return dataclasses.field(metadata={"column": (unit, doc, digits)})
+def column(doc: str, unit: str = "", digits: int = 4, default: Any = dataclasses.MISSING) -> Any:
+    """Field of a LineResult that is a column of results.csv. A default is for what older files lack."""
+    return dataclasses.field(default=default, metadata={"column": (unit, doc, digits)})
 
 
-def stored() -> Any:
-    """Field of a LineResult that is in the progress file only."""
-    return dataclasses.field()
+def stored(default: Any = dataclasses.MISSING) -> Any:
+    """Field of a LineResult that is in the progress file only. A default is for what older files lack."""
+    return dataclasses.field(default=default)
 
 
 class LineResult(ABC):
@@ -60,11 +60,13 @@ class LineResult(ABC):
 
     Attributes:
         reason: why the line is invalid; empty when it is not. It stands above the table of results.csv.
+        evidence: frames of the Car's bus that made it invalid, one text each.
         FILE_ORDER: keys of a progress file where their order is not that of the fields.
     """
 
     FILE_ORDER: ClassVar[tuple[str, ...]] = ()
     reason: str
+    evidence: Texts
 
     @property
     @abstractmethod
@@ -93,9 +95,10 @@ class LineResult(ABC):
         return tuple(Column(name, *rest) for name, rest in declared)
 
     def to_document(self) -> dict[str, Any]:
-        """Plain values for a progress file."""
+        """Plain values for a progress file; what older files lack only where it says something."""
         names = self.FILE_ORDER or tuple(item.name for item in _fields(type(self)))
-        return {name: plain(getattr(self, name)) for name in names}
+        defaults = {item.name: item.default for item in _fields(type(self))}
+        return {name: plain(getattr(self, name)) for name in names if getattr(self, name) != defaults[name]}
 
 
 def result_from_document(result_type: type[Result], document: Any) -> Result:

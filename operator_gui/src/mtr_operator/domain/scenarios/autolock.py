@@ -2,17 +2,21 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Sequence
+import math
+from dataclasses import dataclass, replace
+from typing import Any, Callable, Sequence
 
 from ..actions.car import Car
 from ..actions.distance import Distance, outline_sigma, recorded_values
+from ..actions.line_watch import LineWatch
+from ..actions.lock_history import Expected
 from ..actions.robot import Robot
 from ..actions.trouble import LineInvalid
 from ..geometry.axes import Axis, axes_around
 from ..geometry.ray import Ray
-from ..ports import KEY_BUTTON, CarEvent, LockState
+from ..ports import PASSIVE_ENTRY, CarEvent, LockState
 from ..requests import Direction
+from ..results.carried import carried_values
 from ..results.line_result import LineStatus, MeasuredDistance
 from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along
 from ..robot_status import CarDimensions
@@ -20,13 +24,16 @@ from ..scenario import Scenario
 from .autolock_parameters import AutolockParameters
 from .autolock_result import LOCK, UNLOCK, AutolockResult
 
+_VICINITY = "the Remote key's vicinity"
+
 
 @dataclass
 class _Measured:
-    """One of the two measurements on an axis."""
+    """One of the two measurements on an axis; time_s: robot time from which on it holds."""
 
     status: LineStatus = LineStatus.INVALID
     distance: Distance | None = None
+    time_s: float = math.inf
 
 
 class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
@@ -45,21 +52,27 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
 
     def measure(self, line: Axis, parameters: AutolockParameters, robot: Robot, car: Car) -> AutolockResult:
         """The thesis' algorithm 2 for one axis."""
-        unlock, lock, reason = _Measured(), _Measured(), ""
+        unlock, lock = _Measured(), _Measured()
+        trouble: LineInvalid | None = None
         axis, origin_sigma_m = line.ray, outline_sigma(line.ray, car.dimensions())
+
+        def place_of(event: CarEvent) -> Distance:
+            return robot.key_distance(axis, event.time_s, event.time_sigma_s, origin_sigma_m)
+
         try:
             _go_to_start(line, parameters, robot, car)
-            with robot.watched():
-                start_s = robot.now_s
-                event = _approach(axis, start_s, parameters, robot, car)
-                _record(unlock, event, axis, robot, origin_sigma_m)
+            with robot.watched(parameters) as watch:
+                _approach(axis, watch, parameters, robot)
+                _record(unlock, watch, parameters, place_of)
                 robot.keep(UNLOCK, unlock.status, unlock.distance)
-                event = _retreat(axis, start_s if event is None else event.time_s, parameters, robot, car)
-                _record(lock, event, axis, robot, origin_sigma_m)
+                _retreat(axis, watch, parameters, robot)
+                _record(lock, watch, parameters, place_of)
                 robot.keep(LOCK, lock.status, lock.distance)
         except LineInvalid as error:
-            reason = str(error)
-        return _result(line, unlock, lock, reason)
+            trouble = error
+            if unlock.time_s >= error.since_s:
+                unlock = _Measured()
+        return _result(line, unlock, lock, trouble)
 
     def picture(self, parameters: AutolockParameters, car: CarDimensions, results: Sequence[AutolockResult]) -> Picture:
         """Axes, and the two areas that the points enclose."""
@@ -97,46 +110,57 @@ def _go_to_start(line: Axis, parameters: AutolockParameters, robot: Robot, car: 
             "it locks farther away.")
 
 
-def _approach(axis: Ray, since_s: float, parameters: AutolockParameters, robot: Robot, car: Car) -> CarEvent | None:
-    def is_unlocked() -> CarEvent | None:
-        return car.change_to(LockState.UNLOCKED, since_s)
-
+def _approach(axis: Ray, watch: LineWatch, parameters: AutolockParameters, robot: Robot) -> None:
     robot.say("approach until the Car unlocks")
+    watch.expect(Expected(LockState.UNLOCKED, PASSIVE_ENTRY, _VICINITY, robot.now_s))
     robot.go_to(axis, parameters.straightened_distance_m, Direction.FORWARD)
-    robot.wait_until_reached(or_when=is_unlocked)
+    robot.wait_until_reached(or_when=lambda: watch.answer)
+    watch.ray = axis
     robot.set_maximum_speed(parameters.speed_on_axis_mps)
-    if not is_unlocked():
+    if not watch.answer:
         robot.go_to(axis, parameters.minimum_distance_m, Direction.FORWARD)
-        robot.wait_until_reached(or_when=is_unlocked)
-    return robot.wait(parameters.response_timeout_s, or_when=is_unlocked)
+        robot.wait_until_reached(or_when=lambda: watch.answer)
+    robot.wait(parameters.response_timeout_s, or_when=lambda: watch.answer)
 
 
-def _retreat(axis: Ray, since_s: float, parameters: AutolockParameters, robot: Robot, car: Car) -> CarEvent | None:
-    def is_locked() -> CarEvent | None:
-        return car.change_to(LockState.LOCKED, since_s)
-
+def _retreat(axis: Ray, watch: LineWatch, parameters: AutolockParameters, robot: Robot) -> None:
     robot.say("retreat until the Car locks")
+    if watch.answer:
+        watch.expect(Expected(LockState.LOCKED, PASSIVE_ENTRY, _VICINITY, robot.now_s))
+    else:
+        watch.close()
     robot.go_to(axis, parameters.straightened_distance_m, Direction.BACKWARD)
-    robot.wait_until_reached(or_when=is_locked)
-    return robot.wait(parameters.response_timeout_s, or_when=is_locked)
+    robot.wait_until_reached(or_when=lambda: watch.answer)
+    robot.wait(parameters.response_timeout_s, or_when=lambda: watch.answer)
+    # What a single frame says may be a glitch: the one before was followed by the retreat, this one by nothing.
+    robot.wait(watch.confirmed_s - robot.now_s if watch.answer else 0.0)
 
 
-def _record(measured: _Measured, event: CarEvent | None, axis: Ray, robot: Robot, origin_sigma_m: float) -> None:
+def _record(measured: _Measured, watch: LineWatch, parameters: AutolockParameters,
+            place_of: Callable[[CarEvent], Distance]) -> None:
+    event = watch.answer
     if event is None:
-        measured.status = LineStatus.NOT_REACHED
+        measured.status, measured.time_s = LineStatus.NOT_REACHED, watch.now_s
         return
-    if event.source == KEY_BUTTON:
-        raise LineInvalid(f"The Car was {event.lock_state.value} by the button of a key, not by the Remote key's "
-                          "vicinity; leave the keys alone during the test.")
-    measured.distance = robot.key_distance(axis, event.time_s, event.time_sigma_s, origin_sigma_m)
-    measured.status = LineStatus.OK
+    distance = place_of(event)
+    watch.check_distance(distance, parameters.minimum_distance_m, parameters.maximum_distance_m,
+                         parameters.maximum_speed_mps)
+    measured.distance = replace(distance, source=event.source)
+    measured.status, measured.time_s = LineStatus.OK, event.time_s
 
 
-def _result(line: Axis, unlock: _Measured, lock: _Measured, reason: str) -> AutolockResult:
+def _result(line: Axis, unlock: _Measured, lock: _Measured, trouble: LineInvalid | None) -> AutolockResult:
     axis = line.ray
     return AutolockResult(line.number, line.side, axis.origin_x, axis.origin_y, axis.direction_x, axis.direction_y,
-                          unlock.status, *recorded_values(unlock.distance),
-                          lock.status, *recorded_values(lock.distance), reason)
+                          reason=str(trouble or ""), evidence=trouble.evidence if trouble else (),
+                          **_columns(UNLOCK, unlock), **_columns(LOCK, lock))
+
+
+def _columns(word: str, measured: _Measured) -> dict[str, Any]:
+    distance_m, uncertainty_m, robot_time_s = recorded_values(measured.distance)
+    return {f"{word}_status": measured.status, f"{word}_distance_m": distance_m,
+            f"{word}_uncertainty_m": uncertainty_m, f"{word}_robot_time_s": robot_time_s,
+            **carried_values(f"{word}_", measured.distance)}
 
 
 def _area(label: str, role: PointRole, measured: Sequence[tuple[Ray, MeasuredDistance]]) -> PointSet:

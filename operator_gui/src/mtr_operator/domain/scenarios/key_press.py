@@ -2,19 +2,23 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Sequence
 
 from ..actions.car import Car
 from ..actions.distance import Distance, distance_to_outline, recorded_values
+from ..actions.line_watch import LineWatch
+from ..actions.lock_history import PRESS_SIGMA_S, Expected
 from ..actions.robot import Robot
 from ..actions.trouble import LineInvalid
 from ..errors import InvalidParameter
 from ..geometry.pose import Point
 from ..geometry.radials import Radial, radials_around
 from ..geometry.ray import Ray
-from ..ports import PASSIVE_ENTRY, CarEvent, LockState
+from ..ports import KEY_BUTTON, LockState
 from ..requests import Direction
+from ..results.carried import carried_values
+from ..results.document import Texts
 from ..results.line_result import LineStatus
 from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along
 from ..robot_status import CarDimensions
@@ -37,6 +41,7 @@ class _Measured:
     failure: Distance | None = None
     attempts: int = 0
     reason: str = ""
+    evidence: Texts = ()
 
 
 class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
@@ -70,16 +75,16 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
             robot.go_to(line.ray, parameters.maximum_distance_m)
             robot.wait_until_reached()
             robot.wait(parameters.response_timeout_s, or_when=lambda: not robot.trouble())
-            with robot.watched():
+            with robot.watched(parameters) as watch:
                 for distance_m in parameters.press_distances_m:
                     robot.say(f"press at {distance_m:.2f} m")
                     robot.go_to(line.ray, distance_m, Direction.FORWARD)
                     robot.wait_until_reached()
-                    if _press_here(line.ray, measured, parameters, robot, car):
+                    if _press_here(line.ray, watch, measured, parameters, robot):
                         break
                 measured.status = LineStatus.NOT_REACHED if measured.success is None else LineStatus.OK
         except LineInvalid as error:
-            measured.reason = str(error)
+            measured.reason, measured.evidence = str(error), error.evidence
         return _result(line, measured)
 
     def picture(self, parameters: KeyPressParameters, car: CarDimensions, results: Sequence[KeyPressResult]) -> Picture:
@@ -108,28 +113,26 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
         return way_m / parameters.maximum_speed_mps + waited_s
 
 
-def _press_here(radial: Ray, measured: _Measured, parameters: KeyPressParameters, robot: Robot, car: Car) -> bool:
+def _press_here(radial: Ray, watch: LineWatch, measured: _Measured, parameters: KeyPressParameters,
+                robot: Robot) -> bool:
     for _ in range(parameters.attempts):
         robot.wait(parameters.settle_time_s)
-        button, expected = _CHANGING_PRESS[car.lock_state]
+        button, expected = _CHANGING_PRESS[watch.lock_state]
         measured.attempts += 1
-        # Not since the press began: its clock and that of the bus agree to some milliseconds only.
-        requested_s = robot.now_s
+        # A change from here on to the press' beginning has another reason; when it begins is known when it is over.
+        watch.hold()
         press = robot.press(button, parameters.press_strength, parameters.press_duration_s)
-
-        def reacted(state: LockState = expected, since_s: float = requested_s) -> CarEvent | None:
-            return car.change_to(state, since_s)
-
-        robot.wait(press.start_s + parameters.response_timeout_s - robot.now_s, or_when=reacted)
         place = robot.key_distance(radial, press.start_s, 0.0)
-        event = reacted()
-        if event is not None and event.source == PASSIVE_ENTRY:
-            raise LineInvalid(f"The Car was {event.lock_state.value} by the vicinity of a key, not by the press at "
-                              f"{place.distance_m:.2f} m; switch passive entry off, or increase minimum_distance_m.")
-        if event is not None and event.time_s <= press.start_s + parameters.response_timeout_s:
-            measured.success = place
-            robot.keep(PRESS, LineStatus.OK, place)
+        watch.expect(Expected(expected, KEY_BUTTON, f"the press at {place.distance_m:.2f} m", press.start_s,
+                              press.start_s + parameters.response_timeout_s, PRESS_SIGMA_S))
+        watch.check_distance(place, parameters.minimum_distance_m, parameters.maximum_distance_m, 0.0)
+        robot.wait(press.start_s + parameters.response_timeout_s - robot.now_s, or_when=lambda: watch.answer)
+        if watch.answer is not None:
+            robot.wait(watch.confirmed_s - robot.now_s)
+            measured.success = replace(place, source=watch.answer.source)
+            robot.keep(PRESS, LineStatus.OK, measured.success)
             return True
+        watch.close()
         measured.failure = place
         robot.keep(PRESS, LineStatus.NOT_REACHED, place)
     return False
@@ -139,7 +142,7 @@ def _result(line: Radial, measured: _Measured) -> KeyPressResult:
     distance_m, uncertainty_m, robot_time_s = recorded_values(measured.success)
     return KeyPressResult(line.number, line.clockwise_deg, measured.status, distance_m,
                           recorded_values(measured.failure)[0], uncertainty_m, measured.attempts, robot_time_s,
-                          measured.reason)
+                          measured.reason, evidence=measured.evidence, **carried_values("", measured.success))
 
 
 def _place(ray: Ray, distance_m: float | None) -> Point | None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..results.document import OptionalFloat
+from ..results.carried import CAUSE_DOC, HEADING_DOC, HEIGHT_DOC, LATERAL_DOC, SPEED_DOC
+from ..results.document import OptionalFloat, Texts
 from ..results.line_result import LineResult, LineStatus, MeasuredDistance, column, stored
 
 PRESS = "press"
@@ -15,7 +16,8 @@ class KeyPressResult(LineResult):
     """Distances are those of the Remote key from the Car's centre, along the radial."""
 
     FILE_ORDER = ("radial", "angle_deg", "status", "distance_m", "uncertainty_m", "robot_time_s", "failed_distance_m",
-                  "attempts", "reason")
+                  "attempts", "reason", "lateral_offset_m", "heading_offset_deg", "key_height_m", "speed_mps", "cause",
+                  "evidence")
 
     radial: int = column("number of the radial, clockwise from the Car's front")
     angle_deg: float = column("angle of the radial, clockwise from the Car's front", "deg", digits=3)
@@ -28,6 +30,12 @@ class KeyPressResult(LineResult):
     robot_time_s: OptionalFloat = column(
         "robot's clock when the button of the press that worked went down", "s", digits=3)
     reason: str = stored()
+    lateral_offset_m: OptionalFloat = column(f"{LATERAL_DOC} at the press that worked", "m", default=None)
+    heading_offset_deg: OptionalFloat = column(f"{HEADING_DOC} at the press that worked", "deg", 2, None)
+    key_height_m: OptionalFloat = column(f"{HEIGHT_DOC} at the press that worked", "m", default=None)
+    speed_mps: OptionalFloat = column(f"{SPEED_DOC} at the press that worked", "m/s", default=None)
+    cause: str = column(f"what the Car obeyed: {CAUSE_DOC}", default="")
+    evidence: Texts = stored(())
 
     @property
     def number(self) -> int:

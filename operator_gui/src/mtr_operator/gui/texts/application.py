@@ -36,10 +36,6 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The Car was still unlocked {} s after the robot had reached the starting "
                                   "distance of {} m; lock it with its key, or increase maximum_distance_m if it "
                                   "locks farther away."),
-    QT_TRANSLATE_NOOP("Sentence", "The Car was {} by the button of a key, not by the Remote key's vicinity; leave "
-                                  "the keys alone during the test."),
-    QT_TRANSLATE_NOOP("Sentence", "The Car was {} by the vicinity of a key, not by the press at {} m; switch "
-                                  "passive entry off, or increase minimum_distance_m."),
     QT_TRANSLATE_NOOP("Sentence", "the robot stands until you have it go on"),
     QT_TRANSLATE_NOOP("Sentence", "The robot has been silent for {} s; check the Wi-Fi and that its software runs."),
     QT_TRANSLATE_NOOP("Sentence", "The robot has been silent for {} s; check the Wi-Fi and that its software runs. {}"),
@@ -148,7 +144,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "Car profile {} is no table of names and values."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: source_signal and sources belong together; give both or none."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} must be a table from raw value to {}."),
-    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: cycle_time_s is {}; allowed is {} to {} s."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} is {}; allowed is {} to {} s."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {} cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: unknown entry {}; allowed are {}."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {} lacks the entry {}."),

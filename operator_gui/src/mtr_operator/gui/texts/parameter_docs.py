@@ -28,4 +28,8 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("ParameterDoc", "Standstill before each press."),
     QT_TRANSLATE_NOOP("ParameterDoc", "How long after the beginning of a press the Car may take to react."),
     QT_TRANSLATE_NOOP("ParameterDoc", "Presses at each place before it counts as failed."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "How far the Remote key may be beside the line when something is measured."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "How far the robot may be turned from the line when something is measured."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "How far the Remote key may be from its height while a line is measured."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "How much faster than wanted the robot may be when something is measured."),
 )

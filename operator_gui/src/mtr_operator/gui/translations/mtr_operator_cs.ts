@@ -528,19 +528,39 @@
         <translation>Počet pokusů</translation>
     </message>
     <message>
-        <location filename="../names.py" line="47"/>
+        <location filename="../names.py" line="51"/>
         <source>Check the Car&apos;s position before the test</source>
         <translation>Před testem ověřit polohu auta</translation>
     </message>
     <message>
-        <location filename="../names.py" line="53"/>
+        <location filename="../names.py" line="57"/>
         <source>yes</source>
         <translation>ano</translation>
     </message>
     <message>
-        <location filename="../names.py" line="53"/>
+        <location filename="../names.py" line="57"/>
         <source>no</source>
         <translation>ne</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="32"/>
+        <source>Distance beside the line</source>
+        <translation>Odchylka od osy</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="33"/>
+        <source>Turn from the line</source>
+        <translation>Natočení od osy</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="34"/>
+        <source>Difference in height</source>
+        <translation>Odchylka výšky</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="35"/>
+        <source>Difference in speed</source>
+        <translation>Odchylka rychlosti</translation>
     </message>
 </context>
 <context>
@@ -649,6 +669,26 @@
         <location filename="../texts/parameter_docs.py" line="5"/>
         <source>Before the test the robot looks at the Car again from two places; it does not begin when the Car stands elsewhere than it was measured.</source>
         <translation>Před testem si robot auto znovu prohlédne ze dvou míst; stojí-li auto jinde, než bylo změřeno, test nezačne.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>How far the Remote key may be beside the line when something is measured.</source>
+        <translation>Jak daleko stranou od osy smí být klíč, když se měří.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>How far the robot may be turned from the line when something is measured.</source>
+        <translation>Jak smí být robot natočen od osy, když se měří.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>How far the Remote key may be from its height while a line is measured.</source>
+        <translation>O kolik se smí výška klíče lišit, dokud se osa měří.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>How much faster than wanted the robot may be when something is measured.</source>
+        <translation>O kolik smí robot jet rychleji, než má, když se měří.</translation>
     </message>
 </context>
 <context>
@@ -1039,16 +1079,6 @@
         <location filename="../texts/application.py" line="7"/>
         <source>The Car was still unlocked {} s after the robot had reached the starting distance of {} m; lock it with its key, or increase maximum_distance_m if it locks farther away.</source>
         <translation>Auto bylo ještě {} s po dosažení počáteční vzdálenosti {} m odemčené; zamkněte je klíčem, nebo zvětšete počáteční vzdálenost, zamyká-li dále.</translation>
-    </message>
-    <message>
-        <location filename="../texts/application.py" line="7"/>
-        <source>The Car was {} by the button of a key, not by the Remote key&apos;s vicinity; leave the keys alone during the test.</source>
-        <translation>Stav auta („{}“) způsobilo tlačítko klíče, ne blízkost klíče; během testu na klíče nesahejte.</translation>
-    </message>
-    <message>
-        <location filename="../texts/application.py" line="7"/>
-        <source>The Car was {} by the vicinity of a key, not by the press at {} m; switch passive entry off, or increase minimum_distance_m.</source>
-        <translation>Stav auta („{}“) způsobila blízkost klíče, ne stisk ve vzdálenosti {} m; vypněte bezklíčový přístup, nebo zvětšete nejmenší vzdálenost.</translation>
     </message>
     <message>
         <location filename="../texts/application.py" line="7"/>
@@ -1447,11 +1477,6 @@
     </message>
     <message>
         <location filename="../texts/application.py" line="7"/>
-        <source>Car profile {}: cycle_time_s is {}; allowed is {} to {} s.</source>
-        <translation>Profil auta {}: cycle_time_s je {}; povoleno je {} až {} s.</translation>
-    </message>
-    <message>
-        <location filename="../texts/application.py" line="7"/>
         <source>Car profile {} cannot be read: {}.</source>
         <translation>Profil auta {} nelze přečíst: {}.</translation>
     </message>
@@ -1744,6 +1769,176 @@
         <location filename="../texts/application.py" line="7"/>
         <source>The robot no longer takes this application&apos;s Commands, as if it had said goodbye; connect again, or go on with a continued test.</source>
         <translation>Robot už nepřijímá příkazy této aplikace, jako by se rozloučila; připojte se znovu, nebo v testu pokračujte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>Car profile {}: {} is {}; allowed is {} to {} s.</source>
+        <translation>Profil auta {}: {} je {}; povoleno je {} až {} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>A frame of the Car&apos;s lock message came {} s after a later one.</source>
+        <translation>Rámec zprávy o zámcích auta přišel {} s po pozdějším.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>A frame of the Car&apos;s lock message came twice.</source>
+        <translation>Rámec zprávy o zámcích auta přišel dvakrát.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The signal {} of the Car&apos;s lock message stands still at {}.</source>
+        <translation>Signál {} zprávy o zámcích auta stojí na hodnotě {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The signal {} of the Car&apos;s lock message went from {} to {}.</source>
+        <translation>Signál {} zprávy o zámcích auta přeskočil z {} na {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The signal {} of the Car&apos;s lock message has the unknown value {}.</source>
+        <translation>Signál {} zprávy o zámcích auta má neznámou hodnotu {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Car was {} on its bus, and {} counted no command.</source>
+        <translation>Na sběrnici se změnil stav auta („{}“), ale {} nenapočítal žádný povel.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Car was {} on its bus, and {} said nothing of a change.</source>
+        <translation>Na sběrnici se změnil stav auta („{}“), ale {} o změně nic neřekl.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>{} told of a change, and the Car stayed {} on its bus.</source>
+        <translation>{} ohlásil změnu, ale stav auta na sběrnici zůstal („{}“).</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Car changed its locks on its bus after {} s; a state lasts at least {} s and {} frames.</source>
+        <translation>Stav zámků auta se na sběrnici změnil už po {} s; stav trvá nejméně {} s a {} rámce.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>Nobody knows when the Car&apos;s locks moved: the clocks were set anew.</source>
+        <translation>Není známo, kdy se zámky auta pohnuly: hodiny se mezitím přestavily.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Car was {} without anything in the test to make it; leave its keys and doors alone during the test.</source>
+        <translation>Stav auta („{}“) nezpůsobilo nic z testu; během testu nesahejte na klíče ani na dveře auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Car was {} twice, without the opposite in between.</source>
+        <translation>Auto dvakrát po sobě ohlásilo stav „{}“, aniž by mezitím nastal opačný.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Car was {} {} s before {}, by something else; leave its keys and doors alone during the test.</source>
+        <translation>Stav auta („{}“) způsobilo něco jiného: nastal {} s dříve než {}; během testu nesahejte na klíče ani na dveře auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Car was {} {} s too late for {}; increase response_timeout_s if it is so slow.</source>
+        <translation>Stav auta („{}“) nastal o {} s později, než by jej způsobil jen {}; je-li auto tak pomalé, zvětšete dobu odezvy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Car was {} when it locks by itself anyway, so that nobody knows whether it was by {}.</source>
+        <translation>Stav auta („{}“) nastal, když se auto zamyká i samo; nelze říci, zda jej způsobil {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Car was {} by the button of a key, not by {}; leave the keys alone during the test.</source>
+        <translation>Stav auta („{}“) způsobilo tlačítko klíče, ne {}; během testu na klíče nesahejte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Car was {} by the vicinity of a key, not by {}; switch passive entry off, or increase minimum_distance_m.</source>
+        <translation>Stav auta („{}“) způsobila blízkost klíče, ne {}; vypněte bezklíčový přístup, nebo zvětšete nejmenší vzdálenost.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Car was {} by something that its profile does not list, not by {}; leave its doors and switches alone during the test.</source>
+        <translation>Stav auta („{}“) způsobilo něco, co profil auta neuvádí, ne {}; během testu nesahejte na dveře ani spínače auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>the press at {} m</source>
+        <translation>stisk ve vzdálenosti {} m</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>the Remote key&apos;s vicinity</source>
+        <translation>vliv blízkosti klíče</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Car reacted at {} m, where the robot was not to be: the line reaches from {} to {} m.</source>
+        <translation>Auto zareagovalo ve vzdálenosti {} m, kde robot neměl být: měří se od {} do {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The robot was too fast for a measurement: {} m/s; allowed is {} m/s.</source>
+        <translation>Robot jel na měření příliš rychle: {} m/s; povoleno je {} m/s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The robot does not know the height of the Remote key.</source>
+        <translation>Robot nezná výšku klíče.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Remote key is at {} cm instead of {} cm; allowed are {} cm of difference.</source>
+        <translation>Klíč je ve výšce {} cm místo {} cm; povolený rozdíl je {} cm.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Remote key was {} cm beside the line; allowed are {} cm.</source>
+        <translation>Klíč byl {} cm stranou od osy; povoleno je {} cm.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The robot was turned by {} degrees from the line; allowed are {} degrees.</source>
+        <translation>Robot byl od osy natočen o {} stupně; povoleno je {} stupně.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The robot was driven by hand during the measurement.</source>
+        <translation>Během měření jel robot podle ručního ovladače.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The Remote key was moved by hand during the measurement.</source>
+        <translation>Během měření se klíč zvedal podle ručního ovladače.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The robot planned its path anew during the measurement.</source>
+        <translation>Během měření robot naplánoval cestu znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>An obstacle, or sensors that saw nothing, stopped the robot during the measurement.</source>
+        <translation>Během měření robota zastavila překážka, nebo jeho snímače nic neviděly.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>A motion lock stopped the robot during the measurement.</source>
+        <translation>Během měření robota zastavil zámek pohybu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The board of lift and servos restarted during the measurement.</source>
+        <translation>Během měření se znovu spustila deska zdvihu a serv.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The robot&apos;s clock was set during the measurement.</source>
+        <translation>Během měření se přestavily hodiny robota.</translation>
     </message>
 </context>
 <context>
