@@ -5,7 +5,7 @@ import math
 import pytest
 
 from mtr_operator.domain.geometry.pose import Pose
-from mtr_operator.domain.requests import DesiredState, Waypoint
+from mtr_operator.domain.requests import DesiredState, Press, Waypoint
 from mtr_operator.domain.robot_status import WaypointResult
 from mtr_operator.robot_link.virtual.robot import VirtualRobot, VirtualWorld
 from mtr_operator.robot_link.virtual.route import Box, advance, route
@@ -72,3 +72,14 @@ def test_new_mapping_order_maps_again():
     again = driven(robot, DesiredState(waypoint=goal, map_car_id=1), 1.0)
     assert again.is_mapping_car and not again.pose_valid and again.map_car_id == 1
     assert driven(robot, DesiredState(waypoint=goal, map_car_id=1), 5.0).pose_valid
+
+
+def test_stop_holds_the_key_and_lets_no_press_begin_and_the_height_is_reached_after_it():  # A3
+    robot = VirtualRobot(1, QUICK)
+    rising = driven(robot, DesiredState(key_height_m=1.5), 2.0)
+    press = Press(1, (1,), 1.0, 0.2)
+    stopped = driven(robot, DesiredState(key_height_m=1.5, press=press, stop=True), 3.0)
+    assert stopped.key_height_m == rising.key_height_m < 1.0
+    assert [(report.id, bool(report.error)) for report in stopped.presses] == [(1, True)]
+    after = driven(robot, DesiredState(key_height_m=1.5, press=press), 10.0)
+    assert after.key_height_m == pytest.approx(1.5) and after.presses == stopped.presses

@@ -40,6 +40,14 @@ class VirtualKeyholder:
             self._press = press
             self._start_s = time_s + SERVO_TRAVEL_S
 
+    def stop(self, press: Press | None, time_s: float) -> None:
+        """Hold the key where it is; a press under way ends by itself, one that is ordered now is refused."""
+        self._wanted_m = self.height_m
+        if press is not None and press.id > self._newest_press_id and self._press is None:
+            self._newest_press_id = press.id
+            refused = PressReport(press.id, time_s, time_s, "The press was not begun: The robot is stopped.")
+            self.confirmations = (*self.confirmations, refused)[-_KEPT_CONFIRMATIONS:]
+
     def step(self, time_s: float, dt_s: float) -> None:
         """Go on to time_s, which is dt_s later."""
         step_m = LIFT_SPEED_MPS * dt_s

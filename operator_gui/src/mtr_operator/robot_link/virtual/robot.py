@@ -81,7 +81,10 @@ class VirtualRobot:
         self._command_id, self._desired = command_id, desired
         if self._mode() in (Mode.FOLLOWING_WAYPOINT, Mode.CHECKING_CAR):
             self._check.request(desired.check_car_id)
-        self._key.request(desired.key_height_m, desired.press, self._time_s)
+        if desired.stop:
+            self._key.stop(desired.press, self._time_s)
+        else:
+            self._key.request(desired.key_height_m, desired.press, self._time_s)
         if desired.map_car_id != self._map_car_id:
             self._map_car_id = desired.map_car_id
             self._mapping_left_s = self._world.mapping_s
@@ -92,6 +95,7 @@ class VirtualRobot:
     def halt(self) -> None:
         """Stand still until the next desired state: the Operator has gone or is silent."""
         self._desired = DesiredState(stop=True)
+        self._key.stop(None, self._time_s)
 
     def step(self, dt_s: float = STATUS_PERIOD_S) -> None:
         """Let dt_s pass."""
