@@ -103,10 +103,11 @@ class AdapterClockMap(ClockMap):
             self._estimate()
 
     def _estimate(self) -> None:
-        self._offset_s = statistics.median(pair.offset_s for pair in self._pairs)
+        offsets = sorted(pair.offset_s for pair in self._pairs)
+        self._offset_s = statistics.median(offsets)
         # Delays are one-sided, so their scatter is also the size of the error that all pairs may share; it is not
         # divided by the square root of their number.
-        quantiles = statistics.quantiles((pair.offset_s for pair in self._pairs), n=_QUANTILES)
+        quantiles = statistics.quantiles(offsets, n=_QUANTILES)
         scatter_s = (quantiles[-1] - quantiles[0]) / 2
         gap_s = statistics.median(pair.gap_s for pair in self._pairs)
         drift_s = _RATE_TOLERANCE * (self._pairs[-1].stamp_s - self._pairs[0].stamp_s) / 2

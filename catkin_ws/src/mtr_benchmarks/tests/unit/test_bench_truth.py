@@ -76,5 +76,11 @@ def test_no_undisturbed_line_is_invalid_or_wrong(lines):
     assert {line.verdict for line in lines if line.kind == "none"} == {Verdict.RIGHT}
 
 
+def test_short_form_of_the_benchmark_is_what_it_must_be(lines):
+    found = figures(SEED, lines)
+    assert found.wrong_examples == []
+    assert all_met(report(found).rows)
+
+
 def test_one_wrong_line_fails_the_benchmark(lines):
     assert not all_met(report(replace(figures(SEED, lines), wrong_and_ok=1)).rows)

@@ -138,8 +138,8 @@ def late_press(world: World, chance: random.Random, at_s: float) -> Disturbance:
 
 
 def late_reaction(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """The Car takes its time after a press."""
-    world.reaction_s = chance.uniform(0.6, 6.0)
+    """The Car takes its time after a press, but not until the next one: nobody could tell the two apart."""
+    world.reaction_s = chance.uniform(0.6, 1.7)
     return Disturbance(-math.inf, math.inf)
 
 

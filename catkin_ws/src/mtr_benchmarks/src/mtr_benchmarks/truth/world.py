@@ -6,7 +6,7 @@ from typing import Callable, List, Optional, Tuple
 
 from mtr_operator.car_link.lock_watch import CanFrame, LockWatch
 from mtr_operator.car_link.profile import CarProfile
-from mtr_operator.domain.ports import CarEvent, CarLink, LinkStatistics, LockState, RobotLink
+from mtr_operator.domain.ports import CarEvent, CarLink, LinkStatistics, LockFacts, LockState, RobotLink
 from mtr_operator.domain.requests import DesiredState
 from mtr_operator.domain.robot_status import CarDimensions, Mode, PressReport, RobotStatus
 
@@ -44,14 +44,15 @@ class World:
 
     def step(self) -> None:
         """Let the time of one Status pass."""
-        dt_s = STATUS_PERIOD_S / STEPS
+        dt_s, gap_m = STATUS_PERIOD_S / STEPS, self._gap_m()
         for _ in range(STEPS):
-            before_s, gap_before_m = self.time_s, self._gap_m()
+            before_s, gap_before_m = self.time_s, gap_m
             self.time_s = round(self.time_s + dt_s, 9)
             for press in self.robot.step(self.time_s, dt_s):
                 if math.hypot(press.place.x, press.place.y) <= self.press_range_m:
                     self.car.press(press.id, press.locks, press.start_s + self.reaction_s)
-            self.car.step(before_s, self.time_s, gap_before_m, self._gap_m(), self.robot.key(self.time_s))
+            gap_m = self._gap_m()
+            self.car.step(before_s, self.time_s, gap_before_m, gap_m, self.robot.key(self.time_s))
             robot = self.robot
             self._poses.append((self.time_s, robot.x, robot.y, robot.heading, robot.speed_mps))
             self._arrived += [(self.frame_way.arrival_s(frame.time_s), frame) for frame in self.car.frames(self.time_s)]
@@ -126,6 +127,7 @@ class WorldCar(CarLink):
 
     def __init__(self, world: World, robot_link: WorldRobot, profile: CarProfile):
         self._world, self._robot_link, self._watch = world, robot_link, LockWatch(profile)
+        self._facts = profile.facts
 
     def connect(self) -> None:
         """See CarLink."""
@@ -140,6 +142,11 @@ class WorldCar(CarLink):
             now_s += 0.01
             self._feed(now_s)
         return watch.release(now_s)
+
+    @property
+    def facts(self) -> LockFacts:
+        """See CarLink."""
+        return self._facts
 
     @property
     def lock_state(self) -> LockState:
