@@ -107,6 +107,21 @@ class EmulatedBoard:
         return FirmwareOrders(self._clock, lambda message: self._send(names.FIRMWARE_COMMAND, message),
                               lambda message: self._send(names.FIRMWARE_PRESS, message))
 
+    def ask_again(self, damaged: bytes) -> None:
+        """The host asks for all topics anew; the first byte of this text in the answer is flipped on the line, once."""
+        read, left = self._firmware._read, [damaged]
+
+        def read_damaged(total: int) -> bytes:
+            data = bytearray(read(total))
+            at = data.find(left[0]) if left else -1
+            if at >= 0:
+                data[at] ^= 1
+                left.clear()
+            return bytes(data)
+        self._firmware._read = read_damaged
+        self._firmware.session.endpoints.clear()
+        self._firmware.session.start(self.now_ns * NS)
+
     def hold_line(self) -> None:
         """What is ordered from now on waits in the host, as in a program that is stopped."""
         self._waiting = []

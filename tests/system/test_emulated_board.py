@@ -116,6 +116,15 @@ def test_press_still_ordered_after_a_restart_of_the_node_is_made_once_and_report
     assert board.results[0].start_ns * NS == pytest.approx(pressed[0] * NS, abs=0.025)
 
 
+@pytest.mark.parametrize("topic", [b"/firmware/press", b"/firmware/command"])
+def test_press_is_made_though_the_description_of_a_topic_was_damaged_on_the_way(board, topic):  # N1
+    """Today a press ordered each 100 ms for 60 s is never made."""
+    board.run(1.0, LOW_M)
+    board.ask_again(topic)
+    board.run(3.0, LOW_M, press(1))
+    assert board.closings() == 1 and [result.error.text for result in board.results] == [""]
+
+
 def test_orders_that_waited_eight_seconds_in_the_host_reach_nothing(board):  # B8
     """Today the press of 8 s ago is made."""
     board.hold_line()

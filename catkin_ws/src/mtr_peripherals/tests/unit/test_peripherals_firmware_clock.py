@@ -127,7 +127,7 @@ def test_time_of_the_firmware_is_told_across_the_wrap_and_unknown_before_its_fir
 
 
 @pytest.mark.parametrize("step_s", [-3600.0, -0.4, -0.05, -0.02, 0.02, 0.05, 0.4, 3600.0])
-def test_step_of_the_robots_clock_moves_a_press_by_that_step_and_by_nothing_else(step_s):  # A10
+def test_step_of_the_robots_clock_moves_a_press_by_that_step_and_by_nothing_else(step_s):  # A10, B4
     """Today: press times up to 0.385 s early for 40 s after a step of 0.4 s."""
     firmware, robot, step_ns = FirmwareClock(), RobotClock(), int(step_s * SECOND)
     for i in range(250):
