@@ -85,6 +85,9 @@ class LinkServer:
         self._context = zmq.Context()
         self._publisher = self._socket(zmq.PUB)
         self._publisher.setsockopt(zmq.SNDHWM, SEND_QUEUE)
+        # libzmq 4.3.4 aborts (stream_engine_base.cpp, "!_io_error") when a peer goes whose subscriptions have filled
+        # the queue, so the queue has no end; the memory of the process is bounded instead, see memory.py.
+        self._publisher.setsockopt(zmq.RCVHWM, 0)
         self._subscriber = self._socket(zmq.SUB)
         self._subscriber.setsockopt(zmq.RCVHWM, RECEIVE_QUEUE)
         self._subscriber.setsockopt(zmq.SUBSCRIBE, b"")

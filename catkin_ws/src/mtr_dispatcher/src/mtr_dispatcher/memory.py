@@ -2,9 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 import ctypes
 import os
+import sys
+import threading
+import time
 
 MIB = 1024 * 1024
 STATM = "/proc/self/statm"
+CHECK_PERIOD_S = 0.05
+# Of the limit, for a process that is too busy with what fills its memory to do anything about it.
+LAST_RESORT = 1.5
+EXIT_STATUS = 3
 
 
 def resident_mib() -> float:
@@ -16,3 +23,18 @@ def resident_mib() -> float:
 def give_back() -> None:
     """Return free memory to the system; glibc keeps it otherwise."""
     ctypes.CDLL(None).malloc_trim(0)
+
+
+def end_beyond(limit_mib: float) -> None:
+    """Watch from a thread, and end this process at LAST_RESORT times the limit; it is started again with little memory.
+
+    A flood of subscriptions keeps ZeroMQ busy within one call of the main thread.
+    """
+    threading.Thread(target=_watch, args=(LAST_RESORT * limit_mib,), name="memory", daemon=True).start()
+
+
+def _watch(limit_mib: float) -> None:
+    while resident_mib() <= limit_mib:
+        time.sleep(CHECK_PERIOD_S)
+    print(f"The dispatcher ends at {resident_mib():.0f} MiB; allowed are {limit_mib:.0f}.", file=sys.stderr, flush=True)
+    os._exit(EXIT_STATUS)

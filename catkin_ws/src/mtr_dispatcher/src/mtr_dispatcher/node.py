@@ -27,7 +27,7 @@ from mtr_msgs.msg import (
 from .conversions import desired_message, lock_message
 from .core import Dispatcher
 from .link_server import LinkError, LinkServer, Ports
-from .memory import give_back, resident_mib
+from .memory import end_beyond, give_back, resident_mib
 from .operator_wait import OperatorWait
 from .parameters import Parameters
 from .session import CommandResult, SessionState, is_same
@@ -191,6 +191,7 @@ class DispatcherNode:
 def make(parameters: Parameters) -> DispatcherNode:
     """The node with its ports open."""
     key = described_robot().key()
+    end_beyond(parameters.memory_limit_mib)
     server = LinkServer(Ports(parameters.bind_address, parameters.status_port, parameters.command_port))
     server.bind()
     identity = Identity(secrets.randbits(63) | 1, rospkg.RosPack().get_manifest("mtr_dispatcher").version,

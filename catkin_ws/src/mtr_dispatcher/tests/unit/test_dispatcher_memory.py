@@ -1,0 +1,35 @@
+"""The dispatcher ends before strangers fill the machine's memory. D1"""
+# SPDX-License-Identifier: Apache-2.0
+import subprocess
+import sys
+
+from mtr_dispatcher.memory import EXIT_STATUS, LAST_RESORT, MIB, give_back, resident_mib
+
+FILL = f"""
+import time
+from mtr_dispatcher.memory import end_beyond
+end_beyond(100.0)
+kept = [b"x" * (10 * {MIB}) for _ in range({{tens}})]
+time.sleep(1.0)
+"""
+LIMIT_S = 30.0
+
+
+def ended(tens):
+    """The process that has taken so many times 10 MiB."""
+    return subprocess.run([sys.executable, "-c", FILL.format(tens=tens)], timeout=LIMIT_S, check=False,
+                          capture_output=True, text=True)
+
+
+def test_process_ends_with_a_sentence_when_its_memory_is_beyond_the_last_resort():
+    process = ended(tens=20)
+    assert process.returncode == EXIT_STATUS and f"allowed are {100.0 * LAST_RESORT:.0f}" in process.stderr
+
+
+def test_process_within_the_limit_goes_on():
+    assert ended(tens=2).returncode == 0
+
+
+def test_memory_of_this_process_is_known_and_can_be_given_back():
+    assert 5.0 < resident_mib() < 2000.0
+    give_back()
