@@ -25,6 +25,10 @@ class Instant(NamedTuple):
         """What lies between the two: it changes only when the robot's clock is set."""
         return self.clock_ns - self.steady_ns
 
+    def steady_of(self, clock_ns: int) -> int:
+        """The steady clock when the robot's showed this, as both were set at the reading."""
+        return clock_ns - self.offset_ns
+
 
 def steady_stamp_ns(stamp_ns: int, now: Instant, before: Optional[Instant] = None) -> int:
     """The steady clock's time of a stamp of the robot's clock.

@@ -46,3 +46,10 @@ def test_slewed_clock_has_not_been_set():
     for tenth in range(6000):
         watch.update(at(0.1 * tenth, step_s=0.0005 * 0.1 * tenth))
     assert watch.steps == 0
+
+
+@pytest.mark.parametrize("late_ns", [0, 1_000_000, 15_000_000])
+def test_two_clocks_told_for_an_instant_before_their_reading_lie_as_far_apart_as_then(late_ns):  # B4
+    reading = Instant(1_700_000_000_000_000_000, 5_000_000_000)
+    sent_ns = reading.clock_ns - late_ns
+    assert sent_ns - reading.steady_of(sent_ns) == reading.offset_ns

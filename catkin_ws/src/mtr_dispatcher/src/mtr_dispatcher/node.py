@@ -157,7 +157,8 @@ class DispatcherNode:
     def _inputs(self, now_ns: int) -> Inputs:
         reading = clock.reading()
         self._clock_watch.update(reading)
-        steady_s = self._steady_s(now_ns)
+        # Not read anew: the application takes any change of what lies between the two for a clock that was set.
+        steady_s = reading.steady_of(now_ns) * NS
         pose, car, mode, peripherals, check, drive, motion = (
             topic.fresh_at(now_ns, STALE_AFTER_S) for topic in self._topics)
         return Inputs(now_ns * NS, pose, car, mode, peripherals, check, drive, motion, steady_s,
