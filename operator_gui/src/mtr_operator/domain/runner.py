@@ -10,7 +10,8 @@ from .actions.preparation import check_car, prepare
 from .actions.robot import Robot
 from .errors import ProgressFileError, RobotFailed
 from .results.frame_record import check_entry
-from .results.journal import CAR, CHECK, LINE, LINE_BEGUN, Journal, plain_fields
+from .results.journal import CAR, CHECK, LINE, LINE_BEGUN, LINE_RESUMED, SUPERSEDED, Journal, plain_fields
+from .results.line_result import LineResult
 from .results.notebook import Notebook
 from .results.progress import Progress
 from .robot_status import CheckState
@@ -42,8 +43,12 @@ class Runner:
         try:
             prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
             lines = self._lines()
+            # Before the robot drives round for the check: the Car and the robot are still as they were.
+            half = self._finish_half_line(lines)
             if parameters.self_check:
                 self._check_car()
+            if half is not None:
+                self._notebook.add(LINE, {"result": half.to_document(), "frame": self._frame()})
             self._measure(lines)
         finally:
             self._halt()
@@ -73,6 +78,24 @@ class Runner:
 
     def _frame(self) -> Any:
         return None if self._loop.frames.newest is None else plain_fields(self._loop.frames.newest)
+
+    def _finish_half_line(self, lines: Sequence[Line]) -> LineResult | None:
+        """Result of the line on which the test was interrupted, when it can be finished; it counts when the Car stands
+        where it was."""
+        progress = self._progress
+        line = next((line for line in lines if line.number == progress.line_at_hand), None)
+        if line is None or not progress.points:
+            return None
+        self._robot.take_up(progress.points)
+        try:
+            if not self._scenario.can_go_on(line, self._parameters, self._robot, self._car):
+                self._notebook.add(SUPERSEDED, {"line": line.number})
+                return None
+            self._notebook.add(LINE_RESUMED, {"line": line.number})
+            result: LineResult = self._scenario.measure(line, self._parameters, self._robot, self._car)
+            return result
+        finally:
+            self._robot.take_up({})
 
     def _measure(self, lines: Sequence[Line]) -> None:
         by_number = {line.number: line for line in lines}

@@ -69,6 +69,10 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
     def measure(self, line: AnyLine, parameters: Parameters, robot: Robot, car: Car) -> Result:
         """Measure one line. A line that cannot be measured has the status invalid and a reason."""
 
+    def can_go_on(self, line: AnyLine, parameters: Parameters, robot: Robot, car: Car) -> bool:
+        """True when measure can finish a line from where the robot stands, with what Robot.kept has of it."""
+        return False
+
     @abstractmethod
     def picture(self, parameters: Parameters, car: CarDimensions, results: Sequence[Result]) -> Picture:
         """What the protocol shows."""

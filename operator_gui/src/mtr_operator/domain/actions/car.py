@@ -34,6 +34,11 @@ class Car:
                 return event
         return None
 
+    @property
+    def relocks(self) -> bool:
+        """True when the Car locks by itself some time after it was unlocked."""
+        return self._loop.car_link.facts.relock_after_s is not None
+
     def dimensions(self) -> CarDimensions:
         """Length and width as the robot measured them; Robot.prepare has waited for them."""
         dimensions = self._loop.car_dimensions

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import math
-from typing import Callable, Iterator, TypeVar
+from typing import Any, Callable, Iterator, Mapping, TypeVar
 
 from ..errors import RobotFailed
 from ..geometry.pose import Pose
 from ..geometry.ray import Ray
 from ..requests import Direction, Press, Waypoint
-from ..results.journal import DECISION, POINT, PRESS, plain_fields
+from ..results.frame_history import frame_from
+from ..results.journal import DECISION, POINT, PRESS, KeptPoint, plain_fields
 from ..results.line_result import LineStatus
 from ..robot_status import CarCheck, CheckState, PressReport, RobotStatus, WaypointResult
 from .control_loop import ControlLoop
@@ -40,6 +41,7 @@ class Robot:
         self._waypoint_id = 0
         self._press_id = 0
         self._check_id = 0
+        self._kept: dict[str, KeptPoint] = {}
 
     @property
     def now_s(self) -> float:
@@ -150,6 +152,21 @@ class Robot:
             return measure(ray, self._loop.poses.at(time_s), time_sigma_s, origin_sigma_m)
         except PoseUnknown as error:
             raise LineInvalid(str(error)) from None
+
+    def take_up(self, points: Mapping[str, KeptPoint]) -> None:
+        """A line is at hand on which these points were measured before an interruption; none on one that is begun."""
+        self._kept = dict(points)
+
+    def kept(self, word: str) -> Distance | None:
+        """What was measured on the line at hand before an interruption; None unless it is in the present Car frame."""
+        point, frame = self._kept.get(word), self._loop.frames.newest
+        if point is None or point.status is not LineStatus.OK or point.distance is None or frame is None:
+            return None
+        measured_in = frame_from(point.frame)
+        if measured_in is None or not measured_in.is_same(frame):
+            return None
+        values: dict[str, Any] = {name: math.nan if value is None else value for name, value in point.distance.items()}
+        return Distance(**values)
 
     def keep(self, word: str, status: LineStatus, distance: Distance | None = None) -> None:
         """Keep a measurement of the line at hand, before the robot is ordered on; returns when it is safe.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any, Mapping
 
 from ..robot_status import CarFrame, RobotStatus
 
@@ -39,3 +40,10 @@ class FrameHistory:
             return False
         was_known, self.newest = self.newest is not None, found
         return was_known
+
+
+def frame_from(values: Mapping[str, Any] | None) -> KnownFrame | None:
+    """Frame from the plain values of its fields; KeyError or TypeError when they are damaged."""
+    if values is None:
+        return None
+    return KnownFrame(values["robot_session_id"], CarFrame(**values["frame"]), values["since_s"])

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Mapping
 
-from ..robot_status import CarFrame
 from .document import read_record
-from .frame_history import KnownFrame
+from .frame_history import frame_from
 from .frame_record import CheckEntry
 from .journal import (
     CAR,
@@ -56,10 +55,3 @@ def apply(progress: Progress, result_type: type[LineResult], kind: str, values: 
                                                          values["frame"])
     elif kind == LINE:
         progress.record(result_from_document(result_type, values["result"]), frame_from(values["frame"]))
-
-
-def frame_from(values: Mapping[str, Any] | None) -> KnownFrame | None:
-    """Frame of an entry."""
-    if values is None:
-        return None
-    return KnownFrame(values["robot_session_id"], CarFrame(**values["frame"]), values["since_s"])

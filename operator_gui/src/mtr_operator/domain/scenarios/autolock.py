@@ -23,6 +23,7 @@ from ..robot_status import CarDimensions
 from ..scenario import Scenario
 from .autolock_parameters import AutolockParameters
 from .autolock_result import LOCK, UNLOCK, AutolockResult
+from .autolock_resume import can_go_on, come_back
 
 _VICINITY = "the Remote key's vicinity"
 
@@ -59,20 +60,31 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
         def place_of(event: CarEvent) -> Distance:
             return robot.key_distance(axis, event.time_s, event.time_sigma_s, origin_sigma_m)
 
+        _take_up(unlock, robot.kept(UNLOCK))
+        _take_up(lock, robot.kept(LOCK))
         try:
-            _go_to_start(line, parameters, robot, car)
+            if unlock.distance is None:
+                _go_to_start(line, parameters, robot, car)
             with robot.watched(parameters) as watch:
-                _approach(axis, watch, parameters, robot)
-                _record(unlock, watch, parameters, place_of)
-                robot.keep(UNLOCK, unlock.status, unlock.distance)
-                _retreat(axis, watch, parameters, robot)
-                _record(lock, watch, parameters, place_of)
-                robot.keep(LOCK, lock.status, lock.distance)
+                if unlock.distance is None:
+                    _approach(axis, watch, parameters, robot)
+                    _record(unlock, watch, parameters, place_of)
+                    robot.keep(UNLOCK, unlock.status, unlock.distance)
+                elif lock.distance is None:
+                    come_back(axis, unlock.distance, robot)
+                if lock.distance is None:
+                    _retreat(axis, watch, parameters, robot, is_unlocked=unlock.distance is not None)
+                    _record(lock, watch, parameters, place_of)
+                    robot.keep(LOCK, lock.status, lock.distance)
         except LineInvalid as error:
             trouble = error
             if unlock.time_s >= error.since_s:
                 unlock = _Measured()
         return _result(line, unlock, lock, trouble)
+
+    def can_go_on(self, line: Axis, parameters: AutolockParameters, robot: Robot, car: Car) -> bool:
+        """See Scenario."""
+        return can_go_on(line.ray, parameters, robot, car)
 
     def picture(self, parameters: AutolockParameters, car: CarDimensions, results: Sequence[AutolockResult]) -> Picture:
         """Axes, and the two areas that the points enclose."""
@@ -123,9 +135,15 @@ def _approach(axis: Ray, watch: LineWatch, parameters: AutolockParameters, robot
     robot.wait(parameters.response_timeout_s, or_when=lambda: watch.answer)
 
 
-def _retreat(axis: Ray, watch: LineWatch, parameters: AutolockParameters, robot: Robot) -> None:
+def _take_up(measured: _Measured, kept: Distance | None) -> None:
+    if kept is not None:
+        measured.distance, measured.status, measured.time_s = kept, LineStatus.OK, kept.robot_time_s
+
+
+def _retreat(axis: Ray, watch: LineWatch, parameters: AutolockParameters, robot: Robot, is_unlocked: bool) -> None:
     robot.say("retreat until the Car locks")
-    if watch.answer:
+    watch.ray = axis
+    if is_unlocked:
         watch.expect(Expected(LockState.LOCKED, PASSIVE_ENTRY, _VICINITY, robot.now_s))
     else:
         watch.close()
