@@ -139,6 +139,10 @@ void Board::on_press(const Press& press) {
 }
 
 void Board::on_calibrate(const Calibrate& calibrate) {
+  if (is_late(calibrate.latest_us)) {
+    counters_.refuse(Refusal::kLate);
+    return;
+  }
   hear();
   if (calibrate.id == calibration_id_ && calibrate.id != 0) {
     return;
@@ -146,6 +150,10 @@ void Board::on_calibrate(const Calibrate& calibrate) {
   const bool fits = calibrate.stroke_m >= kShortestStrokeMm * 1e-3f && calibrate.stroke_m <= kLongestStrokeMm * 1e-3f;
   if (calibrate.id == 0 || calibrator_.is_running()) {
     counters_.refuse(Refusal::kCalibration);
+    return;
+  }
+  if (is_stopped_) {
+    counters_.refuse(Refusal::kStopped);
     return;
   }
   calibration_id_ = calibrate.id;

@@ -82,6 +82,7 @@ bool read(const uint8_t* payload, uint8_t length, Calibrate* message) {
   Reader reader(payload, length);
   message->id = reader.u32();
   message->stroke_m = reader.f32();
+  message->latest_us = reader.u32();
   return is_sealed(payload, length, MTR_FIRMWARECALIBRATE_BYTES);
 }
 

@@ -32,6 +32,7 @@ struct Press {
 struct Calibrate {
   uint32_t id;
   float stroke_m;
+  uint32_t latest_us;
 };
 
 enum class PressState : uint8_t { kNone = 0, kPressing = 1, kDone = 2, kRefused = 3, kCutShort = 4 };

@@ -91,9 +91,9 @@ def press(id: int, latest_us: int, servos: int = 1, strength: float = 1.0, hold_
     return frame(PRESS, sealed(struct.pack("<IBfHI", id, servos, strength, hold_ms, latest_us % 2 ** 32)))
 
 
-def calibrate(id: int, stroke_m: float) -> bytes:
+def calibrate(id: int, stroke_m: float, latest_us: int) -> bytes:
     """A FirmwareCalibrate."""
-    return frame(CALIBRATE, sealed(struct.pack("<If", id, stroke_m)))
+    return frame(CALIBRATE, sealed(struct.pack("<IfI", id, stroke_m, latest_us % 2 ** 32)))
 
 
 def split(data: bytearray) -> List[Tuple[int, bytes]]:

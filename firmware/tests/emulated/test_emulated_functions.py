@@ -240,7 +240,7 @@ def test_calibration_finds_the_stops_and_outlives_power_off(mcu, tmp_path):
         host.height_m = 0.1
         host.run(0.5)
         for _ in range(300):
-            host.send(calibrate(1, 0.4))
+            host.send(calibrate(1, 0.4, host.latest_us))
             host.run(0.2)
             if host.state.calibration_state != 1:
                 break

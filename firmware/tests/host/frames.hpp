@@ -67,10 +67,11 @@ inline Bytes press(std::uint32_t id, std::uint8_t servos, float strength, std::u
   return frame(101, payload);
 }
 
-inline Bytes calibrate(std::uint32_t id, float stroke_m) {
+inline Bytes calibrate(std::uint32_t id, float stroke_m, std::uint32_t latest_us = soon_us()) {
   Bytes payload;
   append(&payload, id);
   append(&payload, stroke_m);
+  append(&payload, latest_us);
   seal(&payload);
   return frame(102, payload);
 }

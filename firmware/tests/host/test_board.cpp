@@ -280,6 +280,20 @@ TEST_F(BoardTest, CountsARefusedCalibration) {
   EXPECT_EQ(sent()[mtr::kTopicHealth].at(kRefusedAt), 4);
 }
 
+// B8, A3
+TEST_F(BoardTest, CalibratesNeitherByALateOrderNorWhileItIsStopped) {
+  pass(300);
+  send(frames::calibrate(1, 1.2F, hardware().now_us - 1000U));
+  pass(250);
+  EXPECT_EQ(hardware().duty, 0);
+  EXPECT_EQ(last_refusal(), static_cast<int>(mtr::Refusal::kLate));
+  send(frames::command(++seq_, 0.0F, mtr::kLedMoving, 1));
+  send(frames::calibrate(2, 1.2F));
+  pass(250, true);
+  EXPECT_EQ(hardware().duty, 0);
+  EXPECT_EQ(last_refusal(), static_cast<int>(mtr::Refusal::kStopped));
+}
+
 TEST_F(BoardTest, HoldAbandonsACalibration) {
   send(frames::calibrate(1, 1.2F));
   pass(150);

@@ -17,7 +17,7 @@ from .lift_calibration import ANSWER_WITHIN_S, PERIOD_S, Calibration, Order, Rep
 
 def message_of(order: Order) -> FirmwareCalibrate:
     """The order with its checksum."""
-    return seal(FirmwareCalibrate(id=order.id, stroke_m=order.stroke_m))
+    return seal(FirmwareCalibrate(id=order.id, stroke_m=order.stroke_m, latest_us=order.latest_us))
 
 
 class NewestState:
@@ -29,7 +29,7 @@ class NewestState:
     def take(self, message: FirmwareState) -> None:
         """A report has come."""
         if is_sound(message):
-            self.report = Report(message.calibration_id, message.calibration_state)
+            self.report = Report(message.calibration_id, message.calibration_state, message.time_us)
 
 
 def main(arguments: Optional[List[str]] = None) -> int:

@@ -10,6 +10,8 @@ MIN_STROKE_M, MAX_STROKE_M = 0.05, 2.0
 PERIOD_S, ANSWER_WITHIN_S = 0.1, 3.0
 # Down and up at the lift's slow speed, with room.
 DONE_WITHIN_S = 180.0
+# The firmware obeys an order for so long.
+LIFETIME_US = 500_000
 
 
 class Order(NamedTuple):
@@ -17,13 +19,15 @@ class Order(NamedTuple):
 
     id: int
     stroke_m: float
+    latest_us: int = 0
 
 
 class Report(NamedTuple):
-    """What the firmware says of its calibration, as in FirmwareState."""
+    """What the firmware says of its calibration, and its time, as in FirmwareState."""
 
     calibration_id: int
     calibration_state: int
+    time_us: int = 0
 
 
 State = Callable[[], Optional[Report]]
@@ -33,6 +37,11 @@ def order_of(stroke_m: float, last_id: int) -> Order:
     """Order with an id that the firmware has not seen last; ConfigurationError names a stroke out of range."""
     check_range("stroke", stroke_m, MIN_STROKE_M, MAX_STROKE_M, "m")
     return Order(last_id % (2 ** 32 - 1) + 1, stroke_m)
+
+
+def latest_us_of(state: Optional[Report]) -> int:
+    """Firmware's clock up to which an order of now may be obeyed; the state is its newest, of 40 ms ago at most."""
+    return (state.time_us + LIFETIME_US) % 2 ** 32 if state else 0
 
 
 def verdict_of(state: Optional[Report], wanted_id: int, waited_s: float) -> Optional[Tuple[bool, str]]:
@@ -70,6 +79,6 @@ class Calibration:
             if verdict:
                 return verdict
             # To the end: the peripherals node ends a calibration whose person is silent.
-            self._publish(order)
+            self._publish(order._replace(latest_us=latest_us_of(self._state())))
             self._sleep(PERIOD_S)
             waited_s += PERIOD_S

@@ -37,6 +37,14 @@ def test_order_is_repeated_with_one_new_id_until_the_end():
     assert is_sound(message_of(firmware.orders[0]))
 
 
+def test_each_order_may_be_obeyed_for_half_a_second_of_the_firmwares_clock():  # B8
+    firmware = Firmware()
+    firmware.state = Report(41, DONE, time_us=2 ** 32 - 100_000)
+    firmware.calibrated()
+    assert firmware.orders[0].latest_us == 400_000
+    assert message_of(firmware.orders[0]).latest_us == 400_000
+
+
 @pytest.mark.parametrize("firmware, word", [
     (Firmware(ends=REFUSED), "refused"), (Firmware(takes_after=999), "not taken"),
     (Firmware(ends=UNDER_WAY), "not ended")])
