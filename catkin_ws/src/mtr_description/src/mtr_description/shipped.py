@@ -1,4 +1,4 @@
-"""Robots from files, above all the one that this package describes: for what runs without ROS."""
+"""Robots from files, above all the one that this package describes, and its base: for what runs without ROS."""
 # SPDX-License-Identifier: Apache-2.0
 import functools
 import pathlib
@@ -8,6 +8,7 @@ import xacro
 
 from mtr_core.errors import ConfigurationError
 
+from .base_controller import BaseController, base_controller_in
 from .robot_geometry import RobotGeometry
 
 
@@ -20,10 +21,25 @@ def urdf_in(path: pathlib.Path) -> str:
     return text
 
 
+def _folder() -> pathlib.Path:
+    return pathlib.Path(rospkg.RosPack().get_path("mtr_description"))
+
+
 @functools.lru_cache(maxsize=None)
 def shipped_urdf() -> str:
     """Text of urdf/robot.urdf.xacro."""
-    return urdf_in(pathlib.Path(rospkg.RosPack().get_path("mtr_description")) / "urdf" / "robot.urdf.xacro")
+    return urdf_in(_folder() / "urdf" / "robot.urdf.xacro")
+
+
+@functools.lru_cache(maxsize=None)
+def shipped_base() -> BaseController:
+    """The base of config/jackal_base.yaml."""
+    return base_controller_in(shipped_base_file())
+
+
+def shipped_base_file() -> pathlib.Path:
+    """The base's configuration of this package."""
+    return _folder() / "config" / "jackal_base.yaml"
 
 
 @functools.lru_cache(maxsize=None)

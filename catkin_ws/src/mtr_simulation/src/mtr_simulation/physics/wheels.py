@@ -12,22 +12,24 @@ import mujoco
 
 from mtr_core import sensor_figures as figures
 from mtr_core.parameters import ParameterSet, number
+from mtr_description.shipped import shipped_base
 
 from ..sensors.readings import WheelOdometry
 from .robot import WHEELS, RobotModel
 
 INTEGRAL_GAIN_PER_S = 6.0
 INTEGRAL_LIMIT_RADPS = 3.0
+BASE = shipped_base()
 
 
 @dataclass(frozen=True)
 class BaseParameters(ParameterSet):
-    """Limits of the platform; those of its data sheet are 2 m/s and 4 rad/s.
+    """Limits of the platform: those of mtr_description's jackal_base.yaml, as on a real robot.
 
     Attributes:
         max_linear_mps, max_angular_radps: of the commanded velocity.
-        max_linear_mps2: a bare Jackal's 20 would tip one with a mast.
-        max_angular_radps2: a bare Jackal has 25.
+        max_linear_mps2: of starts and stops; a bare Jackal's 20 would tip one with a mast.
+        max_angular_radps2: the same; a bare Jackal has 25.
         command_timeout_s: stops this long after the last command.
         separation_multiplier: true by assumed turning rate; a Jackal's is 1.5.
         radius_error: relative error of the wheel radius that the base believes in.
@@ -35,11 +37,11 @@ class BaseParameters(ParameterSet):
         max_wheel_torque_nm: of each wheel.
     """
 
-    max_linear_mps: float = number(2.0, 0.1, 3.0, "m/s")
-    max_angular_radps: float = number(4.0, 0.1, 6.0, "rad/s")
-    max_linear_mps2: float = number(3.0, 0.1, 20.0, "m/s2")
-    max_angular_radps2: float = number(6.0, 0.1, 25.0, "rad/s2")
-    command_timeout_s: float = number(0.25, 0.05, 1.0, "s")
+    max_linear_mps: float = number(BASE.max_linear_mps, 0.1, 3.0, "m/s")
+    max_angular_radps: float = number(BASE.max_angular_radps, 0.1, 6.0, "rad/s")
+    max_linear_mps2: float = number(BASE.linear_acceleration_mps2, 0.1, 20.0, "m/s2")
+    max_angular_radps2: float = number(BASE.angular_acceleration_radps2, 0.1, 25.0, "rad/s2")
+    command_timeout_s: float = number(BASE.command_timeout_s, 0.05, 1.0, "s")
     separation_multiplier: float = number(1.5, 1.0, 3.0, "(ratio)")
     radius_error: float = number(*figures.SIMULATED_WHEEL_RADIUS_ERROR)
     encoder_ticks_per_m: float = number(78_000.0, 1e3, 1e6, "1/m")
