@@ -18,6 +18,8 @@ PLANNER_SILENT_S = 0.14
 LOCK_SILENT_S = 0.25
 SENSOR_SILENT_S = 0.14
 ONE_TICK_S = 0.1
+# See mtr_drive_control/motion_watch.hpp.
+FROZEN_SEEN_S = 0.7
 # From any permitted velocity, see mtr_drive_control/parameters.hpp.
 STANDSTILL_WITHIN_S = 0.5
 TICK_S = 0.02
@@ -33,9 +35,9 @@ class DriveControl(unittest.TestCase):
         cls.manual = Speaker(names.MANUAL_VELOCITY, VelocityCommand(), schedule.CONTROLLER_INPUT)
         cls.dispatcher = Speaker(names.MOTION_LOCK, MotionLock(owner="dispatcher"), schedule.DISPATCHER)
         cls.state_machine = Speaker(names.MOTION_LOCK, MotionLock(owner="state_machine"), schedule.STATE_MACHINE)
-        cls.front, cls.rear, cls.odometry, cls.peripherals = open_ground()
+        cls.front, cls.rear, cls.odometry, cls.imu, cls.peripherals = open_ground()
         cls.speakers = (cls.planner, cls.manual, cls.dispatcher, cls.state_machine, cls.front, cls.rear, cls.odometry,
-                        cls.peripherals)
+                        cls.imu, cls.peripherals)
         cls.drive = Listener(names.DRIVE_STATUS, DriveStatus, schedule.DRIVE_CONTROL)
         cls.time = ScriptedTime(["/drive_control"], cls.speakers, [cls.drive])
         cls.wheels = []
@@ -45,6 +47,7 @@ class DriveControl(unittest.TestCase):
     @classmethod
     def take_wheels(cls, message):
         cls.wheels.append(message)
+        cls.odometry.obey(message)
         cls.time.holds.count(message)
 
     def setUp(self):
@@ -115,6 +118,56 @@ class DriveControl(unittest.TestCase):
     def test_silent_odometry_stops_the_robot_in_time(self):
         since_s = self.silence(self.odometry, 0.02)
         self.assert_noticed(lambda: self.status().zone == DriveStatus.BLIND, since_s, SENSOR_SILENT_S)
+
+    def test_frozen_odometry_stops_the_robot_until_nobody_has_wanted_to_move_for_a_while(self):  # A7
+        self.odometry.is_frozen = True
+        stops = self.status().lock_stops
+        self.time.advance_until(lambda: self.status().source == "locked", within_s=FROZEN_SEEN_S)
+        self.assertIn("odometry is frozen", self.status().message)
+        self.assertEqual(self.status().engaged_locks, ["drive_control"])
+        self.assertEqual(self.status().lock_stops, stops + 1)
+        self.time.advance_until(self.is_standing, within_s=STANDSTILL_WITHIN_S)
+        self.odometry.is_frozen = False
+        self.time.advance_for(3.0)
+        self.assertTrue(self.is_standing())
+        self.planner.message = VelocityCommand(active=False)
+        self.time.advance_for(1.5)
+
+    def test_frozen_or_silent_imu_stops_the_robot(self):  # A7
+        for fault, sentence in (("is_frozen", "The IMU is frozen"), ("is_silent", "The IMU is silent")):
+            with self.subTest(sentence):
+                setattr(self.imu, fault, True)
+                self.time.advance_until(lambda: self.status().source == "locked", within_s=FROZEN_SEEN_S)
+                self.assertIn(sentence, self.status().message)
+                self.time.advance_until(self.is_standing, within_s=STANDSTILL_WITHIN_S)
+                setattr(self.imu, fault, False)
+                self.planner.message = VelocityCommand(active=False)
+                self.time.advance_for(1.5)
+                self.setUp()
+
+    def test_base_that_does_not_obey_stops_the_robot(self):  # A7
+        standing = Twist()
+        self.odometry.obey, obey = lambda _: None, self.odometry.obey
+        self.odometry.message.twist.twist = standing
+        self.time.advance_until(lambda: self.status().source == "locked", within_s=2.0)
+        self.assertIn("The base does not obey", self.status().message)
+        self.odometry.obey = obey
+        self.planner.message = VelocityCommand(active=False)
+        self.time.advance_for(1.5)
+
+    def test_emergency_stop_that_was_engaged_when_its_owner_died_outlasts_its_restart(self):  # A4
+        stop = Speaker(names.MOTION_LOCK, MotionLock(owner="stop", emergency=True, engaged=True), schedule.DISPATCHER)
+        self.time.speakers.append(stop)
+        self.time.advance_until(self.is_standing, within_s=20.0)
+        stop.is_silent = True
+        self.time.advance_for(0.5)
+        stop.is_silent, stop.message.engaged = False, False
+        self.time.advance_for(2.0)
+        self.assertTrue(self.is_standing())
+        self.assertIn("engage it and release it again", self.status().message)
+        stop.message.engaged = True
+        self.time.advance_for(0.3)
+        stop.message.engaged = False
 
     def test_lidar_that_speaks_of_another_frame_or_without_beams_stops_the_robot_and_the_node_lives(self):
         for frame, ranges, sentence in (("map", [math.inf] * BEAMS, "frame 'map'"), (names.FRONT_LIDAR, [], "beams")):

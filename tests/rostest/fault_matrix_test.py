@@ -29,7 +29,9 @@ STANDSTILL_WITHIN_S = 0.5
 WANTED_MPS, FASTEST_MPS = 2.0, 0.74
 KEY_RAISED_M = 1.55
 AXES, BUTTONS = 8, 12
-SLOW_BUTTON, FORWARD_AXIS = 4, 1
+SLOW_BUTTON, FORWARD_AXIS, RELEASE_BUTTONS = 4, 1, (8, 9)
+# Longer than the buttons of the emergency stop have to be held.
+RELEASED_AFTER_S = 1.2
 LOCKED = (RobotMode.STARTING, RobotMode.FAULT)
 RECOVERED_WITHIN_S = 4.0
 
@@ -40,7 +42,7 @@ class FaultMatrix(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("fault_matrix_test", disable_rostime=True)
-        cls.lidar, cls.rear_lidar, cls.odometry, peripherals = open_ground()
+        cls.lidar, cls.rear_lidar, cls.odometry, imu, peripherals = open_ground()
         peripherals.message.key_height_m = KEY_RAISED_M
         cls.planner = Speaker(names.PLANNER_VELOCITY, VelocityCommand(linear_mps=WANTED_MPS, active=True),
                               schedule.MOTION_PLANNER)
@@ -57,13 +59,23 @@ class FaultMatrix(unittest.TestCase):
                       "e-stop source silent": [cls.e_stop]}
         cls.drive = Listener(names.DRIVE_STATUS, DriveStatus, schedule.DRIVE_CONTROL)
         cls.mode = Listener(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
-        speakers = [cls.lidar, cls.rear_lidar, cls.odometry, peripherals, cls.planner, cls.motion, cls.e_stop,
+        speakers = [cls.lidar, cls.rear_lidar, cls.odometry, imu, peripherals, cls.planner, cls.motion, cls.e_stop,
                     cls.joystick, cls.desired, cls.pose, cls.car, cls.check]
         cls.time = ScriptedTime(["/drive_control", "/state_machine", "/controller_input"], speakers,
                                 [cls.drive, cls.mode])
         # Drive control's holds tell how many of these the simulator must have got.
-        cls.wheels = rospy.Subscriber(names.WHEEL_COMMAND, Twist, cls.time.holds.count, tcp_nodelay=True)
+        cls.wheels = rospy.Subscriber(names.WHEEL_COMMAND, Twist, cls.roll, tcp_nodelay=True)
         cls.time.start()
+        for button in RELEASE_BUTTONS:
+            cls.joystick.message.buttons[button] = 1
+        cls.time.advance_for(RELEASED_AFTER_S)
+        cls.joystick.message.buttons = [0] * BUTTONS
+
+    @classmethod
+    def roll(cls, message):
+        """The wheels obey."""
+        cls.odometry.obey(message)
+        cls.time.holds.count(message)
 
     def speed(self):
         """Linear and angular velocity sent to the wheels."""

@@ -33,6 +33,22 @@ class LaunchFiles(unittest.TestCase):
             with self.subTest(name):
                 self.assertEqual(set(get_node_list(load(name, arguments))), NODES[name])
 
+    def test_manual_controller_that_is_started_is_a_required_owner_of_the_motion_lock(self):  # A4
+        owners = "/drive_control/lock_owners"
+        self.assertIn("controller_input", load("robot.launch", []).params[owners].value)
+        self.assertNotIn(owners, load("robot.launch", ["controller:=false"]).params)
+        self.assertNotIn(owners, load("sim.launch", NEEDED["sim.launch"]).params)
+
+    def test_base_guard_has_the_limits_of_the_shipped_base(self):  # A2
+        guarded = load("robot.launch", ["base_guard:=true"])
+        self.assertEqual(set(get_node_list(guarded)), NODES["robot.launch"] | {"/base_guard"})
+        shipped = load("sim.launch", NEEDED["sim.launch"]).params
+        controller = "/jackal_velocity_controller/"
+        limits = [name for name in shipped if name.startswith(controller)]
+        self.assertGreater(len(limits), 3)
+        for name in limits:
+            self.assertEqual(guarded.params["/base_guard" + name].value, shipped[name].value)
+
     def test_each_node_of_robot_and_simulation_has_an_executable(self):
         for node in load("sim.launch", NEEDED["sim.launch"]).nodes:
             with self.subTest(node.name):

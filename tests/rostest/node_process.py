@@ -21,6 +21,10 @@ class NodeProcess:
                   for key, value in parameters.items()]
         self._process = subprocess.Popen([path, f"__name:={name}", *values], stdout=subprocess.PIPE, text=True)
 
+    def signal(self, number: int) -> None:
+        """Send it a signal."""
+        self._process.send_signal(number)
+
     def output(self) -> str:
         """What it has printed, when it ends by itself."""
         return self._process.communicate(timeout=END_LIMIT_S)[0]

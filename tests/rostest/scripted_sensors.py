@@ -3,9 +3,10 @@
 import math
 from typing import Tuple
 
+from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
-from scripted_time import Speaker
-from sensor_msgs.msg import LaserScan
+from scripted_time import NS, Speaker
+from sensor_msgs.msg import Imu, LaserScan
 
 from mtr_core import names, schedule
 from mtr_msgs.msg import PeripheralsState
@@ -13,6 +14,7 @@ from mtr_msgs.msg import PeripheralsState
 BEAMS = 90
 FIELD_OF_VIEW_RAD = 1.5 * math.pi
 MILLIMETRE = 0.001
+GYRO_NOISE_RADPS = 0.001
 TWO_SWEEPS_NS = 2 * schedule.LIDAR.period_ns
 
 
@@ -26,13 +28,65 @@ class LidarSpeaker(Speaker):
         super().speak(tick_ns)
 
 
-def open_ground() -> Tuple[Speaker, Speaker, Speaker, Speaker]:
-    """Speakers of front LiDAR, rear LiDAR, odometry and peripherals."""
-    odometry = Odometry()
-    odometry.pose.pose.orientation.w = 1.0
+class WheelsSpeaker(Speaker):
+    """Odometry of a base that obeys exactly: it does what the wheels were told last.
+
+    Attributes:
+        is_frozen: True while it repeats itself.
+    """
+
+    def __init__(self) -> None:
+        odometry = Odometry()
+        odometry.pose.pose.orientation.w = 1.0
+        super().__init__(names.WHEEL_ODOMETRY, odometry, schedule.SENSORS)
+        self._heading = 0.0
+        self.is_frozen = False
+
+    def obey(self, twist: Twist) -> None:
+        """Take a command."""
+        if not self.is_frozen:
+            self.message.twist.twist = twist
+
+    def speak(self, tick_ns: int) -> None:
+        """Say the odometry if it is time."""
+        if self.is_frozen:
+            super().speak(tick_ns)
+            return
+        twist, pose = self.message.twist.twist, self.message.pose.pose
+        pose.position.x += twist.linear.x * schedule.SENSORS.period_ns * NS * math.cos(self._heading)
+        pose.position.y += twist.linear.x * schedule.SENSORS.period_ns * NS * math.sin(self._heading)
+        self._heading += twist.angular.z * schedule.SENSORS.period_ns * NS
+        pose.orientation.z, pose.orientation.w = math.sin(self._heading / 2.0), math.cos(self._heading / 2.0)
+        super().speak(tick_ns)
+
+
+class ImuSpeaker(Speaker):
+    """An IMU on a base whose wheels do not slip; like a live one it never says the same twice, unless it is frozen.
+
+    Attributes:
+        is_frozen: True while it repeats itself.
+    """
+
+    def __init__(self, wheels: WheelsSpeaker) -> None:
+        super().__init__(names.IMU_DATA, Imu(), schedule.SENSORS)
+        self._wheels = wheels
+        self.is_frozen = False
+
+    def speak(self, tick_ns: int) -> None:
+        """Say the reading if it is time."""
+        if not self.is_frozen:
+            noise = GYRO_NOISE_RADPS if tick_ns % TWO_SWEEPS_NS else -GYRO_NOISE_RADPS
+            self.message.angular_velocity.x = noise
+            self.message.angular_velocity.z = self._wheels.message.twist.twist.angular.z + noise
+        super().speak(tick_ns)
+
+
+def open_ground() -> Tuple[Speaker, Speaker, WheelsSpeaker, ImuSpeaker, Speaker]:
+    """Speakers of front LiDAR, rear LiDAR, odometry, IMU and peripherals."""
+    wheels = WheelsSpeaker()
     return (LidarSpeaker(names.FRONT_SCAN, clear_scan(names.FRONT_LIDAR), schedule.LIDAR),
             LidarSpeaker(names.REAR_SCAN, clear_scan(names.REAR_LIDAR), schedule.LIDAR),
-            Speaker(names.WHEEL_ODOMETRY, odometry, schedule.SENSORS),
+            wheels, ImuSpeaker(wheels),
             Speaker(names.PERIPHERALS_STATE, PeripheralsState(alive=True, key_height_m=0.35), schedule.PERIPHERALS))
 
 

@@ -101,12 +101,13 @@ class ScriptedTime:
 
     Attributes:
         tick_ns: present simulated time.
+        speakers: who speaks; a test may add one.
     """
 
     def __init__(self, nodes: Iterable[str], speakers: Iterable[Speaker], listeners: Iterable[Listener]):
         self.tick_ns = SIMULATION_START_NS
         self.holds = Holds(tuple(nodes))
-        self._speakers, self._listeners = list(speakers), list(listeners)
+        self.speakers, self._listeners = list(speakers), list(listeners)
         self._clock = rospy.Publisher("/clock", Clock, queue_size=50, tcp_nodelay=True)
 
     def start(self) -> None:
@@ -121,7 +122,7 @@ class ScriptedTime:
         """The next tick, after everybody's work in the present one."""
         self.holds.wait(self.tick_ns + STEP_NS)
         self.tick_ns += STEP_NS
-        for speaker in self._speakers:
+        for speaker in self.speakers:
             speaker.speak(self.tick_ns)
         self._clock.publish(stamp_of(self.tick_ns))
         return self.tick_ns

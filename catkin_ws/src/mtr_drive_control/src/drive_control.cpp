@@ -3,12 +3,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/drive_control.hpp"
 
+#include "mtr_core/steady_time.hpp"
 #include "problems.hpp"
 
 namespace mtr_drive_control {
 namespace {
 
 constexpr double kRoundingS = 1e-9;
+// What was sent longer ago says nothing of the wheels.
+constexpr double kAwayAfterPeriods = 2.0;
+// A contradiction is forgotten when nobody has wanted to move for so long.
+constexpr double kRestS = 1.0;
+// The lock that is the Operator's own order, see mtr_dispatcher's problems.
+constexpr char kOrderedStop[] = "dispatcher.stopped_by_operator";
 
 }  // namespace
 
@@ -16,6 +23,7 @@ DriveControl::DriveControl(const Parameters& parameters, const CollisionParamete
                            double period_s)
     : parameters_(parameters),
       period_s_(period_s),
+      odometry_timeout_s_(collision.odometry_timeout_s),
       limits_(parameters),
       collision_stop_(collision, shape),
       limiter_(limits_, period_s) {
@@ -25,12 +33,16 @@ DriveControl::DriveControl(const Parameters& parameters, const CollisionParamete
 Decision DriveControl::step(std::int64_t tick_ns, const Inputs& inputs) {
   collision_stop_.take(tick_ns, inputs.sensors);
   adapt_limits(tick_ns, inputs.key);
-  const Selection selection = choose(tick_ns, inputs);
+  follow_wheels(tick_ns, inputs.sensors.motion);
+  const std::vector<EngagedLock> locks = locks_at(tick_ns, inputs);
+  const Selection selection =
+      locks.empty() ? wanted_at(tick_ns, inputs) : Selection{"locked", std::nullopt, locks.front().reason};
   Decision decision;
   decision.source = selection.source;
   decision.message = selection.message;
-  for (const EngagedLock& lock : inputs.locks) {
+  for (const EngagedLock& lock : locks) {
     decision.engaged_locks.push_back(lock.owner);
+    decision.is_unordered_lock = decision.is_unordered_lock || lock.reason.code != kOrderedStop;
   }
   decision.velocity = pursue(tick_ns, inputs, selection, decision);
   limiter_.send(decision.velocity);
@@ -38,9 +50,19 @@ Decision DriveControl::step(std::int64_t tick_ns, const Inputs& inputs) {
 }
 
 void DriveControl::adapt_limits(std::int64_t tick_ns, const std::optional<KeyHeight>& key) {
-  const bool is_known = key && is_fresh(key->stamp_ns, tick_ns, parameters_.peripherals_timeout_s);
+  const bool is_known = key && mtr_core::is_fresh(key->stamp_ns, tick_ns, parameters_.peripherals_timeout_s);
   limits_ = limits_at(parameters_, is_known ? key->height_m : parameters_.key_raised_m);
   limiter_.set_limits(limits_);
+}
+
+void DriveControl::follow_wheels(std::int64_t tick_ns, const std::optional<Motion>& motion) {
+  const bool was_here = stepped_ns_ && mtr_core::is_fresh(*stepped_ns_, tick_ns, kAwayAfterPeriods * period_s_);
+  stepped_ns_ = tick_ns;
+  if (!was_here) {
+    const bool is_known = motion && is_heard(motion->stamp_ns, tick_ns);
+    limiter_.begin_from(is_known ? motion->velocity : Velocity{});
+    watch_ = MotionWatch();
+  }
 }
 
 Velocity DriveControl::pursue(std::int64_t tick_ns, const Inputs& inputs, const Selection& selection,
@@ -56,7 +78,7 @@ Velocity DriveControl::pursue(std::int64_t tick_ns, const Inputs& inputs, const 
   if (!decision.message) {
     decision.message = assessment.message;
   }
-  if (!selection.velocity || assessment.zone == Zone::kBlind) {
+  if (!selection.velocity || assessment.zone == Zone::kBlind || limiter_.leads(inputs.sensors.motion->velocity)) {
     return limiter_.braked();
   }
   const DesiredMotion next{limiter_.toward(assessment.velocity), wanted.by_hand};
@@ -77,6 +99,10 @@ double DriveControl::oldest_word_s(std::int64_t tick_ns, const Inputs& inputs, c
   return std::max(inputs.locks_age_s, static_cast<double>(tick_ns - oldest_ns) * 1e-9);
 }
 
+bool DriveControl::is_heard(std::int64_t stamp_ns, std::int64_t tick_ns) const {
+  return mtr_core::is_fresh(stamp_ns, tick_ns, odometry_timeout_s_);
+}
+
 bool DriveControl::is_in_time(const Velocity& velocity, double oldest_word_s) const {
   return oldest_word_s + period_s_ + limits_.stop_time_s(velocity) <= kStandstillWithinS + kRoundingS;
 }
@@ -89,10 +115,32 @@ Deceleration DriveControl::normal_deceleration() const {
   return {limits_.linear_deceleration_mps2, limits_.angular_acceleration_radps2};
 }
 
-DriveControl::Selection DriveControl::choose(std::int64_t tick_ns, const Inputs& inputs) const {
-  if (!inputs.locks.empty()) {
-    return {"locked", std::nullopt, inputs.locks.front().reason};
+std::vector<EngagedLock> DriveControl::locks_at(std::int64_t tick_ns, const Inputs& inputs) {
+  std::vector<EngagedLock> locks = inputs.locks;
+  const mtr_core::Problem contradiction = contradiction_at(tick_ns, inputs);
+  const std::optional<Velocity> wanted = wanted_at(tick_ns, inputs).velocity;
+  if (contradiction && !contradiction_) {
+    contradiction_ = contradiction;
+  } else if (rest_.lasts(!contradiction && (!wanted || wanted->is_zero()), tick_ns, kRestS)) {
+    contradiction_ = {};
   }
+  if (contradiction_) {
+    locks.push_back({kOwner, contradiction_});
+  }
+  if (inputs.imu && !is_heard(inputs.imu->stamp_ns, tick_ns)) {
+    locks.push_back({kOwner, problems::kImuSilent()});
+  }
+  return locks;
+}
+
+mtr_core::Problem DriveControl::contradiction_at(std::int64_t tick_ns, const Inputs& inputs) {
+  const std::optional<Motion>& motion = inputs.sensors.motion;
+  const bool has_motion = motion && is_heard(motion->stamp_ns, tick_ns);
+  const bool has_imu = inputs.imu && is_heard(inputs.imu->stamp_ns, tick_ns);
+  return watch_.take(tick_ns, limiter_.sent(), has_motion ? motion : std::nullopt, has_imu ? inputs.imu : std::nullopt);
+}
+
+DriveControl::Selection DriveControl::wanted_at(std::int64_t tick_ns, const Inputs& inputs) const {
   // A manual controller that falls silent while it drives keeps the floor: the planner must not set off by surprise.
   if (inputs.manual && inputs.manual->active) {
     return selection_of("manual", inputs.manual, tick_ns);
@@ -107,7 +155,7 @@ DriveControl::Selection DriveControl::selection_of(const std::string& source,
   if (!command) {
     return {"none", std::nullopt, problems::kWaitingForSource({{"source", who}})};
   }
-  if (!is_fresh(command->stamp_ns, tick_ns, parameters_.command_timeout_s)) {
+  if (!mtr_core::is_fresh(command->stamp_ns, tick_ns, parameters_.command_timeout_s)) {
     return {"none", std::nullopt, problems::kSourceSilent({{"source", who}})};
   }
   if (!command->active) {

@@ -4,8 +4,8 @@
 #include "mtr_drive_control/motion_locks.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "mtr_core/steady_time.hpp"
 #include "problems.hpp"
 
 namespace mtr_drive_control {
@@ -20,10 +20,6 @@ const std::map<std::string, Slot> kOwnerSlots{{"dispatcher", mtr_core::kDispatch
 
 }  // namespace
 
-bool is_fresh(std::int64_t stamp_ns, std::int64_t tick_ns, double timeout_s) {
-  return std::abs(static_cast<double>(tick_ns - stamp_ns)) <= timeout_s * 1e9;
-}
-
 MotionLocks::MotionLocks(const std::vector<std::string>& required_owners, double timeout_s,
                          const std::optional<mtr_core::Waiting>& waiting)
     : timeout_s_(timeout_s) {
@@ -37,13 +33,27 @@ MotionLocks::MotionLocks(const std::vector<std::string>& required_owners, double
   }
 }
 
-bool MotionLocks::take(const std::string& owner, const Lock& lock) {
-  locks_.try_emplace(owner, mtr_core::kClockStep).first->second.add(lock.stamp_ns, lock);
-  if (!lock.engaged) {
-    engaged_owners_.erase(owner);
-    return false;
+bool MotionLocks::take(const std::string& owner, Lock lock) {
+  const auto before = words_.find(owner);
+  const bool was_engaged = before != words_.end() && (before->second.engaged || before->second.latched);
+  const Word word{lock.stamp_ns, lock.engaged, is_latched(owner, lock)};
+  words_[owner] = word;
+  if (word.latched && !lock.engaged) {
+    lock.engaged = true;
+    lock.reason = problems::kEmergencyNotReleased({{"owner", owner}});
   }
-  return engaged_owners_.insert(owner).second;
+  locks_.try_emplace(owner, mtr_core::kClockStep).first->second.add(lock.stamp_ns, lock);
+  return lock.engaged && !was_engaged;
+}
+
+bool MotionLocks::is_latched(const std::string& owner, const Lock& lock) const {
+  const auto before = words_.find(owner);
+  if (lock.engaged || before == words_.end() || !before->second.latched) {
+    return lock.engaged && lock.emergency;
+  }
+  const bool was_seen =
+      before->second.engaged && mtr_core::is_fresh(before->second.stamp_ns, lock.stamp_ns, timeout_s_);
+  return !was_seen;
 }
 
 std::vector<EngagedLock> MotionLocks::engaged_at(std::int64_t tick_ns) {
@@ -54,7 +64,7 @@ std::vector<EngagedLock> MotionLocks::engaged_at(std::int64_t tick_ns) {
     age_s_ = lock ? std::max(age_s_, static_cast<double>(tick_ns - lock->stamp_ns) * 1e-9) : age_s_;
     if (!lock) {
       engaged.push_back({owner, problems::kWaitingForLock({{"owner", owner}})});
-    } else if (!is_fresh(lock->stamp_ns, tick_ns, timeout_s_)) {
+    } else if (!mtr_core::is_fresh(lock->stamp_ns, tick_ns, timeout_s_)) {
       engaged.push_back({owner, problems::kLockSilent({{"owner", owner}})});
     } else if (lock->engaged) {
       engaged.push_back({owner, lock->reason});

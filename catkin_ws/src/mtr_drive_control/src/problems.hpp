@@ -12,6 +12,10 @@ using mtr_core::Sentence;
 // Sources of motion, and those that lock it
 constexpr Sentence kWaitingForLock{"drive_control.waiting_for_lock", "Waiting for the motion lock of {owner}."};
 constexpr Sentence kLockSilent{"drive_control.lock_silent", "The motion lock of {owner} is silent."};
+constexpr Sentence kEmergencyNotReleased{
+    "drive_control.emergency_not_released",
+    "The emergency stop of {owner} was engaged when it fell silent; engage it and release it again."};
+constexpr Sentence kLeaving{"drive_control.leaving", "Drive control is being ended; the robot stops."};
 constexpr Sentence kEmergencyStop{"drive_control.emergency_stop", "The emergency stop is pressed."};
 constexpr Sentence kWaitingForSource{"drive_control.waiting_for_source", "Waiting for the {source}."};
 constexpr Sentence kSourceSilent{"drive_control.source_silent", "The {source} is silent."};
@@ -33,6 +37,24 @@ constexpr Sentence kLidarCovered{"drive_control.lidar_covered", "The {lidar} is 
 constexpr Sentence kLidarFrozen{"drive_control.lidar_frozen", "The {lidar} is frozen: it repeats the same sweep."};
 constexpr Sentence kWaitingForOdometry{"drive_control.waiting_for_odometry", "Waiting for the wheels' odometry."};
 constexpr Sentence kOdometrySilent{"drive_control.odometry_silent", "The wheels' odometry is silent."};
+constexpr Sentence kImuSilent{"drive_control.imu_silent", "The IMU is silent."};
+
+// Motion that contradicts what was sent
+constexpr Sentence kOdometryFrozen{"drive_control.odometry_frozen",
+                                   "The wheels' odometry is frozen: it repeats the same values in motion."};
+constexpr Sentence kBaseStands{"drive_control.base_stands",
+                               "The base does not obey: its wheels stand although they are told to turn. Look for its "
+                               "emergency stop, its motors and its encoders."};
+constexpr Sentence kBaseDisobeys{
+    "drive_control.base_disobeys",
+    "The base does not obey: told {sent_mps:.2f} m/s and {sent_radps:.2f} rad/s, its wheels do {measured_mps:.2f} m/s "
+    "and {measured_radps:.2f} rad/s."};
+constexpr Sentence kImuFrozen{"drive_control.imu_frozen", "The IMU is frozen: it repeats the same values in motion."};
+constexpr Sentence kWheelsSlip{
+    "drive_control.wheels_slip",
+    "The wheels spin: by them the robot turns at {wheels_radps:.2f} rad/s, by its gyro at {gyro_radps:.2f} rad/s."};
+constexpr Sentence kSecondPublisher{"drive_control.second_publisher",
+                                    "The node {node} commands the wheels, too, on {topic}; end it."};
 
 // Collision stop
 constexpr Sentence kObstacle{"drive_control.obstacle", "Blocked by an obstacle {distance_m:.1f} m {side}."};

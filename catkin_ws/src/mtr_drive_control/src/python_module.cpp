@@ -58,6 +58,15 @@ std::optional<Motion> motion_of(std::int64_t stamp_ns, const py::object& odometr
                 {number("linear_mps"), number("angular_radps")}};
 }
 
+/// From an object with the attributes of mtr_simulation.readings.ImuReading.
+std::optional<ImuReading> imu_of(std::int64_t stamp_ns, const py::object& imu) {
+  if (imu.is_none()) {
+    return std::nullopt;
+  }
+  using Vector = std::array<double, 3>;
+  return ImuReading{stamp_ns, imu.attr("angular_velocity").cast<Vector>(), imu.attr("acceleration").cast<Vector>()};
+}
+
 std::optional<SourceCommand> command_of(std::int64_t tick_ns, const std::optional<std::pair<double, double>>& desired) {
   return desired ? std::optional<SourceCommand>({tick_ns, {desired->first, desired->second}, true}) : std::nullopt;
 }
@@ -69,7 +78,8 @@ std::pair<double, double> follow(VelocityLimiter& limiter, double linear_mps, do
 
 Decision step(DriveControl& control, std::int64_t tick_ns, const std::optional<std::pair<double, double>>& planner,
               const std::optional<std::pair<double, double>>& manual, const std::vector<std::string>& locks,
-              const py::object& front, const py::object& rear, const py::object& odometry, double key_height_m) {
+              const py::object& front, const py::object& rear, const py::object& odometry, double key_height_m,
+              const py::object& imu) {
   Inputs inputs;
   for (const std::string& owner : locks) {
     inputs.locks.push_back({owner, mtr_core::problem_with_text("Locked by " + owner + ".")});
@@ -78,6 +88,7 @@ Decision step(DriveControl& control, std::int64_t tick_ns, const std::optional<s
   inputs.manual = command_of(tick_ns, manual);
   inputs.sensors = {sweep_of(front), sweep_of(rear), motion_of(tick_ns, odometry)};
   inputs.key = KeyHeight{tick_ns, key_height_m};
+  inputs.imu = imu_of(tick_ns, imu);
   return control.step(tick_ns, inputs);
 }
 
@@ -131,6 +142,7 @@ PYBIND11_MODULE(mtr_drive_control_core, module) {
       .def("step", &step, py::arg("tick_ns"), py::kw_only(), py::arg("planner") = py::none(),
            py::arg("manual") = py::none(), py::arg("locks") = std::vector<std::string>(), py::arg("front") = py::none(),
            py::arg("rear") = py::none(), py::arg("odometry") = py::none(), py::arg("key_height_m") = 0.35,
+           py::arg("imu") = py::none(),
            "Velocity of this tick; front and rear are the newest sweeps, the same again until there is a new one.");
 }
 

@@ -11,6 +11,13 @@ namespace {
 
 constexpr double kGravityMps2 = 9.81;
 
+double centre_of_mass_m(const Parameters& parameters, double key_height_m) {
+  // Also takes the raised mast for an unknown height, which is NaN.
+  const double height_m =
+      key_height_m >= 0.0 ? std::min(key_height_m, parameters.key_raised_m) : parameters.key_raised_m;
+  return parameters.centre_of_mass_m + parameters.centre_of_mass_rise * height_m;
+}
+
 }  // namespace
 
 double Limits::straight_speed_mps(const Velocity& velocity) const {
@@ -41,12 +48,12 @@ double Limits::permitted_share(const Velocity& velocity) const {
        std::sqrt(lateral_acceleration_mps2 / lateral_mps2), fastest_straight_mps() / straight_speed_mps(velocity)});
 }
 
+double static_limit_mps2(const Parameters& parameters, double key_height_m) {
+  return kGravityMps2 * parameters.tip_lever_along_m / centre_of_mass_m(parameters, key_height_m);
+}
+
 Limits limits_at(const Parameters& parameters, double key_height_m) {
-  // Also takes the raised mast for an unknown height, which is NaN.
-  const double height_m =
-      key_height_m >= 0.0 ? std::min(key_height_m, parameters.key_raised_m) : parameters.key_raised_m;
-  const double centre_m = parameters.centre_of_mass_m + parameters.centre_of_mass_rise * height_m;
-  const double per_lever = parameters.tip_margin * kGravityMps2 / centre_m;
+  const double per_lever = parameters.tip_margin * kGravityMps2 / centre_of_mass_m(parameters, key_height_m);
   const double along_mps2 = per_lever * parameters.tip_lever_along_m;
   const double across_mps2 = per_lever * parameters.tip_lever_across_m;
   Limits limits(parameters);

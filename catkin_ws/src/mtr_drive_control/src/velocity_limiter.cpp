@@ -26,6 +26,14 @@ Velocity VelocityLimiter::braked() const {
   return sent_.scaled(kept);
 }
 
+bool VelocityLimiter::leads(const Velocity& measured) const {
+  const auto is_ahead = [](double sent, double done, double lead) {
+    return sent > std::max(0.0, done) + lead || sent < std::min(0.0, done) - lead;
+  };
+  return is_ahead(sent_.linear_mps, measured.linear_mps, limits_.max_lead_mps) ||
+         is_ahead(sent_.angular_radps, measured.angular_radps, limits_.max_lead_radps);
+}
+
 double VelocityLimiter::next_linear(double wanted_mps) const {
   const double now_mps = sent_.linear_mps;
   if (now_mps == 0.0) {

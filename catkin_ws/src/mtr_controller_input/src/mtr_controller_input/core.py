@@ -40,15 +40,15 @@ class Outcome:
 class Controller:
     """Decides at each tick; remembers whether the controller is lost or its emergency stop pressed.
 
-    A controller that was never heard of locks nothing. One that was is a source of the emergency stop: when it is lost
-    the robot stands until it is back with no button held.
+    It is a source of the emergency stop, and what was before its start it cannot know: it begins as if pressed, and is
+    released on purpose. When it is lost the robot stands until it is back with no button held.
     """
 
     def __init__(self, parameters: Parameters):
         self._parameters = parameters
         self._joy: Optional[Joy] = None
         self._heard_s = self._changed_s = 0.0
-        self._is_stopped = False
+        self._stop = problems.NOT_RELEASED()
         self._release_since_s: Optional[float] = None
         self._lost = NO_PROBLEM
 
@@ -59,17 +59,17 @@ class Controller:
         self._joy, self._heard_s = joy, now_s
         # Not at the next tick: a short press must not be missed.
         if _is_held(joy.buttons, self._parameters.e_stop_button):
-            self._is_stopped = True
+            self._stop = problems.EMERGENCY_STOP()
 
     def step(self, now_s: float, is_present: bool = True) -> Outcome:
         """Decide at a tick; is_present: its device exists."""
         if self._joy is None:
-            return Outcome()
+            return Outcome(lock_reason=problems.NOT_HEARD())
         wanted = velocity(self._parameters, self._joy.axes, self._joy.buttons)
         self._watch(now_s, is_present, wanted, self._lift(self._joy.axes))
         self._watch_release(now_s, self._joy.buttons)
-        if self._is_stopped:
-            return Outcome(lock_reason=problems.EMERGENCY_STOP())
+        if self._stop:
+            return Outcome(lock_reason=self._stop)
         if self._lost:
             return Outcome(lock_reason=self._lost)
         return Outcome(wanted, self._lift(self._joy.axes) if wanted.active else 0.0)
@@ -89,7 +89,7 @@ class Controller:
         elif self._release_since_s is None:
             self._release_since_s = now_s
         elif now_s - self._release_since_s >= self._parameters.release_after_s:
-            self._is_stopped = False
+            self._stop = NO_PROBLEM
 
     def _lift(self, axes: Sequence[float]) -> float:
         return self._parameters.lift_mps * _deflection(self._parameters, axes, self._parameters.lift_axis)

@@ -52,7 +52,7 @@ class ControllerInputNode:
     def _publish(self, outcome: Outcome, tick: int) -> None:
         stamp = clock.stamp_of(tick)
         lock = MotionLock(owner=OWNER, engaged=bool(outcome.lock_reason), reason=outcome.lock_reason.text,
-                          problems=messages_of(outcome.lock_reason, Problem))
+                          problems=messages_of(outcome.lock_reason, Problem), emergency=True)
         lock.header.stamp = stamp
         self._lock.publish(lock)
         if outcome.velocity.active or self._before.velocity.active:

@@ -3,6 +3,9 @@
 from mtr_core.problems import Sentence
 
 EMERGENCY_STOP = Sentence("controller_input.emergency_stop", "The emergency stop of the manual controller is pressed.")
+NOT_RELEASED = Sentence("controller_input.not_released",
+                        "The manual controller was started: hold its release buttons to release its emergency stop.")
+NOT_HEARD = Sentence("controller_input.not_heard", "The manual controller has not been heard since its start.")
 LOST = Sentence("controller_input.lost",
                 "The manual controller is lost; the robot stands until it is back and released.")
 FROZEN = Sentence("controller_input.frozen",

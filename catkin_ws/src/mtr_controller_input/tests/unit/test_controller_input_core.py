@@ -24,6 +24,7 @@ def sticks(forward=0.0, left=0.0, lift=0.0):
 NONE, SLOW, FAST = buttons(), buttons(SLOW_BUTTON), buttons(FAST_BUTTON)
 IDLE = Joy(sticks(), NONE)
 DRIVING = Joy(sticks(forward=1.0), SLOW)
+RELEASING = Joy(sticks(), buttons(SHARE, OPTIONS))
 
 
 class Hand:
@@ -31,6 +32,7 @@ class Hand:
 
     def __init__(self, parameters=PARAMETERS):
         self.controller, self.now_s, self._wobble = Controller(parameters), 100.0, 0.0
+        self.hold(RELEASING, parameters.release_after_s + 2 * TICK_S)
 
     def hold(self, joy, duration_s=TICK_S, still=False):
         """The last outcome while this state is held; a stick in a hand is never quite still."""
@@ -74,8 +76,29 @@ def test_controller_without_the_button_counts_as_released():
     assert velocity(PARAMETERS, sticks(1.0), (1,)) == RELEASED
 
 
-def test_controller_that_was_never_heard_locks_nothing():
-    assert Controller(PARAMETERS).step(1e6) == Outcome()
+def released():
+    """A controller whose emergency stop was released before time 0."""
+    controller = Controller(PARAMETERS)
+    for now_s in (-2.0, -1.0):
+        controller.take(RELEASING, now_s)
+        controller.step(now_s)
+    return controller
+
+
+def test_controller_that_was_never_heard_locks():  # A4
+    assert "has not been heard" in Controller(PARAMETERS).step(1e6).lock_reason.text
+
+
+def test_controller_that_was_just_started_locks_until_it_is_released_on_purpose():  # A4
+    controller = Controller(PARAMETERS)
+    for joy, duration_s in ((IDLE, 3.0), (DRIVING, 3.0), (RELEASING, PARAMETERS.release_after_s / 2.0), (IDLE, 1.0)):
+        for tick in range(round(duration_s / TICK_S)):
+            controller.take(joy, tick * TICK_S)
+            assert "was started" in controller.step(tick * TICK_S).lock_reason.text
+    for tick in range(round((PARAMETERS.release_after_s + 2 * TICK_S) / TICK_S)):
+        controller.take(RELEASING, tick * TICK_S)
+        outcome = controller.step(tick * TICK_S)
+    assert not outcome.lock_reason
 
 
 def test_person_drives_while_the_button_is_held_and_hands_back_when_it_is_released():
@@ -176,7 +199,7 @@ def test_two_inputs_on_one_index_are_an_error(bad):
 
 
 def test_ends_of_the_allowed_times_are_still_allowed():
-    controller = Controller(PARAMETERS)
+    controller = released()
     controller.take(DRIVING, 0.0)
     assert not controller.step(PARAMETERS.silent_after_s).lock_reason
     controller.take(DRIVING, PARAMETERS.frozen_after_s)

@@ -1,5 +1,5 @@
 /// @file
-/// Time of the ROS clock in integer nanoseconds, and waiting for it while callbacks run.
+/// The robot's clocks in integer nanoseconds, and waiting for them while callbacks run.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "mtr_core/leaving.hpp"
 #include "mtr_core/samples.hpp"
+#include "mtr_core/steady_time.hpp"
 
 namespace mtr_core {
 
@@ -32,10 +34,16 @@ inline ros::Time stamp_of(std::int64_t time_ns) {
 /// Monotonic wall time in s.
 inline double wall_seconds() { return ros::SteadyTime::now().toSec(); }
 
-/// Runs the callbacks of the global queue, blocking at most max_wall_s for the first one; false on shutdown.
+/// When the stamp of a message that arrives now was, on the clock of Clock::now.
+inline std::int64_t time_of(const ros::Time& stamp) {
+  return is_simulated() ? to_ns(stamp) : steady_time_of(to_ns(stamp), {boot_time_ns(), to_ns(ros::Time::now())});
+}
+
+/// Runs the callbacks of the global queue, blocking at most max_wall_s for the first one; false on shutdown, and for a
+/// node that was asked to leave when its time is up.
 inline bool run_callbacks(double max_wall_s) {
   ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(std::min(max_wall_s, kShutdownCheckS)));
-  return ros::ok();
+  return ros::ok() && !must_leave();
 }
 
 /// Waiting of inputs in lock-step; none on the robot's own clock. Tests that silence many producers set less patience.
@@ -46,7 +54,7 @@ inline std::optional<Waiting> lockstep_waiting() {
   return Waiting{run_callbacks, wall_seconds, ros::param::param("/lockstep_patience_s", kProducerLostAfterWallS)};
 }
 
-/// The ROS clock of a single-threaded node.
+/// The clocks of a single-threaded node.
 ///
 /// It listens to /clock itself, on the global callback queue: ros::Time is set by another thread, and
 /// ros::Time::sleepUntil polls it, which would cost 1 ms per tick.
@@ -62,21 +70,24 @@ class Clock {
   Clock(const Clock&) = delete;
   Clock& operator=(const Clock&) = delete;
 
-  /// ROS time in ns; 0 before the first /clock.
-  std::int64_t now_ns() const { return is_simulated() ? simulated_ns_ : to_ns(ros::Time::now()); }
+  /// The present on both clocks; not before the start of the simulated one.
+  Instant now() const {
+    const std::int64_t simulated_ns = std::max(simulated_ns_, kSimulationStartNs);
+    return is_simulated() ? Instant{simulated_ns, simulated_ns} : Instant{boot_time_ns(), to_ns(ros::Time::now())};
+  }
 
-  /// Runs callbacks until the given ROS time; false on shutdown.
+  /// Runs callbacks until the given time of the steady clock, so that a ROS clock that is set cannot prolong the wait;
+  /// false on shutdown.
   bool wait_until(std::int64_t time_ns) {
-    // On the robot the wait is counted on the steady clock, so that a corrected system clock cannot prolong it.
-    const double deadline = wall_seconds() + static_cast<double>(time_ns - now_ns()) * 1e-9;
     const auto remaining_s = [&] {
-      return is_simulated() ? (simulated_ns_ < time_ns ? kShutdownCheckS : 0.0) : deadline - wall_seconds();
+      const double left_s = static_cast<double>(time_ns - now().time_ns) * 1e-9;
+      return is_simulated() && left_s > 0.0 ? kShutdownCheckS : left_s;
     };
     double remaining = remaining_s();
     while (remaining > 0.0 && run_callbacks(remaining)) {
       remaining = remaining_s();
     }
-    return ros::ok();
+    return ros::ok() && !must_leave();
   }
 
  private:

@@ -42,6 +42,17 @@ class ParameterReader {
     tell(name, value ? "true" : "false");
   }
 
+  /// Overwrites a text; throws ConfigurationError for an empty one and for what is none.
+  void read(const std::string& name, std::string& value) {
+    if (has(name)) {
+      const bool is_text = values_[name].getType() == XmlRpc::XmlRpcValue::TypeString;
+      const std::string given = is_text ? static_cast<std::string&>(values_[name]) : "";
+      require(!given.empty(), name, "a text");
+      value = given;
+    }
+    tell(name, value);
+  }
+
   /// Overwrites a text that must be one of the choices; throws ConfigurationError for anything else.
   void read(const std::string& name, std::string& value, const std::set<std::string>& choices) {
     if (has(name)) {
@@ -68,6 +79,9 @@ class ParameterReader {
     }
     tell(name, "[" + list + "]");
   }
+
+  /// Values that somebody else reads.
+  void ignore(const std::set<std::string>& names) { known_.insert(names.begin(), names.end()); }
 
   /// All effective values in one line; throws ConfigurationError when a value was given that nobody read.
   std::string finish() {

@@ -13,6 +13,15 @@
 
 namespace mtr_core {
 
+/// A message with the time of its stamp on the clock of Instant::time_ns; false before the first one.
+template <typename M>
+struct Received {
+  std::int64_t time_ns = 0;
+  typename M::ConstPtr message;
+
+  explicit operator bool() const { return message != nullptr; }
+};
+
 /// Subscription to a periodic topic with a header; `at(tick)` gives the message to use at a tick.
 ///
 /// In simulation it waits for the message that is due at that tick, so that the outcome does not depend on the speed
@@ -20,22 +29,24 @@ namespace mtr_core {
 template <typename M>
 class TickInput {
  public:
-  using ConstPtr = typename M::ConstPtr;
-
   TickInput(ros::NodeHandle& node, const std::string& topic, Slot slot, std::int64_t lag_ns = kClockStep.period_ns,
             bool waits = true)
       : samples_(slot, lag_ns, waits ? lockstep_waiting() : std::nullopt),
         subscriber_(node.subscribe<M>(
-            topic, 50, [this](const ConstPtr& message) { samples_.add(to_ns(message->header.stamp), message); },
+            topic, 50,
+            [this](const typename M::ConstPtr& message) {
+              const std::int64_t time_ns = time_of(message->header.stamp);
+              samples_.add(time_ns, {time_ns, message});
+            },
             ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay())) {}
   TickInput(const TickInput&) = delete;
   TickInput& operator=(const TickInput&) = delete;
 
-  /// Message to use at the tick, null before the first one.
-  ConstPtr at(std::int64_t tick_ns) { return samples_.at(tick_ns).value_or(nullptr); }
+  /// Message to use at the tick.
+  Received<M> at(std::int64_t tick_ns) { return samples_.at(tick_ns).value_or(Received<M>{}); }
 
  private:
-  Samples<ConstPtr> samples_;
+  Samples<Received<M>> samples_;
   ros::Subscriber subscriber_;
 };
 

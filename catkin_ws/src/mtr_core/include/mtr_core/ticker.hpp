@@ -28,16 +28,24 @@ class Ticker {
     }
   }
 
-  /// Waits for the next tick and returns it in ns of the ROS clock; nothing on shutdown.
-  /// A node that took longer than a period goes on at the next tick that is still to come.
-  std::optional<std::int64_t> sleep() {
-    const std::int64_t tick_ns = slot_.next_after(clock_.now_ns());
-    hold(tick_ns);
-    return clock_.wait_until(tick_ns) ? std::optional<std::int64_t>(tick_ns) : std::nullopt;
+  /// Waits for the next tick and returns it; nothing on shutdown.
+  ///
+  /// A node that took longer than a period goes on at the next tick that is still to come. So does one that was away
+  /// (stopped, starved, or its machine suspended): until then it receives what was said meanwhile.
+  std::optional<Instant> sleep() {
+    std::int64_t tick_ns = 0;
+    do {
+      tick_ns = slot_.next_after(clock_.now().time_ns);
+      hold(tick_ns);
+      if (!clock_.wait_until(tick_ns)) {
+        return std::nullopt;
+      }
+    } while (is_missed(slot_, tick_ns, clock_.now().time_ns));
+    return is_simulated() ? Instant{tick_ns, tick_ns} : clock_.now();
   }
 
-  /// Present time in ns of the ROS clock.
-  std::int64_t now_ns() const { return clock_.now_ns(); }
+  /// The present on both clocks.
+  Instant now() const { return clock_.now(); }
 
   /// The owner calls this with each message that it sends to the simulator.
   void count_message_sent() { ++messages_sent_; }

@@ -21,6 +21,9 @@ IMU_DATA = "/imu/data"
 NAVSAT_FIX = "/navsat/fix"
 WHEEL_ODOMETRY = "/jackal_velocity_controller/odom"
 WHEEL_COMMAND = "/jackal_velocity_controller/cmd_vel"
+# In front of a base that cannot be configured, see mtr_drive_control's base_guard
+BASE_GUARD = "/base_guard"
+GUARDED_WHEEL_COMMAND = "/base_guard/cmd_vel"
 BATTERY = "/battery"
 
 # Between the robot's nodes

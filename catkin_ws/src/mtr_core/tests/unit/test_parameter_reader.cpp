@@ -29,6 +29,7 @@ class Reading : public ::testing::Test {
     ParameterReader reader(values);
     reader.read_numbers(kRows, numbers);
     reader.read("rear", rear);
+    reader.read("topic", topic);
     reader.read("owners", owners);
     reader.read("source", source, {"own", "external"});
     return reader.finish();
@@ -46,12 +47,13 @@ class Reading : public ::testing::Test {
   XmlRpc::XmlRpcValue values;
   Example numbers;
   bool rear = true;
+  std::string topic = "/wheels";
   std::vector<std::string> owners{"a", "b"};
   std::string source = "own";
 };
 
 TEST_F(Reading, NothingGivenTellsTheDefaultsInOneLineWithUnits) {
-  EXPECT_EQ(read(), "speed_mps 0.5 m/s, share 0.2, rear true, owners ['a', 'b'], source own");
+  EXPECT_EQ(read(), "speed_mps 0.5 m/s, share 0.2, rear true, topic /wheels, owners ['a', 'b'], source own");
 }
 
 TEST_F(Reading, GivenValuesReplaceDefaults) {
@@ -60,14 +62,28 @@ TEST_F(Reading, GivenValuesReplaceDefaults) {
   values["rear"] = false;
   values["owners"][0] = std::string("c");
   values["source"] = std::string("external");
-  EXPECT_EQ(read(), "speed_mps 1 m/s, share 0.25, rear false, owners ['c'], source external");
+  EXPECT_EQ(read(), "speed_mps 1 m/s, share 0.25, rear false, topic /wheels, owners ['c'], source external");
   EXPECT_EQ(numbers.speed_mps, 1.0);
   EXPECT_EQ(owners, std::vector<std::string>{"c"});
 }
 
+TEST_F(Reading, TextThatIsNoneOrEmptyIsRefused) {
+  values["topic"] = "";
+  EXPECT_EQ(refusal(), "Parameter topic is ; allowed is a text.");
+  values["topic"] = 3;
+  EXPECT_EQ(refusal(), "Parameter topic is 3; allowed is a text.");
+}
+
+TEST_F(Reading, ValueThatSomebodyElseReadsIsNotUnknown) {
+  values["linear"] = 3;
+  ParameterReader reader(values);
+  reader.ignore({"linear"});
+  EXPECT_EQ(reader.finish(), "");
+}
+
 TEST_F(Reading, UnknownNameIsRefusedWithThoseAllowed) {
   values["spead_mps"] = 1.0;
-  EXPECT_EQ(refusal(), "Parameter spead_mps is unknown; allowed are owners, rear, share, source, speed_mps.");
+  EXPECT_EQ(refusal(), "Parameter spead_mps is unknown; allowed are owners, rear, share, source, speed_mps, topic.");
 }
 
 TEST_F(Reading, TextForANumberIsRefusedWithWhatIsAllowed) {

@@ -10,11 +10,16 @@
 
 #include "mtr_core/problem.hpp"
 #include "mtr_drive_control/collision/collision_stop.hpp"
+#include "mtr_drive_control/decision.hpp"
 #include "mtr_drive_control/motion_locks.hpp"
+#include "mtr_drive_control/motion_watch.hpp"
 #include "mtr_drive_control/parameters.hpp"
 #include "mtr_drive_control/velocity_limiter.hpp"
 
 namespace mtr_drive_control {
+
+/// Who engages the locks that are drive control's own.
+inline constexpr char kOwner[] = "drive_control";
 
 /// Velocity wanted by one source.
 struct SourceCommand {
@@ -39,18 +44,8 @@ struct Inputs {
   std::optional<SourceCommand> planner;
   Sensors sensors;
   std::optional<KeyHeight> key;
-};
-
-/// Velocity to send, and why.
-struct Decision {
-  Velocity velocity;
-  /// none, locked, manual or planner.
-  std::string source;
-  std::vector<std::string> engaged_locks;
-  /// One sentence, empty when all is well.
-  mtr_core::Problem message;
-  Zone zone = Zone::kClear;
-  std::optional<Hindrance> hindrance;
+  /// Nothing where there is no IMU; one that was heard has to go on.
+  std::optional<ImuReading> imu = std::nullopt;
 };
 
 /// Three stages: choose a source (locks, manual, planner), reduce what it wants to what is safe, limit its change.
@@ -59,12 +54,18 @@ struct Decision {
 /// for at the normal limit. Every velocity that is sent is one from which an emergency stop ends before a collision,
 /// and within kStandstillWithinS of the oldest word on which it rests: who is late slows the robot before it counts as
 /// dead.
+///
+/// A motion that contradicts what was sent, see motion_watch.hpp, is a lock of its own: it is released when nobody has
+/// wanted to move for a while.
+///
+/// What is sent begins from what the wheels do and keeps near it: after a pause without ticks (a process that was
+/// stopped or starved) from their measured velocity, and from standstill when that is not known.
 class DriveControl {
  public:
   DriveControl(const Parameters& parameters, const CollisionParameters& collision, const RobotShape& shape,
                double period_s);
 
-  /// Decision of this tick, ns of the ROS clock; to be called once per period.
+  /// Decision of this tick, ns of a clock that nobody sets; to be called once per period.
   Decision step(std::int64_t tick_ns, const Inputs& inputs);
 
   /// For display: the outline, and where it would get when stopped now at the normal limit.
@@ -80,20 +81,31 @@ class DriveControl {
     mtr_core::Problem message;
   };
 
-  Selection choose(std::int64_t tick_ns, const Inputs& inputs) const;
+  void follow_wheels(std::int64_t tick_ns, const std::optional<Motion>& motion);
+  /// Locks of others, and its own.
+  std::vector<EngagedLock> locks_at(std::int64_t tick_ns, const Inputs& inputs);
+  mtr_core::Problem contradiction_at(std::int64_t tick_ns, const Inputs& inputs);
+  Selection wanted_at(std::int64_t tick_ns, const Inputs& inputs) const;
   Selection selection_of(const std::string& source, const std::optional<SourceCommand>& command,
                          std::int64_t tick_ns) const;
   void adapt_limits(std::int64_t tick_ns, const std::optional<KeyHeight>& key);
   Deceleration normal_deceleration() const;
   double oldest_word_s(std::int64_t tick_ns, const Inputs& inputs, const std::string& source) const;
+  /// True for a word of odometry or IMU that tells of the present.
+  bool is_heard(std::int64_t stamp_ns, std::int64_t tick_ns) const;
   bool is_in_time(const Velocity& velocity, double oldest_word_s) const;
   Velocity pursue(std::int64_t tick_ns, const Inputs& inputs, const Selection& selection, Decision& decision);
 
   Parameters parameters_;
   double period_s_;
+  double odometry_timeout_s_;
   Limits limits_;
   CollisionStop collision_stop_;
   VelocityLimiter limiter_;
+  std::optional<std::int64_t> stepped_ns_;
+  MotionWatch watch_;
+  mtr_core::Problem contradiction_;
+  Duration rest_;
 };
 
 }  // namespace mtr_drive_control

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +20,8 @@ struct Lock {
   bool engaged;
   /// One sentence for the Operator.
   mtr_core::Problem reason;
+  /// The owner is an emergency stop.
+  bool emergency = false;
 };
 
 /// A lock that forbids motion now.
@@ -29,10 +30,10 @@ struct EngagedLock {
   mtr_core::Problem reason;
 };
 
-/// True when stamp and tick are not farther apart than the time-out; a stamp far ahead means a clock that was set.
-bool is_fresh(std::int64_t stamp_ns, std::int64_t tick_ns, double timeout_s);
-
 /// Locks of the required owners, and of every other owner that was ever heard.
+///
+/// An emergency stop is latched: one that fell silent while it was engaged is released only when its owner engages it
+/// and then releases it, so that a new process that knows nothing of it releases nothing.
 class MotionLocks {
  public:
   /// @param waiting given in lock-step: the required owners with a slot in the schedule are waited for
@@ -40,7 +41,7 @@ class MotionLocks {
               const std::optional<mtr_core::Waiting>& waiting);
 
   /// Takes an owner's word; true when it engages a lock that was released or never heard.
-  bool take(const std::string& owner, const Lock& lock);
+  bool take(const std::string& owner, Lock lock);
 
   /// Locks that forbid motion at the tick, ordered by owner.
   std::vector<EngagedLock> engaged_at(std::int64_t tick_ns);
@@ -49,10 +50,20 @@ class MotionLocks {
   double age_s() const { return age_s_; }
 
  private:
+  /// The newest word of an owner.
+  struct Word {
+    std::int64_t stamp_ns;
+    bool engaged;
+    /// An emergency stop that nobody was seen to release.
+    bool latched;
+  };
+
+  bool is_latched(const std::string& owner, const Lock& lock) const;
+
   double timeout_s_;
   double age_s_ = 0.0;
   std::map<std::string, mtr_core::Samples<Lock>> locks_;
-  std::set<std::string> engaged_owners_;
+  std::map<std::string, Word> words_;
 };
 
 }  // namespace mtr_drive_control

@@ -50,12 +50,16 @@ struct Parameters {
   double key_raised_m = 1.55;
   /// Age at which the height of the key is unknown; the peripherals speak every 0.1 s.
   double peripherals_timeout_s = 0.5;
+  /// A velocity that is so much faster than the wheels turn is braked: they do not follow it, and would be surprised by
+  /// it later. At 1 m/s2 and 2 rad/s2 it is what a base has to catch up with that answers in 0.3 and 0.4 s.
+  double max_lead_mps = 0.3;
+  double max_lead_radps = 0.8;
 };
 
 using Row = mtr_core::ParameterRow<Parameters>;
 
 /// Range and unit of each parameter.
-inline constexpr std::array<Row, 18> kRows{{
+inline constexpr std::array<Row, 20> kRows{{
     {"max_linear_mps", &Parameters::max_linear_mps, 0.05, 2.0, "m/s"},
     {"max_angular_radps", &Parameters::max_angular_radps, 0.1, 4.0, "rad/s"},
     {"linear_acceleration_mps2", &Parameters::linear_acceleration_mps2, 0.1, 3.0, "m/s2"},
@@ -74,6 +78,8 @@ inline constexpr std::array<Row, 18> kRows{{
     {"curve_lever_m", &Parameters::curve_lever_m, 0.01, 1.0, "m"},
     {"key_raised_m", &Parameters::key_raised_m, 0.1, 3.0, "m"},
     {"peripherals_timeout_s", &Parameters::peripherals_timeout_s, 0.2, 5.0, "s"},
+    {"max_lead_mps", &Parameters::max_lead_mps, 0.1, 2.0, "m/s"},
+    {"max_lead_radps", &Parameters::max_lead_radps, 0.2, 4.0, "rad/s"},
 }};
 
 /// Throws ConfigurationError unless each value is in its range and an emergency stop ends within kStopWithinS.

@@ -31,6 +31,9 @@ struct Limits : Parameters {
   double permitted_share(const Velocity& velocity) const;
 };
 
+/// Deceleration at which the robot would tip over its front wheels if it were stiff, with the key at this height.
+double static_limit_mps2(const Parameters& parameters, double key_height_m);
+
 /// The limits that hold with the key at this height above ground: static tip-over limit times its margin.
 ///
 /// A body on wheels tips when acceleration * height of the centre of mass exceeds g * its horizontal distance from the

@@ -22,12 +22,18 @@ class VelocityLimiter {
   /// Next velocity on the way to the wanted one, which must be finite.
   Velocity toward(const Velocity& wanted) const;
 
+  /// True when the velocity sent last is so much faster than the wheels, in one of its parts, that they do not follow.
+  bool leads(const Velocity& measured) const;
+
   /// Next velocity of an emergency stop along the present circle.
   Velocity braked() const;
 
   /// This velocity is sent.
   void send(const Velocity& velocity) { sent_ = velocity; }
   const Velocity& sent() const { return sent_; }
+
+  /// What was sent before counts no longer: the wheels do this, as far as it is a velocity that may be sent.
+  void begin_from(const Velocity& measured) { sent_ = within_limits(measured); }
 
  private:
   double next_linear(double wanted_mps) const;

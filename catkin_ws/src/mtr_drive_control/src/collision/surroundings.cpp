@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/collision/surroundings.hpp"
 
+#include "mtr_core/steady_time.hpp"
 #include "problems.hpp"
 
 namespace mtr_drive_control {
@@ -30,8 +31,15 @@ Surroundings::Surroundings(const CollisionParameters& parameters, const RobotSha
 }
 
 void Surroundings::take(std::int64_t tick_ns, const Sensors& sensors) {
+  if (tick_ns < tick_ns_) {
+    // A clock that goes back would let old ground count as seen and new echoes as old.
+    ground_ = GroundMemory();
+  }
   tick_ns_ = tick_ns;
-  motion_ = sensors.motion;
+  has_motion_ = sensors.motion.has_value();
+  const bool is_known =
+      has_motion_ && mtr_core::is_fresh(sensors.motion->stamp_ns, tick_ns, parameters_.odometry_timeout_s);
+  motion_ = is_known ? sensors.motion : std::nullopt;
   bool has_observed = observe(lidars_.front(), sensors.front);
   if (watches_rear_) {
     has_observed = observe(lidars_.back(), sensors.rear) || has_observed;
@@ -53,7 +61,8 @@ bool Surroundings::was_free(const Point& point) const {
 }
 
 bool Surroundings::observe(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep) {
-  if (!lidar.watch.take(sweep) || !motion_) {
+  // What is stale or from the future would be remembered as of a wrong time.
+  if (!lidar.watch.take(sweep) || lidar.watch.problem_at(tick_ns_) || !motion_) {
     return false;
   }
   lidar.echoes = lidar.finder.find(*sweep, *motion_, kRangeOfInterestM);
@@ -79,11 +88,10 @@ mtr_core::Problem Surroundings::blindness_at(std::int64_t tick_ns) const {
       return problem;
     }
   }
-  if (!motion_) {
-    return problems::kWaitingForOdometry();
+  if (motion_) {
+    return {};
   }
-  return std::abs(age_s(tick_ns, motion_->stamp_ns)) > parameters_.odometry_timeout_s ? problems::kOdometrySilent()
-                                                                                      : mtr_core::Problem{};
+  return has_motion_ ? problems::kOdometrySilent() : problems::kWaitingForOdometry();
 }
 
 void Surroundings::add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind) {

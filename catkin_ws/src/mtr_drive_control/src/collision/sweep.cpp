@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mtr_core/steady_time.hpp"
 #include "problems.hpp"
 
 namespace mtr_drive_control {
@@ -58,12 +59,9 @@ mtr_core::Problem LidarWatch::problem_at(std::int64_t tick_ns) const {
   if (!newest_) {
     return problems::kWaitingForLidar({{"lidar", name_}});
   }
-  const double age_s = static_cast<double>(tick_ns - newest_->stamp_ns) * 1e-9;
-  if (age_s > timeout_s_) {
-    return problems::kLidarSilent({{"lidar", name_}});
-  }
-  if (age_s < -timeout_s_) {
-    return problems::kLidarInFuture({{"lidar", name_}});
+  if (!mtr_core::is_fresh(newest_->stamp_ns, tick_ns, timeout_s_)) {
+    const bool is_old = newest_->stamp_ns < tick_ns;
+    return (is_old ? problems::kLidarSilent : problems::kLidarInFuture)({{"lidar", name_}});
   }
   return defect_;
 }

@@ -9,45 +9,53 @@
 #include "mtr_core/names.hpp"
 
 namespace mtr_drive_control {
-namespace {
 
-using mtr_core::to_ns;
-
-}  // namespace
-
-std::optional<SourceCommand> command_of(const mtr_msgs::VelocityCommand::ConstPtr& message) {
-  if (!message) {
+std::optional<SourceCommand> command_of(const Received<mtr_msgs::VelocityCommand>& received) {
+  if (!received) {
     return std::nullopt;
   }
+  const mtr_msgs::VelocityCommand& message = *received.message;
   return SourceCommand{
-      to_ns(message->header.stamp), {message->linear_mps, message->angular_radps}, static_cast<bool>(message->active)};
+      received.time_ns, {message.linear_mps, message.angular_radps}, static_cast<bool>(message.active)};
 }
 
-std::optional<Motion> motion_of(const nav_msgs::Odometry::ConstPtr& message) {
-  if (!message) {
+std::optional<Motion> motion_of(const Received<nav_msgs::Odometry>& received) {
+  if (!received) {
     return std::nullopt;
   }
-  const auto& position = message->pose.pose.position;
-  const auto& turn = message->pose.pose.orientation;
+  const nav_msgs::Odometry& message = *received.message;
+  const auto& position = message.pose.pose.position;
+  const auto& turn = message.pose.pose.orientation;
   const double heading =
       std::atan2(2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y * turn.y + turn.z * turn.z));
-  const Velocity velocity{message->twist.twist.linear.x, message->twist.twist.angular.z};
+  const Velocity velocity{message.twist.twist.linear.x, message.twist.twist.angular.z};
   if (!std::isfinite(position.x + position.y + heading) || !velocity.is_finite()) {
     return std::nullopt;
   }
-  return Motion{to_ns(message->header.stamp), Pose(position.x, position.y, heading), velocity};
+  return Motion{received.time_ns, Pose(position.x, position.y, heading), velocity};
 }
 
-std::optional<KeyHeight> key_height_of(const mtr_msgs::PeripheralsState::ConstPtr& message) {
-  if (!message || !message->alive) {
+std::optional<ImuReading> imu_reading_of(const Received<sensor_msgs::Imu>& received) {
+  if (!received) {
     return std::nullopt;
   }
-  return KeyHeight{to_ns(message->header.stamp), message->key_height_m};
+  const auto& rate = received.message->angular_velocity;
+  const auto& force = received.message->linear_acceleration;
+  const ImuReading reading{received.time_ns, {rate.x, rate.y, rate.z}, {force.x, force.y, force.z}};
+  // What is no number is as good as silent.
+  return reading.is_finite() ? reading : ImuReading{mtr_core::kNeverNs, {}, {}};
 }
 
-mtr_msgs::DriveStatus status_message(std::int64_t tick_ns, const Decision& decision) {
+std::optional<KeyHeight> key_height_of(const Received<mtr_msgs::PeripheralsState>& received) {
+  if (!received || !received.message->alive) {
+    return std::nullopt;
+  }
+  return KeyHeight{received.time_ns, received.message->key_height_m};
+}
+
+mtr_msgs::DriveStatus status_message(std::int64_t stamp_ns, const Decision& decision, const Interventions& counted) {
   mtr_msgs::DriveStatus status;
-  status.header.stamp = mtr_core::stamp_of(tick_ns);
+  status.header.stamp = mtr_core::stamp_of(stamp_ns);
   status.header.frame_id = mtr_core::names::kBase;
   status.source = decision.source;
   status.linear_mps = decision.velocity.linear_mps;
@@ -59,15 +67,19 @@ mtr_msgs::DriveStatus status_message(std::int64_t tick_ns, const Decision& decis
   const Hindrance hindrance = decision.hindrance.value_or(Hindrance{});
   status.obstacle_m = hindrance.distance_m;
   status.obstacle_bearing = hindrance.bearing_rad;
+  status.manual_drives = counted.manual_drives;
+  status.blockages = counted.blockages;
+  status.lock_stops = counted.lock_stops;
   return status;
 }
 
-std::shared_ptr<const Sweep> SweepReader::read(const sensor_msgs::LaserScan::ConstPtr& message) {
+std::shared_ptr<const Sweep> SweepReader::read(const Received<sensor_msgs::LaserScan>& received) {
+  const sensor_msgs::LaserScan::ConstPtr& message = received.message;
   if (message && message != message_) {
     message_ = message;
-    sweep_ = std::make_shared<const Sweep>(
-        Sweep{to_ns(message->header.stamp), message->angle_min, message->angle_increment, message->time_increment,
-              message->range_min, message->range_max, message->ranges, message->header.frame_id, frame_});
+    sweep_ = std::make_shared<const Sweep>(Sweep{received.time_ns, message->angle_min, message->angle_increment,
+                                                 message->time_increment, message->range_min, message->range_max,
+                                                 message->ranges, message->header.frame_id, frame_});
   }
   return sweep_;
 }

@@ -18,11 +18,21 @@ namespace names = mtr_core::names;
 constexpr double kPeriodS = static_cast<double>(mtr_core::kDriveControl.period_ns) * 1e-9;
 // A scan bears its first beam's time and comes when the sweep has ended, before the clock.
 constexpr std::int64_t kScanLagNs = mtr_core::kLidar.period_ns;
+// What is published last may be lost with the process.
+constexpr int kZerosBeforeLeaving = 5;
 
 std::vector<std::string> owners_of(const NodeParameters& parameters) {
   std::vector<std::string> owners = parameters.lock_owners;
   owners.insert(owners.end(), parameters.e_stop_topics.begin(), parameters.e_stop_topics.end());
   return owners;
+}
+
+std::map<std::string, std::string> permitted_publishers(bool has_guard) {
+  const std::string own = ros::this_node::getName();
+  if (has_guard) {
+    return {{names::kGuardedWheelCommand, own}, {names::kWheelCommand, names::kBaseGuard}};
+  }
+  return {{names::kWheelCommand, own}};
 }
 
 void log_limits(const NodeParameters& parameters) {
@@ -52,6 +62,8 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
   reader.read("lock_owners", parameters.lock_owners);
   reader.read("e_stop_topics", parameters.e_stop_topics);
   reader.read("rear_lidar", parameters.rear_lidar);
+  reader.read("base_controller", parameters.base_controller);
+  reader.read("base_guard", parameters.base_guard);
   reader.read("manual_expected", parameters.manual_expected);
   return parameters;
 }
@@ -65,15 +77,20 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
               parameters.manual_expected),
       planner_(node, names::kPlannerVelocity, mtr_core::kMotionPlanner),
       odometry_(node, names::kWheelOdometry, mtr_core::kSensors, 0),
+      imu_(node, names::kImuData, mtr_core::kSensors, 0),
       peripherals_(node, names::kPeripheralsState, mtr_core::kPeripherals),
       front_(node, names::kFrontScan, names::kFrontLidar),
       markers_(node),
-      wheels_(node.advertise<geometry_msgs::Twist>(names::kWheelCommand, 10)),
-      status_(node.advertise<mtr_msgs::DriveStatus>(names::kDriveStatus, 10)) {
+      wheels_(node.advertise<geometry_msgs::Twist>(
+          parameters.base_guard ? names::kGuardedWheelCommand : names::kWheelCommand, 10)),
+      status_(node.advertise<mtr_msgs::DriveStatus>(names::kDriveStatus, 10)),
+      publishers_(permitted_publishers(parameters.base_guard)) {
   if (parameters.rear_lidar) {
     rear_.emplace(node, names::kRearScan, names::kRearLidar);
   }
   check_balance(parameters.limits, mtr_description::described_robot());
+  check_base(parameters.base_guard ? std::string(names::kBaseGuard) + kShippedController : parameters.base_controller,
+             parameters.limits);
   listen_to_locks(node, parameters.e_stop_topics);
   log_limits(parameters);
 }
@@ -83,8 +100,9 @@ void Node::listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>
   lock_subscribers_.push_back(node.subscribe<mtr_msgs::MotionLock>(
       names::kMotionLock, 50,
       [this](const mtr_msgs::MotionLock::ConstPtr& message) {
-        const Lock lock{mtr_core::to_ns(message->header.stamp), static_cast<bool>(message->engaged),
-                        mtr_core::problem_of(message->problems, message->reason)};
+        const Lock lock{mtr_core::time_of(message->header.stamp), static_cast<bool>(message->engaged),
+                        mtr_core::problem_of(message->problems, message->reason),
+                        static_cast<bool>(message->emergency)};
         take(message->owner, lock);
       },
       ros::VoidConstPtr(), hints));
@@ -92,7 +110,7 @@ void Node::listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>
     lock_subscribers_.push_back(node.subscribe<std_msgs::Bool>(
         topic, 50,
         [this, topic](const std_msgs::Bool::ConstPtr& message) {
-          const Lock lock{ticker_.now_ns(), static_cast<bool>(message->data), problems::kEmergencyStop()};
+          const Lock lock{ticker_.now().time_ns, static_cast<bool>(message->data), problems::kEmergencyStop()};
           take(topic, lock);
         },
         ros::VoidConstPtr(), hints));
@@ -103,37 +121,56 @@ void Node::take(const std::string& owner, const Lock& lock) {
   // Callbacks run while the node waits for its next tick. A stop does not wait: its first step is taken now, and the
   // next one a little early. In lock-step a tick is a tick.
   if (locks_.take(owner, lock) && !mtr_core::is_simulated()) {
-    tick(ticker_.now_ns());
+    tick(ticker_.now());
   }
 }
 
 void Node::spin() {
-  while (const auto tick_ns = ticker_.sleep()) {
-    tick(*tick_ns);
+  mtr_core::leave_in_order();
+  auto instant = ticker_.sleep();
+  while (instant && zeros_sent_ < kZerosBeforeLeaving) {
+    tick(*instant);
+    instant = ticker_.sleep();
   }
 }
 
-void Node::tick(std::int64_t tick_ns) {
+void Node::tick(const mtr_core::Instant& tick) {
+  const std::int64_t tick_ns = tick.time_ns;
   Inputs inputs;
   inputs.sensors.front = front_.at(tick_ns);
   inputs.sensors.rear = rear_ ? rear_->at(tick_ns) : nullptr;
   inputs.sensors.motion = motion_of(odometry_.at(tick_ns));
+  inputs.imu = imu_reading_of(imu_.at(tick_ns));
   inputs.key = key_height_of(peripherals_.at(tick_ns));
   inputs.locks = locks_.engaged_at(tick_ns);
   inputs.locks_age_s = locks_.age_s();
+  const std::vector<EngagedLock> own = own_locks();
+  inputs.locks.insert(inputs.locks.begin(), own.begin(), own.end());
   inputs.manual = command_of(manual_.at(tick_ns));
   inputs.planner = command_of(planner_.at(tick_ns));
-  publish(tick_ns, drive_control_.step(tick_ns, inputs));
+  publish(tick, drive_control_.step(tick_ns, inputs));
 }
 
-void Node::publish(std::int64_t tick_ns, const Decision& decision) {
+std::vector<EngagedLock> Node::own_locks() const {
+  std::vector<EngagedLock> locks;
+  if (mtr_core::is_asked_to_leave()) {
+    locks.push_back({kOwner, problems::kLeaving()});
+  }
+  if (const std::optional<Intruder> intruder = publishers_.intruder()) {
+    locks.push_back({kOwner, problems::kSecondPublisher({{"node", intruder->node}, {"topic", intruder->topic}})});
+  }
+  return locks;
+}
+
+void Node::publish(const mtr_core::Instant& tick, const Decision& decision) {
   geometry_msgs::Twist wheels;
   wheels.linear.x = decision.velocity.linear_mps;
   wheels.angular.z = decision.velocity.angular_radps;
   wheels_.publish(wheels);
+  zeros_sent_ = mtr_core::is_asked_to_leave() && decision.velocity.is_zero() ? zeros_sent_ + 1 : 0;
   ticker_.count_message_sent();
-  status_.publish(status_message(tick_ns, decision));
-  markers_.publish(tick_ns, decision, drive_control_);
+  status_.publish(status_message(tick.stamp_ns, decision, interventions_.count(decision)));
+  markers_.publish(tick, decision, drive_control_);
   log(decision);
 }
 

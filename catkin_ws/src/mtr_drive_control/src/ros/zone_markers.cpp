@@ -35,12 +35,13 @@ geometry_msgs::Point message_of(const Point& point) {
 ZoneMarkers::ZoneMarkers(ros::NodeHandle& node)
     : publisher_(node.advertise<visualization_msgs::MarkerArray>(mtr_core::names::kDriveMarkers, 1)) {}
 
-void ZoneMarkers::publish(std::int64_t tick_ns, const Decision& decision, const DriveControl& drive_control) {
-  if (tick_ns % kPeriodNs != 0 || publisher_.getNumSubscribers() == 0) {
+void ZoneMarkers::publish(const mtr_core::Instant& tick, const Decision& decision, const DriveControl& drive_control) {
+  if (tick.time_ns - published_ns_ < kPeriodNs || publisher_.getNumSubscribers() == 0) {
     return;
   }
+  published_ns_ = tick.time_ns;
   visualization_msgs::Marker marker;
-  marker.header.stamp = mtr_core::stamp_of(tick_ns);
+  marker.header.stamp = mtr_core::stamp_of(tick.stamp_ns);
   marker.header.frame_id = mtr_core::names::kBase;
   marker.ns = "stop_zone";
   marker.type = visualization_msgs::Marker::LINE_LIST;

@@ -115,7 +115,7 @@ class TestRobot {
 
   /// One tick with this desired velocity.
   Decision step(const Velocity& desired, bool by_hand = false) {
-    world_from_base = world_from_base.after(velocity, 0.02);
+    world_from_base = world_from_base.after(wheels, 0.02);
     now_ns += kTestPeriodNs;
     if (now_ns % kTestSweepNs == 0 && !lidars_are_silent) {
       observe();
@@ -123,10 +123,12 @@ class TestRobot {
     Inputs inputs;
     const SourceCommand command{now_ns - kTestPeriodNs, desired, true};
     (by_hand ? inputs.manual : inputs.planner) = command;
-    inputs.sensors = {front_, rear_, Motion{now_ns, world_from_base, velocity}};
+    inputs.sensors = {front_, rear_,
+                      Motion{odometry_is_silent ? now_ns - 1000 * kTestMs : now_ns, world_from_base, wheels}};
     inputs.key = KeyHeight{now_ns, 0.35};
     const Decision decision = control.step(now_ns, inputs);
     velocity = decision.velocity;
+    wheels = obeys ? velocity : Velocity{};
     return decision;
   }
 
@@ -147,7 +149,11 @@ class TestRobot {
   Scene scene;
   DriveControl control;
   Pose world_from_base;
+  /// What was sent last, and what the wheels make of it.
   Velocity velocity;
+  Velocity wheels;
+  bool obeys = true;
+  bool odometry_is_silent = false;
   bool lidars_are_silent = false;
   std::int64_t now_ns = 5'000'000'000;
 

@@ -25,9 +25,11 @@ class DriveControlTest : public ::testing::Test {
   Decision step(const std::vector<EngagedLock>& locks, const std::optional<SourceCommand>& manual,
                 const std::optional<SourceCommand>& planner) {
     const auto sweep = Scene().sweep(Pose(), kTickNs - 40 * kMs);
-    return control.step(
-        kTickNs,
-        {locks, 0.0, manual, planner, {sweep, nullptr, Motion{kTickNs, Pose(), {}}}, KeyHeight{kTickNs, 0.35}});
+    const Motion motion{kTickNs, Pose(), sent};
+    const Decision decision =
+        control.step(kTickNs, {locks, 0.0, manual, planner, {sweep, nullptr, motion}, KeyHeight{kTickNs, 0.35}});
+    sent = decision.velocity;
+    return decision;
   }
 
   Decision drive_at_full_speed() {
@@ -38,6 +40,8 @@ class DriveControlTest : public ::testing::Test {
     return decision;
   }
 
+  /// The wheels obey.
+  Velocity sent;
   const Parameters limits = limits_at(Parameters{}, 0.35);
   DriveControl control{Parameters{}, CollisionParameters{}, test_shape(false), 0.02};
 };
@@ -88,8 +92,8 @@ TEST_F(DriveControlTest, LateLockSlowsTheRobotBeforeItCountsAsSilentAndItStandsH
   double speed_mps = drive_at_full_speed().velocity.linear_mps;
   const auto sweep = Scene().sweep(Pose(), kTickNs - 40 * kMs);
   for (double age_s = 0.12; age_s < 0.5; age_s += 0.02) {
-    const Motion motion{kTickNs, Pose(), {}};
-    const Velocity sent =
+    const Motion motion{kTickNs, Pose(), sent};
+    sent =
         control
             .step(kTickNs, {{}, age_s, std::nullopt, command(1.5), {sweep, nullptr, motion}, KeyHeight{kTickNs, 0.35}})
             .velocity;
@@ -136,7 +140,8 @@ TEST_F(DriveControlTest, UnknownKeyHeightLowersTheSpeedToThatOfTheRaisedKey) {
   for (int tick = 0; tick < 100; ++tick) {
     const auto sweep = Scene().sweep(Pose(), kTickNs - 40 * kMs);
     decision = control.step(
-        kTickNs, {{}, 0.0, std::nullopt, command(1.5), {sweep, nullptr, Motion{kTickNs, Pose(), {}}}, std::nullopt});
+        kTickNs, {{}, 0.0, std::nullopt, command(1.5), {sweep, nullptr, Motion{kTickNs, Pose(), sent}}, std::nullopt});
+    sent = decision.velocity;
   }
   EXPECT_DOUBLE_EQ(decision.velocity.linear_mps, limits_at(Parameters{}, 1.55).max_linear_mps);
   EXPECT_LT(decision.velocity.linear_mps, limits.max_linear_mps);

@@ -72,6 +72,61 @@ TEST(MotionLocks, OwnerBeyondTheRequiredOnesIsObeyedAndThenWatched) {
   EXPECT_EQ(locks.engaged_at(1600 * kMs).size(), 1u);
 }
 
+class EmergencyStop : public ::testing::Test {
+ protected:
+  /// Words each 40 ms; true when the robot may move after the last one.
+  bool may_move_after(std::int64_t duration_ms, bool engaged) {
+    for (const std::int64_t end_ms = now_ms + duration_ms; now_ms < end_ms; now_ms += 40) {
+      locks.take("controller_input", {now_ms * kMs, engaged, mtr_core::problem_with_text("Pressed."), true});
+    }
+    return locks.engaged_at(now_ms * kMs).empty();
+  }
+
+  std::int64_t now_ms = 1000;
+  MotionLocks locks = locks_of({"controller_input"});
+};
+
+TEST_F(EmergencyStop, IsReleasedByItsOwner) {
+  EXPECT_FALSE(may_move_after(400, true));
+  EXPECT_TRUE(may_move_after(40, false));
+}
+
+// A4
+TEST_F(EmergencyStop, OfAnOwnerThatRestartsAndSaysNothingOfItStaysEngaged) {
+  may_move_after(400, true);
+  now_ms += 2000;
+  EXPECT_FALSE(may_move_after(10000, false));
+  EXPECT_EQ(locks.engaged_at(now_ms * kMs).at(0).reason.code, "drive_control.emergency_not_released");
+}
+
+// A4
+TEST_F(EmergencyStop, OfAnOwnerThatRestartedIsReleasedAfterItWasEngagedAnew) {
+  may_move_after(400, true);
+  now_ms += 2000;
+  may_move_after(400, false);
+  EXPECT_FALSE(may_move_after(400, true));
+  EXPECT_TRUE(may_move_after(40, false));
+}
+
+TEST_F(EmergencyStop, ThatWasReleasedBeforeItsOwnerRestartedIsForgotten) {
+  may_move_after(400, true);
+  may_move_after(400, false);
+  now_ms += 2000;
+  EXPECT_TRUE(may_move_after(40, false));
+}
+
+TEST(MotionLocks, LockThatIsNoEmergencyStopIsReleasedByItsOwnersNextWord) {
+  MotionLocks locks = locks_of({"dispatcher"});
+  locks.take("dispatcher", {1000 * kMs, true, mtr_core::problem_with_text("Stop.")});
+  locks.take("dispatcher", {5000 * kMs, false, {}});
+  EXPECT_TRUE(locks.engaged_at(5020 * kMs).empty());
+}
+
+// A4
+TEST(MotionLocks, RequiredEmergencyStopThatWasNeverHeardIsEngaged) {
+  EXPECT_EQ(locks_of({"controller_input"}).engaged_at(1000 * kMs).size(), 1u);
+}
+
 TEST(MotionLocks, InLockStepTheLockOfTheOwnersLastTickIsWaitedFor) {
   MotionLocks* target = nullptr;
   int waits = 0;

@@ -19,7 +19,8 @@ from sensor_msgs.msg import LaserScan
 
 from mtr_benchmarks.harness.probe import cpu_s
 from mtr_core import names
-from mtr_description.shipped import shipped_urdf
+from mtr_description.base_controller import CONTROLLER, base_parameters_in
+from mtr_description.shipped import shipped_base_file, shipped_urdf
 from mtr_msgs.msg import MotionLock, PeripheralsState, VelocityCommand
 
 BEAMS = 720
@@ -125,6 +126,7 @@ def main(samples: int) -> int:
     """Measure; always 0, or an error that says what did not work."""
     rospy.init_node("latency_probe")
     rospy.set_param(names.ROBOT_DESCRIPTION, shipped_urdf())
+    rospy.set_param(f"/{CONTROLLER}", base_parameters_in(shipped_base_file()))
     node = subprocess.Popen([roslib.packages.find_node("mtr_drive_control", "drive_control_node")[0],
                              "__name:=drive_control"], stdout=subprocess.DEVNULL)
     feed = DriveControlFeed()

@@ -74,7 +74,7 @@ class Rig:
         self._rear = sensors.rear_scan or self._rear
         self.decision = self._control.step(
             sensors.time_ns, planner=velocity, locks=["operator"] if locked else [], front=self._front, rear=self._rear,
-            odometry=sensors.odometry, key_height_m=self._key_height_m)
+            odometry=sensors.odometry, key_height_m=self._key_height_m, imu=sensors.imu)
         self.sim.command(self.decision.linear_mps, self.decision.angular_radps)
         self._sensors = self.sim.step()
         return self.decision

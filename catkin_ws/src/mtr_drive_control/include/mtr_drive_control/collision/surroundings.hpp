@@ -81,6 +81,8 @@ class Surroundings {
   std::vector<Lidar> lidars_;
   GroundMemory ground_;
   std::int64_t tick_ns_ = 0;
+  /// False before the first word of the odometry; a stale one is no motion.
+  bool has_motion_ = false;
   std::optional<Motion> motion_;
   Pose odom_from_base_;
   mtr_core::Problem blindness_;

@@ -7,28 +7,34 @@
 #include <mtr_msgs/PeripheralsState.h>
 #include <mtr_msgs/VelocityCommand.h>
 #include <nav_msgs/Odometry.h>
+#include <sensor_msgs/Imu.h>
 #include <sensor_msgs/LaserScan.h>
 
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "mtr_core/tick_input.hpp"
 #include "mtr_drive_control/drive_control.hpp"
+#include "mtr_drive_control/interventions.hpp"
 
 namespace mtr_drive_control {
 
-// Null messages, before the first of a topic, give nothing.
-std::optional<SourceCommand> command_of(const mtr_msgs::VelocityCommand::ConstPtr& message);
-std::optional<Motion> motion_of(const nav_msgs::Odometry::ConstPtr& message);
-std::optional<KeyHeight> key_height_of(const mtr_msgs::PeripheralsState::ConstPtr& message);
-mtr_msgs::DriveStatus status_message(std::int64_t tick_ns, const Decision& decision);
+using mtr_core::Received;
+
+// No message, before the first of a topic, gives nothing.
+std::optional<SourceCommand> command_of(const Received<mtr_msgs::VelocityCommand>& received);
+std::optional<Motion> motion_of(const Received<nav_msgs::Odometry>& received);
+std::optional<ImuReading> imu_reading_of(const Received<sensor_msgs::Imu>& received);
+std::optional<KeyHeight> key_height_of(const Received<mtr_msgs::PeripheralsState>& received);
+mtr_msgs::DriveStatus status_message(std::int64_t stamp_ns, const Decision& decision, const Interventions& counted);
 
 /// Sweeps of one LiDAR; a message is converted once.
 class SweepReader {
  public:
   explicit SweepReader(std::string frame) : frame_(std::move(frame)) {}
 
-  std::shared_ptr<const Sweep> read(const sensor_msgs::LaserScan::ConstPtr& message);
+  std::shared_ptr<const Sweep> read(const Received<sensor_msgs::LaserScan>& received);
 
  private:
   std::string frame_;

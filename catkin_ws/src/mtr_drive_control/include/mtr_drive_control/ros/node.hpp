@@ -16,7 +16,9 @@
 #include "mtr_core/tick_input.hpp"
 #include "mtr_core/ticker.hpp"
 #include "mtr_drive_control/drive_control.hpp"
+#include "mtr_drive_control/ros/base_parameters.hpp"
 #include "mtr_drive_control/ros/conversions.hpp"
+#include "mtr_drive_control/ros/publisher_watch.hpp"
 #include "mtr_drive_control/ros/zone_markers.hpp"
 
 namespace mtr_drive_control {
@@ -30,6 +32,10 @@ struct NodeParameters {
   /// std_msgs/Bool topics, true: stand still; their silence forbids motion too.
   std::vector<std::string> e_stop_topics;
   bool rear_lidar = true;
+  /// Namespace of the parameters of the base's controller, which are checked at the start.
+  std::string base_controller = kShippedController;
+  /// Commands go to the base guard in front of the base, and its parameters are those that are checked.
+  bool base_guard = false;
   /// In simulation: a manual controller takes part, so each tick waits for its command.
   bool manual_expected = false;
 };
@@ -54,14 +60,15 @@ class Node {
 
   Node(ros::NodeHandle& node, const NodeParameters& parameters);
 
-  /// Returns at shutdown.
+  /// Returns at shutdown: asked to leave it first brakes the robot, and leaves when the wheels were told to rest.
   void spin();
 
  private:
   void listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>& e_stop_topics);
   void take(const std::string& owner, const Lock& lock);
-  void tick(std::int64_t tick_ns);
-  void publish(std::int64_t tick_ns, const Decision& decision);
+  void tick(const mtr_core::Instant& tick);
+  void publish(const mtr_core::Instant& tick, const Decision& decision);
+  std::vector<EngagedLock> own_locks() const;
   void log(const Decision& decision);
 
   DriveControl drive_control_;
@@ -70,15 +77,20 @@ class Node {
   mtr_core::TickInput<mtr_msgs::VelocityCommand> manual_;
   mtr_core::TickInput<mtr_msgs::VelocityCommand> planner_;
   mtr_core::TickInput<nav_msgs::Odometry> odometry_;
+  mtr_core::TickInput<sensor_msgs::Imu> imu_;
   mtr_core::TickInput<mtr_msgs::PeripheralsState> peripherals_;
   LidarInput front_;
   std::optional<LidarInput> rear_;
   ZoneMarkers markers_;
+  InterventionCounter interventions_;
   std::vector<ros::Subscriber> lock_subscribers_;
   ros::Publisher wheels_;
   ros::Publisher status_;
+  PublisherWatch publishers_;
   std::string message_;
   Zone zone_ = Zone::kClear;
+  /// In a row, since it was asked to leave.
+  int zeros_sent_ = 0;
 };
 
 }  // namespace mtr_drive_control

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "mtr_core/steady_time.hpp"
 #include "mtr_drive_control/drive_control.hpp"
 
 namespace mtr_drive_control {
@@ -17,10 +18,11 @@ class ZoneMarkers {
  public:
   explicit ZoneMarkers(ros::NodeHandle& node);
 
-  void publish(std::int64_t tick_ns, const Decision& decision, const DriveControl& drive_control);
+  void publish(const mtr_core::Instant& tick, const Decision& decision, const DriveControl& drive_control);
 
  private:
   ros::Publisher publisher_;
+  std::int64_t published_ns_ = 0;
 };
 
 }  // namespace mtr_drive_control

@@ -1,0 +1,29 @@
+/// @file
+/// What drive control decides at a tick.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mtr_core/problem.hpp"
+#include "mtr_drive_control/collision/collision_stop.hpp"
+
+namespace mtr_drive_control {
+
+/// Velocity to send, and why.
+struct Decision {
+  Velocity velocity;
+  /// none, locked, manual or planner.
+  std::string source;
+  std::vector<std::string> engaged_locks;
+  /// One of them is no stop that the Operator ordered.
+  bool is_unordered_lock = false;
+  /// One sentence, empty when all is well.
+  mtr_core::Problem message;
+  Zone zone = Zone::kClear;
+  std::optional<Hindrance> hindrance;
+};
+
+}  // namespace mtr_drive_control

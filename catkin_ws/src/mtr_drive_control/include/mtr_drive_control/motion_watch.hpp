@@ -1,0 +1,75 @@
+/// @file
+/// Whether the robot moves as it was told: base, wheels' odometry and gyro against each other.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "mtr_core/problem.hpp"
+#include "mtr_drive_control/collision/echoes.hpp"
+
+namespace mtr_drive_control {
+
+/// One reading of the IMU.
+struct ImuReading {
+  std::int64_t stamp_ns;
+  /// Angular velocity about x, y, z of the IMU, z up, in rad/s.
+  std::array<double, 3> rates_radps;
+  /// Specific force along them, in m/s2.
+  std::array<double, 3> forces_mps2;
+
+  double yaw_rate_radps() const { return rates_radps[2]; }
+  bool is_finite() const;
+  bool repeats(const ImuReading& other) const {
+    return rates_radps == other.rates_radps && forces_mps2 == other.forces_mps2;
+  }
+};
+
+/// Since when something has been the case without a break.
+class Duration {
+ public:
+  /// Takes whether it is the case at a tick; true when it has been for so long.
+  bool lasts(bool is_so, std::int64_t tick_ns, double for_s);
+
+ private:
+  std::optional<std::int64_t> since_ns_;
+};
+
+/// Third sense of drive control: each fault is told by its cause, and never from a single reading.
+///
+/// What is sent reaches the wheels some time later, so what they do is compared with all that was sent lately. Live
+/// sensors never repeat themselves in motion: encoders count, and the IMU has noise.
+class MotionWatch {
+ public:
+  /// Takes the velocity sent last and the newest readings of a tick; a problem while they contradict each other.
+  /// @param motion,imu fresh ones; nothing when there is none
+  mtr_core::Problem take(std::int64_t tick_ns, const Velocity& sent, const std::optional<Motion>& motion,
+                         const std::optional<ImuReading>& imu);
+
+ private:
+  void remember(std::int64_t tick_ns, const Velocity& sent);
+  bool was_told_to_move() const;
+  bool obeys(const Velocity& measured) const;
+  mtr_core::Problem wheels_problem(std::int64_t tick_ns, const Motion& motion);
+  mtr_core::Problem imu_problem(std::int64_t tick_ns, const std::optional<Motion>& motion, const ImuReading& imu);
+
+  struct Told {
+    std::int64_t tick_ns;
+    Velocity velocity;
+  };
+
+  std::deque<Told> told_;
+  std::optional<Motion> motion_;
+  std::optional<ImuReading> imu_;
+  bool odometry_repeats_ = false;
+  bool imu_repeats_ = false;
+  Duration frozen_odometry_;
+  Duration frozen_imu_;
+  Duration disobedience_;
+  Duration slip_;
+};
+
+}  // namespace mtr_drive_control

@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""Drive control as a process that is stopped for a while or ended, on the machine's own clock."""
+# SPDX-License-Identifier: Apache-2.0
+import signal
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from live_robot import BASE, CRUISE_MPS, PERIOD_S, LiveRobot, wait_until
+from node_process import NodeProcess
+
+from mtr_core import names
+from mtr_description.base_controller import CONTROLLER
+from mtr_msgs.msg import DriveStatus
+
+STALLS_S = (0.3, 0.6, 1.0, 2.0)
+# Twists that were under way when the node was stopped arrive within this.
+IN_FLIGHT_S = 0.05
+# The master is asked once a second.
+INTRUDER_SEEN_S = 1.5
+SAID_WITHIN_S = 1.0
+ACCELERATION_MPS2 = 1.0
+# With a low key, see mtr_drive_control/tip_over.hpp; the last step of a stop may take the rounding with it.
+HARDEST_STEP_MPS = 1.01 * 2.4 * PERIOD_S
+STANDS_AFTER_S = BASE.command_timeout_s + CRUISE_MPS / BASE.linear_acceleration_mps2
+
+
+class DriveControlProcess(unittest.TestCase):
+    """Each test begins with the planner driving at cruise speed."""
+
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("drive_control_process_test")
+        cls.robot = LiveRobot()
+        cls.robot.start()
+        cls.message = ""
+        cls.status = rospy.Subscriber(names.DRIVE_STATUS, DriveStatus, cls.take_status)
+
+    @classmethod
+    def take_status(cls, status):
+        """What drive control says."""
+        cls.message = status.message
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.robot.close()
+
+    def setUp(self):
+        self.robot.dispatcher.message.engaged = False
+        self.node = NodeProcess("mtr_drive_control", "drive_control_node", "drive_control")
+        self.cruise()
+
+    def tearDown(self):
+        self.node.stop()
+
+    def cruise(self):
+        """The planner drives, and the wheels do it."""
+        self.robot.planner.message.linear_mps, self.robot.planner.message.active = CRUISE_MPS, True
+        wait_until(lambda: self.robot.commands and self.robot.commands[-1][1] == CRUISE_MPS
+                   and abs(self.robot.speed_mps - CRUISE_MPS) < 0.01, "cruise speed")
+
+    def stall(self, duration_s, meanwhile=lambda: None):
+        """Stop the process for so long; the wheels' speed when it goes on, and the commands of the next half second."""
+        self.node.signal(signal.SIGSTOP)
+        time.sleep(IN_FLIGHT_S)
+        meanwhile()
+        time.sleep(duration_s - IN_FLIGHT_S)
+        count, speed_mps = len(self.robot.commands), self.robot.speed_mps
+        self.node.signal(signal.SIGCONT)
+        time.sleep(0.5)
+        return speed_mps, [speed for _, speed in self.robot.commands[count:]]
+
+    def assert_no_surge(self, wheels_mps, commands):
+        """The first command is what the wheels do or less, and the others grow no faster than they may."""
+        self.assertGreater(len(commands), 5)
+        allowed_mps = wheels_mps + ACCELERATION_MPS2 * PERIOD_S + 1e-9
+        for speed_mps in commands:
+            self.assertLessEqual(speed_mps, allowed_mps)
+            allowed_mps = speed_mps + ACCELERATION_MPS2 * PERIOD_S + 1e-9
+
+    def test_stalled_process_goes_on_from_what_the_wheels_do(self):
+        for duration_s in STALLS_S:
+            with self.subTest(stall_s=duration_s):  # A1
+                wheels_mps, commands = self.stall(duration_s)
+                self.assert_no_surge(wheels_mps, commands)
+                self.assertEqual(wheels_mps == 0.0, duration_s > STANDS_AFTER_S)
+                self.cruise()
+
+    def test_stalled_process_whose_lock_is_engaged_meanwhile_stays_at_rest(self):
+        def lock():
+            self.robot.dispatcher.message.engaged = True
+            self.robot.planner.message.linear_mps = 0.0
+
+        for duration_s in STALLS_S:
+            with self.subTest(stall_s=duration_s):  # A1
+                wheels_mps, commands = self.stall(duration_s, lock)
+                self.assertLessEqual(max(commands), wheels_mps)
+                self.assertEqual(commands[-1], 0.0)
+                self.robot.dispatcher.message.engaged = False
+                self.cruise()
+
+    def test_second_node_that_commands_the_wheels_stops_the_robot_and_is_named(self):  # A12
+        other = rospy.Publisher(names.WHEEL_COMMAND, Twist, queue_size=1)
+        wait_until(lambda: self.robot.commands[-1][1] == 0.0, "standstill", INTRUDER_SEEN_S + STANDS_AFTER_S)
+        wait_until(lambda: rospy.get_name() in self.message, "a sentence that names the node", SAID_WITHIN_S)
+        other.unregister()
+        self.cruise()
+
+    def test_base_that_the_mast_does_not_survive_or_without_limits_ends_the_node_with_status_2(self):  # A2
+        limit = f"/{CONTROLLER}/linear/x/max_acceleration"
+        shipped = rospy.get_param(limit)
+        self.node.stop()
+        try:
+            for value in (20.0, None):
+                with self.subTest(max_acceleration=value):
+                    rospy.delete_param(limit) if value is None else rospy.set_param(limit, value)
+                    self.node = NodeProcess("mtr_drive_control", "drive_control_node", "drive_control")
+                    self.assertEqual(self.node.exit_status(), 2)
+        finally:
+            rospy.set_param(limit, shipped)
+
+    def test_process_that_is_ended_brakes_first_and_no_harder_than_it_may(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(signal=number):  # A2
+                count = len(self.robot.commands)
+                self.node.signal(number)
+                self.assertEqual(self.node.exit_status(), 0)
+                time.sleep(IN_FLIGHT_S)
+                speeds = [speed for _, speed in self.robot.commands[count:]]
+                self.assertTrue(speeds)
+                self.assertEqual(speeds[-1], 0.0)
+                for before_mps, after_mps in zip([CRUISE_MPS, *speeds], speeds):
+                    self.assertLessEqual(before_mps - after_mps, HARDEST_STEP_MPS)
+                self.tearDown()
+                self.setUp()
+
+
+if __name__ == "__main__":
+    rostest.rosrun("mtr_tests", "drive_control_process_test", DriveControlProcess, sys.argv)
