@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations clean \
-	bench bench-kills fuzz bench-motion bench-localization bench-truth firmware flash bare-root docs tidy mutants
+	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-truth firmware flash bare-root docs tidy mutants
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -128,6 +128,9 @@ bench-kills: setup build ## kill -9 at 1000 random instants of each scenario: no
 fuzz: setup build ## 10,000 mutated progress files and journals, 100,000 Statuses; figures in out/bench/fuzz.json
 	@mkdir -p out/bench
 	@$(RUN) python operator_gui/tests/proofs/fuzz.py --seed $(SEED) --out out/bench 2>out/bench/fuzz.log
+
+fuzz-commands: setup build ## 100,000 mutated Commands at the dispatcher's core; figures in out/bench/fuzz_commands.json
+	@$(RUN) python catkin_ws/src/mtr_dispatcher/tests/unit/command_fuzz.py --seed $(SEED) --out out/bench
 
 clean: ## Remove everything that was built or written
 	rm -rf out firmware/build $(STAMPS) .venv catkin_ws/{build,devel,logs,.catkin_tools} proto/src/mtr_proto/*_pb2.py

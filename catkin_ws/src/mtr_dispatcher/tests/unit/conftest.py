@@ -1,0 +1,6 @@
+"""Makes the fuzzer importable by the tests beside it."""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
