@@ -67,3 +67,5 @@ def test_profile_of_a_simulated_car_tells_how_its_bus_speaks(name):
         assert profile.cycle_time_s * 1000.0 == pytest.approx(bus.lock_cycle_ms)
         assert profile.sent_on_change is bus.sent_on_change
         assert bool(profile.sources) is (bus.cause_in == "same")
+        assert bool(profile.command_signal) is bus.event_counter
+        assert profile.relock_after_s == pytest.approx(car.honest.locks.relock_s)
