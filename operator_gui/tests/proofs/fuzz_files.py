@@ -71,7 +71,10 @@ def mutated(document, chance):
     """Text of a document with one to three things changed, or cut."""
     document = copy.deepcopy(document)
     for _ in range(chance.randint(1, 3)):
-        *outer, key = chance.choice(list(places(document)))
+        known = list(places(document))
+        if not known:
+            break
+        *outer, key = chance.choice(known)
         inner = functools.reduce(lambda value, step: value[step], outer, document)
         change = chance.randrange(5)
         if change == 0:

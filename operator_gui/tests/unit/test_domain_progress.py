@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import json
+import os
 import pathlib
+import resource
 
 import pytest
 
@@ -202,3 +204,28 @@ def test_numbers_that_are_none_are_refused_by_the_file_format(tmp_path, progress
     progress.results[0] = dataclasses.replace(progress.results[0], distance_m=float("nan"))
     with pytest.raises(ValueError, match="JSON"):
         save_progress(tmp_path / "progress.json", progress)
+
+
+def test_disk_without_room_is_a_sentence_before_the_robot_moves(tmp_path):  # C4
+    former = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, former[1]))
+    try:
+        with pytest.raises(OutputError, match="cannot be written to the folder"), output_folder(tmp_path / "out"):
+            pass
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, former)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_file_that_another_program_holds_is_replaced_when_it_lets_go(tmp_path, monkeypatch):  # C7
+    replace, refusals = os.replace, [1, 1, 1]
+
+    def refuse(source, target):
+        if refusals:
+            refusals.pop()
+            raise PermissionError(13, "Permission denied")
+        replace(source, target)
+    monkeypatch.setattr("os.replace", refuse)
+    monkeypatch.setattr("time.sleep", lambda duration_s: None)
+    write_bytes(tmp_path / "progress.json", b"new")
+    assert (tmp_path / "progress.json").read_bytes() == b"new"

@@ -113,6 +113,10 @@ class CanReader:
         except ConnectionFailed as error:
             self._sink.fault(str(error))
             return
+        # Of a terminal that goes while it is opened, for one; without this thread nobody would notice the next frame.
+        except Exception as error:
+            self._sink.fault(f"The CAN adapter has failed: {' '.join(str(error).split())}.")
+            return
         self._flags = 0
         self._sink.reopened()
         self._sink.fault("")

@@ -76,11 +76,11 @@ class Test:
         if self._store is None:
             with self.opened() as store:
                 store.save()
-        else:
+            return
+        if self._store.path != self.path:
             with output_folder(self.path.parent):
-                if self._store.path != self.path:
-                    self._store.move(self.path)
-                self._store.save()
+                self._store.move(self.path)
+        self._store.save()
 
 
 def new_test(scenario: AnyScenario, parameters: ScenarioParameters, folder: pathlib.Path,

@@ -11,6 +11,8 @@ from typing import Iterator
 
 from mtr_operator.domain.errors import OutputError
 
+# What a test of some hundred lines writes; a disk that has no more room is found before the robot moves.
+ROOM_BYTES = 2 * 1024 * 1024
 # A second in all.
 _REPLACE_ATTEMPTS = 11
 _REPLACE_PAUSE_S = 0.1
@@ -26,8 +28,10 @@ def output_folder(folder: pathlib.Path) -> Iterator[None]:
         try:
             made += [place for place in (folder, *folder.parents) if not place.exists()]
             folder.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(dir=folder):
-                pass
+            with tempfile.TemporaryFile(dir=folder) as trial:
+                trial.write(bytes(ROOM_BYTES))
+                trial.flush()
+                os.fsync(trial.fileno())
         except OSError as error:
             raise OutputError(f"Results cannot be written to the folder {folder}: {_reason(error)}.") from None
         yield
