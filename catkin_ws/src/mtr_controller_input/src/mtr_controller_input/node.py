@@ -44,7 +44,7 @@ class ControllerInputNode:
             taken_ns, joy = self._messages.popleft()
             self._core.take(Joy(tuple(joy.axes), tuple(joy.buttons)), taken_ns * NS)
         device = self._parameters.device
-        outcome = self._core.step(tick * NS, not device or os.path.exists(device))
+        outcome = self._core.step(clock.steady_at(tick) * NS, not device or os.path.exists(device))
         self._publish(outcome, tick)
         self._log(outcome)
         self._before = outcome
@@ -71,8 +71,9 @@ class ControllerInputNode:
             rospy.loginfo("Manual control %s.", "ends" if outcome.velocity == RELEASED else "begins")
 
     def _take(self, message: sensor_msgs.msg.Joy) -> None:
-        # The time of arrival: a receiver whose clock is wrong must not keep an old deflection alive.
-        self._messages.append((clock.now_ns(), message))
+        # The time of arrival: a receiver whose clock is wrong must not keep an old deflection alive. On a clock that
+        # nobody sets: a controller in the hand is not lost because the robot's clock was.
+        self._messages.append((clock.steady_ns(), message))
 
 
 def main() -> int:

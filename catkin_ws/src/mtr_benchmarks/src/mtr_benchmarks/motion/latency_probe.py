@@ -15,7 +15,7 @@ import roslib.packages
 import rospy
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import LaserScan
+from sensor_msgs.msg import Imu, LaserScan
 
 from mtr_benchmarks.harness.probe import cpu_s
 from mtr_core import names
@@ -44,6 +44,7 @@ class DriveControlFeed:
         self._stopped_at = self.latency_s = 0.0
         self._locks = [(self._topic(names.MOTION_LOCK, MotionLock), owner) for owner in ("dispatcher", "state_machine")]
         self._odometry = self._topic(names.WHEEL_ODOMETRY, Odometry)
+        self._imu = self._topic(names.IMU_DATA, Imu)
         self._planner = self._topic(names.PLANNER_VELOCITY, VelocityCommand)
         self._peripherals = self._topic(names.PERIPHERALS_STATE, PeripheralsState)
         self._scans = [(self._topic(topic, LaserScan), frame) for topic, frame in (
@@ -103,6 +104,9 @@ class DriveControlFeed:
             odometry = Odometry()
             odometry.pose.pose.orientation.w = 1.0
             self._publish(self._odometry, odometry)
+            imu = Imu()
+            imu.angular_velocity.z = 1e-3 * random.random()
+            self._publish(self._imu, imu)
             if turn % 2:
                 self._publish(self._planner, VelocityCommand(linear_mps=CRAWL_MPS, active=True))
                 for topic, frame in self._scans:
