@@ -164,6 +164,21 @@ def test_b4_no_event_is_off_by_a_noticeable_step_when_a_robot_of_before_sets_its
     assert max(event.true_s for event in usable(told)) == CHANGES_S[-1]
 
 
+@pytest.mark.parametrize("is_stamped", [True, False], ids=["stamped", "unstamped"])
+def test_b4_clock_of_a_robot_of_before_that_goes_back_at_once_is_noticed(is_stamped):
+    told = Course([4.0, 9.0], 15.0, Clock(5000.0, steps=[(2.5, -8.0)]), is_stamped=is_stamped,
+                  tells_steady_clock=False).run()
+    assert [abs(event.error_s) < 0.035 for event in usable(told)] == [True]
+
+
+@pytest.mark.parametrize("jitter_s", [0.001, 0.006])
+def test_robot_of_before_over_a_slow_wifi_does_not_seem_to_set_its_clock(jitter_s):
+    for seed in range(10):
+        told = Course([9.0, 12.0, 15.0], 18.0, ways=Ways(status_jitter_s=jitter_s), tells_steady_clock=False,
+                      seed=seed).run()
+        assert len(usable(told)) == 3
+
+
 @pytest.mark.parametrize("step_s", (*STEPS_S, 25.0))
 def test_b4_no_event_is_off_by_a_noticeable_step_when_the_adapters_clock_jumps(step_s):
     told = Course(CHANGES_S, 26.0, adapter=Clock(5000.0, steps=[(SET_S, step_s)])).run()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from mtr_operator.domain.clock_step import clock_was_set
+from mtr_operator.domain.clock_step import MIN_STEP_S, clock_was_set
 from mtr_operator.domain.robot_status import RobotStatus
 
 from .delay_watch import DelayWatch
@@ -40,7 +40,7 @@ class RobotClock:
     def status(self, status: RobotStatus, arrival_s: float) -> bool:
         """A Status arrived; True when the clock was set since the one before."""
         before, self._before = self._before, status
-        if before is not None and clock_was_set(before, status):
+        if before is not None and (clock_was_set(before, status) or _went_back(before, status)):
             self._delays = DelayWatch(STEP_S)
             self._delays.add(sent_s(status), arrival_s)
             return True
@@ -48,13 +48,20 @@ class RobotClock:
             self.is_real_time = self.is_real_time or self._rate.add(sent_s(status), arrival_s)
         else:
             self.is_real_time = abs(sent_s(status) - status.steady_s) > _SAME_CLOCK_S
-        return self.is_real_time and self._delays.add(sent_s(status), arrival_s) and before is not None
+        # Fed before it counts, so that it knows the fastest by then.
+        was_set = self._delays.add(sent_s(status), arrival_s)
+        return was_set and self.is_real_time
 
     @property
     def certain_s(self) -> float:
         """Robot's time up to which the clock was not set unnoticed."""
         by_arrivals = self.is_real_time and self._before is not None and math.isnan(self._before.steady_s)
         return self._delays.in_time_s if by_arrivals else math.inf
+
+
+def _went_back(before: RobotStatus, status: RobotStatus) -> bool:
+    """True when a later Status was sent earlier."""
+    return status.id > before.id and sent_s(status) < sent_s(before) - MIN_STEP_S
 
 
 class _RateCheck:

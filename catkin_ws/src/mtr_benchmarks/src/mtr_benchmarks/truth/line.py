@@ -28,6 +28,8 @@ PROFILE = load_profile("mtr_demo_car")
 WITHIN_S = 16.0
 # What was over so long before a line has no effect on it: the clocks are mapped anew in two seconds.
 EFFECT_S = 4.0
+# Share of robots whose software is not of before.
+NEW_ROBOTS = 0.85
 # Never reached.
 NEVER_M = -1.0
 Parameters = Union[AutolockParameters, KeyPressParameters]
@@ -106,7 +108,8 @@ def _world(chance: random.Random, is_autolock: bool) -> World:
         Clock(chance.uniform(0.0, 60.0), chance.uniform(-100.0, 100.0)),
         Way(chance, chance.uniform(0.0005, 0.003), chance.uniform(0.001, 0.006)), Way(chance, 0.0003, 0.0005),
         press_range_m=chance.uniform(3.2, 6.2) if chance.random() < 0.85 else 1.0,
-        reaction_s=chance.uniform(0.05, 0.5), is_stamped=chance.random() < 0.7)
+        reaction_s=chance.uniform(0.05, 0.5), is_stamped=chance.random() < 0.7,
+        tells_steady_clock=chance.random() < NEW_ROBOTS)
 
 
 def _parameters(chance: random.Random, is_autolock: bool) -> Parameters:

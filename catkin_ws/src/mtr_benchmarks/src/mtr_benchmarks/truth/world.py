@@ -25,7 +25,10 @@ POSE_AGE_S = 0.06
 
 @dataclass
 class World:
-    """True time is the laptop's. loses: whether a Status that is sent now is lost."""
+    """True time is the laptop's. loses: whether a Status that is sent now is lost.
+
+    tells_steady_clock: False for a robot with software of before.
+    """
 
     robot: RobotBody
     car: CarBody
@@ -36,6 +39,7 @@ class World:
     press_range_m: float
     reaction_s: float
     is_stamped: bool
+    tells_steady_clock: bool
     loses: Callable[[float], bool] = lambda time_s: False
     time_s: float = 0.0
     _status_id: int = 0
@@ -71,9 +75,10 @@ class World:
         robot, clock, now_s = self.robot, self.robot_clock, self.time_s
         self._status_id += 1
         pose_s, x, y, heading, speed_mps = next(pose for pose in self._poses if pose[0] >= now_s - POSE_AGE_S - 1e-6)
+        steady_s = clock.steady_s(now_s) - 1e6 if self.tells_steady_clock else math.nan
         return RobotStatus(
             id=self._status_id, robot_session_id=7, stamp_s=clock.at(pose_s), sent_s=clock.at(now_s),
-            steady_s=clock.steady_s(now_s) - 1e6, x=x, y=y, heading=heading, speed_mps=speed_mps, pose_valid=True,
+            steady_s=steady_s, x=x, y=y, heading=heading, speed_mps=speed_mps, pose_valid=True,
             position_sigma_m=0.03, heading_sigma_rad=0.01, key_x=KEY_X_M, key_height_m=robot.height_m(now_s),
             mode=Mode.FOLLOWING_WAYPOINT, car=CAR, waypoint_result=robot.result,
             waypoint_id=robot.waypoint.id if robot.waypoint else 0, interventions=robot.interventions(now_s),
