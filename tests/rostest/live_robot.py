@@ -23,6 +23,7 @@ class LiveRobot:
 
     Attributes:
         planner, dispatcher: speakers whose message a test may change.
+        speakers: who speaks; a test may add one.
         speed_mps: of the wheels; they follow the last command as the shipped base does, time-out included.
         commands: arrival by time.monotonic() and speed of each command to the wheels.
     """
@@ -34,7 +35,7 @@ class LiveRobot:
         state_machine = Speaker(names.MOTION_LOCK, MotionLock(owner="state_machine"), schedule.STATE_MACHINE)
         self.speed_mps = 0.0
         self.commands: List[Tuple[float, float]] = []
-        self._speakers = [front, rear, self.odometry, imu, peripherals, self.planner, self.dispatcher, state_machine]
+        self.speakers = [front, rear, self.odometry, imu, peripherals, self.planner, self.dispatcher, state_machine]
         self._over = threading.Event()
         self._subscriber = rospy.Subscriber(names.WHEEL_COMMAND, Twist, self._take, queue_size=50, tcp_nodelay=True)
         self._thread = threading.Thread(target=self._run, daemon=True)
@@ -57,7 +58,7 @@ class LiveRobot:
             now_s = time.monotonic()
             self._roll(now_s, now_s - before_s)
             before_s = now_s
-            for speaker in self._speakers:
+            for speaker in self.speakers:
                 speaker.speak(tick_ns)
             tick_ns = next_tick_ns()
 
