@@ -5,7 +5,7 @@ import pytest
 from mtr_operator.car_link.fake import FakeCarLink
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.ports import LockState
-from mtr_operator.domain.robot_status import RobotStatus
+from mtr_operator.domain.robot_status import PressReport, RobotStatus
 
 
 def observed(link, seconds, start_s=1.0):
@@ -51,6 +51,15 @@ def test_state_is_that_of_the_last_event():
     assert link.lock_state is LockState.LOCKED
     events = observed(link, 5.05)
     assert link.lock_state is events[-1].lock_state
+
+
+def test_once_pressed_only_presses_are_turns():
+    link = connected(threshold=1.0)
+    presses = tuple(PressReport(number, 2.0 * number, 2.0 * number + 0.3) for number in range(1, 21))
+    events = [event for index in range(410) for event in link.observe(RobotStatus(
+        index + 1, 1, 2.0 + index * 0.1, presses=tuple(press for press in presses if press.end_s <= 2.0 + index * 0.1)))]
+    answered = {round(event.time_s - 0.1, 6) for event in events}
+    assert answered <= {press.start_s for press in presses} and 3 < len(answered) < 18
 
 
 @pytest.mark.parametrize(("parameters", "words"), [

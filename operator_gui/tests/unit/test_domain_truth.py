@@ -130,7 +130,7 @@ def test_undisturbed_radials_are_ok_and_say_how_the_key_was_carried(run_scenario
     assert {(result.key_height_m, result.speed_mps) for result in results} == {(1.0, 0.0)}
 
 
-@pytest.mark.parametrize("raw", [2, 3, 1])
+@pytest.mark.parametrize("raw", [2, 1])
 @pytest.mark.parametrize("instant", range(10))
 def test_glitch_of_one_frame_is_no_distance(run_scenario, world, car_link, raw, instant):  # B1, N4
     world.unlock_m = -1.0
