@@ -15,6 +15,8 @@ from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
+from mtr_operator.station.connection import Connection
+from mtr_operator.station.test import Test, new_test, report_folder
 from mtr_operator.storage.journal_file import journal_path, read_journal
 from mtr_operator.storage.progress_file import load_progress, open_progress, save_progress
 from mtr_operator.storage.store import Store
@@ -212,3 +214,20 @@ def test_new_test_may_replace_a_journal_in_which_nothing_was_measured(path):
 def test_number_that_is_none_is_a_sentence(path):
     with Store(path, new_progress()) as store, pytest.raises(OutputError, match="no finite number"):
         store.add(POINT, {"word": "press", "status": "ok", "distance": {"distance_m": float("nan")}, "frame": None})
+
+
+def test_two_tests_of_one_second_have_names_and_reports_of_their_own(tmp_path):  # C2
+    scenario, tests = SCENARIO, []
+    for started in ("today", "another day"):
+        test = new_test(scenario, KeyPressParameters(), tmp_path, Connection())
+        test.progress.session["started"] = started
+        test.save()
+        tests.append(test)
+        folder = report_folder(tmp_path / "results", test)
+        folder.mkdir(parents=True)
+        save_progress(folder / "progress.json", test.progress)
+        assert report_folder(tmp_path / "results", test) == folder
+    assert len({test.path for test in tests}) == 2
+    assert len(list((tmp_path / "results").iterdir())) == 2
+    again = Test(scenario, KeyPressParameters(), tests[1].progress, tests[0].path)
+    assert report_folder(tmp_path / "results", again).name == f"{tests[0].name}_2"

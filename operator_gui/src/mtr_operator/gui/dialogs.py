@@ -14,8 +14,8 @@ def ask_folder(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.Path
 
 
 def ask_progress_file(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.Path | None:
-    """A progress file that the Operator chooses; None when he does not."""
-    chosen, _ = QFileDialog.getOpenFileName(parent, title, str(start), "JSON (*.json)")
+    """A progress file, or a journal, that the Operator chooses; None when he does not."""
+    chosen, _ = QFileDialog.getOpenFileName(parent, title, str(start), "JSON (*.json *.journal)")
     return pathlib.Path(chosen) if chosen else None
 
 

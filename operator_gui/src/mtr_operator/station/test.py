@@ -16,7 +16,7 @@ from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.atomic import output_folder
 from mtr_operator.storage.journal_file import journal_path
-from mtr_operator.storage.progress_file import open_progress
+from mtr_operator.storage.progress_file import FILE_NAME, holds_no_other, open_progress
 from mtr_operator.storage.recovery import progress_path
 from mtr_operator.storage.store import Store
 
@@ -90,6 +90,13 @@ def new_test(scenario: AnyScenario, parameters: ScenarioParameters, folder: path
     session = session_record(started, connection.robot.host, profile_name(connection.can))
     path = _free(folder / f"{scenario.name}_{started.strftime(_MOMENT)}.json")
     return Test(scenario, parameters, Progress(scenario.name, parameters.to_mapping(), session), path)
+
+
+def report_folder(folder: pathlib.Path, test: Test) -> pathlib.Path:
+    """Folder for the report of a test: of its name, or with a number where another test's report is."""
+    others = (folder / f"{test.name}_{number}" for number in itertools.count(2))
+    return next(place for place in itertools.chain([folder / test.name], others)
+                if holds_no_other(place / FILE_NAME, test.progress))
 
 
 def _free(path: pathlib.Path) -> pathlib.Path:

@@ -9,6 +9,7 @@ from typing import Any, Mapping, Sequence
 
 from mtr_operator.domain.errors import InvalidParameter, OperatorError, OutputError, ProgressFileError
 from mtr_operator.domain.results.progress import JournalMark, Progress
+from mtr_operator.domain.results.session_record import STARTED
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
 from .atomic import write_bytes
@@ -63,6 +64,19 @@ def journal_mark(path: pathlib.Path) -> JournalMark | None:
 def is_same_test(continued: pathlib.Path, path: pathlib.Path) -> bool:
     """True when a file that a person names, of either kind, belongs to the test with this progress file."""
     return progress_path(continued).resolve() == path.resolve()
+
+
+def holds_no_other(path: pathlib.Path, progress: Progress) -> bool:
+    """True when no file is there, or one of this test."""
+    if not os.path.lexists(path):
+        return True
+    try:
+        document = read_document(path)
+    except ProgressFileError:
+        return False
+    session = document.get("session") if isinstance(document, dict) else None
+    return (isinstance(session, dict) and document.get("scenario") == progress.scenario
+            and session.get(STARTED) == progress.session.get(STARTED))
 
 
 def refuse_to_overwrite(path: pathlib.Path, report_names: Sequence[str] = ()) -> None:

@@ -13,6 +13,7 @@ from PyQt5.QtWidgets import QHBoxLayout, QHeaderView, QLabel, QPushButton, QTabl
 
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.report.protocol_rows import date_text
+from mtr_operator.station.test import report_folder
 
 from ..dialogs import ask_folder
 from ..flow import Flow
@@ -161,7 +162,7 @@ class ProtocolScreen(QWidget):
             self.table.selectRow(row)
 
     def _write(self, kinds: tuple[str, ...]) -> None:
-        folder = self._flow.store.settings.result_folder / self._flow.model.current_test.name
+        folder = report_folder(self._flow.store.settings.result_folder, self._flow.model.current_test)
         self._folder = folder
         self._set_saving(True)
         self._writer = ReportWriter(self.protocol, folder, kinds, self)
