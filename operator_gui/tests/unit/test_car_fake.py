@@ -56,8 +56,11 @@ def test_state_is_that_of_the_last_event():
 def test_once_pressed_only_presses_are_turns():
     link = connected(threshold=1.0)
     presses = tuple(PressReport(number, 2.0 * number, 2.0 * number + 0.3) for number in range(1, 21))
-    events = [event for index in range(410) for event in link.observe(RobotStatus(
-        index + 1, 1, 2.0 + index * 0.1, presses=tuple(press for press in presses if press.end_s <= 2.0 + index * 0.1)))]
+    events = []
+    for index in range(410):
+        now_s = 2.0 + index * 0.1
+        made = tuple(press for press in presses if press.end_s <= now_s)
+        events += link.observe(RobotStatus(index + 1, 1, now_s, presses=made))
     answered = {round(event.time_s - 0.1, 6) for event in events}
     assert answered <= {press.start_s for press in presses} and 3 < len(answered) < 18
 
