@@ -294,7 +294,7 @@ def test_dimensions_before_the_car_is_measured_are_a_mistake_of_the_scenario(loo
 
 def test_silence_is_shown_from_the_first_second_on(loop, listener, world):
     loop.step()
-    world.spoil = lambda status: None if status.id < 10 else status
+    world.spoil = lambda status: None if status.id < 34 else status
     loop.step()
     assert listener.silences == pytest.approx([1.0, 1.2, 1.4, 1.6])
 
