@@ -28,7 +28,7 @@ std::vector<std::string> owners_of(const NodeParameters& parameters) {
 }
 
 std::map<std::string, std::string> permitted_publishers(bool has_guard) {
-  const std::string own = ros::this_node::getName();
+  const std::string& own = ros::this_node::getName();
   if (has_guard) {
     return {{names::kGuardedWheelCommand, own}, {names::kWheelCommand, names::kBaseGuard}};
   }
