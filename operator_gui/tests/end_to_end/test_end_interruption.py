@@ -12,6 +12,12 @@ def results_in(folder):
     return json.loads((folder / "progress.json").read_text(encoding="utf-8"))["results"]
 
 
+def assert_kept(before, after):
+    """Every line is there, and as it was; one that was invalid is measured once more at the end."""
+    assert [line["axis"] for line in after][:len(before)] == [line["axis"] for line in before]
+    assert all(line in after for line in before if not line["reason"])
+
+
 def points_in(folder):
     entries = [json.loads(line) for line in (folder / "progress.journal").read_text(encoding="utf-8").splitlines()]
     return [entry["values"] for entry in entries if entry["kind"] == "point"]
@@ -44,7 +50,7 @@ def test_ctrl_c_after_a_result_keeps_it_and_the_test_can_be_continued(laptop):
     run = laptop.start("--simulated-car", "--continue", laptop.folder / "out" / "progress.json")
     code, out, said = run.finish()
     assert code == 0, said
-    assert results_in(laptop.folder / "out")[:len(measured)] == measured
+    assert_kept(measured, results_in(laptop.folder / "out"))
     assert out.splitlines()[-1].startswith("8 lines measured")
 
 
@@ -59,7 +65,7 @@ def test_killed_application_leaves_a_file_to_go_on_with(laptop):
     run = laptop.start("--simulated-car", "--continue", laptop.folder / "out" / "progress.json")
     code, _, said = run.finish()
     assert code == 0, said
-    assert results_in(laptop.folder / "out")[:len(measured)] == measured
+    assert_kept(measured, results_in(laptop.folder / "out"))
 
 
 def test_point_measured_before_a_kill_in_the_retreat_is_in_the_journal(laptop):  # C1
