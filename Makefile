@@ -5,7 +5,8 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations clean \
-	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-truth firmware flash bare-root docs tidy mutants
+	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-truth firmware \
+	flash bare-root docs tidy mutants
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -118,6 +119,13 @@ bench-localization: setup build ## Localization and Car locator against the trut
 	@setup/install.sh setup/debian-bench-packages.txt
 	@cmake -S catkin_ws/src/mtr_benchmarks/mrpt_icp_slam -B out/bench/mrpt >/dev/null && cmake --build out/bench/mrpt >/dev/null
 	@$(RUN) python -m mtr_benchmarks.localization --mrpt out/bench/mrpt/mrpt_icp_slam --out out/bench $(BENCH_OPTIONS)
+
+RADIALS ?= 1000
+bench-range: setup build ## Ranges of both scenarios on Cars that fade, lapse and poll; figures in out/bench/range.json
+	@setup/install.sh setup/debian-range-packages.txt
+	@$(RUN) python -m pip install --quiet --no-warn-conflicts --no-deps --upgrade --target out/bench/tools -r setup/range-requirements.txt
+	@$(RUN) OPENBLAS_NUM_THREADS=1 PYTHONPATH=$$PYTHONPATH:$(CURDIR)/out/bench/tools \
+		python -m mtr_benchmarks.ranges --seed $(SEED) --radials $(RADIALS) --axes $(RADIALS) --out out/bench
 
 bench-truth: setup build ## Lines of both scenarios, one disturbance each, against the truth; figures in out/bench/truth.json
 	@$(RUN) python -m mtr_benchmarks.truth --seed $(SEED) --out out/bench

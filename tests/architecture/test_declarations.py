@@ -19,8 +19,8 @@ KEYS = {
     "mujoco": "python3-mujoco-pip", "numpy": "python3-numpy", "pytest": "python3-pytest", "rospkg": "python3-rospkg",
     # The laptop's application, which CI tests with the robot, and the firmware's emulator.
     "mtr_operator": None, "PyQt5": None, "mtr_emulator": None,
-    # Of `make mutants`, which installs it.
-    "cosmic_ray": None,
+    # Of `make mutants` and `make bench-range`, which install them.
+    "cosmic_ray": None, "senpy": None,
     "scipy": "python3-scipy", "serial": "python3-serial", "setuptools": "python3-setuptools",
     "shapely": "python3-shapely", "tqdm": "python3-tqdm", "transitions": "python3-transitions",
     "urdf_parser_py": "urdfdom_py", "yaml": "python3-yaml", "zmq": "python3-zmq",

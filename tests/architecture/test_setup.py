@@ -17,7 +17,7 @@ FROM_THE_START = {"git", "make", "sudo", "apt", "bash", "coreutils", "dpkg", "fi
 BY_HAND = {"debootstrap", "sudo"}
 
 # Lists of packages that single make targets install; `make setup` does not.
-OF_TARGETS = ("debian-bench-packages.txt", "debian-docs-packages.txt")
+OF_TARGETS = ("debian-bench-packages.txt", "debian-docs-packages.txt", "debian-range-packages.txt")
 
 # What the shell does itself.
 SHELL_WORDS = set(re.findall(r"\S+", """
@@ -41,8 +41,9 @@ def listed(name: str) -> Set[str]:
 def installed() -> Set[str]:
     """Packages that the set-up installs, and that targets install which need more."""
     found = set().union(*(listed(path.name) for path in (TOP / "setup").glob("debian-*packages.txt")))
-    # The second one is installed by `make mutants` alone.
-    for path in (TOP / "setup" / "python-requirements.txt", TOP / "tests" / "mutation" / "requirements.txt"):
+    # The second one is installed by `make mutants` alone, the third by `make bench-range`.
+    for path in (TOP / "setup" / "python-requirements.txt", TOP / "tests" / "mutation" / "requirements.txt",
+                 TOP / "setup" / "range-requirements.txt"):
         required = path.read_text(encoding="utf-8")
         found |= {f"pip:{name}" for name in re.findall(r"^([\w-]+)==", required, re.MULTILINE)}
     return found
@@ -142,7 +143,8 @@ def test_the_program_is_here_after_the_set_up(program):
 MODULE_PACKAGES = {
     "PyQt5": "python3-pyqt5", "can": "pip:python-can", "cantools": "pip:cantools", "catkin_pkg": "catkin",
     "cosmic_ray": "pip:cosmic-ray", "google": "python3-protobuf", "mujoco": "pip:mujoco",
-    "roscpp": "python3-roscpp-msg", "urdf_parser_py": "pip:urdf-parser-py", "xacro": "pip:xacro",
+    "roscpp": "python3-roscpp-msg", "senpy": "pip:senpy-sensei", "urdf_parser_py": "pip:urdf-parser-py",
+    "xacro": "pip:xacro",
 }
 
 

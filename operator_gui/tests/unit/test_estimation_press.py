@@ -101,6 +101,11 @@ def test_press_beside_another_is_independent_for_noise_in_time_only():
     assert both.log[0] == pytest.approx(other.log[0] + single.log[0])
 
 
+def test_a_hundred_presses_at_one_place_leave_finite_probabilities():
+    presses = [Press(place, worked) for _ in range(50) for place, worked in ((6.0, True), (6.01, False))]
+    assert np.all(np.isfinite(posterior_of(PLAN, presses).probability))
+
+
 def test_press_tells_most_at_the_boundary_and_nothing_far_from_it():
     presses = [Press(place, place < 6.2) for place in (3.0, 4.0, 5.0, 5.5, 5.9, 6.5, 6.9, 7.5, 9.0)]
     works, information = PressInformation(posterior_of(PLAN, presses)).at(np.array([3.1, 6.2, 9.9]))

@@ -27,6 +27,8 @@ from .transition import SIGMA_PER_SCALE, WIDTH_PER_SCALE, falling
 _MIN_PROBABILITY = 1e-6
 # What the convolution leaves of an impossible course, beyond the rounding of its transform.
 _MIN_BLURRED = 1e-12
+# A logarithm that can still be taken back.
+_MIN_PRODUCT = 1e-300
 # The widest fading reaches this many sigmas beyond the grid.
 _EDGE_SIGMAS = 2.0
 
@@ -108,7 +110,7 @@ class PressLikelihood:
     def _blurred(self, product: FloatArray, shared: float) -> FloatArray:
         """The convolution along d50; what lies outside the grid is as its edge."""
         if shared <= 0.0:
-            return product
+            return np.maximum(product, _MIN_PRODUCT)
         grid = self._hypotheses
         sigmas = np.sqrt(shared) * SIGMA_PER_SCALE * grid.width_m / WIDTH_PER_SCALE / grid.step_m
         edge = int(_EDGE_SIGMAS * sigmas[-1])

@@ -1,0 +1,99 @@
+"""All tasks of the benchmark, each a campaign with a seed of its own, and what they found."""
+# SPDX-License-Identifier: Apache-2.0
+import itertools
+import multiprocessing
+from typing import Any, Dict, List, NamedTuple, Tuple
+
+from .cars import FADING_SHARE, LAPSE, Polling, Radio
+from .pass_methods import AXES, AxesDraw, passes, single
+from .press_methods import RADIALS, Draw, adaptive, scan
+from .referees import neyer, up_and_down
+from .repeated import CAMPAIGNS, SPEEDS_MPS
+from .result import LineFound
+
+WIDTHS_M = (0.1, 0.4, 1.0, 2.2, 4.0, 6.6)
+FADINGS = {"steady": (0.0, 0.0), "fading": (FADING_SHARE, LAPSE)}
+# The search for the scan's whole time takes three times as many presses; one campaign in so many does it.
+LONG_EVERY = 8
+NEYER_RADIALS = 8
+# Poll 300 ms and cycle 200 ms is what the requirement names.
+POLLINGS = {"poll_300_cycle_200": Polling(), "poll_100_cycle_20": Polling(0.1, 0.02),
+            "poll_700_cycle_200": Polling(0.7, 0.2, 1, 0.1, 0.02),
+            "poll_450_cycle_100": Polling(0.45, 0.1, 2, 0.05, 0.02)}
+
+
+class Amount(NamedTuple):
+    """How much is measured: lines of each kind, and processes."""
+
+    radials: int
+    axes: int
+    seed: int
+    jobs: int
+
+
+class Task(NamedTuple):
+    """One campaign: key of its kind, draw, and whether the referees and the long search take part."""
+
+    key: Tuple[str, ...]
+    draw: Any
+    is_long: bool = False
+
+
+Found = Dict[Tuple[str, ...], List[List[LineFound]]]
+
+
+def measure(amount: Amount) -> Found:
+    """Method and kind of Car -> its campaigns, in order."""
+    found: Found = {}
+    with multiprocessing.Pool(amount.jobs) as pool:
+        for results in pool.imap(run_task, tasks(amount), chunksize=1):
+            for key, lines in results.items():
+                found.setdefault(key, []).append(lines)
+    return found
+
+
+def tasks(amount: Amount) -> List[Task]:
+    """All campaigns; seeds are told apart by their kind."""
+    made = []
+    for (place, (kind, (share, lapse))), (row, width_m) in itertools.product(enumerate(FADINGS.items()),
+                                                                             enumerate(WIDTHS_M)):
+        for number in range(-(-amount.radials // RADIALS)):
+            seed = seed_of(amount.seed, row, place, number)
+            made.append(Task((kind, f"{width_m:g}"), Draw(Radio(width_m, share, lapse), seed, seed),
+                             number % LONG_EVERY == 0))
+    for kind, polling in POLLINGS.items():
+        for number in range(-(-amount.axes // AXES)):
+            seed = seed_of(amount.seed, 50, len(made), number)
+            made.append(Task((kind,), AxesDraw(polling, seed, seed)))
+    for number in range(CAMPAIGNS):
+        noise = seed_of(amount.seed, 70, 0, number)
+        made.append(Task(("again_key_press",), Draw(Radio(1.0, 0.0, 0.0), amount.seed, noise)))
+        made.append(Task(("again_autolock",), AxesDraw(Polling(), amount.seed, noise, SPEEDS_MPS[number % 5])))
+    return made
+
+
+def seed_of(*parts: int) -> int:
+    """One seed of several small numbers."""
+    seed = 0
+    for part in parts:
+        seed = 1000 * seed + part
+    return seed
+
+
+def run_task(task: Task) -> Dict[Tuple[str, ...], List[LineFound]]:
+    """All methods on one campaign."""
+    if isinstance(task.draw, AxesDraw):
+        found = {("passes", *task.key): passes(task.draw)}
+        return found if task.key[0].startswith("again") else {**found, ("single", *task.key): single(task.draw)}
+    found = {("adaptive", *task.key): adaptive(task.draw)}
+    if task.key[0].startswith("again"):
+        return found
+    scanned = scan(task.draw)
+    found.update({("scan", *task.key): scanned, ("up_and_down", *task.key): up_and_down(task.draw)})
+    if task.is_long:
+        found[("adaptive_scan_time", *task.key)] = adaptive(task.draw, [line.time_s for line in scanned])
+        found[("scan_beside", *task.key)] = scanned
+        designed = neyer(task.draw, NEYER_RADIALS)
+        if designed:
+            found[("neyer", *task.key)] = designed
+    return found

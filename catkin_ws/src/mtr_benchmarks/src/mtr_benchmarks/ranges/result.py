@@ -1,0 +1,58 @@
+"""What a method made of one line, beside the truth."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from typing import Dict, List, NamedTuple, Optional
+
+import numpy as np
+
+from mtr_operator.domain.estimation.interval import UNKNOWN, Interval
+
+
+class LineFound(NamedTuple):
+    """One line: interval of what was asked for, of the 95 % distance where there is one, and the effort."""
+
+    truth_m: float
+    found: Interval
+    presses: int = 0
+    time_s: float = 0.0
+    way_m: float = 0.0
+    truth_95_m: float = math.nan
+    found_95: Interval = UNKNOWN
+
+
+def point(value_m: float, sigma_m: float) -> Interval:
+    """Of a method that says a value and a sigma."""
+    return Interval(value_m, value_m - 1.96 * sigma_m, value_m + 1.96 * sigma_m, sigma_m)
+
+
+def figures(lines: List[LineFound]) -> Dict[str, Optional[float]]:
+    """Of one method on one kind of Car; names are a promise."""
+    errors = np.array([line.found.value_m - line.truth_m for line in lines])
+    far = [line for line in lines if math.isfinite(line.truth_95_m)]
+    return {
+        "lines": float(len(lines)), "bias_m": float(np.mean(errors)), "rms_m": float(np.sqrt(np.mean(errors ** 2))),
+        "coverage_95": share([line.found.holds(line.truth_m) for line in lines]),
+        "half_width_median_m": float(np.median([line.found.half_width_m for line in lines])),
+        "d95_bias_m": float(np.mean([line.found_95.value_m - line.truth_95_m for line in far])) if far else None,
+        "d95_coverage_95": share([line.found_95.holds(line.truth_95_m) for line in far]),
+        "presses_median": float(np.median([line.presses for line in lines])),
+        "robot_time_s_median": float(np.median([line.time_s for line in lines])),
+        "way_m_median": float(np.median([line.way_m for line in lines])),
+    }
+
+
+def share(values: List[bool]) -> Optional[float]:
+    """Part that is true; None of none."""
+    return float(np.mean(values)) if values else None
+
+
+def false_pass(lines: List[LineFound]) -> float:
+    """Largest share of a verdict Pass on Cars that are to fail: limits just beside the truth and far from it.
+
+    Pass is when the whole 95 % interval lies on the good side of the limit (guard band, JCGM 106).
+    """
+    shares = []
+    for beyond_m in (0.0, 0.1, 1.0):
+        shares.append(np.mean([line.found.low_m >= line.truth_m + beyond_m for line in lines]))
+        shares.append(np.mean([line.found.high_m <= line.truth_m - beyond_m for line in lines]))
+    return float(max(shares))

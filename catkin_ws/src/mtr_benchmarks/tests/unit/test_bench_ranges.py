@@ -1,0 +1,69 @@
+"""The benchmark of ranges: its Cars are what they say, and its figures and verdicts."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+import numpy as np
+import pytest
+
+from mtr_benchmarks.ranges.campaigns import Amount, Task, run_task, tasks
+from mtr_benchmarks.ranges.cars import Polling, Radial, Radio, noticed_at
+from mtr_benchmarks.ranges.pass_methods import AxesDraw
+from mtr_benchmarks.ranges.press_methods import Draw, scan
+from mtr_benchmarks.ranges.referees import up_and_down
+from mtr_benchmarks.ranges.repeated import pairs_agree
+from mtr_benchmarks.ranges.result import LineFound, false_pass, figures, point
+
+
+@pytest.mark.parametrize("share", [0.0, 0.88])
+def test_share_of_presses_that_work_is_the_curve_with_and_without_fading(share):
+    worked = []
+    for seed in range(1500):
+        radial = Radial(Radio(2.0, share, 0.0), np.random.default_rng([seed, 0]), np.random.default_rng([seed, 1]))
+        worked.append([radial.press(radial.d50_m), radial.press(radial.d95_m), radial.press(radial.d50_m + 1.0)])
+    assert np.mean(worked, axis=0) == pytest.approx([0.5, 0.95, 0.1], abs=0.045)
+
+
+def test_presses_at_one_place_agree_under_fading():
+    pairs = []
+    for seed in range(400):
+        radial = Radial(Radio(2.0, 0.88, 0.0), np.random.default_rng([seed, 0]), np.random.default_rng([seed, 1]))
+        pairs.append(radial.press(radial.d50_m) == radial.press(radial.d50_m))
+    # Of a bivariate normal of correlation 0.88: 1/2 + asin(0.88) / pi.
+    assert np.mean(pairs) == pytest.approx(0.5 + math.asin(0.88) / math.pi, abs=0.07)
+
+
+def test_key_is_noticed_later_by_the_reaction_time():
+    rng = np.random.default_rng(1)
+    depths = [noticed_at(Polling(), 0.4, rng) for _ in range(800)]
+    # One and a half polls and the delay.
+    assert np.mean(depths) == pytest.approx(0.4 * (1.5 * 0.3 + 0.03), abs=0.01)
+
+
+def test_all_methods_measure_the_same_radials():
+    draw = Draw(Radio(0.4, 0.0, 0.0), 3, 4)
+    first, second = scan(draw), up_and_down(draw)
+    assert [line.truth_m for line in first] == [line.truth_m for line in second]
+    assert figures(first)["rms_m"] < 0.6 and figures(second)["rms_m"] < 0.6
+
+
+def test_passes_of_one_campaign_hold_their_boundaries():
+    found = run_task(Task(("poll",), AxesDraw(Polling(), 11, 11)))
+    assert figures(found[("passes", "poll")])["coverage_95"] >= 0.85
+    assert figures(found[("passes", "poll")])["rms_m"] < 0.03 < figures(found[("single", "poll")])["rms_m"]
+
+
+def test_seeds_of_all_campaigns_differ():
+    made = [task.draw for task in tasks(Amount(100, 100, 1, 1)) if not task.key[0].startswith("again")]
+    assert len({draw.place for draw in made}) == len(made)
+
+
+def test_verdict_passes_no_car_that_is_to_fail_when_intervals_hold():
+    honest = [LineFound(1.0, point(1.0 + error, 0.1)) for error in np.random.default_rng(2).normal(0.0, 0.1, 2000)]
+    assert false_pass(honest) == pytest.approx(0.025, abs=0.012)
+    assert false_pass([LineFound(1.0, point(1.3, 0.01))] * 3) == 1.0
+
+
+def test_pairs_of_campaigns_agree_within_their_sigmas():
+    rng = np.random.default_rng(3)
+    campaigns = [[LineFound(2.0, point(2.0 + error, 0.05)) for error in rng.normal(0.0, 0.05, 60)] for _ in range(4)]
+    assert np.mean(pairs_agree(campaigns)) == pytest.approx(0.95, abs=0.04)
