@@ -5,13 +5,14 @@ import math
 import numpy as np
 import pytest
 
-from mtr_benchmarks.ranges.campaigns import Amount, Task, run_task, tasks
+from mtr_benchmarks.ranges.campaigns import FADINGS, POLLINGS, WIDTHS_M, Amount, Task, run_task, tasks
 from mtr_benchmarks.ranges.cars import Polling, Radial, Radio, noticed_at
 from mtr_benchmarks.ranges.pass_methods import AxesDraw
 from mtr_benchmarks.ranges.press_methods import Draw, scan
 from mtr_benchmarks.ranges.referees import up_and_down
 from mtr_benchmarks.ranges.repeated import pairs_agree
 from mtr_benchmarks.ranges.result import LineFound, false_pass, figures, point
+from mtr_benchmarks.ranges.table import report
 
 
 @pytest.mark.parametrize("share", [0.0, 0.88])
@@ -67,3 +68,25 @@ def test_pairs_of_campaigns_agree_within_their_sigmas():
     rng = np.random.default_rng(3)
     campaigns = [[LineFound(2.0, point(2.0 + error, 0.05)) for error in rng.normal(0.0, 0.05, 60)] for _ in range(4)]
     assert np.mean(pairs_agree(campaigns)) == pytest.approx(0.95, abs=0.04)
+
+
+def test_every_row_has_a_value_and_its_details():
+    rng = np.random.default_rng(4)
+
+    def lines(sigma_m):
+        return [[LineFound(9.0, point(9.0 + error, sigma_m), 9, 30.0, 10.0, 8.0, point(8.0 + error, sigma_m))
+                 for error in rng.normal(0.0, sigma_m, 100)] for _ in range(3)]
+
+    found = {("passes", kind): lines(0.012) for kind in POLLINGS}
+    found.update({("adaptive", "again_key_press"): lines(0.1), ("passes", "again_autolock"): lines(0.012)})
+    for fading in FADINGS:
+        for width_m in WIDTHS_M:
+            kind = (fading, f"{width_m:g}")
+            found.update({("adaptive", *kind): lines(0.1), ("adaptive_scan_time", *kind): lines(0.1),
+                          ("scan_beside", *kind): lines(0.5)})
+    made = report(found)
+    assert [row.value is not None and row.value >= 0.0 for row in made.rows] == [True] * 9
+    values = {row.requirement.name: row.value for row in made.rows}
+    assert values["rms of d50 by the scan's, equal time, worst"] == pytest.approx(0.2, abs=0.06)
+    assert values["presses for +-0.3 m, width 1 m"] == 9.0
+    assert made.document()["details"]["adaptive"]["fading/6.6"]["lines"] == 300.0
