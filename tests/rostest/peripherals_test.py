@@ -27,6 +27,7 @@ PRESS_S = 0.3
 SERVO_TRAVEL_S = 0.1
 # Of the manual controller, see mtr_controller_input/parameters.py.
 SLOW_BUTTON, LIFT_AXIS, LIFT_MPS = 4, 7, 0.1
+RELEASE_BUTTONS, RELEASED_AFTER_S = (8, 9), 1.2
 HELD_S = 1.5
 
 
@@ -34,6 +35,7 @@ class Peripherals(unittest.TestCase):
     """This test takes part in lock-step in the place of dispatcher and state machine."""
 
     press_id = 0
+    is_released = False
 
     @classmethod
     def setUpClass(cls):
@@ -61,6 +63,16 @@ class Peripherals(unittest.TestCase):
         self.desired.message.press = ButtonPress()
         self.desired.message.link_alive = True
         self.advance(0.2)
+        if not self.is_released:
+            self.release_emergency_stop()
+
+    def release_emergency_stop(self):
+        """The manual controller begins with its emergency stop engaged; a person releases it on purpose."""
+        for held in (1, 0):
+            for button in RELEASE_BUTTONS:
+                self.joystick.message.buttons[button] = held
+            self.advance(RELEASED_AFTER_S)
+        Peripherals.is_released = True
 
     def advance(self, duration_s):
         """Take part for some time; the peripherals' newest state."""
