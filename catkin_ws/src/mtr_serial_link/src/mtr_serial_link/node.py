@@ -1,5 +1,6 @@
 """The serial bridge as a ROS node: the firmware's topics and services as if it were a node itself."""
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
 import threading
 import xmlrpc.client
 from dataclasses import dataclass
@@ -106,7 +107,9 @@ class SerialBridgeNode(LineObserver):
                              bool(session.endpoints.refused) or session.health.has_refused_lately(now_s),
                              session.missing)
         if self._reports.is_due(status, now_s):
-            self._diagnostics.publish(self._diagnostics_message(status))
+            # A shutdown closes the topic while the line still runs.
+            with contextlib.suppress(rospy.ROSException):
+                self._diagnostics.publish(self._diagnostics_message(status))
         if status.sentence != self._logged:
             self._logged = status.sentence
             self._log(status)
