@@ -65,7 +65,7 @@ class Polling(NamedTuple):
     cycle_s: float = 0.2
     debounce: int = 2
     delay_s: float = 0.03
-    noise_m: float = 0.012
+    threshold_noise_m: float = 0.012
 
 
 def noticed_at(polling: Polling, speed_mps: float, noise: np.random.Generator) -> float:
@@ -73,7 +73,7 @@ def noticed_at(polling: Polling, speed_mps: float, noise: np.random.Generator) -
     time_s, agreeing = -0.5 / speed_mps - polling.poll_s * noise.random(), 0
     while agreeing < polling.debounce:
         time_s += polling.poll_s
-        agreeing = agreeing + 1 if speed_mps * time_s > polling.noise_m * noise.standard_normal() else 0
+        agreeing = agreeing + 1 if speed_mps * time_s > polling.threshold_noise_m * noise.standard_normal() else 0
     # The bus tells it up to a cycle later, and the application takes the middle of the cycle.
     told_s = time_s + polling.delay_s + polling.cycle_s * (noise.random() - 0.5)
     return float(speed_mps * told_s + 0.002 * noise.standard_normal())
