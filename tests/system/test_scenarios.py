@@ -13,8 +13,11 @@ LARGEST_ERROR_M = 0.30
 
 AUTOLOCK_COLUMNS = ("axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unlock_status,unlock_distance_m,"
                     "unlock_uncertainty_m,unlock_robot_time_s,lock_status,lock_distance_m,lock_uncertainty_m,"
-                    "lock_robot_time_s")
-KEY_PRESS_COLUMNS = "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s"
+                    "lock_robot_time_s,unlock_lateral_offset_m,unlock_heading_offset_deg,unlock_key_height_m,"
+                    "unlock_speed_mps,unlock_cause,lock_lateral_offset_m,lock_heading_offset_deg,lock_key_height_m,"
+                    "lock_speed_mps,lock_cause")
+KEY_PRESS_COLUMNS = ("radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
+                     "lateral_offset_m,heading_offset_deg,key_height_m,speed_mps,cause")
 
 
 @pytest.fixture(scope="module")
