@@ -27,12 +27,12 @@ def now_ns() -> int:
 
 def steady_ns() -> int:
     """Time for liveness in nanoseconds: nobody sets this clock. In simulation it is the simulated one."""
-    return now_ns() if is_simulated() else time.monotonic_ns()
+    return now_ns() if is_simulated() else _boot_time_ns()
 
 
 def steady_at(tick_ns: int) -> int:
     """The steady clock's time at a tick at hand; in simulation the tick itself, however late the machine is."""
-    return tick_ns if is_simulated() else time.monotonic_ns()
+    return tick_ns if is_simulated() else _boot_time_ns()
 
 
 def reading() -> Instant:
@@ -41,7 +41,7 @@ def reading() -> Instant:
         now = now_ns()
         return Instant(now, now)
     for _ in range(READINGS):
-        before, now, after = time.monotonic_ns(), now_ns(), time.monotonic_ns()
+        before, now, after = _boot_time_ns(), now_ns(), _boot_time_ns()
         if after - before < READING_APART_NS:
             break
     return Instant(now, (before + after) // 2)
@@ -67,3 +67,8 @@ def wait_until(time_ns: int) -> None:
                 condition.wait(SHUTDOWN_CHECK_S)
     if rospy.is_shutdown():
         raise rospy.ROSInterruptException("shutdown")
+
+
+def _boot_time_ns() -> int:
+    """As in steady_time.hpp: nobody sets it, and it counts the time for which the machine was suspended."""
+    return time.clock_gettime_ns(time.CLOCK_BOOTTIME)
