@@ -252,7 +252,8 @@ def test_robots_clock_that_is_set_back_is_no_restart(session, world, step_s):  #
 def test_pose_that_becomes_valid_again_with_an_older_stamp_is_no_restart(session, world):  # D7
     session.step()
     world.spoil = lambda status: replace(status, stamp_s=status.stamp_s - 0.12)
-    session.step()
+    older = session.step()
+    assert session.step().id > older.id
 
 
 class Person:
