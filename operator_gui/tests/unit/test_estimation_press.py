@@ -176,6 +176,20 @@ def test_failures_inside_where_all_else_works_are_told_as_a_hole():
     assert estimate(plan, search).holes_m == (4.05,)
 
 
+def test_robot_that_stops_a_little_beside_the_place_presses_there_again_nevertheless():
+    """The key stands some millimetres off, each time another way."""
+    grid = PLAN.hypotheses()
+    search = RadialSearch(PLAN, grid, Campaign(grid), 1, 10.0)
+    for place_m in (9.3, 8.6, 7.2, 7.55, 6.85, 7.2, 7.55, 6.5, 6.15, 5.8):
+        search.add(Press(place_m, place_m < 7.3))
+    for place_m in (4.056, 4.047, 4.053):
+        assert not search.is_finished()
+        search.add(Press(place_m, False))
+        again_m = search.next_place_m()
+        assert (search.place_of(again_m) == search.place_of(4.05)) is (place_m != 4.053)
+    assert estimate(PLAN, search).holes_m == pytest.approx((4.052,))
+
+
 def test_radials_share_what_they_know_of_the_width():
     rng = np.random.default_rng(5)
     grid = PLAN.hypotheses()

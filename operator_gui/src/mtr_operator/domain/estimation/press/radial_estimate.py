@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import enum
 import math
+import statistics
 from dataclasses import dataclass
 from typing import Sequence
 
@@ -90,8 +91,11 @@ def _holes(search: RadialSearch) -> tuple[float, ...]:
     """Places that fail more often than what is known without them allows."""
     presses, found = search.presses, []
     farthest_m = max((press.distance_m for press in presses if press.worked), default=0.0)
-    for distance_m in sorted({press.distance_m for press in presses if press.distance_m < farthest_m}):
-        here = [press.worked for press in presses if press.distance_m == distance_m]
+    inside = [press for press in presses if press.distance_m < farthest_m]
+    for place in sorted({search.place_of(press.distance_m) for press in inside}):
+        beside = [press for press in inside if search.place_of(press.distance_m) == place]
+        here = [press.worked for press in beside]
+        distance_m = statistics.fmean(press.distance_m for press in beside)
         failures = here.count(False)
         if failures >= 2:
             works = min(_curve(search.posterior_without(distance_m), distance_m), SURE_TO_WORK)

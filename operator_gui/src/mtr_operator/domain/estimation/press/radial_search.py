@@ -62,13 +62,18 @@ class RadialSearch:
     def add(self, press: Press) -> None:
         """Take what a press did."""
         expected, _ = PressInformation(self.posterior()).at(np.array([press.distance_m]))
-        doubtful = expected[0] >= SURE_TO_WORK or press.distance_m == self._doubted_m
+        is_repeated = self._doubted_m is not None and self.place_of(press.distance_m) == self.place_of(self._doubted_m)
+        doubtful = expected[0] >= SURE_TO_WORK or is_repeated
         self._doubted_m = press.distance_m if doubtful and not press.worked else None
         self.presses.append(press)
         self.place_m = press.distance_m
         self._likelihood.add(press)
         self._campaign.keep_evidence(self._radial, log_evidence(self._likelihood.log))
         self._posterior = None
+
+    def place_of(self, distance_m: float) -> int:
+        """Number of the half wavelength in whose midst a distance lies: presses there count as made at one place."""
+        return self._likelihood.place_of(distance_m)
 
     def is_finished(self) -> bool:
         """True when the interval is reached, or no press is left."""
