@@ -1,11 +1,13 @@
 """Every finding is in the journal before the robot is ordered on, and shown only after it is kept (C1, N6)."""
 # SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
+
 import pytest
 
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.errors import OutputError
-from mtr_operator.domain.results.journal import EVENT, LINE, LINE_BEGUN, POINT, PRESS, Journal
+from mtr_operator.domain.results.journal import EVENT, LINE, LINE_BEGUN, POINT, PRESS, REVISED, Journal
 from mtr_operator.domain.results.notebook import apply
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.runner import Runner
@@ -110,3 +112,17 @@ def test_robot_is_not_ordered_on_when_a_point_cannot_be_kept(run, robot_link):  
     assert LINE not in diary.kinds()
     assert diary.kinds()[before + 1:] and set(diary.kinds()[before + 1:]) <= {"sent", "decision"}
     assert all(desired.stop for _, desired in robot_link.answers[-diary.kinds()[before + 1:].count("sent"):])
+
+
+def test_lines_that_read_otherwise_when_all_are_measured_are_kept_and_counted_once(run, robot_link, monkeypatch):
+    monkeypatch.setattr(SCENARIOS["key_press"], "concluded",
+                        lambda parameters, results: [replace(results[1], lapse=0.25 * len(results))])
+    diary = Diary()
+    progress = run("key_press", diary)
+    assert [result.lapse for result in progress.results] == [None, 1.0, None, None] and progress.retried == []
+    assert diary.kinds()[-2:] == [REVISED, "saved"]
+    assert robot_link.answers[-1][1].stop
+    replayed = Progress("key_press", progress.parameters)
+    for kind, values in diary.entries:
+        apply(replayed, SCENARIOS["key_press"].result_type, kind, values)
+    assert replayed == progress

@@ -10,7 +10,7 @@ from .actions.preparation import check_car, prepare
 from .actions.robot import Robot
 from .errors import ProgressFileError, RobotFailed
 from .results.frame_record import check_entry
-from .results.journal import CAR, CHECK, LINE, LINE_BEGUN, LINE_RESUMED, SUPERSEDED, Journal, plain_fields
+from .results.journal import CAR, CHECK, LINE, LINE_BEGUN, LINE_RESUMED, REVISED, SUPERSEDED, Journal, plain_fields
 from .results.line_result import LineResult
 from .results.notebook import Notebook
 from .results.progress import Progress
@@ -33,7 +33,7 @@ class Runner:
         self._progress = progress
         self._save = save
         self._notebook = loop.journal = Notebook(progress, scenario.result_type, journal or Journal())
-        self._robot = Robot(loop)
+        self._robot = Robot(loop, progress.results)
         self._car = Car(loop)
         self._total = 0
 
@@ -52,12 +52,21 @@ class Runner:
             self._measure(lines)
         finally:
             self._halt()
+        self._conclude()
 
     def _halt(self) -> None:
         stands = self._loop.halt()
         if stands is not None:
             self._robot.say("the robot stands still" if stands else "the robot does not confirm that it stands still; "
                             "without an application it stops by itself")
+
+    def _conclude(self) -> None:
+        """The robot stands: what takes long may."""
+        revised = self._scenario.concluded(self._parameters, self._progress.results)
+        for result in revised:
+            self._notebook.add(REVISED, {"result": result.to_document()})
+        if revised:
+            self._save(self._progress)
 
     def _check_car(self) -> None:
         check = check_car(self._robot)

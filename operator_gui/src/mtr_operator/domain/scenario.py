@@ -69,6 +69,11 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
     def measure(self, line: AnyLine, parameters: Parameters, robot: Robot, car: Car) -> Result:
         """Measure one line. A line that cannot be measured has the status invalid and a reason."""
 
+    def concluded(self, parameters: Parameters, results: Sequence[Result]) -> Sequence[Result]:
+        """Those results that read otherwise now that all lines are measured, for what lines have in common; none by
+        default. The same results give the same answer."""
+        return ()
+
     def can_go_on(self, line: AnyLine, parameters: Parameters, robot: Robot, car: Car) -> bool:
         """True when measure can finish a line from where the robot stands, with what Robot.kept has of it."""
         return False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
-from typing import Any, Callable, Iterator, Mapping, TypeVar
+from typing import Any, Callable, Iterator, Mapping, Sequence, TypeVar
 
 from ..errors import RobotFailed
 from ..geometry.pose import Pose
@@ -12,7 +12,7 @@ from ..geometry.ray import Ray
 from ..requests import Direction, Press, Waypoint
 from ..results.frame_history import frame_from
 from ..results.journal import DECISION, POINT, PRESS, KeptPoint, plain_fields
-from ..results.line_result import LineStatus
+from ..results.line_result import LineResult, LineStatus
 from ..robot_status import CarCheck, CheckState, PressReport, RobotStatus, WaypointResult
 from .control_loop import ControlLoop
 from .distance import Distance, measure
@@ -34,10 +34,14 @@ _HEIGHT_M = 0.02
 
 
 class Robot:
-    """Waypoints, presses and checks count from 1 in a session."""
+    """Waypoints, presses and checks count from 1 in a session.
 
-    def __init__(self, loop: ControlLoop):
+    results: of the lines so far; it grows.
+    """
+
+    def __init__(self, loop: ControlLoop, results: Sequence[LineResult] = ()):
         self._loop = loop
+        self._results = results
         self._waypoint_id = 0
         self._press_id = 0
         self._check_id = 0
@@ -167,6 +171,11 @@ class Robot:
             return None
         values: dict[str, Any] = {name: math.nan if value is None else value for name, value in point.distance.items()}
         return Distance(**values)
+
+    @property
+    def results(self) -> tuple[LineResult, ...]:
+        """Of the lines measured so far, for a scenario whose lines have something in common."""
+        return tuple(self._results)
 
     def keep(self, word: str, status: LineStatus, distance: Distance | None = None) -> None:
         """Keep a measurement of the line at hand, before the robot is ordered on; returns when it is safe.

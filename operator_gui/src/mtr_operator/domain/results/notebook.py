@@ -13,6 +13,7 @@ from .journal import (
     LINE,
     LINE_BEGUN,
     POINT,
+    REVISED,
     SESSION,
     SUPERSEDED,
     Journal,
@@ -55,3 +56,5 @@ def apply(progress: Progress, result_type: type[LineResult], kind: str, values: 
                                                          values["frame"])
     elif kind == LINE:
         progress.record(result_from_document(result_type, values["result"]), frame_from(values["frame"]))
+    elif kind == REVISED:
+        progress.revise(result_from_document(result_type, values["result"]))

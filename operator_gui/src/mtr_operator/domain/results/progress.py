@@ -99,6 +99,11 @@ class Progress:
         self.results.append(result)
         self.results.sort(key=lambda measured: measured.number)
 
+    def revise(self, result: LineResult) -> None:
+        """The same line, measured once, as all lines together show it; ValueError when it has no result."""
+        index = self.measured().index(result.number)
+        self.results[index] = result
+
     def measured(self) -> list[int]:
         """Numbers of the lines that have a result."""
         return [result.number for result in self.results]
