@@ -25,7 +25,8 @@ HEADERS = {
                 "unlock_speed_mps,unlock_cause,lock_lateral_offset_m,lock_heading_offset_deg,lock_key_height_m,"
                 "lock_speed_mps,lock_cause",
     "key_press": "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
-                 "lateral_offset_m,heading_offset_deg,key_height_m,speed_mps,cause",
+                 "lateral_offset_m,heading_offset_deg,key_height_m,speed_mps,cause,method,reach,d50_m,d50_sigma_m,"
+                 "d50_low_m,d50_high_m,d95_m,d95_low_m,d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality",
 }
 
 

@@ -13,10 +13,11 @@ _LARGEST = 2 ** 64
 OptionalFloat = Optional[float]
 OptionalInt = Optional[int]
 Texts = Tuple[str, ...]
+Floats = Tuple[float, ...]
 
 
 def read_record(record_type: type[Record], document: Mapping[str, Any]) -> Record:
-    """Record of a dataclass whose fields are numbers, texts, lists of texts and enumerations, or None where they are
+    """Record of a dataclass whose fields are numbers, texts, lists of either and enumerations, or None where they are
     optional.
 
     A field with a default may be missing. What does not fit raises KeyError, TypeError or ValueError.
@@ -45,6 +46,8 @@ def _value(kind: Any, value: Any) -> Any:
     kind = kinds[0]
     if kind is Texts:
         return _texts(value)
+    if kind is Floats:
+        return _floats(value)
     if issubclass(kind, enum.Enum):
         return kind(value)
     # JSON writes 2.0 as it is, but another program may have written 2.
@@ -55,6 +58,12 @@ def _value(kind: Any, value: Any) -> Any:
     if kind in (int, float) and not -_LARGEST <= value <= _LARGEST:
         raise ValueError("a number without sense")
     return value
+
+
+def _floats(value: Any) -> Floats:
+    if not isinstance(value, (list, tuple)):
+        raise TypeError("no list of numbers")
+    return tuple(float(_value(float, number)) for number in value)
 
 
 def _texts(value: Any) -> Texts:

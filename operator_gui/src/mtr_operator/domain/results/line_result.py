@@ -36,13 +36,16 @@ class Column:
 class MeasuredDistance:
     """One distance of a line, in m with 1 sigma; None where nothing was measured.
 
-    word: what it is called beside the line, "unlock".
+    word: what it is called beside the line, "unlock". low_m, high_m: ends of the 95 % interval of the boundary that the
+    distance stands for; None where the method gives none, one of them alone where the boundary lies beyond the other.
     """
 
     word: str
     status: LineStatus
     distance_m: OptionalFloat
     uncertainty_m: OptionalFloat
+    low_m: OptionalFloat = None
+    high_m: OptionalFloat = None
 
 
 def column(doc: str, unit: str = "", digits: int = 4, default: Any = dataclasses.MISSING) -> Any:
@@ -124,6 +127,9 @@ def _check(distance: MeasuredDistance) -> None:
         raise ValueError(f"distance of {distance.word}")
     if distance.uncertainty_m is not None and not limits.DISTANCE_SIGMA.allows(distance.uncertainty_m):
         raise ValueError(f"uncertainty of {distance.word}")
+    ends = [end for end in (distance.low_m, distance.high_m) if end is not None]
+    if not all(limits.DISTANCE.allows(end) for end in ends) or sorted(ends) != ends:
+        raise ValueError(f"interval of {distance.word}")
 
 
 def _fields(result_type: type[LineResult]) -> tuple[dataclasses.Field[Any], ...]:

@@ -5,10 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..results.carried import CAUSE_DOC, HEADING_DOC, HEIGHT_DOC, LATERAL_DOC, SPEED_DOC
-from ..results.document import OptionalFloat, Texts
+from ..results.document import Floats, OptionalFloat, Texts
 from ..results.line_result import LineResult, LineStatus, MeasuredDistance, column, stored
 
 PRESS = "press"
+SCAN, ADAPTIVE = "scan", "adaptive"
+_OF_D50 = "distance at which half of the presses work"
+_OF_D95 = "distance at which 95 % of the presses work, lapses apart"
+_LOW, _HIGH = "lower end of the 95 % interval of the", "upper end of the 95 % interval of the"
 
 
 @dataclass(frozen=True)
@@ -17,6 +21,8 @@ class KeyPressResult(LineResult):
 
     FILE_ORDER = ("radial", "angle_deg", "status", "distance_m", "uncertainty_m", "robot_time_s", "failed_distance_m",
                   "attempts", "reason", "lateral_offset_m", "heading_offset_deg", "key_height_m", "speed_mps", "cause",
+                  "method", "reach", "d50_m", "d50_sigma_m", "d50_low_m", "d50_high_m", "d95_m", "d95_low_m",
+                  "d95_high_m", "nearest_failure_m", "holes_m", "lapse", "fit_quality", "worked_at_m", "failed_at_m",
                   "evidence")
 
     radial: int = column("number of the radial, clockwise from the Car's front")
@@ -35,6 +41,24 @@ class KeyPressResult(LineResult):
     key_height_m: OptionalFloat = column(f"{HEIGHT_DOC} at the press that worked", "m", default=None)
     speed_mps: OptionalFloat = column(f"{SPEED_DOC} at the press that worked", "m/s", default=None)
     cause: str = column(f"what the Car obeyed: {CAUSE_DOC}", default="")
+    method: str = column("scan: from far to near until a press works; adaptive: search with intervals", default=SCAN)
+    reach: str = column("adaptive: where the boundary lies: measured; nearer than the nearest place; farther than the "
+                        "farthest one; no_answer: nobody knows", default="")
+    d50_m: OptionalFloat = column(_OF_D50, "m", default=None)
+    d50_sigma_m: OptionalFloat = column(f"1 sigma of the {_OF_D50}", "m", default=None)
+    d50_low_m: OptionalFloat = column(f"{_LOW} {_OF_D50}, empty when it lies nearer", "m", default=None)
+    d50_high_m: OptionalFloat = column(f"{_HIGH} {_OF_D50}, empty when it lies farther", "m", default=None)
+    d95_m: OptionalFloat = column(_OF_D95, "m", default=None)
+    d95_low_m: OptionalFloat = column(f"{_LOW} {_OF_D95}", "m", default=None)
+    d95_high_m: OptionalFloat = column(f"{_HIGH} {_OF_D95}", "m", default=None)
+    nearest_failure_m: OptionalFloat = column("nearest press that failed", "m", default=None)
+    holes_m: str = column("places that failed again and again although farther ones worked", "m", default="")
+    lapse: OptionalFloat = column("share of presses that fail at any distance", default=None)
+    fit_quality: OptionalFloat = column(
+        "share of radials on the curve found that would fit worse; below 0.02 the curve does not describe this one",
+        default=None)
+    worked_at_m: Floats = stored(())
+    failed_at_m: Floats = stored(())
     evidence: Texts = stored(())
 
     @property
@@ -49,5 +73,8 @@ class KeyPressResult(LineResult):
 
     @property
     def distances(self) -> tuple[MeasuredDistance, ...]:
-        """See LineResult."""
+        """See LineResult: where half of the presses work, if that was searched, else the farthest that worked."""
+        if self.method == ADAPTIVE:
+            return (MeasuredDistance(PRESS, self.status, self.d50_m, self.d50_sigma_m, self.d50_low_m,
+                                     self.d50_high_m),)
         return (MeasuredDistance(PRESS, self.status, self.distance_m, self.uncertainty_m),)
