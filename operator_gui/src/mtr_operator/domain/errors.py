@@ -2,6 +2,8 @@
 
 OperatorError
 ├── InvalidParameter     a scenario or connection parameter is out of range
+├── InvalidLimits        a limits file is damaged, contradicts itself or does not suit the test
+├── InvalidCalibration   a calibration record of the robot is damaged
 ├── ConnectionFailed     robot or Car cannot be reached, or the port or adapter is wrong
 ├── LinkLost             robot or Car fell silent during a test
 ├── RobotFailed          the robot is there, and cannot do what the test needs
@@ -18,6 +20,14 @@ class OperatorError(Exception):
 
 class InvalidParameter(OperatorError):
     """A parameter is out of range."""
+
+
+class InvalidLimits(OperatorError):
+    """A limits file is damaged, contradicts itself or does not suit the test."""
+
+
+class InvalidCalibration(OperatorError):
+    """A calibration record of the robot is damaged."""
 
 
 class ConnectionFailed(OperatorError):

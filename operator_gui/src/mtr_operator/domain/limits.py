@@ -39,7 +39,7 @@ def first_violation(values: Iterable[tuple[Limit, object]], of: str = "") -> str
 
 
 def _shown(value: object) -> str:
-    if isinstance(value, float) or (isinstance(value, int) and abs(value) < 1e15):
+    if isinstance(value, float) or (isinstance(value, int) and not isinstance(value, bool) and abs(value) < 1e15):
         return f"{value:g}"
     return f"{str(value)[:40]!r}" if isinstance(value, str) else f"no number in range ({type(value).__name__})"
 

@@ -74,6 +74,11 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
         default. The same results give the same answer."""
         return ()
 
+    def measure_further(self, line: AnyLine, parameters: Parameters, robot: Robot, car: Car,
+                        so_far: Result) -> Result | None:
+        """Make the interval of a measured line narrower by more attempts; None when more would not make it so."""
+        return None
+
     def can_go_on(self, line: AnyLine, parameters: Parameters, robot: Robot, car: Car) -> bool:
         """True when measure can finish a line from where the robot stands, with what Robot.kept has of it."""
         return False
@@ -85,6 +90,11 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
     def distance_range(self, parameters: Parameters) -> tuple[float, float]:
         """Nearest and farthest distance of the Remote key on each line, in m, for a preview before the test."""
         return parameters.minimum_distance_m, parameters.maximum_distance_m
+
+    def judged_shares(self, parameters: Parameters) -> tuple[int, ...]:
+        """Shares of attempts, in percent, for whose distances the results have 95 % intervals; a limits file may ask
+        for them."""
+        return ()
 
     def expected_line_s(self, parameters: Parameters) -> float:
         """How long measuring one line is likely to take, in s of robot time, without the way to its start."""

@@ -1,0 +1,89 @@
+"""The budget of one distance, and how the errors of several go together.
+
+First order (GUM 5.1 and 5.2), by the package uncertainties: d = d0 + sum of sensitivity * error, where a common term is
+one and the same variable on every line. Degrees of freedom by Welch and Satterthwaite (GUM G.4), coverage factor by
+Student's t.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Sequence
+
+import uncertainties
+from scipy.special import ndtri, stdtrit
+
+from ..interval import LEVEL
+from .terms import Term
+
+# Student's t has no larger table; beyond it is the normal distribution.
+_NORMAL_FROM = 1e6
+
+
+@dataclass(frozen=True)
+class DistanceBudget:
+    """Of one distance of one line.
+
+    Attributes:
+        line: its number. word: what the distance is called.
+        terms: all that the uncertainty is made of.
+    """
+
+    line: int
+    word: str
+    distance_m: float
+    terms: tuple[Term, ...]
+
+    @property
+    def sigma_m(self) -> float:
+        """Combined standard uncertainty."""
+        return math.hypot(self.own_sigma_m, self.common_sigma_m)
+
+    @property
+    def own_sigma_m(self) -> float:
+        """Of the errors that are this line's own."""
+        return math.hypot(*(term.contribution_m for term in self.terms if not term.is_common))
+
+    @property
+    def common_sigma_m(self) -> float:
+        """Of the errors that other lines have too."""
+        return math.hypot(*(term.contribution_m for term in self.terms if term.is_common))
+
+    @property
+    def degrees_of_freedom(self) -> float:
+        """Effective ones; infinite when every term's are."""
+        share = sum(term.contribution_m ** 4 / term.degrees_of_freedom for term in self.terms)
+        return self.sigma_m ** 4 / share if share > 0.0 else math.inf
+
+    @property
+    def coverage_factor(self) -> float:
+        """By which sigma_m is multiplied for 95 %."""
+        probability = (1.0 + LEVEL) / 2.0
+        freedom = self.degrees_of_freedom
+        return float(ndtri(probability) if freedom > _NORMAL_FROM else stdtrit(freedom, probability))
+
+    @property
+    def expanded_m(self) -> float:
+        """Expanded uncertainty: half the width of the interval with 95 % coverage."""
+        return self.coverage_factor * self.sigma_m
+
+
+def correlations(budgets: Sequence[DistanceBudget]) -> list[list[float]]:
+    """Coefficients between the errors of distances, in their order; 1 on the diagonal."""
+    common: dict[str, Any] = {}
+    numbers = [_number(budget, common) for budget in budgets]
+    if not numbers:
+        return []
+    return [[float(value) for value in row] for row in uncertainties.correlation_matrix(numbers)]
+
+
+def _number(budget: DistanceBudget, common: dict[str, Any]) -> Any:
+    """The distance as a number with its errors; common: variables of the errors that lines share, by name."""
+    number = uncertainties.ufloat(budget.distance_m, 0.0)
+    for term in budget.terms:
+        error = uncertainties.ufloat(0.0, term.sigma)
+        if term.is_common:
+            error = common.setdefault(term.name, error)
+        number = number + term.sensitivity * error
+    return number

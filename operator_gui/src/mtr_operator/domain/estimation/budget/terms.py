@@ -1,0 +1,92 @@
+"""What the uncertainty of one distance is made of: terms with their sensitivities, along the line."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from .calibration import FLOOR_SLOPE, KEY_LEVER, LIDAR_YAW, MAST_LEAN, CalibrationRecord, Distribution
+
+_RAD_PER_DEG = math.pi / 180.0
+STATUS, CAR_MAP, PRESSES = "robot's Status and the Car's bus", "robot's map of the Car", "attempts of the test"
+CALIBRATION = "calibration record of"
+# What is different on each line; all else is the same error on every line.
+_OWN_OF_RECORD = (FLOOR_SLOPE,)
+
+
+@dataclass(frozen=True)
+class Term:
+    """One source of error of a distance.
+
+    Attributes:
+        name: of the source; the same common term on two lines is the same error.
+        sigma: standard uncertainty, in unit. uncertainty, distribution: as recorded, see Distribution.
+        sensitivity: m of distance per unit.
+        is_common: the error is the same on all lines, up to its sensitivity.
+    """
+
+    name: str
+    value: float
+    uncertainty: float
+    unit: str
+    distribution: Distribution
+    degrees_of_freedom: float
+    sensitivity: float
+    sigma: float
+    source: str
+    is_common: bool
+
+    @property
+    def contribution_m(self) -> float:
+        """Its part of the standard uncertainty of the distance, without sign."""
+        return abs(self.sensitivity) * self.sigma
+
+
+@dataclass(frozen=True)
+class Carriage:
+    """How the key was carried when something was measured. direction: unit vector of the line, away from the Car."""
+
+    direction: tuple[float, float]
+    key_height_m: float
+    heading_offset_rad: float = 0.0
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """Standard uncertainties of one distance from its own measurement, in m; 0 where there is no such part.
+
+    place_m: key's place and instant. attempts_m: what the attempts leave open.
+    outline_m: of the Car's length and width, by half of which the line's origin may be off; (0, 0) from the centre.
+    """
+
+    place_m: float
+    attempts_m: float
+    outline_m: tuple[float, float]
+
+
+def terms_of(measurement: Measurement, carriage: Carriage, record: CalibrationRecord) -> tuple[Term, ...]:
+    """All terms of a distance of a robot that faces the Car."""
+    half_x, half_y = (component / 2.0 for component in carriage.direction)
+    own = (_measured("place and instant of the key", measurement.place_m, 1.0, STATUS, is_common=False),
+           _measured("attempts", measurement.attempts_m, 1.0, PRESSES, is_common=False),
+           _measured("length of the Car", measurement.outline_m[0], half_x, CAR_MAP, is_common=True),
+           _measured("width of the Car", measurement.outline_m[1], half_y, CAR_MAP, is_common=True))
+    return tuple(term for term in own if term.sigma > 0.0) + _of_record(carriage, record)
+
+
+def _measured(name: str, sigma_m: float, sensitivity: float, source: str, is_common: bool) -> Term:
+    return Term(name, 0.0, sigma_m, "m", Distribution.NORMAL, math.inf, sensitivity, sigma_m, source, is_common)
+
+
+def _of_record(carriage: Carriage, record: CalibrationRecord) -> tuple[Term, ...]:
+    """A mast that leans towards the Car brings the key nearer, by its height; a yaw of the LiDAR, its lever aslant."""
+    sensitivities = {
+        MAST_LEAN: -carriage.key_height_m * _RAD_PER_DEG,
+        FLOOR_SLOPE: -carriage.key_height_m * _RAD_PER_DEG,
+        KEY_LEVER: -math.cos(carriage.heading_offset_rad),
+        LIDAR_YAW: record.key_ahead_m * math.sin(carriage.heading_offset_rad) * _RAD_PER_DEG}
+    source = f"{CALIBRATION} {record.made.isoformat()}"
+    return tuple(Term(name, term.value, term.uncertainty, name.rpartition("_")[2], term.distribution,
+                      term.degrees_of_freedom, sensitivities[name], term.sigma, f"{source}: {term.source}",
+                      name not in _OWN_OF_RECORD)
+                 for name, term in record.terms.items())

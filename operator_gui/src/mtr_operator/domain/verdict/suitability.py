@@ -1,0 +1,55 @@
+"""Whether limits suit a test, before the robot moves: they name its lines and distances, and do not contradict."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from itertools import combinations
+from typing import Sequence
+
+from ..errors import InvalidLimits
+from ..geometry.ray import Ray
+from ..scenario import AnyScenario, Line, ScenarioParameters
+from .limits import Limits
+from .requirement import Requirement
+
+
+def check_distances(limits: Limits, scenario: AnyScenario, parameters: ScenarioParameters) -> None:
+    """Raise InvalidLimits unless the scenario measures what is limited, with these parameters."""
+    shares = scenario.judged_shares(parameters)
+    low_m, high_m = scenario.distance_range(parameters)
+    for requirement in limits.requirements:
+        name, what = requirement.name, requirement.what
+        if what not in scenario.distance_words:
+            raise InvalidLimits(f"Limit {name!r}: {scenario.title} measures no {what!r}; it measures "
+                                f"{', '.join(scenario.distance_words)}.")
+        if not shares:
+            raise InvalidLimits(f"Limit {name!r}: with these parameters {scenario.title} does not say how sure a "
+                                "distance is; no limit can be judged.")
+        if requirement.share_percent not in shares:
+            raise InvalidLimits(f"Limit {name!r}: {scenario.title} tells the distance for "
+                                f"{' or '.join(map(str, shares))} % of the attempts, not for "
+                                f"{requirement.share_percent} %.")
+        if not low_m < requirement.limit_m < high_m:
+            raise InvalidLimits(f"Limit {name!r}: it is at {requirement.limit_m:g} m, and the test measures from "
+                                f"{low_m:g} to {high_m:g} m only; no measurement could judge it.")
+
+
+def check_lines(limits: Limits, lines: Sequence[Line], line_word: str) -> None:
+    """Raise InvalidLimits for a limit that names no line, and for two that no Car can keep on a line."""
+    for requirement in limits.requirements:
+        if not any(requirement.names(line.ray) for line in lines):
+            raise InvalidLimits(f"Limit {requirement.name!r} names no {line_word} of this test.")
+    for line in lines:
+        for first, second in combinations(_of(limits, line.ray), 2):
+            if _contradict(first, second) or _contradict(second, first):
+                raise InvalidLimits(f"Limits {first.name!r} and {second.name!r} contradict each other on {line_word} "
+                                    f"{line.number}: {first.text}, {second.text}.")
+
+
+def _of(limits: Limits, ray: Ray) -> list[Requirement]:
+    return [requirement for requirement in limits.requirements if requirement.names(ray)]
+
+
+def _contradict(lower: Requirement, upper: Requirement) -> bool:
+    """A larger share works at a smaller distance; so a lower bound for it holds for the smaller share as well."""
+    return (lower.what == upper.what and lower.at_least_m is not None and upper.at_most_m is not None
+            and lower.share_percent >= upper.share_percent and lower.at_least_m >= upper.at_most_m)
