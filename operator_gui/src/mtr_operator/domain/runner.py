@@ -10,12 +10,25 @@ from .actions.preparation import check_car, prepare
 from .actions.robot import Robot
 from .errors import ProgressFileError, RobotFailed
 from .results.frame_record import check_entry
-from .results.journal import CAR, CHECK, LINE, LINE_BEGUN, LINE_RESUMED, REVISED, SUPERSEDED, Journal, plain_fields
+from .results.journal import (
+    CAR,
+    CHECK,
+    FURTHER,
+    LINE,
+    LINE_BEGUN,
+    LINE_RESUMED,
+    REVISED,
+    SUPERSEDED,
+    Journal,
+    plain_fields,
+)
 from .results.line_result import LineResult
 from .results.notebook import Notebook
 from .results.progress import Progress
 from .robot_status import CheckState
 from .scenario import AnyScenario, Line, ScenarioParameters
+from .verdict.assessment import Assessor
+from .verdict.suitability import check_lines
 
 
 class Runner:
@@ -50,6 +63,7 @@ class Runner:
             if half is not None:
                 self._notebook.add(LINE, {"result": half.to_document(), "frame": self._frame()})
             self._measure(lines)
+            self._measure_further(lines)
         finally:
             self._halt()
         self._conclude()
@@ -83,6 +97,8 @@ class Runner:
         if self._progress.car is None:
             self._notebook.add(CAR, plain_fields(mapped))
         lines: Sequence[Line] = self._scenario.lines(self._parameters, self._progress.measured_car)
+        if self._progress.limits is not None:
+            check_lines(self._progress.limits, lines, self._scenario.line_word)
         return lines
 
     def _frame(self) -> Any:
@@ -120,10 +136,41 @@ class Runner:
         for number in self._progress.to_retry():
             self._measure_line(by_number[number])
 
+    def _measure_further(self, lines: Sequence[Line]) -> None:
+        """More attempts on the lines about whose limits nobody knows, until they are decided or the time is over."""
+        progress = self._progress
+        if progress.limits is None or progress.calibration is None:
+            return
+        assessor = Assessor(self._scenario, self._parameters, progress.measured_car, progress.calibration)
+        until_s = self._robot.now_s + progress.limits.further_time_limit_s
+        waiting = {line.number: line for line in lines}
+        while self._robot.now_s < until_s:
+            undecided = assessor.assess(progress).undecided()
+            number = next((number for number in waiting if number in undecided), None)
+            if number is None:
+                return
+            line = waiting.pop(number)
+            # To the end of the queue: each line has its turn before one has its second.
+            if self._measure_line_further(line):
+                waiting[number] = line
+
+    def _measure_line_further(self, line: Line) -> bool:
+        """True when the line has a new result, and more attempts may tell more."""
+        self._car.wait_for_bus()
+        self._notebook.add(FURTHER, {"line": line.number})
+        so_far = next(result for result in self._progress.results if result.number == line.number)
+        result = self._scenario.measure_further(line, self._parameters, self._robot, self._car, so_far)
+        if result is None:
+            return False
+        self._keep_line(result)
+        return not result.invalid_count
+
     def _measure_line(self, line: Line) -> None:
         self._car.wait_for_bus()
         self._notebook.add(LINE_BEGUN, {"line": line.number})
-        result = self._scenario.measure(line, self._parameters, self._robot, self._car)
+        self._keep_line(self._scenario.measure(line, self._parameters, self._robot, self._car))
+
+    def _keep_line(self, result: LineResult) -> None:
         self._notebook.add(LINE, {"result": result.to_document(), "frame": self._frame()})
         self._save(self._progress)
         # Shown when it is kept: what a person has read is there after the next start.

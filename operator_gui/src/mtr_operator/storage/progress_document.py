@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import json
 import pathlib
-from typing import Any, Mapping, NoReturn, Sequence
+from typing import Any, Callable, Mapping, NoReturn, Sequence, TypeVar
 
-from mtr_operator.domain.errors import InvalidParameter, ProgressFileError
+from mtr_operator.domain.errors import InvalidCalibration, InvalidLimits, InvalidParameter, ProgressFileError
+from mtr_operator.domain.estimation.budget.calibration_document import calibration_from
 from mtr_operator.domain.results.document import read_record
 from mtr_operator.domain.results.frame_record import record_from
 from mtr_operator.domain.results.line_result import LineResult, result_from_document
 from mtr_operator.domain.results.progress import FORMAT, VERSION, JournalMark, Progress, car_from
 from mtr_operator.domain.scenario import AnyScenario
+from mtr_operator.domain.verdict.limits_document import limits_from
 
+Given = TypeVar("Given")
 # A test of some hundred lines takes 100 kB; a larger file is something else.
 MAX_BYTES = 16 * 1024 * 1024
 _MAX_SHOWN = 60
@@ -61,11 +64,19 @@ def progress_from_document(document: Any, scenario: AnyScenario, parameters: dic
                             None if document["car"] is None else car_from(document["car"]),
                             _results_from(document["results"], scenario),
                             _retried_from(document["retried"]),
-                            record_from(document.get("frame_record")), mark_in(document))
+                            record_from(document.get("frame_record")), mark_in(document),
+                            limits=_given(document, "limits", limits_from),
+                            calibration=_given(document, "calibration", calibration_from))
         _check_lines(progress, scenario)
-    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError):
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError, InvalidLimits,
+            InvalidCalibration):
         raise ProgressFileError(DAMAGED) from None
     return progress
+
+
+def _given(document: Mapping[str, Any], name: str, read: Callable[[Any], Given]) -> Given | None:
+    """What the Operator gave beside the parameters, None where the file has nothing of it."""
+    return read(document[name]) if name in document else None
 
 
 def _session_from(session: Any) -> dict[str, str]:

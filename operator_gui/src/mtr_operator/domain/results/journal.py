@@ -13,7 +13,7 @@ from .line_result import LineStatus
 # Kinds of entries. The first one holds the progress that a journal begins with.
 BEGUN, SESSION, CAR, CHECK = "begun", "session", "car", "check"
 LINE_BEGUN, LINE_RESUMED, POINT, SUPERSEDED, LINE = "line_begun", "line_resumed", "point", "superseded", "line"
-REVISED = "revised"
+REVISED, FURTHER = "revised", "further"
 EVENT, PRESS, DECISION = "event", "press", "decision"
 
 

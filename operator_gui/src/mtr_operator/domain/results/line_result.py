@@ -11,6 +11,9 @@ from typing import Any, ClassVar, TypeVar
 from .. import limits
 from .document import OptionalFloat, Texts, plain, read_record
 
+# Where attempts work as often as they fail: what the distances of a line stand for.
+BOUNDARY_PERCENT = 50
+
 Result = TypeVar("Result", bound="LineResult")
 
 
@@ -85,6 +88,14 @@ class LineResult(ABC):
     @abstractmethod
     def distances(self) -> tuple[MeasuredDistance, ...]:
         """Distances of the line, in the order of the scenario's distance_words."""
+
+    def distances_at(self, share_percent: int) -> tuple[MeasuredDistance, ...]:
+        """Distances at which this share of the attempts works, those that a limit may be about; () when not known."""
+        return self.distances if share_percent == BOUNDARY_PERCENT else ()
+
+    def holes_nearer_than(self, distance_m: float) -> tuple[float, ...]:
+        """Places nearer than a distance that failed again and again although farther ones worked."""
+        return ()
 
     @property
     def invalid_count(self) -> int:

@@ -10,6 +10,7 @@ from .frame_record import CheckEntry
 from .journal import (
     CAR,
     CHECK,
+    FURTHER,
     LINE,
     LINE_BEGUN,
     POINT,
@@ -49,6 +50,8 @@ def apply(progress: Progress, result_type: type[LineResult], kind: str, values: 
         progress.frame_record.note_check(read_record(CheckEntry, values["check"]), frame_from(values["frame"]))
     elif kind == LINE_BEGUN:
         progress.begin_line(int(values["line"]))
+    elif kind == FURTHER:
+        progress.measure_further()
     elif kind == SUPERSEDED:
         progress.points.clear()
     elif kind == POINT:

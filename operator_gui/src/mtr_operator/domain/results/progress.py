@@ -8,8 +8,10 @@ from typing import Any, Mapping
 
 from .. import limits
 from ..errors import ProgressFileError
+from ..estimation.budget.calibration import CalibrationRecord
 from ..limits import first_violation
 from ..robot_status import CarDimensions
+from ..verdict.limits import Limits
 from .frame_history import KnownFrame
 from .frame_record import FrameRecord
 from .journal import KeptPoint
@@ -44,6 +46,8 @@ class Progress:
         kept: how far the journal reached, None without one.
         line_at_hand: number of the line that was begun last, None when it has come to its end.
         points: what was measured on it, by word; the journal alone holds them until the line is complete.
+        limits: that the lines are judged by, None without.
+        calibration: record of the robot with which it was measured, None in a file from before there was one.
         notice: what a person has to know of how it was recovered; empty when nothing was lost.
     """
 
@@ -57,15 +61,19 @@ class Progress:
     kept: JournalMark | None = None
     line_at_hand: int | None = None
     points: dict[str, KeptPoint] = field(default_factory=dict)
+    limits: Limits | None = None
+    calibration: CalibrationRecord | None = None
     notice: str = field(default="", compare=False)
 
     def to_document(self) -> dict[str, Any]:
         """Plain values for a file."""
         kept = {} if self.kept is None else {"journal": dataclasses.asdict(self.kept)}
+        given = {name: part.to_document() for name, part in (("limits", self.limits), ("calibration", self.calibration))
+                 if part is not None}
         return {"format": FORMAT, "version": VERSION, "scenario": self.scenario, "parameters": self.parameters,
                 "session": self.session, "car": None if self.car is None else dataclasses.asdict(self.car),
                 "results": [result.to_document() for result in self.results], "retried": self.retried,
-                "frame_record": dataclasses.asdict(self.frame_record), **kept}
+                "frame_record": dataclasses.asdict(self.frame_record), **given, **kept}
 
     @property
     def has_findings(self) -> bool:
@@ -82,6 +90,11 @@ class Progress:
     def begin_line(self, number: int) -> None:
         """A line is begun from its start; what was measured on it before stays in the journal."""
         self.line_at_hand = number
+        self.points.clear()
+
+    def measure_further(self) -> None:
+        """A line that has a result gets more attempts; interrupted, it keeps that result."""
+        self.line_at_hand = None
         self.points.clear()
 
     def record(self, result: LineResult, frame: KnownFrame | None = None) -> None:

@@ -2,14 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from ..results.carried import CAUSE_DOC, HEADING_DOC, HEIGHT_DOC, LATERAL_DOC, SPEED_DOC
 from ..results.document import Floats, OptionalFloat, Texts
-from ..results.line_result import LineResult, LineStatus, MeasuredDistance, column, stored
+from ..results.line_result import BOUNDARY_PERCENT, LineResult, LineStatus, MeasuredDistance, column, stored
 
 PRESS = "press"
+# Share of the presses at d95.
+SURE_PERCENT = 95
 SCAN, ADAPTIVE = "scan", "adaptive"
+_NUMBER = re.compile(r"\d+(?:\.\d+)?")
 _OF_D50 = "distance at which half of the presses work"
 _OF_D95 = "distance at which 95 % of the presses work, lapses apart"
 _LOW, _HIGH = "lower end of the 95 % interval of the", "upper end of the 95 % interval of the"
@@ -78,3 +82,23 @@ class KeyPressResult(LineResult):
             return (MeasuredDistance(PRESS, self.status, self.d50_m, self.d50_sigma_m, self.d50_low_m,
                                      self.d50_high_m),)
         return (MeasuredDistance(PRESS, self.status, self.distance_m, self.uncertainty_m),)
+
+    def distances_at(self, share_percent: int) -> tuple[MeasuredDistance, ...]:
+        """See LineResult. The curve is symmetrical: 5 % work as far beyond d50 as 95 % do nearer than it; the ends of
+        that interval are the safe ones, for how the errors of d50 and d95 go together is not kept."""
+        if self.method != ADAPTIVE or share_percent == BOUNDARY_PERCENT:
+            return super().distances_at(share_percent)
+        sure = MeasuredDistance(PRESS, self.status, self.d95_m, None, self.d95_low_m, self.d95_high_m)
+        if share_percent == SURE_PERCENT:
+            return (sure,)
+        half = self.distances[0]
+        return (MeasuredDistance(PRESS, self.status, _mirrored(half.distance_m, sure.distance_m), None,
+                                 _mirrored(half.low_m, sure.high_m), _mirrored(half.high_m, sure.low_m)),)
+
+    def holes_nearer_than(self, distance_m: float) -> tuple[float, ...]:
+        """See LineResult."""
+        return tuple(hole_m for hole_m in map(float, _NUMBER.findall(self.holes_m)) if hole_m < distance_m)
+
+
+def _mirrored(half_m: float | None, sure_m: float | None) -> float | None:
+    return None if half_m is None or sure_m is None else 2.0 * half_m - sure_m

@@ -1,0 +1,98 @@
+"""What is to be said of a test's distances beside their values: their budgets, and the verdicts on them."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Sequence
+
+from ..estimation.budget.calibration import CalibrationRecord
+from ..estimation.budget.distance_budget import DistanceBudget
+from ..estimation.budget.terms import Carriage, Measurement, terms_of
+from ..estimation.interval import SIGMAS_OF_LEVEL
+from ..geometry.ray import Ray
+from ..results.line_result import LineResult, MeasuredDistance
+from ..results.progress import Progress
+from ..robot_status import CarDimensions
+from ..scenario import AnyScenario, Line, ScenarioParameters
+from .judgement import TestJudgement, judge
+
+
+@dataclass(frozen=True)
+class Assessment:
+    """Attributes: budgets: one per distance that there is. judgement: None without limits."""
+
+    budgets: tuple[DistanceBudget, ...]
+    judgement: TestJudgement | None
+
+    def undecided(self) -> list[int]:
+        """Numbers of the lines that more measurements may decide."""
+        return [] if self.judgement is None else self.judgement.undecided()
+
+    def budget(self, line: int, word: str) -> DistanceBudget | None:
+        """Of a distance; None where nothing was measured."""
+        return next((budget for budget in self.budgets if (budget.line, budget.word) == (line, word)), None)
+
+
+class Assessor:
+    """Assesses results of one test; car: with which the lines were laid out."""
+
+    def __init__(self, scenario: AnyScenario, parameters: ScenarioParameters, car: CarDimensions,
+                 record: CalibrationRecord):
+        self._parameters = parameters
+        self._car = car
+        self._record = record
+        self._lines: Sequence[Line] = scenario.lines(parameters, car)
+        self._rays = {line.number: line.ray for line in self._lines}
+
+    def assess(self, progress: Progress) -> Assessment:
+        """Of all lines measured so far."""
+        budgets = tuple(self._budget(result, distance) for result in progress.results for distance in result.distances
+                        if distance.distance_m is not None)
+        judgement = None
+        if progress.limits is not None:
+            judgement = judge(progress.limits, self._lines, progress.results, self._guard_sigma)
+        return Assessment(budgets, judgement)
+
+    def _budget(self, result: LineResult, distance: MeasuredDistance) -> DistanceBudget:
+        measurement = Measurement(_place_sigma(result, distance), _attempts_sigma(distance), self._outline(result))
+        return DistanceBudget(result.number, distance.word, distance.distance_m or 0.0,
+                              terms_of(measurement, self._carriage(result, distance.word), self._record))
+
+    def _guard_sigma(self, result: LineResult, word: str) -> float:
+        """All but what repeated attempts show."""
+        distance = next(item for item in result.distances if item.word == word)
+        measurement = Measurement(_place_sigma(result, distance), 0.0, self._outline(result))
+        terms = terms_of(measurement, self._carriage(result, word), self._record)
+        return math.hypot(*(term.contribution_m for term in terms))
+
+    def _outline(self, result: LineResult) -> tuple[float, float]:
+        """Sigmas of the Car's size where the line begins on its outline."""
+        ray = self._rays[result.number]
+        begins_in_centre = (ray.origin_x, ray.origin_y) == (0.0, 0.0)
+        return (0.0, 0.0) if begins_in_centre else (self._car.length_sigma, self._car.width_sigma)
+
+    def _carriage(self, result: LineResult, word: str) -> Carriage:
+        ray: Ray = self._rays[result.number]
+        height_m = _recorded(result, word, "key_height_m")
+        return Carriage((ray.direction_x, ray.direction_y),
+                        self._parameters.key_height_m if height_m is None else height_m,
+                        math.radians(_recorded(result, word, "heading_offset_deg") or 0.0))
+
+
+def _place_sigma(result: LineResult, distance: MeasuredDistance) -> float:
+    """Of the key when something was measured. It holds the Car's outline too, which then counts twice: to be safe."""
+    recorded_m = _recorded(result, distance.word, "uncertainty_m")
+    return (distance.uncertainty_m or 0.0) if recorded_m is None else recorded_m
+
+
+def _attempts_sigma(distance: MeasuredDistance) -> float:
+    if distance.low_m is None or distance.high_m is None:
+        return 0.0
+    return (distance.high_m - distance.low_m) / (2.0 * SIGMAS_OF_LEVEL)
+
+
+def _recorded(result: LineResult, word: str, name: str) -> float | None:
+    """A column about one of the distances: with its word in front where a line has several."""
+    value = getattr(result, f"{word}_{name}", getattr(result, name, None))
+    return value if isinstance(value, float) else None

@@ -1,0 +1,148 @@
+"""Verdicts on a test: guard bands as wide as the 95 % interval, per limit and line, then per line, then for the test.
+
+A distance passes a limit when its whole interval keeps it, and fails when its whole interval breaks it; in between
+nobody knows. So a Car that lies just beyond a limit passes in at most 2.5 % of the tests, and one that lies just inside
+fails in as many. Sources: JCGM 106:2012, 8.3 (guarded acceptance); ISO 14253-1, whose guard band is the expanded
+uncertainty.
+
+Where nothing was reached the boundary lies beyond the end of the test, and one end of the interval is open. A key that
+sleeps looks like that as well: "at most" is passed by silence only when the key worked on some line of the test.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Callable, Sequence
+
+from ..estimation.interval import SIGMAS_OF_LEVEL
+from ..results.line_result import LineResult, LineStatus, MeasuredDistance
+from ..scenario import Line
+from .limits import Limits
+from .requirement import Requirement
+from .verdict import Verdict, worst
+
+# Of a line's result and the word of its distance.
+GuardSigma = Callable[[LineResult, str], float]
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """Of one limit on one line. reason: why it is not passed, a sentence; empty when it is.
+
+    is_undecided: measuring the line further may decide it.
+    """
+
+    requirement: Requirement
+    line: int
+    verdict: Verdict
+    reason: str = ""
+    is_undecided: bool = False
+
+
+@dataclass(frozen=True)
+class TestJudgement:
+    """Of a whole test."""
+
+    # The name would make pytest collect it.
+    __test__ = False
+
+    judgements: tuple[Judgement, ...]
+
+    @property
+    def verdict(self) -> Verdict:
+        """Of the test: the worst."""
+        return worst(judgement.verdict for judgement in self.judgements)
+
+    def of_line(self, number: int) -> Verdict:
+        """Of a line: the worst; NOT_SET when no limit names it."""
+        return worst(judgement.verdict for judgement in self.judgements if judgement.line == number)
+
+    def reason_of(self, number: int) -> str:
+        """The first sentence about the worst verdict of a line, empty when it passes."""
+        verdict = self.of_line(number)
+        return next((judgement.reason for judgement in self.judgements
+                     if judgement.line == number and judgement.verdict is verdict), "")
+
+    def undecided(self) -> list[int]:
+        """Numbers of the lines that more measurements may decide; none that fails anyway."""
+        numbers = dict.fromkeys(judgement.line for judgement in self.judgements if judgement.is_undecided)
+        return [number for number in numbers if self.of_line(number) is Verdict.INCONCLUSIVE]
+
+
+def no_guard(_result: LineResult, _word: str) -> float:
+    """Of intervals that hold all errors."""
+    return 0.0
+
+
+def judge(limits: Limits, lines: Sequence[Line], results: Sequence[LineResult],
+          guard_sigma_m: GuardSigma = no_guard) -> TestJudgement:
+    """Judge what was measured; a line without a result is ABORTED.
+
+    guard_sigma_m: 1 sigma of the errors of a distance that are not in its interval, for no repetition shows them.
+    """
+    by_number = {result.number: result for result in results}
+    alive = {distance.word for result in results for distance in result.distances
+             if distance.status is LineStatus.OK or distance.low_m is not None}
+    found = []
+    for line in lines:
+        for requirement in limits.requirements:
+            if requirement.names(line.ray):
+                result = by_number.get(line.number)
+                found.append(Judgement(requirement, line.number, Verdict.ABORTED, "The line was not measured.")
+                             if result is None else _judge_line(requirement, result, alive, guard_sigma_m))
+    return TestJudgement(tuple(found))
+
+
+def _judge_line(requirement: Requirement, result: LineResult, alive: set[str], guard_sigma_m: GuardSigma) -> Judgement:
+    distance = next((item for item in result.distances_at(requirement.share_percent) if item.word == requirement.what),
+                    None)
+    obstacle = _obstacle(requirement, result, distance, alive)
+    if distance is None or obstacle:
+        return Judgement(requirement, result.number, Verdict.INCONCLUSIVE, obstacle)
+    low_m, high_m = _guarded(distance, SIGMAS_OF_LEVEL * guard_sigma_m(result, distance.word))
+    wanted = f"Wanted is {requirement.text}"
+    if requirement.at_least_m is not None:
+        holes_m = result.holes_nearer_than(requirement.at_least_m)
+        if holes_m:
+            return Judgement(requirement, result.number, Verdict.FAIL,
+                             f"{wanted}; at {holes_m[0]:.2f} m attempts failed again and again.")
+        keeps, breaks = low_m >= requirement.at_least_m, high_m < requirement.at_least_m
+    else:
+        keeps, breaks = high_m <= requirement.limit_m, low_m > requirement.limit_m
+    if keeps:
+        return Judgement(requirement, result.number, Verdict.PASS)
+    interval = _interval_text(low_m, high_m)
+    if breaks:
+        return Judgement(requirement, result.number, Verdict.FAIL, f"{wanted}; it {interval}.")
+    return Judgement(requirement, result.number, Verdict.INCONCLUSIVE,
+                     f"{wanted}; it {interval}, which holds the limit.", is_undecided=True)
+
+
+def _obstacle(requirement: Requirement, result: LineResult, distance: MeasuredDistance | None, alive: set[str]) -> str:
+    """Why a limit cannot be judged on a line, empty when it can."""
+    if distance is None or distance.status is LineStatus.INVALID:
+        return result.reason or "The line does not tell this distance."
+    if distance.low_m is None and distance.high_m is None:
+        return "The measurement does not say how sure it is."
+    if distance.low_m is None and requirement.at_most_m is not None and requirement.what not in alive:
+        return "The key worked nowhere in this test; it may have been asleep."
+    return ""
+
+
+def _guarded(distance: MeasuredDistance, guard_m: float) -> tuple[float, float]:
+    """Ends of the interval, each moved outwards by what it does not hold."""
+    low_m = -math.inf if distance.low_m is None else distance.low_m
+    high_m = math.inf if distance.high_m is None else distance.high_m
+    middle_m = distance.distance_m
+    if middle_m is None or not low_m <= middle_m <= high_m:
+        return low_m - guard_m, high_m + guard_m
+    return middle_m - math.hypot(middle_m - low_m, guard_m), middle_m + math.hypot(high_m - middle_m, guard_m)
+
+
+def _interval_text(low_m: float, high_m: float) -> str:
+    if math.isinf(low_m):
+        return f"is below {high_m:.2f} m"
+    if math.isinf(high_m):
+        return f"is above {low_m:.2f} m"
+    return f"lies between {low_m:.2f} and {high_m:.2f} m"
