@@ -16,7 +16,7 @@ PACKAGES = sorted(path.parent for where in ("*", "catkin_ws/src/*") for path in 
 BUILT = {"evdev", "genmsg", "genpy", "mtr_drive_control_core", "mtr_msgs", "mtr_proto", "rosbag", "rosgraph",
          "roslaunch", "roslib", "rospkg", "rospy", "rostest", "tf2_ros", "urdf_parser_py", "xacro"}
 # Their tests compare with the built messages, or start the built nodes.
-NEED_THE_WORKSPACE = {"mtr_benchmarks", "mtr_bringup", "mtr_description", "mtr_drive_control", "mtr_simulation"}
+NEED_THE_WORKSPACE = {"launch", "mtr_benchmarks", "mtr_description", "mtr_drive_control", "mtr_simulation"}
 
 
 def main(arguments: List[str]) -> int:
@@ -24,20 +24,20 @@ def main(arguments: List[str]) -> int:
     packages = [folder for folder in PACKAGES if folder.name not in NEED_THE_WORKSPACE]
     tests = [str(path) for folder in packages for path in sorted(folder.glob("tests/unit/test_*.py"))
              if not all_modules_of(path) & BUILT]
-    sources = [str(folder / "src") for folder in packages]
+    sources = [str(folder / "src") for folder in PACKAGES]
     environment = dict(os.environ, PYTHONPATH=os.pathsep.join(sources))
     command = [sys.executable, "-m", "pytest", "-q", "--timeout=60", f"--rootdir={TOP}", *arguments, *tests]
     return subprocess.run(command, cwd=TOP, env=environment, check=False).returncode
 
 
 def all_modules_of(test: pathlib.Path) -> Set[str]:
-    """Top-level names of all modules that a test imports, itself or through the project's own files."""
+    """Top-level names of all modules that a test imports, itself or through the project's own files and its helpers."""
     seen, names = {test}, set()
     waiting = [test]
     while waiting:
         for module in modules_of(waiting.pop()):
             names.add("genpy" if module.split(".")[0].endswith("_msgs") else module.split(".")[0])
-            new = set(own_files(module)) - seen
+            new = {*own_files(module), *test.parent.glob(f"{module.split('.')[0]}.py")} - seen
             seen |= new
             waiting += new
     return names
