@@ -4,6 +4,7 @@ Usage: pip install -r setup/pure-requirements.txt; python setup/pure_tests.py [a
 """
 # SPDX-License-Identifier: Apache-2.0
 import ast
+import functools
 import os
 import pathlib
 import subprocess
@@ -43,6 +44,7 @@ def all_modules_of(test: pathlib.Path) -> Set[str]:
     return names
 
 
+@functools.lru_cache(maxsize=None)
 def own_files(module: str) -> List[pathlib.Path]:
     """The project's files that importing a module of this dotted name runs, and its name within the last of them."""
     parts = module.split(".")
@@ -51,6 +53,7 @@ def own_files(module: str) -> List[pathlib.Path]:
             for path in (folder / "src" / f"{end}.py", folder / "src" / end / "__init__.py") if path.is_file()]
 
 
+@functools.lru_cache(maxsize=None)
 def modules_of(path: pathlib.Path) -> Set[str]:
     """Dotted names of all modules that a file imports."""
     found = set()
