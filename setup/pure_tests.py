@@ -22,13 +22,18 @@ NEED_THE_WORKSPACE = {"launch", "mtr_benchmarks", "mtr_description", "mtr_drive_
 
 def main(arguments: List[str]) -> int:
     """Run pytest on the pure tests; its exit status."""
-    packages = [folder for folder in PACKAGES if folder.name not in NEED_THE_WORKSPACE]
-    tests = [str(path) for folder in packages for path in sorted(folder.glob("tests/unit/test_*.py"))
-             if not all_modules_of(path) & BUILT]
+    tests = map(str, chosen_tests())
     sources = [str(folder / "src") for folder in PACKAGES]
     environment = dict(os.environ, PYTHONPATH=os.pathsep.join(sources))
     command = [sys.executable, "-m", "pytest", "-q", "--timeout=60", f"--rootdir={TOP}", *arguments, *tests]
     return subprocess.run(command, cwd=TOP, env=environment, check=False).returncode
+
+
+def chosen_tests() -> List[pathlib.Path]:
+    """Test files that need nothing built."""
+    packages = [folder for folder in PACKAGES if folder.name not in NEED_THE_WORKSPACE]
+    return [path for folder in packages for path in sorted(folder.glob("tests/unit/test_*.py"))
+            if not all_modules_of(path) & BUILT]
 
 
 def all_modules_of(test: pathlib.Path) -> Set[str]:
