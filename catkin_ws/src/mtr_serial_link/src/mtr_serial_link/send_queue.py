@@ -51,8 +51,9 @@ class SendQueue:
     def put(self, frames: Iterable[bytes], now_s: float) -> None:
         """Queue frames, whole ones."""
         self._frames.extend(_Queued(data, now_s) for data in frames)
-        while sum(len(frame.data) for frame in self._frames) > MAX_BYTES:
-            self._frames.popleft()
+        excess = sum(len(frame.data) for frame in self._frames) - MAX_BYTES
+        while excess > 0:
+            excess -= len(self._frames.popleft().data)
             self.dropped += 1
 
     def next(self, now_s: float) -> bytes:

@@ -21,7 +21,7 @@ from mtr_serial_link.wire import (
 
 GOOD = [SerialFrame(125, b"one"), SerialFrame(126, b"\xff\xfe\xff\xfe"), SerialFrame(101, b"")]
 STREAM = b"".join(map(encode, GOOD))
-FUZZED_FRAMES = 1_000_000
+FUZZED_FRAMES = 200_000
 BLOCK_FRAMES = 2000
 
 
@@ -73,7 +73,7 @@ def test_payload_that_is_too_long_is_refused():
         encode(SerialFrame(100, bytes(MAX_PAYLOAD_BYTES + 1)))
 
 
-def test_million_mutated_frames_never_stop_the_parser_and_it_is_back_within_two_good_ones():
+def test_mutated_frames_never_stop_the_parser_and_it_is_back_within_two_good_ones():
     random_bytes, parser = random.Random(7), FrameParser(512)
     # Random.randbytes is younger than the robot's Python 3.8.
     payloads = [bytes(random_bytes.randrange(256) for _ in range(random_bytes.randrange(24)))
