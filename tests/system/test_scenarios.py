@@ -15,10 +15,12 @@ AUTOLOCK_COLUMNS = ("axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unl
                     "unlock_uncertainty_m,unlock_robot_time_s,lock_status,lock_distance_m,lock_uncertainty_m,"
                     "lock_robot_time_s,unlock_lateral_offset_m,unlock_heading_offset_deg,unlock_key_height_m,"
                     "unlock_speed_mps,unlock_cause,lock_lateral_offset_m,lock_heading_offset_deg,lock_key_height_m,"
-                    "lock_speed_mps,lock_cause")
+                    "lock_speed_mps,lock_cause,unlock_own_sigma_m,unlock_common_sigma_m,unlock_expanded_m,"
+                    "lock_own_sigma_m,lock_common_sigma_m,lock_expanded_m,verdict,verdict_reason")
 KEY_PRESS_COLUMNS = ("radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
                      "lateral_offset_m,heading_offset_deg,key_height_m,speed_mps,cause,method,reach,d50_m,d50_sigma_m,"
-                     "d50_low_m,d50_high_m,d95_m,d95_low_m,d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality")
+                     "d50_low_m,d50_high_m,d95_m,d95_low_m,d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,"
+                     "press_own_sigma_m,press_common_sigma_m,press_expanded_m,verdict,verdict_reason")
 
 
 @pytest.fixture(scope="module")

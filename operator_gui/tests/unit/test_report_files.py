@@ -23,10 +23,12 @@ HEADERS = {
                 "unlock_uncertainty_m,unlock_robot_time_s,lock_status,lock_distance_m,lock_uncertainty_m,"
                 "lock_robot_time_s,unlock_lateral_offset_m,unlock_heading_offset_deg,unlock_key_height_m,"
                 "unlock_speed_mps,unlock_cause,lock_lateral_offset_m,lock_heading_offset_deg,lock_key_height_m,"
-                "lock_speed_mps,lock_cause",
+                "lock_speed_mps,lock_cause,unlock_own_sigma_m,unlock_common_sigma_m,unlock_expanded_m,"
+                "lock_own_sigma_m,lock_common_sigma_m,lock_expanded_m,verdict,verdict_reason",
     "key_press": "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
                  "lateral_offset_m,heading_offset_deg,key_height_m,speed_mps,cause,method,reach,d50_m,d50_sigma_m,"
-                 "d50_low_m,d50_high_m,d95_m,d95_low_m,d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality",
+                 "d50_low_m,d50_high_m,d95_m,d95_low_m,d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,"
+                 "press_own_sigma_m,press_common_sigma_m,press_expanded_m,verdict,verdict_reason",
 }
 
 
@@ -61,7 +63,7 @@ def test_values_are_written_with_points_and_missing_ones_are_empty():
     scenario = SCENARIOS["autolock"]
     _, rows = lines_of(results_csv(scenario, progress_of(scenario, [axis(1), axis(2, "not_reached", "invalid")])))
     assert rows[1] == "1,left,0.0000,0.9000,0.000000,1.000000,ok,1.2346,0.0300,12.346,ok,2.0000,,14.000," \
-        "-0.0123,,,,passive_entry,,,,,"
+        "-0.0123,,,,passive_entry,,,,,,,,,,,,not_set,"
     assert rows[2] == "2,left,0.0000,0.9000,0.000000,1.000000,not_reached,,,,invalid,,," + 10 * ","
 
 
@@ -129,4 +131,4 @@ def test_picture_is_drawn_whatever_was_measured(tmp_path, results):
     width, height = struct.unpack(">II", content[16:24])
     assert content.startswith(b"\x89PNG\r\n\x1a\n")
     assert (width, height) == (1755, 1245)
-    assert sorted(file.name for file in tmp_path.iterdir()) == ["protocol.png", "results.csv"]
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["budget.json", "protocol.png", "results.csv"]

@@ -55,6 +55,10 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", type=pathlib.Path, required=True, metavar="DIR", help="folder for the results")
     parser.add_argument("--continue", dest="continued", type=pathlib.Path, metavar="FILE",
                         help="progress.json of an interrupted test to go on with")
+    parser.add_argument("--limits", type=pathlib.Path, metavar="FILE",
+                        help="limits that the lines are judged by, YAML; exit code 3 is fail, 4 inconclusive")
+    parser.add_argument("--calibration", type=pathlib.Path, metavar="FILE",
+                        help="calibration record of the robot, YAML; default: that of the design")
     _add_robot(parser)
     car = parser.add_argument_group("Car")
     car.add_argument("--can-interface", default="pcan", metavar="NAME",

@@ -9,12 +9,16 @@ from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.parameters import with_unit
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.verdict.verdict import Verdict
 
 from .arguments import argument_parser
 from .checking import check
-from .exit_codes import EXIT_ERROR, EXIT_INTERRUPTED
+from .exit_codes import EXIT_ERROR, EXIT_FAIL, EXIT_INCONCLUSIVE, EXIT_INTERRUPTED, EXIT_PASS
 from .run import CommandLineRun
 from .window import open_window
+
+_EXIT_CODES = {Verdict.NOT_SET: EXIT_PASS, Verdict.PASS: EXIT_PASS, Verdict.INCONCLUSIVE: EXIT_INCONCLUSIVE,
+               Verdict.FAIL: EXIT_FAIL, Verdict.ABORTED: EXIT_ERROR, Verdict.ERROR: EXIT_ERROR}
 
 
 def run_command(arguments: list[str] | None = None) -> int:
@@ -27,7 +31,7 @@ def run_command(arguments: list[str] | None = None) -> int:
         elif options.command == "check":
             check(options)
         elif options.command == "run":
-            CommandLineRun(options).run()
+            return _EXIT_CODES[CommandLineRun(options).run()]
         else:
             return open_window(options)
     except OperatorError as error:
@@ -36,7 +40,7 @@ def run_command(arguments: list[str] | None = None) -> int:
     except Cancelled as reason:
         print(reason, file=sys.stderr)
         return EXIT_INTERRUPTED
-    return 0
+    return EXIT_PASS
 
 
 def list_parameters(options: argparse.Namespace) -> None:

@@ -19,10 +19,15 @@ from mtr_operator.domain.results.session_record import (
 )
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.verdict.assessment import Assessment
+from mtr_operator.domain.verdict.suitability import check_before_start
+from mtr_operator.domain.verdict.verdict import Verdict
 from mtr_operator.report.files import FILE_NAMES, write_report
 from mtr_operator.report.table import results_table
+from mtr_operator.report.verdict_text import verdict_lines
 from mtr_operator.storage import progress_file
 from mtr_operator.storage.atomic import output_folder
+from mtr_operator.storage.given_files import Given, calibration_of
 from mtr_operator.storage.parameter_file import load_parameters
 from mtr_operator.storage.store import Store
 
@@ -43,11 +48,14 @@ class CommandLineRun:
         self._scenario = SCENARIOS[options.scenario]
         self._parameters = load_parameters(options.params, self._scenario.parameters_type)
         self._path = options.out / progress_file.FILE_NAME
+        self._given = Given(options.limits, options.calibration)
+        if self._given.limits is not None:
+            check_before_start(self._given.limits, self._scenario, self._parameters)
         self._progress = self._begin()
         self._car = car_link(options)
         self._robot = robot_link(options)
 
-    def run(self) -> None:
+    def run(self) -> Verdict:
         """Measure what is left and write the report; OperatorError or Cancelled when it does not come to its end."""
         with contextlib.closing(Display(self._scenario)) as display, Interrupt() as interrupt:
             with output_folder(self._options.out), Store(self._path, self._progress) as store:
@@ -55,14 +63,15 @@ class CommandLineRun:
                     self._measure(display, interrupt, store)
                     display.close()
                     store.save()
-                    write_report(self._options.out, self._scenario, self._parameters, self._progress)
+                    assessment = write_report(self._options.out, self._scenario, self._parameters, self._progress)
                 except BaseException:
                     display.close()
                     self._keep(display, store)
                     raise
-            self._say_results()
+            self._say_results(assessment)
             if interrupt.requested:
                 raise Cancelled("Interrupted when all lines were measured; the results are complete.")
+        return Verdict.NOT_SET if assessment.judgement is None else assessment.judgement.verdict
 
     def _begin(self) -> Progress:
         continued, path = self._options.continued, self._path
@@ -70,14 +79,18 @@ class CommandLineRun:
             progress_file.refuse_to_overwrite(path, FILE_NAMES)
         parameters = self._parameters.to_mapping()
         if continued is None:
-            return Progress(self._scenario.name, parameters, _session_record(self._options))
+            progress = Progress(self._scenario.name, parameters, _session_record(self._options))
+            self._given.give(progress)
+            return progress
         progress = progress_file.load_progress(continued, self._scenario, parameters)
+        self._given.compare(progress)
         progress.session[CONTINUED] = written(now())
         return progress
 
     def _measure(self, display: Display, interrupt: Interrupt, store: Store) -> None:
-        if self._progress.notice:
-            display.say(self._progress.notice)
+        for notice in (self._progress.notice, calibration_of(self._progress).warning(now().date())):
+            if notice:
+                display.say(notice)
         with contextlib.closing(self._car) as car, contextlib.closing(self._robot) as robot:
             for link in (car, robot):
                 link.connect()
@@ -107,9 +120,11 @@ class CommandLineRun:
             half = f" and a part of {self._scenario.line_word} {progress.line_at_hand}" if progress.points else ""
             display.say(f"{len(progress.results)} measured lines{half} are kept; go on with --continue {self._path}")
 
-    def _say_results(self) -> None:
+    def _say_results(self, assessment: Assessment) -> None:
         results = self._progress.results
         for line in results_table(self._scenario, results):
+            print(line)
+        for line in verdict_lines(self._scenario, results, assessment.judgement):
             print(line)
         invalid = sum(1 for result in results if result.invalid_count)
         tail = f", {invalid} of them invalid" if invalid else ""

@@ -9,7 +9,7 @@ from typing import ClassVar, Sequence
 from PyQt5.QtCore import QObject, QThread, pyqtSignal
 
 from mtr_operator.domain.errors import OutputError
-from mtr_operator.report import results_csv
+from mtr_operator.report import budget_json, results_csv
 from mtr_operator.storage import progress_file
 from mtr_operator.storage.atomic import output_folder, write_bytes
 
@@ -60,7 +60,10 @@ class ReportWriter(QThread):
         protocol = self._protocol
         if kind == CSV:
             path = self._folder / results_csv.FILE_NAME
-            write_bytes(path, results_csv.results_csv(protocol.scenario, protocol.progress).encode("utf-8"))
+            text = results_csv.results_csv(protocol.scenario, protocol.progress, protocol.assessment)
+            write_bytes(path, text.encode("utf-8"))
+            budgets = budget_json.budget_json(protocol.progress, protocol.assessment)
+            write_bytes(self._folder / budget_json.FILE_NAME, budgets.encode("utf-8"))
             progress_file.save_progress(self._folder / progress_file.FILE_NAME, protocol.progress)
             return path
         path = self._folder / f"protocol.{kind}"

@@ -6,15 +6,21 @@ import pathlib
 
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
+from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.storage.atomic import write_bytes
 
-from . import protocol_png, results_csv
+from . import budget_json, protocol_png, results_csv
+from .assessed import assess
 
-FILE_NAMES = (results_csv.FILE_NAME, protocol_png.FILE_NAME)
+FILE_NAMES = (results_csv.FILE_NAME, budget_json.FILE_NAME, protocol_png.FILE_NAME)
 
 
 def write_report(folder: pathlib.Path, scenario: AnyScenario, parameters: ScenarioParameters,
-                 progress: Progress) -> None:
-    """Write results.csv and protocol.png; OutputError when it fails."""
-    write_bytes(folder / results_csv.FILE_NAME, results_csv.results_csv(scenario, progress).encode("utf-8"))
-    write_bytes(folder / protocol_png.FILE_NAME, protocol_png.protocol_png(scenario, parameters, progress))
+                 progress: Progress) -> Assessment:
+    """Write results.csv, budget.json and protocol.png; OutputError when it fails. What the report says of the test."""
+    assessment = assess(scenario, parameters, progress)
+    write_bytes(folder / results_csv.FILE_NAME, results_csv.results_csv(scenario, progress, assessment).encode("utf-8"))
+    write_bytes(folder / budget_json.FILE_NAME, budget_json.budget_json(progress, assessment).encode("utf-8"))
+    write_bytes(folder / protocol_png.FILE_NAME, protocol_png.protocol_png(scenario, parameters, progress,
+                                                                                assessment))
+    return assessment

@@ -8,14 +8,16 @@ from matplotlib.lines import Line2D
 
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario
+from mtr_operator.domain.verdict.assessment import Assessment
 
-from .protocol_rows import Row, date_text, parameter_rows, session_rows, summary_rows
+from .protocol_rows import Row, assessment_rows, date_text, parameter_rows, session_rows, summary_rows
 
 INK = "#263238"
 BAR = {"linewidth": 5.0, "alpha": 0.3, "solid_capstyle": "butt"}
 
 
-def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Progress, has_bars: bool) -> None:
+def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Progress, *, has_bars: bool,
+                assessment: Assessment | None = None) -> None:
     """Write heading, date, legend, results, parameters and circumstances to the right of the axes."""
     left, top = 0.69, 0.93
     figure.text(left, top, f"{scenario.title} protocol", fontsize=17, fontweight="bold", color=INK, va="top")
@@ -29,7 +31,7 @@ def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Pro
                            fontsize=10, labelcolor=INK, handletextpad=0.4)
     legend.set_in_layout(False)
     height = top - 0.12 - 0.032 * max(len(labels), 1)
-    for heading, rows in (("Result", summary_rows(scenario, progress)),
+    for heading, rows in (("Result", summary_rows(scenario, progress) + assessment_rows(assessment)),
                           ("Parameters", parameter_rows(scenario, progress)), ("Test", session_rows(progress))):
         height = _write_table(figure, heading, rows, left, height) - 0.022
 

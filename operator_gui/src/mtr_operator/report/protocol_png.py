@@ -15,6 +15,7 @@ from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.results.picture import Picture, PointRole, PointSet
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
+from mtr_operator.domain.verdict.assessment import Assessment
 
 from .car_drawing import draw_car
 from .protocol_panel import BAR, INK, write_panel
@@ -38,7 +39,8 @@ _STYLES = {
 }
 
 
-def protocol_png(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress) -> bytes:
+def protocol_png(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress,
+                 assessment: Assessment | None = None) -> bytes:
     """Content of the file; the progress has to hold the Car's dimensions."""
     figure = Figure(figsize=_SIZE_INCH, facecolor="white")
     FigureCanvasAgg(figure)
@@ -50,7 +52,8 @@ def protocol_png(scenario: AnyScenario, parameters: ScenarioParameters, progress
     _frame(axes, picture, progress)
     draw_car(axes, progress.measured_car, _POINTS_PER_INCH / _metres_per_inch(axes))
     label_stretches(axes, picture)
-    write_panel(figure, axes, scenario, progress, any(points.bars for points in picture.point_sets))
+    write_panel(figure, axes, scenario, progress, has_bars=any(points.bars for points in picture.point_sets),
+                assessment=assessment)
     file = io.BytesIO()
     figure.savefig(file, format="png", dpi=_RESOLUTION_DPI)
     return file.getvalue()

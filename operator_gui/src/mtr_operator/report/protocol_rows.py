@@ -8,7 +8,12 @@ from typing import Tuple
 from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario
+from mtr_operator.domain.verdict.assessment import Assessment
 
+from .verdict_text import verdict_counts
+
+LARGEST_UNCERTAINTY = "largest uncertainty (95 %)"
+_CM_PER_M = 100.0
 Row = Tuple[str, str]
 
 
@@ -30,6 +35,18 @@ def summary_rows(scenario: AnyScenario, progress: Progress) -> list[Row]:
         counts = [(status, states.count(status)) for status in LineStatus]
         text = ", ".join(f"{count} {status.value.replace('_', ' ')}" for status, count in counts if count)
         rows.append((word, text or "nothing measured"))
+    return rows
+
+
+def assessment_rows(assessment: Assessment | None) -> list[Row]:
+    """The largest expanded uncertainty, and the verdict where there are limits."""
+    if assessment is None:
+        return []
+    expanded_m = max((budget.expanded_m for budget in assessment.budgets), default=None)
+    rows = [] if expanded_m is None else [(LARGEST_UNCERTAINTY, f"{_CM_PER_M * expanded_m:.1f} cm")]
+    judgement = assessment.judgement
+    if judgement is not None:
+        rows += [("verdict", judgement.verdict.word), ("judged lines", verdict_counts(judgement))]
     return rows
 
 

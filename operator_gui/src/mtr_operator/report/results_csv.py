@@ -11,20 +11,25 @@ from mtr_operator.domain.results.document import plain
 from mtr_operator.domain.results.line_result import Column
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario
+from mtr_operator.domain.verdict.assessment import Assessment
+
+from .assessed_columns import AssessedColumns
 
 FILE_NAME = "results.csv"
 
 
-def results_csv(scenario: AnyScenario, progress: Progress) -> str:
-    """Content of the file."""
+def results_csv(scenario: AnyScenario, progress: Progress, assessment: Assessment | None = None) -> str:
+    """Content of the file; without an assessment the columns that it fills are empty."""
     file = io.StringIO()
-    for line in _metadata(scenario, progress):
+    added = AssessedColumns(scenario, assessment)
+    for line in (*_metadata(scenario, progress), *added.metadata()):
         file.write(f"# {line}\n")
     writer = csv.writer(file, lineterminator="\n")
     columns = scenario.result_type.columns()
-    writer.writerow(column.name for column in columns)
+    writer.writerow(column.name for column in (*columns, *added.columns))
     for result in progress.results:
-        writer.writerow(_cell(column, plain(getattr(result, column.name))) for column in columns)
+        own = (_cell(column, plain(getattr(result, column.name))) for column in columns)
+        writer.writerow((*own, *map(_cell, added.columns, added.values(result))))
     return file.getvalue()
 
 

@@ -8,12 +8,13 @@ from typing import Any, Callable, TypeVar
 from mtr_operator.domain.errors import InvalidCalibration, InvalidLimits
 from mtr_operator.domain.estimation.budget.calibration import CalibrationRecord
 from mtr_operator.domain.estimation.budget.calibration_document import calibration_from
+from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.verdict.limits import Limits
 from mtr_operator.domain.verdict.limits_document import limits_from
 
 from .plain_yaml import BadYaml, load_yaml
 
-Given = TypeVar("Given")
+Content = TypeVar("Content")
 DEFAULT_CALIBRATION = pathlib.Path(__file__).parent.parent / "calibration" / "default.yaml"
 
 
@@ -27,7 +28,37 @@ def load_calibration(path: pathlib.Path = DEFAULT_CALIBRATION) -> CalibrationRec
     return _load(path, "calibration record", calibration_from, InvalidCalibration)
 
 
-def _load(path: pathlib.Path, kind: str, read: Callable[[Any], Given], refusal: type[Exception]) -> Given:
+def calibration_of(progress: Progress) -> CalibrationRecord:
+    """With which a test was measured; the design's where its files are older than such records."""
+    return load_calibration() if progress.calibration is None else progress.calibration
+
+
+class Given:
+    """What the Operator gives for a test; the paths are None where nothing is given.
+
+    InvalidLimits or InvalidCalibration says what is wrong with a file.
+    """
+
+    def __init__(self, limits: pathlib.Path | None, calibration: pathlib.Path | None):
+        self.limits = None if limits is None else load_limits(limits)
+        self.calibration = None if calibration is None else load_calibration(calibration)
+
+    def give(self, progress: Progress) -> None:
+        """To a test that begins."""
+        progress.limits = self.limits
+        progress.calibration = self.calibration or load_calibration()
+
+    def compare(self, progress: Progress) -> None:
+        """With those of a test that goes on: limits that are chosen after the measurement are none."""
+        if self.limits is not None and self.limits != progress.limits:
+            raise InvalidLimits("The test was begun with other limits, or with none; continue it without this file, or "
+                                "begin a new test.")
+        if self.calibration is not None and self.calibration != progress.calibration:
+            raise InvalidCalibration("The test was begun with another calibration record of the robot; continue it "
+                                     "without this file, or begin a new test.")
+
+
+def _load(path: pathlib.Path, kind: str, read: Callable[[Any], Content], refusal: type[Exception]) -> Content:
     try:
         document = load_yaml(path)
     except OSError as error:

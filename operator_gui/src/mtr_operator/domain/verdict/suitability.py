@@ -7,9 +7,12 @@ from typing import Sequence
 
 from ..errors import InvalidLimits
 from ..geometry.ray import Ray
+from ..robot_status import CarDimensions
 from ..scenario import AnyScenario, Line, ScenarioParameters
 from .limits import Limits
 from .requirement import Requirement
+
+_POINT = CarDimensions(0.0, 0.0, 0.0, 0.0)
 
 
 def check_distances(limits: Limits, scenario: AnyScenario, parameters: ScenarioParameters) -> None:
@@ -31,6 +34,12 @@ def check_distances(limits: Limits, scenario: AnyScenario, parameters: ScenarioP
         if not low_m < requirement.limit_m < high_m:
             raise InvalidLimits(f"Limit {name!r}: it is at {requirement.limit_m:g} m, and the test measures from "
                                 f"{low_m:g} to {high_m:g} m only; no measurement could judge it.")
+
+
+def check_before_start(limits: Limits, scenario: AnyScenario, parameters: ScenarioParameters) -> None:
+    """Raise InvalidLimits when no Car can make them suit: where lines lead does not depend on the Car's size."""
+    check_distances(limits, scenario, parameters)
+    check_lines(limits, scenario.lines(parameters, _POINT), scenario.line_word)
 
 
 def check_lines(limits: Limits, lines: Sequence[Line], line_word: str) -> None:

@@ -19,7 +19,7 @@ class Verdict(enum.IntEnum):
     @property
     def word(self) -> str:
         """As it stands in files and sentences."""
-        return self.name.lower().replace("_", " ")
+        return self.name.lower()
 
 
 def worst(verdicts: Iterable[Verdict]) -> Verdict:

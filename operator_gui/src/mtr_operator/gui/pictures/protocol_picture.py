@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from typing import Sequence
 
 from mtr_operator.domain.results.picture import Picture, Stretch
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
+from mtr_operator.domain.verdict.assessment import Assessment
+from mtr_operator.report.assessed import assess
 
 from ..names import domain_word
 from .layers.car_layer import CarLayer
@@ -24,6 +27,11 @@ class Protocol:
     scenario: AnyScenario
     parameters: ScenarioParameters
     progress: Progress
+
+    @functools.cached_property
+    def assessment(self) -> Assessment:
+        """Budgets of the distances, and the verdicts where there are limits."""
+        return assess(self.scenario, self.parameters, self.progress)
 
     @property
     def picture(self) -> Picture:

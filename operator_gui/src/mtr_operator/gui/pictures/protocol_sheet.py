@@ -5,7 +5,7 @@ from __future__ import annotations
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QPainter
 
-from mtr_operator.report.protocol_rows import Row, date_text, session_rows, summary_rows
+from mtr_operator.report.protocol_rows import Row, assessment_rows, date_text, session_rows, summary_rows
 
 from ..i18n import decimal_sign, translate
 from ..names import domain_word, flag_title, parameter_title, scenario_title, yes_or_no
@@ -80,6 +80,7 @@ class ProtocolSheet:
 
     def _result_rows(self) -> list[Row]:
         rows = summary_rows(self._protocol.scenario, self._protocol.progress)
+        rows += assessment_rows(self._protocol.assessment)
         return [(domain_word(name), ", ".join(_count(part) for part in value.split(", "))) for name, value in rows]
 
     def _parameter_rows(self) -> list[Row]:

@@ -17,7 +17,7 @@ from mtr_operator.station.test import report_folder
 
 from ..dialogs import ask_folder
 from ..flow import Flow
-from ..names import scenario_title
+from ..names import domain_word, scenario_title
 from ..pictures.picture_panel import PicturePanel
 from ..pictures.protocol_picture import Protocol, ProtocolPicture
 from ..report_writer import CSV, PDF, PNG, SVG, ReportWriter
@@ -139,6 +139,12 @@ class ProtocolScreen(QWidget):
         self.save.setFocus()
 
     def _summary(self) -> str:
+        judgement = self.protocol.assessment.judgement
+        verdict = "" if judgement is None else self.tr("Verdict: {verdict}.").format(
+            verdict=domain_word(judgement.verdict.word)) + " "
+        return verdict + self._counts()
+
+    def _counts(self) -> str:
         results = self.protocol.progress.results
         invalid = sum(1 for result in results if result.invalid_count)
         if invalid:

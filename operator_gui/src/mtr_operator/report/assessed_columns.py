@@ -1,0 +1,50 @@
+"""Columns at the end of results.csv that no scenario measures: uncertainty by its parts, and the verdict."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Any, Iterator
+
+from mtr_operator.domain.results.line_result import Column, LineResult
+from mtr_operator.domain.scenario import AnyScenario
+from mtr_operator.domain.verdict.assessment import Assessment
+from mtr_operator.domain.verdict.verdict import Verdict
+
+
+class AssessedColumns:
+    """Attributes: columns: in their order."""
+
+    def __init__(self, scenario: AnyScenario, assessment: Assessment | None):
+        self._words = scenario.distance_words
+        self._assessment = assessment
+        self.columns = (*(column for word in self._words for column in _of_distance(word)),
+                        Column("verdict", "", "pass, inconclusive or fail by the limits; not_set without"),
+                        Column("verdict_reason", "", "why the line did not pass"))
+
+    def metadata(self) -> Iterator[str]:
+        """Lines above the table."""
+        judgement = None if self._assessment is None else self._assessment.judgement
+        if judgement is not None:
+            for requirement in dict.fromkeys(each.requirement for each in judgement.judgements):
+                yield f"limit {requirement.name}: {requirement.text}"
+            yield f"verdict: {judgement.verdict.word}"
+        for column in self.columns:
+            unit = f" [{column.unit}]" if column.unit else ""
+            yield f"column {column.name}{unit}: {column.doc}"
+
+    def values(self, result: LineResult) -> list[Any]:
+        """Of one line, in the order of the columns; None where there is nothing."""
+        assessment = self._assessment
+        values: list[Any] = []
+        for word in self._words:
+            budget = None if assessment is None else assessment.budget(result.number, word)
+            values += ([None] * len(_of_distance(word)) if budget is None
+                       else [budget.own_sigma_m, budget.common_sigma_m, budget.expanded_m])
+        judgement = None if assessment is None else assessment.judgement
+        verdict = Verdict.NOT_SET if judgement is None else judgement.of_line(result.number)
+        return [*values, verdict.word, "" if judgement is None else judgement.reason_of(result.number)]
+
+
+def _of_distance(word: str) -> tuple[Column, ...]:
+    return (Column(f"{word}_own_sigma_m", "m", "1 sigma of the errors of this distance alone; see budget.json"),
+            Column(f"{word}_common_sigma_m", "m", "1 sigma of the errors that the other lines have too"),
+            Column(f"{word}_expanded_m", "m", "expanded uncertainty of all errors, 95 % coverage"))

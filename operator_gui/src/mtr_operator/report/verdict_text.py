@@ -1,0 +1,33 @@
+"""Verdicts as text: of the test, of a line, and why."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Iterator, Sequence
+
+from mtr_operator.domain.results.line_result import LineResult
+from mtr_operator.domain.scenario import AnyScenario
+from mtr_operator.domain.verdict.judgement import TestJudgement
+from mtr_operator.domain.verdict.verdict import Verdict
+
+from .table import line_name
+
+_COUNTED = (Verdict.PASS, Verdict.INCONCLUSIVE, Verdict.FAIL, Verdict.ABORTED)
+
+
+def verdict_counts(judgement: TestJudgement) -> str:
+    """Such as "3 pass, 1 fail": how many of the lines that a limit names came to which verdict."""
+    verdicts = [judgement.of_line(number) for number in dict.fromkeys(each.line for each in judgement.judgements)]
+    return ", ".join(f"{verdicts.count(verdict)} {verdict.word}" for verdict in _COUNTED if verdict in verdicts)
+
+
+def verdict_lines(scenario: AnyScenario, results: Sequence[LineResult],
+                  judgement: TestJudgement | None) -> Iterator[str]:
+    """The lines that did not pass with the reason, then the verdict on the test; nothing without limits."""
+    if judgement is None:
+        return
+    names = {result.number: line_name(scenario, result) for result in results}
+    for each in judgement.judgements:
+        if each.verdict is not Verdict.PASS:
+            name = names.get(each.line, f"{scenario.line_word} {each.line}")
+            yield f"{each.verdict.word.upper()}: {name}, {each.requirement.name}: {each.reason}"
+    yield f"Verdict: {judgement.verdict.word.upper()} ({verdict_counts(judgement)})"
