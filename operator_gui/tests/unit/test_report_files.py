@@ -64,7 +64,7 @@ def test_values_are_written_with_points_and_missing_ones_are_empty():
     _, rows = lines_of(results_csv(scenario, progress_of(scenario, [axis(1), axis(2, "not_reached", "invalid")])))
     assert rows[1] == "1,left,0.0000,0.9000,0.000000,1.000000,ok,1.2346,0.0300,12.346,ok,2.0000,,14.000," \
         "-0.0123,,,,passive_entry,,,,,,,,,,,,not_set,"
-    assert rows[2] == "2,left,0.0000,0.9000,0.000000,1.000000,not_reached,,,,invalid,,," + 10 * ","
+    assert rows[2] == "2,left,0.0000,0.9000,0.000000,1.000000,not_reached,,,,invalid,,," + 17 * "," + "not_set,"
 
 
 def test_metadata_names_parameters_units_version_profile_and_reasons():

@@ -817,69 +817,74 @@
 <context>
     <name>ProtocolScreen</name>
     <message>
-        <location filename="../screens/protocol.py" line="78"/>
+        <location filename="../screens/protocol.py" line="79"/>
         <source>Results; choose a row to see its points</source>
         <translation>Výsledky; vyberte řádek a uvidíte jeho body</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="57"/>
+        <location filename="../screens/protocol.py" line="58"/>
         <source>Save</source>
         <translation>Uložit</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="58"/>
+        <location filename="../screens/protocol.py" line="59"/>
         <source>Save as CSV and PNG</source>
         <translation>Uložit jako CSV a PNG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="59"/>
+        <location filename="../screens/protocol.py" line="60"/>
         <source>Save PDF</source>
         <translation>Uložit PDF</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="60"/>
+        <location filename="../screens/protocol.py" line="61"/>
         <source>Save SVG</source>
         <translation>Uložit SVG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="61"/>
+        <location filename="../screens/protocol.py" line="62"/>
         <source>Show folder</source>
         <translation>Ukázat složku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="62"/>
+        <location filename="../screens/protocol.py" line="63"/>
         <source>New test</source>
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="129"/>
+        <location filename="../screens/protocol.py" line="130"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="144"/>
+        <location filename="../screens/protocol.py" line="151"/>
         <source>{count} lines, {invalid} of them invalid. Not saved as CSV and PNG yet.</source>
         <translation>Počet přímek: {count}, z toho neplatných: {invalid}. Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="146"/>
+        <location filename="../screens/protocol.py" line="153"/>
         <source>{count} lines. Not saved as CSV and PNG yet.</source>
         <translation>Počet přímek: {count}. Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="180"/>
+        <location filename="../screens/protocol.py" line="187"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="185"/>
+        <location filename="../screens/protocol.py" line="192"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="189"/>
+        <location filename="../screens/protocol.py" line="196"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="143"/>
+        <source>Verdict: {verdict}.</source>
+        <translation>Verdikt: {verdict}.</translation>
     </message>
 </context>
 <context>
@@ -2503,6 +2508,41 @@
         <location filename="../texts/words.py" line="5"/>
         <source>publisher</source>
         <translation>vydavatel</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>largest uncertainty (95 %)</source>
+        <translation>největší nejistota (95 %)</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>verdict</source>
+        <translation>verdikt</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>judged lines</source>
+        <translation>posouzené čáry</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>pass</source>
+        <translation>vyhověl</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>inconclusive</source>
+        <translation>nerozhodnuto</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>fail</source>
+        <translation>nevyhověl</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>aborted</source>
+        <translation>přerušeno</translation>
     </message>
 </context>
 </TS>
