@@ -20,12 +20,12 @@ DEFAULT_CALIBRATION = pathlib.Path(__file__).parent.parent / "calibration" / "de
 
 def load_limits(path: pathlib.Path) -> Limits:
     """Limits in a file; InvalidLimits says what is wrong with it."""
-    return _load(path, "limits file", limits_from, InvalidLimits)
+    return _load(path, limits_from, InvalidLimits)
 
 
 def load_calibration(path: pathlib.Path = DEFAULT_CALIBRATION) -> CalibrationRecord:
     """Calibration record in a file; InvalidCalibration says what is wrong with it."""
-    return _load(path, "calibration record", calibration_from, InvalidCalibration)
+    return _load(path, calibration_from, InvalidCalibration)
 
 
 def calibration_of(progress: Progress) -> CalibrationRecord:
@@ -58,14 +58,14 @@ class Given:
                                      "without this file, or begin a new test.")
 
 
-def _load(path: pathlib.Path, kind: str, read: Callable[[Any], Content], refusal: type[Exception]) -> Content:
+def _load(path: pathlib.Path, read: Callable[[Any], Content], refusal: type[Exception]) -> Content:
     try:
         document = load_yaml(path)
     except OSError as error:
-        raise refusal(f"The {kind} {path} cannot be read: {error.strerror or error}.") from None
+        raise refusal(f"The file {path} cannot be read: {error.strerror or error}.") from None
     except BadYaml as error:
-        raise refusal(f"The {kind} {path} {error}.") from None
+        raise refusal(f"The file {path} {error}.") from None
     try:
         return read(document)
     except refusal as error:
-        raise refusal(f"{kind.capitalize()} {path}: {error}") from None
+        raise refusal(f"In the file {path}: {error}") from None

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
-from . import keeping
+from . import keeping, limits
 
 SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "wait for robot and Car"),
@@ -80,6 +80,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "It was measured with other parameters: {} was {}, now it is {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is larger than {} MiB."),
     *keeping.SENTENCES,
+    *limits.SENTENCES,
     QT_TRANSLATE_NOOP("Sentence", "It cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is truncated or not a JSON file."),
     QT_TRANSLATE_NOOP("Sentence", "The progress file belongs to another Car: its {} was {} m, now it measures {} m."),

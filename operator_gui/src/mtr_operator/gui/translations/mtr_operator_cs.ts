@@ -1945,6 +1945,156 @@
         <source>The robot&apos;s clock was set during the measurement.</source>
         <translation>Během měření se přestavily hodiny robota.</translation>
     </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The file {} cannot be read: {}.</source>
+        <translation>Soubor {} nelze přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The file {} {}.</source>
+        <translation>Soubor {} {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>In the file {}: {}</source>
+        <translation>V souboru {}: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The test was begun with other limits, or with none; continue it without this file, or begin a new test.</source>
+        <translation>Test byl zahájen s jinými mezemi nebo bez nich; pokračujte bez tohoto souboru, nebo začněte nový test.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The test was begun with another calibration record of the robot; continue it without this file, or begin a new test.</source>
+        <translation>Test byl zahájen s jiným kalibračním záznamem robota; pokračujte bez tohoto souboru, nebo začněte nový test.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The robot&apos;s calibration record of {} is {} days old; it was valid for {} days. Calibrate the robot again, or doubt the uncertainties.</source>
+        <translation>Kalibrační záznam robota z {} je starý {} dní; platil {} dní. Robota znovu zkalibrujte, nebo nejistotám nevěřte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>valid_days has to be a whole number of days from 1 to 3650, or null.</source>
+        <translation>valid_days musí být celý počet dní od 1 do 3650, nebo null.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}distribution has to be one of {}.</source>
+        <translation>{}distribution musí být jedno z {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}it has to consist of lines of the form &apos;name: value&apos;.</source>
+        <translation>{}musí se skládat z řádků ve tvaru „jméno: hodnota“.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}{} is missing.</source>
+        <translation>{}{} chybí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}{} is unknown; known are {}.</source>
+        <translation>{}{} není známo; známé jsou {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{} has to be a text of 1 to {} characters in one line.</source>
+        <translation>{} musí být text o 1 až {} znacích na jednom řádku.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>date has to be a day such as 2026-03-01.</source>
+        <translation>date musí být den, například 2026-03-01.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>It has to consist of lines of the form &apos;name: value&apos;, one of them &apos;limits:&apos;.</source>
+        <translation>Musí se skládat z řádků ve tvaru „jméno: hodnota“, z nichž jeden je „limits:“.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>&apos;limits&apos; has to be a list of 1 to {} limits.</source>
+        <translation>„limits“ musí být seznam 1 až {} mezí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>Two limits are called {}; give each a name of its own.</source>
+        <translation>Dvě meze se jmenují {}; každá musí mít vlastní jméno.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}it needs either at_least_m or at_most_m.</source>
+        <translation>{}je potřeba buď at_least_m, nebo at_most_m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}share_percent has to be one of {}.</source>
+        <translation>{}share_percent musí být jedno z {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}sides has to be a list of sides, such as [left, front_left].</source>
+        <translation>{}sides musí být seznam stran, například [left, front_left].</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}angles_deg has to be a list of two angles, such as [225, 315].</source>
+        <translation>{}angles_deg musí být seznam dvou úhlů, například [225, 315].</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}angles_deg goes round more than once.</source>
+        <translation>{}angles_deg obíhá více než jednou.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}{} has to be a text of 1 to {} characters in one line.</source>
+        <translation>{}{} musí být text o 1 až {} znacích na jednom řádku.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}side {} is unknown; known are {}.</source>
+        <translation>{}strana {} není známa; známé jsou {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}{} is unknown; {}</source>
+        <translation>{}{} není známo; {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>Limit {}: {} measures no {}; it measures {}.</source>
+        <translation>Mez {}: {} neměří {}; měří {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>Limit {}: with these parameters {} does not say how sure a distance is; no limit can be judged.</source>
+        <translation>Mez {}: s těmito parametry {} neříká, jak jistá vzdálenost je; žádnou mez nelze posoudit.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>Limit {}: {} tells the distance for {} % of the attempts, not for {} %.</source>
+        <translation>Mez {}: {} udává vzdálenost pro {} % pokusů, ne pro {} %.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>Limit {}: it is at {} m, and the test measures from {} to {} m only; no measurement could judge it.</source>
+        <translation>Mez {}: leží v {} m a test měří jen od {} do {} m; žádné měření by ji neposoudilo.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>Limit {} names no {} of this test.</source>
+        <translation>Mez {} neoznačuje v tomto testu nic, co se měří ({}).</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>Limits {} and {} contradict each other on {} {}: {}, {}.</source>
+        <translation>Meze {} a {} si odporují ({} {}): {}, {}.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>

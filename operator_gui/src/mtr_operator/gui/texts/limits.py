@@ -1,0 +1,41 @@
+"""Sentences on limits files and calibration records, with {} for what varies."""
+# SPDX-License-Identifier: Apache-2.0
+from PyQt5.QtCore import QT_TRANSLATE_NOOP
+
+SENTENCES = (
+    QT_TRANSLATE_NOOP("Sentence", "The file {} cannot be read: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The file {} {}."),
+    QT_TRANSLATE_NOOP("Sentence", "In the file {}: {}"),
+    QT_TRANSLATE_NOOP("Sentence", "The test was begun with other limits, or with none; continue it without this file, "
+                                  "or begin a new test."),
+    QT_TRANSLATE_NOOP("Sentence", "The test was begun with another calibration record of the robot; continue it "
+                                  "without this file, or begin a new test."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot's calibration record of {} is {} days old; it was valid for {} days. "
+                                  "Calibrate the robot again, or doubt the uncertainties."),
+    QT_TRANSLATE_NOOP("Sentence", "valid_days has to be a whole number of days from 1 to 3650, or null."),
+    QT_TRANSLATE_NOOP("Sentence", "{}distribution has to be one of {}."),
+    QT_TRANSLATE_NOOP("Sentence", "{}it has to consist of lines of the form 'name: value'."),
+    QT_TRANSLATE_NOOP("Sentence", "{}{} is missing."),
+    QT_TRANSLATE_NOOP("Sentence", "{}{} is unknown; known are {}."),
+    QT_TRANSLATE_NOOP("Sentence", "{} has to be a text of 1 to {} characters in one line."),
+    QT_TRANSLATE_NOOP("Sentence", "date has to be a day such as 2026-03-01."),
+    QT_TRANSLATE_NOOP("Sentence", "It has to consist of lines of the form 'name: value', one of them 'limits:'."),
+    QT_TRANSLATE_NOOP("Sentence", "'limits' has to be a list of 1 to {} limits."),
+    QT_TRANSLATE_NOOP("Sentence", "Two limits are called {}; give each a name of its own."),
+    QT_TRANSLATE_NOOP("Sentence", "{}it needs either at_least_m or at_most_m."),
+    QT_TRANSLATE_NOOP("Sentence", "{}share_percent has to be one of {}."),
+    QT_TRANSLATE_NOOP("Sentence", "{}sides has to be a list of sides, such as [left, front_left]."),
+    QT_TRANSLATE_NOOP("Sentence", "{}angles_deg has to be a list of two angles, such as [225, 315]."),
+    QT_TRANSLATE_NOOP("Sentence", "{}angles_deg goes round more than once."),
+    QT_TRANSLATE_NOOP("Sentence", "{}{} has to be a text of 1 to {} characters in one line."),
+    QT_TRANSLATE_NOOP("Sentence", "{}side {} is unknown; known are {}."),
+    QT_TRANSLATE_NOOP("Sentence", "{}{} is unknown; {}"),
+    QT_TRANSLATE_NOOP("Sentence", "Limit {}: {} measures no {}; it measures {}."),
+    QT_TRANSLATE_NOOP("Sentence", "Limit {}: with these parameters {} does not say how sure a distance is; no limit "
+                                  "can be judged."),
+    QT_TRANSLATE_NOOP("Sentence", "Limit {}: {} tells the distance for {} % of the attempts, not for {} %."),
+    QT_TRANSLATE_NOOP("Sentence", "Limit {}: it is at {} m, and the test measures from {} to {} m only; no measurement "
+                                  "could judge it."),
+    QT_TRANSLATE_NOOP("Sentence", "Limit {} names no {} of this test."),
+    QT_TRANSLATE_NOOP("Sentence", "Limits {} and {} contradict each other on {} {}: {}, {}."),
+)
