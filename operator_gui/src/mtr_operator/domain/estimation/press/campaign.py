@@ -40,27 +40,47 @@ class Campaign:
         self._kernel: FloatArray = kernel / np.sum(kernel, axis=0)
         self._evidence: dict[int, FloatArray] = {}
         self._places: dict[int, FloatArray] = {}
+        self._shape_priors: dict[int, FloatArray] = {}
+        self._place_priors: dict[int, FloatArray] = {}
         self._count = len(hypotheses.d50_m)
 
     def keep_evidence(self, radial: int, log_evidence: FloatArray) -> None:
         """Take or replace what a radial says of the shape; axes [shared, lapse, width]."""
         evidence = np.exp(log_evidence - np.max(log_evidence))
         self._evidence[radial] = np.log(np.maximum(evidence @ self._kernel, _TINY))
+        self._forget_priors_beside(radial)
 
     def keep_place(self, radial: int, d50: FloatArray) -> None:
         """Take or replace a radial's probabilities of d50."""
         self._places[radial] = d50
+        self._forget_priors_beside(radial)
 
     def log_shape_prior(self, radial: int) -> FloatArray:
         """What all other radials say of the shape of one; axes [shared, lapse, width]."""
+        if radial not in self._shape_priors:
+            self._shape_priors[radial] = self._log_shape_prior(radial)
+        return self._shape_priors[radial]
+
+    def log_place_prior(self, radial: int) -> FloatArray:
+        """What all other radials say of where one's d50 lies."""
+        if radial not in self._place_priors:
+            self._place_priors[radial] = self._log_place_prior(radial)
+        return self._place_priors[radial]
+
+    def _forget_priors_beside(self, radial: int) -> None:
+        """What a radial says does not change its own prior."""
+        for priors in (self._shape_priors, self._place_priors):
+            for number in [number for number in priors if number != radial]:
+                del priors[number]
+
+    def _log_shape_prior(self, radial: int) -> FloatArray:
         common = np.log(self._prior) + sum(evidence for number, evidence in self._evidence.items() if number != radial)
         like_others: FloatArray = np.exp(common - np.max(common)) @ self._kernel.T
         like_others /= np.sum(like_others)
         any_width = np.mean(like_others, axis=-1, keepdims=True)
         return np.asarray(np.log((1.0 - UNLIKE_WIDTH) * like_others + UNLIKE_WIDTH * any_width))
 
-    def log_place_prior(self, radial: int) -> FloatArray:
-        """What all other radials say of where one's d50 lies."""
+    def _log_place_prior(self, radial: int) -> FloatArray:
         even = np.full(self._count, 1.0 / self._count)
         others = [place for number, place in self._places.items() if number != radial]
         if not others:

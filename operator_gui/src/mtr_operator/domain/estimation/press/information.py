@@ -14,10 +14,10 @@ from scipy.special import entr
 
 from ..interval import FloatArray
 from .posterior import RadialPosterior
-from .transition import falling
+from .transition import falling_single
 
 # A summary of the posterior is enough for a choice: so many places of the boundary, and widths that matter.
-_BINS = 40
+_BINS = 30
 _MIN_SHARE = 3e-3
 _TAIL = 1e-4
 _MIN_WEIGHT = 1e-300
@@ -29,7 +29,7 @@ class PressInformation:
 
     def __init__(self, posterior: RadialPosterior):
         grid = posterior.hypotheses
-        by_width = np.sum(posterior.probability, axis=(0, 1))
+        by_width = posterior.by_width
         kept = np.sum(by_width, axis=1) > _MIN_SHARE
         below = np.cumsum(np.sum(by_width, axis=0))
         first, last = np.searchsorted(below, [_TAIL, 1.0 - _TAIL])
@@ -44,7 +44,7 @@ class PressInformation:
 
     def at(self, places_m: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Probability that a press works, and its information, at each place."""
-        works = self._works * falling(places_m, self._d50_m[:, None], self._width_m[:, None, None])
+        works = np.float32(self._works) * falling_single(places_m, self._d50_m[:, None], self._width_m[:, None, None])
         mean = np.tensordot(self._weights, works, axes=2)
         joint = self._weights[..., None] * works
         total = np.zeros_like(mean)

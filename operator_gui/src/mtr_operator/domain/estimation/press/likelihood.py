@@ -14,21 +14,21 @@ wavelength (R. Clarke, Bell System Technical Journal 47, 1968).
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
 
 import numpy as np
+import numpy.typing as npt
 from scipy import fft
 
 from ..interval import FloatArray
 from .hypotheses import Hypotheses
-from .transition import SIGMA_PER_SCALE, WIDTH_PER_SCALE, falling
+from .transition import SIGMA_PER_SCALE, WIDTH_PER_SCALE, SingleArray, falling_single
 
 # Of a probability: a transition of 5 cm would make one press at the wrong side refute all else.
 _MIN_PROBABILITY = 1e-6
 # What the convolution leaves of an impossible course, beyond the rounding of its transform.
 _MIN_BLURRED = 1e-12
-# A logarithm that can still be taken back.
-_MIN_PRODUCT = 1e-300
 # The widest fading reaches this many sigmas beyond the grid.
 _EDGE_SIGMAS = 2.0
 
@@ -45,12 +45,13 @@ class Press:
 class _Place:
     """Presses that share the fading of their half wavelength.
 
-    products: per part of the fading that stays, the product of the presses' likelihoods before the convolution; axes
-    [lapse, width, d50].
+    products: for each part of the fading that stays, the product of the presses' steep likelihoods before the
+    convolution; axes [lapse, width, d50]. Made when the second press comes.
     """
 
-    products: list[FloatArray]
-    log: FloatArray
+    first: Press
+    log: SingleArray
+    products: dict[float, FloatArray] = field(default_factory=dict)
     presses: int = 1
 
 
@@ -66,51 +67,68 @@ class PressLikelihood:
         self._half_wavelength_m = half_wavelength_m
         self._first_m = first_m
         self._places: dict[int, _Place] = {}
-        self.log = np.zeros((*hypotheses.shape_size, len(hypotheses.d50_m)))
+        self.log: SingleArray = np.zeros((*hypotheses.shape_size, len(hypotheses.d50_m)), np.float32)
 
     def place_of(self, distance_m: float) -> int:
         """Number of the half wavelength in whose midst a distance lies, counted from first_m."""
         return round((distance_m - self._first_m) / self._half_wavelength_m)
+
+    def places_of(self, distances_m: FloatArray) -> npt.NDArray[np.int_]:
+        """The same of many distances."""
+        return np.asarray(np.rint((distances_m - self._first_m) / self._half_wavelength_m).astype(int))
 
     def presses_beside(self, distance_m: float) -> int:
         """Presses so far that share the fading with a distance."""
         place = self._places.get(self.place_of(distance_m))
         return 0 if place is None else place.presses
 
+    def all_beside(self, distances_m: FloatArray) -> npt.NDArray[np.int_]:
+        """Presses so far that share the fading with each of many distances."""
+        numbers, counts = self.places_of(distances_m), np.zeros(len(distances_m), int)
+        for number, place in self._places.items():
+            counts[numbers == number] = place.presses
+        return counts
+
     def add(self, press: Press) -> None:
         """Take a press."""
-        shares = self._hypotheses.shared
-        factors = [self._factor(press, float(np.sqrt(1.0 - shared))) for shared in shares]
         number = self.place_of(press.distance_m)
+        # The fading of one press alone is part of the curve.
+        alone: SingleArray = np.log(self._factor(press, 1.0))
         place = self._places.get(number)
         if place is None:
-            # The fading of one press alone is part of the curve.
-            log = np.log(np.broadcast_to(self._factor(press, 1.0), self.log.shape))
-            self._places[number] = _Place(factors, log)
-            self.log += log
+            self._places[number] = _Place(press, np.broadcast_to(alone, self.log.shape))
+            self.log += alone
             return
-        place.products = [product * factor for product, factor in zip(place.products, factors)]
+        log = np.stack([self._shared_log(place, press, alone, row, float(share))
+                        for row, share in enumerate(self._hypotheses.shared)])
         place.presses += 1
-        log = np.log(np.stack([self._blurred(product, shared) for product, shared in zip(place.products, shares)]))
         self.log += log - place.log
         place.log = log
 
-    def without(self, distance_m: float) -> FloatArray:
+    def without(self, distance_m: float) -> SingleArray:
         """The logarithm without the presses that share the fading of a place."""
         place = self._places.get(self.place_of(distance_m))
         return self.log if place is None else self.log - place.log
 
-    def _factor(self, press: Press, steepness: float) -> FloatArray:
+    def _shared_log(self, place: _Place, press: Press, alone: SingleArray, row: int, share: float) -> SingleArray:
+        """Logarithm for a place with one press more, for one part of the fading that stays."""
+        if share <= 0.0:
+            return np.asarray(place.log[row] + alone)
+        steepness = math.sqrt(1.0 - share)
+        if share not in place.products:
+            place.products[share] = self._factor(place.first, steepness).astype(np.float64)
+        place.products[share] = place.products[share] * self._factor(press, steepness)
+        return np.asarray(np.log(self._blurred(place.products[share], share)).astype(np.float32))
+
+    def _factor(self, press: Press, steepness: float) -> SingleArray:
         """Likelihood of one press; axes [lapse, width, d50]."""
         grid = self._hypotheses
-        works = (1.0 - grid.lapse[:, None, None]) * falling(press.distance_m, grid.d50_m,
-                                                            steepness * grid.width_m[:, None])
-        return np.maximum(works if press.worked else 1.0 - works, _MIN_PROBABILITY)
+        curve = falling_single(press.distance_m, grid.d50_m, steepness * grid.width_m[:, None])
+        works = (1.0 - grid.lapse[:, None, None]).astype(np.float32) * curve
+        return np.asarray(np.maximum(works if press.worked else np.float32(1.0) - works, np.float32(_MIN_PROBABILITY)))
 
     def _blurred(self, product: FloatArray, shared: float) -> FloatArray:
         """The convolution along d50; what lies outside the grid is as its edge."""
-        if shared <= 0.0:
-            return np.maximum(product, _MIN_PRODUCT)
         grid = self._hypotheses
         sigmas = np.sqrt(shared) * SIGMA_PER_SCALE * grid.width_m / WIDTH_PER_SCALE / grid.step_m
         edge = int(_EDGE_SIGMAS * sigmas[-1])

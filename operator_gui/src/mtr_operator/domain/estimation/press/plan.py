@@ -10,7 +10,7 @@ from ..interval import FloatArray
 from .hypotheses import Hypotheses, hypotheses_for
 
 # Parts of the interval wanted into which d50 is divided.
-_STEPS_PER_INTERVAL = 6.0
+_STEPS_PER_INTERVAL = 4.0
 
 
 @dataclass(frozen=True)

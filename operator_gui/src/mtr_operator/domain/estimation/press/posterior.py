@@ -3,66 +3,86 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.special import logsumexp
 
 from ..interval import FloatArray, Interval, interval_of
 from .hypotheses import Hypotheses
-from .transition import D95_PER_SCALE, WIDTH_PER_SCALE
+from .transition import D95_PER_SCALE, WIDTH_PER_SCALE, SingleArray, falling_single
+
+# Below the best place of its shape a likelihood counts as this, in logarithms: single precision ends at -87.
+_MIN_LOG = -80.0
 
 
 class RadialPosterior:
     """Probabilities over the grid.
 
     Attributes:
-        probability: axes [shared, lapse, width, d50]; its sum is 1.
+        shapes: axes [shared, lapse, width]; their sum is 1.
+        by_width: axes [width, d50]; their sum is 1.
+        log_evidence: logarithm of the likelihood with d50 integrated out; axes [shared, lapse, width].
     """
 
-    def __init__(self, hypotheses: Hypotheses, log_likelihood: FloatArray, log_shape_prior: FloatArray,
+    def __init__(self, hypotheses: Hypotheses, log_likelihood: SingleArray, log_shape_prior: FloatArray,
                  log_place_prior: FloatArray):
         self.hypotheses = hypotheses
-        total = log_likelihood + log_shape_prior[..., None] + log_place_prior
-        weights = np.exp(total - np.max(total))
-        self.probability: FloatArray = weights / np.sum(weights)
+        # One exponential serves evidence and posterior; single precision takes an eighth of the time.
+        peak = log_likelihood.max(axis=-1)
+        below = log_likelihood - peak[..., None]
+        self._likelihood: SingleArray = np.exp(np.maximum(below, _MIN_LOG, out=below), out=below)
+        self._place_prior = np.exp(log_place_prior - np.max(log_place_prior))
+        both = np.stack((np.full(len(self._place_prior), 1.0 / len(self._place_prior)), self._place_prior), axis=-1)
+        even, shapes = np.moveaxis((self._likelihood @ both.astype(np.float32)).astype(np.float64), -1, 0)
+        self.log_evidence: FloatArray = np.log(even) + peak
+        log_weights = log_shape_prior + peak
+        weights = np.exp(log_weights - np.max(log_weights + np.log(shapes)))
+        self._weights: FloatArray = weights / np.sum(weights * shapes)
+        self.shapes: FloatArray = self._weights * shapes
+        self.by_width: FloatArray = self._place_prior * np.einsum(
+            "slw,slwd->wd", self._weights.astype(np.float32), self._likelihood)
+        self._places: FloatArray = np.sum(self.by_width, axis=0)
+        self._d50 = interval_of(hypotheses.edges_m, self._places)
+
+    @property
+    def probability(self) -> FloatArray:
+        """Of each hypothesis; axes [shared, lapse, width, d50]."""
+        return np.asarray(self._weights[..., None] * self._likelihood * self._place_prior)
 
     def d50(self) -> Interval:
         """Distance at which half of the presses work."""
-        return interval_of(self.hypotheses.edges_m, self.places())
+        return self._d50
 
     def d95(self) -> Interval:
         """Distance at which 95 % of the presses work, lapses apart."""
         grid = self.hypotheses
         offsets_m = D95_PER_SCALE * grid.width_m / WIDTH_PER_SCALE
-        weights = np.sum(self.probability, axis=(0, 1))
         steps = np.round(offsets_m / grid.step_m).astype(int)
         count = len(grid.d50_m)
         moved = np.zeros(count + int(steps[-1]))
-        for row, step in zip(weights, steps):
+        for row, step in zip(self.by_width, steps):
             moved[steps[-1] - step:steps[-1] - step + count] += row
         first_m = grid.edges_m[0] - grid.step_m * steps[-1]
         return interval_of(first_m + grid.step_m * np.arange(len(moved) + 1), moved)
 
     def places(self) -> FloatArray:
         """Probability of each d50."""
-        result: FloatArray = np.sum(self.probability, axis=(0, 1, 2))
-        return result
+        return self._places
+
+    def works(self, distance_m: float) -> float:
+        """Probability that a press works."""
+        grid = self.hypotheses
+        curves = falling_single(distance_m, grid.d50_m, grid.width_m[:, None])
+        return (1.0 - self.lapse) * float(np.sum(self.by_width * curves))
 
     def widths(self) -> FloatArray:
         """Probability of each width."""
-        result: FloatArray = np.sum(self.probability, axis=(0, 1, 3))
+        result: FloatArray = np.sum(self.shapes, axis=(0, 1))
         return result
 
     @property
     def lapse(self) -> float:
         """Mean share of presses that fail at any distance."""
-        return float(np.sum(self.probability, axis=(0, 2, 3)) @ self.hypotheses.lapse)
+        return float(np.sum(self.shapes, axis=(0, 2)) @ self.hypotheses.lapse)
 
     @property
     def fading(self) -> float:
         """Probability that presses at one place share their fading."""
-        return float(np.sum(self.probability, axis=(1, 2, 3))[self.hypotheses.shared > 0.0].sum())
-
-
-def log_evidence(log_likelihood: FloatArray) -> FloatArray:
-    """Logarithm of the likelihood with d50 integrated out; axes [shared, lapse, width]."""
-    result: FloatArray = logsumexp(log_likelihood, axis=-1) - np.log(log_likelihood.shape[-1])
-    return result
+        return float(np.sum(self.shapes, axis=(1, 2))[self.hypotheses.shared > 0.0].sum())

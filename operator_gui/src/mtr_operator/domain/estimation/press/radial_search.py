@@ -15,7 +15,8 @@ from .hypotheses import Hypotheses
 from .information import PressInformation
 from .likelihood import Press, PressLikelihood
 from .plan import SearchPlan
-from .posterior import RadialPosterior, log_evidence
+from .posterior import RadialPosterior
+from .transition import SingleArray
 
 # Of what is still possible for d50: places that are tried when an interval below half a wavelength is wanted.
 _QUANTILES = np.linspace(0.1, 0.9, 9)
@@ -47,7 +48,9 @@ class RadialSearch:
         """What is possible after the presses so far."""
         if self._posterior is None:
             self._posterior = self._given(self._likelihood.log)
-            self._campaign.keep_place(self._radial, self._posterior.places())
+            if self.presses:
+                self._campaign.keep_evidence(self._radial, self._posterior.log_evidence)
+                self._campaign.keep_place(self._radial, self._posterior.places())
         return self._posterior
 
     def posterior_without(self, distance_m: float) -> RadialPosterior:
@@ -61,15 +64,13 @@ class RadialSearch:
 
     def add(self, press: Press) -> None:
         """Take what a press did."""
-        expected, _ = PressInformation(self.posterior()).at(np.array([press.distance_m]))
         is_repeated = self._doubted_m is not None and self.place_of(press.distance_m) == self.place_of(self._doubted_m)
-        doubtful = expected[0] >= SURE_TO_WORK or is_repeated
+        doubtful = is_repeated or self.posterior().works(press.distance_m) >= SURE_TO_WORK
         self._doubted_m = press.distance_m if doubtful and not press.worked else None
         self.presses.append(press)
         self.place_m = press.distance_m
         self._likelihood.add(press)
-        self._campaign.keep_evidence(self._radial, log_evidence(self._likelihood.log))
-        self._posterior = None
+        self.revisit()
 
     def place_of(self, distance_m: float) -> int:
         """Number of the half wavelength in whose midst a distance lies: presses there count as made at one place."""
@@ -91,12 +92,12 @@ class RadialSearch:
         posterior = self.posterior()
         places_m = self._candidates(posterior)
         works, information = PressInformation(posterior).at(places_m)
-        beside = np.array([self._likelihood.presses_beside(place) for place in places_m])
+        beside = self._likelihood.all_beside(places_m)
         own = information * (1.0 - posterior.fading + posterior.fading / (1.0 + beside) ** 2)
         seconds = self._plan.times.expected_s(np.abs(places_m - self.place_m), works)
         return float(places_m[np.argmax(own / seconds)])
 
-    def _given(self, log_likelihood: FloatArray) -> RadialPosterior:
+    def _given(self, log_likelihood: SingleArray) -> RadialPosterior:
         return RadialPosterior(self._hypotheses, log_likelihood, self._campaign.log_shape_prior(self._radial),
                                self._campaign.log_place_prior(self._radial))
 
@@ -117,7 +118,7 @@ class RadialSearch:
         places_m = plan.places_m()
         if posterior.d50().half_width_m > step_m:
             here = self._likelihood.place_of(self.place_m)
-            return places_m[[self._likelihood.place_of(place) != here for place in places_m]]
+            return np.asarray(places_m[self._likelihood.places_of(places_m) != here])
         if plan.interval_m >= step_m / 2.0:
             return places_m
         inner = np.interp(_QUANTILES, np.cumsum(posterior.places()), posterior.hypotheses.d50_m)
