@@ -204,6 +204,22 @@ def test_radials_share_what_they_know_of_the_width():
     assert spread[1] < 0.6 * spread[0]
 
 
+def test_first_press_is_where_it_tells_and_not_where_the_key_happens_to_be():
+    plan = SearchPlan(3.0, 20.0, interval_m=0.3)
+    grid = plan.hypotheses()
+    campaign = Campaign(grid)
+    for radial in range(3):
+        measured(plan, lambda place_m, _: place_m <= 9.0, campaign, radial)
+    # A press at 20 m takes no way, and tells nothing.
+    assert RadialSearch(plan, grid, campaign, 3, 20.0).next_place_m() < 15.0
+
+
+def test_narrow_transition_leaves_fading_likely_as_no_press_can_rule_it_out():
+    posterior = measured(PLAN, lambda place_m, _: place_m <= 6.4).posterior()
+    assert posterior.fading > 0.7
+    assert posterior.d50().half_width_m > PLAN.half_wavelength_m / 2.0
+
+
 def test_radial_unlike_the_others_is_not_argued_away():
     grid = PLAN.hypotheses()
     campaign = Campaign(grid)

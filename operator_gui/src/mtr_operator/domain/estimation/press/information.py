@@ -21,7 +21,8 @@ _BINS = 30
 _MIN_SHARE = 3e-3
 _TAIL = 1e-4
 _MIN_WEIGHT = 1e-300
-WIDTH_PART = 1.0
+# The width is pooled over the campaign's radials; d50 is each one's own.
+WIDTH_PART = 0.5
 
 
 class PressInformation:

@@ -18,6 +18,8 @@ from .plan import SearchPlan
 from .posterior import RadialPosterior
 from .transition import SingleArray
 
+# A press has to tell this share of what the best place would: one that costs nothing, as the key is there, is no use.
+MIN_SHARE = 0.6
 # Of what is still possible for d50: places that are tried when an interval below half a wavelength is wanted.
 _QUANTILES = np.linspace(0.1, 0.9, 9)
 # A press that fails although it should work with this probability is repeated, until there are so many at its place.
@@ -95,7 +97,8 @@ class RadialSearch:
         beside = self._likelihood.all_beside(places_m)
         own = information * (1.0 - posterior.fading + posterior.fading / (1.0 + beside) ** 2)
         seconds = self._plan.times.expected_s(np.abs(places_m - self.place_m), works)
-        return float(places_m[np.argmax(own / seconds)])
+        informative = own >= MIN_SHARE * np.max(own)
+        return float(places_m[np.argmax(informative * own / seconds)])
 
     def _given(self, log_likelihood: SingleArray) -> RadialPosterior:
         return RadialPosterior(self._hypotheses, log_likelihood, self._campaign.log_shape_prior(self._radial),
