@@ -10,7 +10,7 @@ import pytest
 
 from mtr_operator.domain.geometry.radials import radials_around
 from mtr_operator.domain.results.line_result import LineResult, LineStatus, MeasuredDistance
-from mtr_operator.domain.verdict.judgement import judge
+from mtr_operator.domain.verdict.judgement import Circumstances, judge
 from mtr_operator.domain.verdict.limits import Limits
 from mtr_operator.domain.verdict.requirement import Requirement, side_of
 from mtr_operator.domain.verdict.verdict import Verdict, worst
@@ -55,7 +55,8 @@ def measured(line: int, low_m: float | None, high_m: float | None, value_m: floa
 def verdict_of(requirement: Requirement, result: LineResult, guard_sigma_m: float = 0.0) -> Verdict:
     """Of one line, measured beside another one on which the key works."""
     others = [measured(2, 1.0, 2.0, 1.5)]
-    return judge(Limits((requirement,)), LINES[:1], [result, *others], lambda _, __: guard_sigma_m).verdict
+    circumstances = Circumstances(lambda _, __: guard_sigma_m)
+    return judge(Limits((requirement,)), LINES[:1], [result, *others], circumstances).verdict
 
 
 @pytest.mark.parametrize("low_m, high_m, at_least, at_most", [
@@ -77,6 +78,13 @@ def test_an_open_end_keeps_or_breaks_a_limit_on_its_other_side():
     assert verdict_of(AT_MOST, measured(1, None, 0.5)) is Verdict.PASS
     assert verdict_of(AT_LEAST, measured(1, 4.0, None)) is Verdict.PASS
     assert verdict_of(AT_MOST, measured(1, 4.0, None)) is Verdict.FAIL
+
+
+def test_a_boundary_that_was_not_reached_lies_beyond_the_end_of_the_line():
+    unreached = Circumstances(unreached=lambda word: (None, 0.5))
+    results = [measured(1, None, None), measured(2, 1.0, 2.0, 1.5)]
+    found = judge(Limits((AT_LEAST, AT_MOST)), LINES[:1], results, unreached)
+    assert [judgement.verdict for judgement in found.judgements] == [Verdict.FAIL, Verdict.PASS]
 
 
 def test_silence_on_every_line_passes_no_upper_limit():

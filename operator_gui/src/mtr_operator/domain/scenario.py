@@ -96,6 +96,10 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
         for them."""
         return ()
 
+    def unreached(self, parameters: Parameters, word: str) -> tuple[float | None, float | None]:
+        """Between which distances a boundary lies that was not reached; None for an end that nobody knows."""
+        return None, parameters.minimum_distance_m
+
     def expected_line_s(self, parameters: Parameters) -> float:
         """How long measuring one line is likely to take, in s of robot time, without the way to its start."""
         near_m, far_m = self.distance_range(parameters)

@@ -86,6 +86,10 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
         """See Scenario."""
         return can_go_on(line.ray, parameters, robot, car)
 
+    def unreached(self, parameters: AutolockParameters, word: str) -> tuple[float | None, float | None]:
+        """See Scenario: the approach ends near the Car, the retreat far from it."""
+        return (parameters.straightened_distance_m, None) if word == LOCK else super().unreached(parameters, word)
+
     def picture(self, parameters: AutolockParameters, car: CarDimensions, results: Sequence[AutolockResult]) -> Picture:
         """Axes, and the two areas that the points enclose."""
         stretches = [Stretch(result.ray.point(parameters.minimum_distance_m),

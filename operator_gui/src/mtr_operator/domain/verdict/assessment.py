@@ -15,7 +15,7 @@ from ..results.line_result import LineResult, MeasuredDistance
 from ..results.progress import Progress
 from ..robot_status import CarDimensions
 from ..scenario import AnyScenario, Line, ScenarioParameters
-from .judgement import TestJudgement, judge
+from .judgement import Circumstances, TestJudgement, judge
 
 
 @dataclass(frozen=True)
@@ -39,6 +39,7 @@ class Assessor:
 
     def __init__(self, scenario: AnyScenario, parameters: ScenarioParameters, car: CarDimensions,
                  record: CalibrationRecord):
+        self._scenario = scenario
         self._parameters = parameters
         self._car = car
         self._record = record
@@ -51,7 +52,8 @@ class Assessor:
                         if distance.distance_m is not None)
         judgement = None
         if progress.limits is not None:
-            judgement = judge(progress.limits, self._lines, progress.results, self._guard_sigma)
+            judgement = judge(progress.limits, self._lines, progress.results,
+                              Circumstances(self._guard_sigma, self._unreached))
         return Assessment(budgets, judgement)
 
     def _budget(self, result: LineResult, distance: MeasuredDistance) -> DistanceBudget:
@@ -65,6 +67,9 @@ class Assessor:
         measurement = Measurement(_place_sigma(result, distance), 0.0, self._outline(result))
         terms = terms_of(measurement, self._carriage(result, word), self._record)
         return math.hypot(*(term.contribution_m for term in terms))
+
+    def _unreached(self, word: str) -> tuple[float | None, float | None]:
+        return self._scenario.unreached(self._parameters, word)
 
     def _outline(self, result: LineResult) -> tuple[float, float]:
         """Sigmas of the Car's size where the line begins on its outline."""

@@ -12,7 +12,7 @@ sleeps looks like that as well: "at most" is passed by silence only when the key
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Callable, Sequence
 
 from ..estimation.interval import SIGMAS_OF_LEVEL
@@ -22,8 +22,22 @@ from .limits import Limits
 from .requirement import Requirement
 from .verdict import Verdict, worst
 
-# Of a line's result and the word of its distance.
-GuardSigma = Callable[[LineResult, str], float]
+
+@dataclass(frozen=True)
+class Circumstances:
+    """What a result does not say of its distances.
+
+    Attributes:
+        guard_sigma_m: of a line's result and the word of a distance: 1 sigma of the errors that are not in its
+            interval, for no repetition shows them.
+        unreached: of a word: between which distances the boundary lies where it was not reached.
+    """
+
+    guard_sigma_m: Callable[[LineResult, str], float] = lambda _result, _word: 0.0
+    unreached: Callable[[str], tuple[float | None, float | None]] = lambda _word: (None, None)
+
+
+NOTHING_KNOWN = Circumstances()
 
 
 @dataclass(frozen=True)
@@ -70,17 +84,9 @@ class TestJudgement:
         return [number for number in numbers if self.of_line(number) is Verdict.INCONCLUSIVE]
 
 
-def no_guard(_result: LineResult, _word: str) -> float:
-    """Of intervals that hold all errors."""
-    return 0.0
-
-
 def judge(limits: Limits, lines: Sequence[Line], results: Sequence[LineResult],
-          guard_sigma_m: GuardSigma = no_guard) -> TestJudgement:
-    """Judge what was measured; a line without a result is ABORTED.
-
-    guard_sigma_m: 1 sigma of the errors of a distance that are not in its interval, for no repetition shows them.
-    """
+          circumstances: Circumstances = NOTHING_KNOWN) -> TestJudgement:
+    """Judge what was measured; a line without a result is ABORTED."""
     by_number = {result.number: result for result in results}
     alive = {distance.word for result in results for distance in result.distances
              if distance.status is LineStatus.OK or distance.low_m is not None}
@@ -90,17 +96,17 @@ def judge(limits: Limits, lines: Sequence[Line], results: Sequence[LineResult],
             if requirement.names(line.ray):
                 result = by_number.get(line.number)
                 found.append(Judgement(requirement, line.number, Verdict.ABORTED, "The line was not measured.")
-                             if result is None else _judge_line(requirement, result, alive, guard_sigma_m))
+                             if result is None else _judge_line(requirement, result, alive, circumstances))
     return TestJudgement(tuple(found))
 
 
-def _judge_line(requirement: Requirement, result: LineResult, alive: set[str], guard_sigma_m: GuardSigma) -> Judgement:
-    distance = next((item for item in result.distances_at(requirement.share_percent) if item.word == requirement.what),
-                    None)
+def _judge_line(requirement: Requirement, result: LineResult, alive: set[str],
+                circumstances: Circumstances) -> Judgement:
+    distance = _distance(requirement, result, circumstances)
     obstacle = _obstacle(requirement, result, distance, alive)
     if distance is None or obstacle:
         return Judgement(requirement, result.number, Verdict.INCONCLUSIVE, obstacle)
-    low_m, high_m = _guarded(distance, SIGMAS_OF_LEVEL * guard_sigma_m(result, distance.word))
+    low_m, high_m = _guarded(distance, SIGMAS_OF_LEVEL * circumstances.guard_sigma_m(result, distance.word))
     wanted = f"Wanted is {requirement.text}"
     if requirement.at_least_m is not None:
         holes_m = result.holes_nearer_than(requirement.at_least_m)
@@ -117,6 +123,16 @@ def _judge_line(requirement: Requirement, result: LineResult, alive: set[str], g
         return Judgement(requirement, result.number, Verdict.FAIL, f"{wanted}; it {interval}.")
     return Judgement(requirement, result.number, Verdict.INCONCLUSIVE,
                      f"{wanted}; it {interval}, which holds the limit.", is_undecided=True)
+
+
+def _distance(requirement: Requirement, result: LineResult, circumstances: Circumstances) -> MeasuredDistance | None:
+    """That a limit is about; where nothing was reached, with the end that is known."""
+    found = next((item for item in result.distances_at(requirement.share_percent) if item.word == requirement.what),
+                 None)
+    if found is None or found.status is not LineStatus.NOT_REACHED or (found.low_m, found.high_m) != (None, None):
+        return found
+    low_m, high_m = circumstances.unreached(requirement.what)
+    return replace(found, low_m=low_m, high_m=high_m)
 
 
 def _obstacle(requirement: Requirement, result: LineResult, distance: MeasuredDistance | None, alive: set[str]) -> str:
