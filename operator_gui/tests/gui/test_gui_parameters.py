@@ -57,6 +57,26 @@ def test_centimetres_and_kilometres_per_hour_become_si(form_of):
     assert form.parameters.maximum_speed_mps == pytest.approx(0.5)
 
 
+@pytest.mark.parametrize("text", ["1.44; 0.36", "1,44;0,36", " 1.44 0.36 ", "1,44; 0,36;"])
+def test_list_of_speeds_is_typed_with_semicolons_or_spaces(form_of, text):
+    form = form_of("autolock")
+    form.fields["passes"].edit.setText("2")
+    form.fields["measuring_speeds_mps"].edit.setText(text)
+    assert form.parameters.measuring_speeds_mps == pytest.approx((0.4, 0.1))
+    again = form_of("autolock")
+    again.show_mapping(form.parameters.to_mapping())
+    assert again.fields["measuring_speeds_mps"].edit.text() == "1.44; 0.36"
+    assert again.parameters == form.parameters
+
+
+@pytest.mark.parametrize("text", ["1.44; x", "1.44; 9", "; ".join(9 * ["1"])])
+def test_list_with_a_bad_number_or_too_many_is_told_at_the_field(form_of, text):
+    form = form_of("autolock")
+    form.fields["measuring_speeds_mps"].edit.setText(text)
+    assert form.fields["measuring_speeds_mps"].fault
+    assert form.parameters is None
+
+
 def test_whole_number_is_asked_for(form_of):
     form = form_of("key_press")
     form.fields["attempts"].edit.setText("2.5")

@@ -10,6 +10,7 @@ import pytest
 from mtr_operator.domain.estimation.passes.boundary import BoundaryCampaign, Pass
 from mtr_operator.domain.estimation.passes.reaction import STEP_M, depths, reaction_table
 from mtr_operator.domain.estimation.passes.speeds import intercept_sigma, pass_sigma, proposed_speed
+from mtr_operator.domain.estimation.passes.steps import Steps
 from mtr_operator.domain.estimation.passes.timing import TIMINGS, CarTiming
 
 CYCLE_S = 0.2
@@ -17,7 +18,7 @@ CYCLE_S = 0.2
 
 def passed(rng, boundary_m, speed_mps, timing, *, delay_s=0.04, outward=False):
     """A pass simulated in time: polls with a random phase, then the bus' cycle."""
-    time_s, agreeing = -rng.uniform(0.0, timing.poll_s) - 0.5 / speed_mps, 0
+    time_s, agreeing = -rng.uniform(0.0, timing.poll_s) - (0.5 + 4.0 * timing.noise_m) / speed_mps, 0
     while agreeing < timing.debounce:
         time_s += timing.poll_s
         agreeing = agreeing + 1 if speed_mps * time_s > timing.noise_m * rng.standard_normal() else 0
@@ -27,7 +28,7 @@ def passed(rng, boundary_m, speed_mps, timing, *, delay_s=0.04, outward=False):
 
 
 @pytest.mark.parametrize("speed_mps", [0.1, 0.5])
-@pytest.mark.parametrize("timing", [CarTiming(0.3, 2, 0.012), CarTiming(0.7, 1, 0.025), CarTiming(0.1, 3, 0.005)])
+@pytest.mark.parametrize("timing", [CarTiming(0.3, 2, 0.012), CarTiming(0.7, 1, 0.03), CarTiming(0.1, 3, 0.005)])
 def test_table_of_depths_agrees_with_passes_simulated_in_time(speed_mps, timing):
     table = reaction_table(speed_mps, CYCLE_S, 0.002)[TIMINGS.index(timing)]
     weights, rng = (table - table.min()) / np.sum(table - table.min()), np.random.default_rng(1)
@@ -50,6 +51,55 @@ def test_two_speeds_find_the_static_boundary_and_the_reaction_time(outward):
     assert sum(each.static.holds(value) for each, value in zip(found, true_m)) >= 21
     # Half a poll of phase and one of debounce; the delay beside them.
     assert np.median([each.reaction_s.value_m for each in found]) == pytest.approx(0.49, abs=0.1)
+
+
+def test_car_that_locks_by_a_timer_is_told_from_one_that_is_slow():
+    rng, timing, campaign = np.random.default_rng(4), CarTiming(0.3, 2, 0.03), BoundaryCampaign(CYCLE_S)
+    for axis in range(12):
+        campaign.keep(axis, [passed(rng, 1.5, speed, timing, delay_s=5.0, outward=True) for speed in (0.1, 0.4)])
+    found = [campaign.boundary(axis) for axis in range(12)]
+    assert sum(each.static.holds(1.5) for each in found) >= 11
+    assert all(each.static.half_width_m < 0.3 for each in found)
+    assert np.median([each.reaction_s.value_m for each in found]) == pytest.approx(5.45, abs=0.15)
+
+
+def test_noise_of_a_single_axis_is_not_taken_for_a_timer():
+    campaign = BoundaryCampaign(CYCLE_S)
+    campaign.keep(1, [Pass(2.3, 0.4, True), Pass(1.3, 0.1, True)])
+    assert campaign.boundary(1).reaction_s.high_m < 3.0
+
+
+@pytest.mark.parametrize("noise_m", [0.1, 0.2])
+def test_intervals_hold_on_a_car_whose_noise_reacts_early_at_slow_passes(noise_m):
+    rng, held = np.random.default_rng(5), 0
+    timing = CarTiming(0.1, 2, noise_m)
+    for _ in range(4):
+        campaign = BoundaryCampaign(CYCLE_S)
+        for axis in range(12):
+            campaign.keep(axis, [passed(rng, 1.5, speed, timing) for speed in (0.1, 0.4)])
+        held += sum(campaign.boundary(axis).static.holds(1.5) for axis in range(12))
+    assert held >= 44
+
+
+@pytest.mark.parametrize("poll_s", [0.1, 0.7])
+def test_approach_in_steps_finds_the_boundary_of_a_car_that_polls_slowly(poll_s):
+    rng, steps, held = np.random.default_rng(6), Steps(0.05, 2.0), 0
+    for _ in range(40):
+        boundary_m, place_m = rng.uniform(1.0, 2.0), 2.5 - rng.uniform(0.0, 0.05)
+        while not stood(rng, boundary_m - place_m, poll_s, steps.stand_s):
+            place_m -= steps.step_m
+        campaign = BoundaryCampaign(CYCLE_S)
+        campaign.keep(0, [Pass(place_m, 0.0, False, steps)])
+        static = campaign.boundary(0).static
+        held += static.holds(boundary_m)
+        assert static.half_width_m < 0.25
+    assert held >= 36
+
+
+def stood(rng, depth_m, poll_s, stand_s):
+    """Two polls in a row notice a key that stands for a while."""
+    notices = depth_m > 0.02 * rng.standard_normal(int(stand_s / poll_s))
+    return any(notices[:-1] & notices[1:])
 
 
 def test_one_pass_leaves_the_reaction_time_inside_the_distance():

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import csv
 import struct
+from dataclasses import replace
 
 import pytest
 from matplotlib.figure import Figure
@@ -14,7 +15,7 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.autolock_result import AutolockResult
 from mtr_operator.report.files import write_report
 from mtr_operator.report.protocol_png import label_stretches
-from mtr_operator.report.protocol_rows import date_text
+from mtr_operator.report.protocol_rows import date_text, parameter_rows
 from mtr_operator.report.results_csv import results_csv
 from mtr_operator.report.table import results_table
 
@@ -23,7 +24,13 @@ HEADERS = {
                 "unlock_uncertainty_m,unlock_robot_time_s,lock_status,lock_distance_m,lock_uncertainty_m,"
                 "lock_robot_time_s,unlock_lateral_offset_m,unlock_heading_offset_deg,unlock_key_height_m,"
                 "unlock_speed_mps,unlock_cause,lock_lateral_offset_m,lock_heading_offset_deg,lock_key_height_m,"
-                "lock_speed_mps,lock_cause,unlock_own_sigma_m,unlock_common_sigma_m,unlock_expanded_m,"
+                "lock_speed_mps,lock_cause,"
+                "unlock_passes,unlock_pass_distances_m,unlock_pass_speeds_mps,unlock_static_m,"
+                "unlock_static_sigma_m,unlock_static_low_m,unlock_static_high_m,unlock_reaction_s,"
+                "unlock_reaction_low_s,unlock_reaction_high_s,lock_passes,lock_pass_distances_m,"
+                "lock_pass_speeds_mps,lock_static_m,lock_static_sigma_m,lock_static_low_m,lock_static_high_m,"
+                "lock_reaction_s,lock_reaction_low_s,lock_reaction_high_s,"
+                "unlock_own_sigma_m,unlock_common_sigma_m,unlock_expanded_m,"
                 "lock_own_sigma_m,lock_common_sigma_m,lock_expanded_m,verdict,verdict_reason",
     "key_press": "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
                  "lateral_offset_m,heading_offset_deg,key_height_m,speed_mps,cause,method,reach,d50_m,d50_sigma_m,"
@@ -63,8 +70,19 @@ def test_values_are_written_with_points_and_missing_ones_are_empty():
     scenario = SCENARIOS["autolock"]
     _, rows = lines_of(results_csv(scenario, progress_of(scenario, [axis(1), axis(2, "not_reached", "invalid")])))
     assert rows[1] == "1,left,0.0000,0.9000,0.000000,1.000000,ok,1.2346,0.0300,12.346,ok,2.0000,,14.000," \
-        "-0.0123,,,,passive_entry,,,,,,,,,,,,not_set,"
-    assert rows[2] == "2,left,0.0000,0.9000,0.000000,1.000000,not_reached,,,,invalid,,," + 17 * "," + "not_set,"
+        "-0.0123,,,,passive_entry,,,,,,0,,,,,,,,,,0,,,,,,,,,,,,,,,,not_set,"
+    passes = "0" + 10 * "," + "0" + 16 * "," + "not_set,"
+    assert rows[2] == "2,left,0.0000,0.9000,0.000000,1.000000,not_reached,,,,invalid,,," + 11 * "," + passes
+
+
+def test_list_stands_in_one_cell_and_in_one_line_of_metadata():
+    scenario = SCENARIOS["autolock"]
+    progress = progress_of(scenario, [replace(axis(1), unlock_pass_distances_m=(1.2, 1.35), unlock_passes=2)])
+    progress.parameters.update(passes=2, measuring_speeds_mps=[0.4, 0.1])
+    metadata, rows = lines_of(results_csv(scenario, progress))
+    assert ",2,1.2000 1.3500,," in rows[1]
+    assert "# parameter measuring_speeds_mps: 0.4 m/s, 0.1 m/s" in metadata
+    assert ("measuring speeds", "1.44 km/h; 0.36 km/h") in parameter_rows(scenario, progress)
 
 
 def test_metadata_names_parameters_units_version_profile_and_reasons():

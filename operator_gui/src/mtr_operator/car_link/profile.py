@@ -80,7 +80,8 @@ class CarProfile:
         # A change that a second signal vouches for needs no second frame.
         is_vouched = bool(self.command_signal or self.changed_signal)
         confirm_s = 0.0 if is_vouched else max(self.min_state_s, _CONFIRMING_CYCLES * self.cycle_time_s)
-        return LockFacts(frozenset(self.sources.values()), self.relock_after_s, confirm_s)
+        return LockFacts(frozenset(self.sources.values()), self.relock_after_s, confirm_s,
+                         0.0 if self.sent_on_change else self.cycle_time_s)
 
     def modulus(self, signal: str) -> int:
         """How many values a counter has."""

@@ -7,7 +7,6 @@ import sys
 
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OperatorError
-from mtr_operator.domain.parameters import with_unit
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.verdict.verdict import Verdict
 
@@ -47,7 +46,7 @@ def list_parameters(options: argparse.Namespace) -> None:
     """Print a table of a scenario's parameters."""
     rows = [("parameter", "default", "range", "meaning")]
     for declared in SCENARIOS[options.scenario].parameters_type.declarations().values():
-        default = "-" if declared.default is None else with_unit(declared.default, declared.unit)
+        default = "-" if declared.default is None else declared.text(declared.default)
         rows.append((declared.file_key, default, declared.allowed, declared.doc))
     for name, declared in SCENARIOS[options.scenario].parameters_type.flags().items():
         rows.append((name, str(declared.default).lower(), declared.allowed, declared.doc))

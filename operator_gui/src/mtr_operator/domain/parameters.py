@@ -61,14 +61,18 @@ class Declaration:
         if value is None and self.default is None:
             return None
         if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise InvalidParameter(f"Parameter {self.file_key} is {_short(value)}; {self._hint(value)}")
+            raise InvalidParameter(f"Parameter {self.file_key} is {short_text(value)}; {self._hint(value)}")
         if not abs(value) <= sys.float_info.max:
-            raise InvalidParameter(f"Parameter {self.file_key} is {_short(value)}; allowed is {self.allowed}.")
+            raise InvalidParameter(f"Parameter {self.file_key} is {short_text(value)}; allowed is {self.allowed}.")
         if self.is_integer:
             if value != int(value):
                 raise InvalidParameter(f"Parameter {self.file_key} is {value:g}; allowed are {self.allowed}.")
             return int(value)
         return float(value) * self.si_per_unit
+
+    def text(self, value: float) -> str:
+        """A value in the file's unit, with it."""
+        return with_unit(value, self.unit)
 
     def shown_text(self, value: float) -> str:
         """A value in the file's unit as a person reads it."""
@@ -83,6 +87,8 @@ class Declaration:
 
     def check(self, value: float | None) -> None:
         """Raise InvalidParameter unless the SI value lies within the range."""
+        if value is not None and not math.isfinite(value):
+            raise InvalidParameter(f"Parameter {self.file_key} is {value}; allowed is {self.allowed}.")
         shown = self.to_unit(value)
         if shown is not None and not self.low <= shown <= self.high:
             raise InvalidParameter(f"Parameter {self.file_key} is {with_unit(shown, self.unit)}; "
@@ -106,7 +112,7 @@ class Flag:
     def checked(self, file_key: str, value: Any) -> bool:
         """What stood in a file; InvalidParameter when it is neither."""
         if not isinstance(value, bool):
-            raise InvalidParameter(f"Parameter {file_key} is {_short(value)}; allowed is {self.allowed}.")
+            raise InvalidParameter(f"Parameter {file_key} is {short_text(value)}; allowed is {self.allowed}.")
         return value
 
 
@@ -116,7 +122,8 @@ def with_unit(value: float, unit: str) -> str:
     return f"{value:g}{gap}{unit}".rstrip()
 
 
-def _short(value: Any) -> str:
+def short_text(value: Any) -> str:
+    """What stood in a file, abbreviated for a sentence."""
     # Abbreviates while it writes: the whole text of a nested value may be longer than the memory.
     try:
         text = reprlib.repr(value)
@@ -155,10 +162,7 @@ class ParameterSet:
         for name, declared_flag in self.flags().items():
             declared_flag.checked(name, getattr(self, name))
         for name, declared in self.declarations().items():
-            value = getattr(self, name)
-            if value is not None and not math.isfinite(value):
-                raise InvalidParameter(f"Parameter {declared.file_key} is {value}; allowed is {declared.allowed}.")
-            declared.check(value)
+            declared.check(getattr(self, name))
         self.check()
 
     def check(self) -> None:
@@ -190,7 +194,7 @@ class ParameterSet:
                 name, declared = fields[key]
                 values[name] = declared.to_si(value)
             else:
-                name = key[:_MAX_SHOWN] if isinstance(key, str) else _short(key)
+                name = key[:_MAX_SHOWN] if isinstance(key, str) else short_text(key)
                 raise InvalidParameter(f"Parameter {name} is unknown; {_alternatives(name, [*fields, *flags])}")
         return cls(**values)
 

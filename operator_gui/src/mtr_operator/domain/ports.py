@@ -53,11 +53,13 @@ class LockFacts:
 
     sources: those that its bus can name; empty when it names none. relock_after_s: it locks by itself so long after it
     was unlocked, None when it does not. confirm_s: a change is to be believed when it was not taken back for so long.
+    told_every_s: cycle of the message that tells a change, 0 when it is told at once.
     """
 
     sources: frozenset[str] = frozenset()
     relock_after_s: float | None = None
     confirm_s: float = 0.0
+    told_every_s: float = 0.0
 
 
 @dataclass

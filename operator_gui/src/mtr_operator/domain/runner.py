@@ -55,6 +55,8 @@ class Runner:
         parameters = self._parameters
         try:
             prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
+            for sentence in self._scenario.cautions(parameters, self._car.facts):
+                self._robot.say(f"warning: {sentence}")
             lines = self._lines()
             # Before the robot drives round for the check: the Car and the robot are still as they were.
             half = self._finish_half_line(lines)

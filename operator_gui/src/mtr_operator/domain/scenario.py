@@ -9,6 +9,7 @@ from .actions.car import Car
 from .actions.robot import Robot
 from .actions.tolerances import Tolerances
 from .geometry.ray import Ray
+from .ports import LockFacts
 from .results.line_result import LineResult
 from .results.picture import Picture
 from .robot_status import CarDimensions
@@ -78,6 +79,11 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
                         so_far: Result) -> Result | None:
         """Make the interval of a measured line narrower by more attempts; None when more would not make it so."""
         return None
+
+    def cautions(self, parameters: Parameters, facts: LockFacts) -> Sequence[str]:
+        """Sentences, before the start, on what these parameters cannot give on a Car with these facts; none by
+        default."""
+        return ()
 
     def can_go_on(self, line: AnyLine, parameters: Parameters, robot: Robot, car: Car) -> bool:
         """True when measure can finish a line from where the robot stands, with what Robot.kept has of it."""

@@ -6,7 +6,6 @@ import csv
 import io
 from typing import Any, Iterator
 
-from mtr_operator.domain.parameters import with_unit
 from mtr_operator.domain.results.document import plain
 from mtr_operator.domain.results.line_result import Column
 from mtr_operator.domain.results.progress import Progress
@@ -43,7 +42,7 @@ def _metadata(scenario: AnyScenario, progress: Progress) -> Iterator[str]:
         yield f"Car width: {car.width:.3f} m (sigma {car.width_sigma:.3f} m)"
     for declared in scenario.parameters_type.declarations().values():
         value = progress.parameters[declared.file_key]
-        shown = "not set" if value is None else with_unit(value, declared.unit)
+        shown = "not set" if value is None else declared.text(value)
         yield f"parameter {declared.file_key}: {shown}"
     for name in scenario.parameters_type.flags():
         yield f"parameter {name}: {str(progress.parameters.get(name, False)).lower()}"
@@ -62,6 +61,8 @@ def _cell(column: Column, value: Any) -> str:
     if isinstance(value, float):
         # Adding zero turns -0.0 into 0.0.
         return f"{round(value, column.digits) + 0.0:.{column.digits}f}"
+    if isinstance(value, list):
+        return " ".join(_cell(column, each) for each in value)
     return str(value)
 
 

@@ -7,9 +7,12 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
+from mtr_operator.domain.parameter_lists import MAX_NUMBERS, ListDeclaration
 from mtr_operator.domain.parameters import Declaration
 
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d{1,3})?")
+# A comma is a decimal sign.
+_BETWEEN_NUMBERS = re.compile(r"\s*;\s*|\s+")
 _ROUNDING_DIGITS = 9
 
 
@@ -24,9 +27,10 @@ class Fault(enum.Enum):
 
 @dataclass(frozen=True)
 class Reading:
-    """What a text says: an SI value, or a fault. An empty text of an optional parameter is None without a fault."""
+    """What a text says: an SI value, a tuple of them for a list, or a fault. An empty text of an optional parameter is
+    None without a fault."""
 
-    value: float | None
+    value: Any
     fault: Fault | None = None
 
 
@@ -40,6 +44,8 @@ def read(declared: Declaration, text: str) -> Reading:
     """What stands in the field of a parameter, in the unit that a person reads."""
     if not text.strip():
         return Reading(None, Fault.EMPTY if declared.default is not None else None)
+    if isinstance(declared, ListDeclaration):
+        return _read_list(declared, text)
     number = parse_number(text)
     if number is None:
         return Reading(None, Fault.NOT_A_NUMBER)
@@ -51,16 +57,31 @@ def read(declared: Declaration, text: str) -> Reading:
     return Reading(declared.to_si(int(value) if declared.is_integer else value))
 
 
+def _read_list(declared: ListDeclaration, text: str) -> Reading:
+    readings = [read(declared.one, part) for part in _BETWEEN_NUMBERS.split(text.strip(" ;"))]
+    faults = [reading.fault for reading in readings if reading.fault is not None]
+    if faults or len(readings) > MAX_NUMBERS:
+        return Reading(None, faults[0] if faults else Fault.OUT_OF_RANGE)
+    return Reading(tuple(reading.value for reading in readings))
+
+
 def shown_range(declared: Declaration) -> tuple[float, float]:
     """Lowest and highest value in the unit that a person reads."""
     _, per_unit = declared.shown
     return round(declared.low * per_unit, _ROUNDING_DIGITS), round(declared.high * per_unit, _ROUNDING_DIGITS)
 
 
-def shown_number(declared: Declaration, value: Any) -> float | None:
+def shown_number(declared: Declaration, value: float | None) -> float | None:
     """SI value in the unit that a person reads."""
     in_file = declared.to_unit(value)
     return None if in_file is None else round(in_file * declared.shown[1], _ROUNDING_DIGITS)
+
+
+def shown_value(declared: Declaration, value: Any, decimal_sign: str = ".") -> str:
+    """SI value, or list of them, as it is typed."""
+    if isinstance(declared, ListDeclaration):
+        return "; ".join(shown_value(declared.one, number, decimal_sign) for number in value or ())
+    return written(shown_number(declared, value), decimal_sign)
 
 
 def written(number: float | None, decimal_sign: str = ".") -> str:

@@ -90,8 +90,8 @@ def _path(text: Any) -> pathlib.Path:
 def _numbers(values: Any) -> dict[str, Any]:
     """Parameters as they are remembered; what does not fit a scenario any more is seen when it is used."""
     known = {str(name): value for name, value in values.items()}
-    if not all(value is None or (isinstance(value, (bool, int, float)) and abs(value) < _LARGEST)
-               for value in known.values()):
+    each = [item for value in known.values() for item in (isinstance(value, list) and value or [value])]
+    if not all(value is None or (isinstance(value, (bool, int, float)) and abs(value) < _LARGEST) for value in each):
         raise TypeError("parameters")
     return known
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..errors import ConnectionFailed, LinkLost
-from ..ports import CarEvent, LockState
+from ..ports import CarEvent, LockFacts, LockState
 from ..robot_status import CarDimensions
 from .control_loop import ControlLoop
 
@@ -37,7 +37,12 @@ class Car:
     @property
     def relocks(self) -> bool:
         """True when the Car locks by itself some time after it was unlocked."""
-        return self._loop.car_link.facts.relock_after_s is not None
+        return self.facts.relock_after_s is not None
+
+    @property
+    def facts(self) -> LockFacts:
+        """What is known of it beforehand."""
+        return self._loop.car_link.facts
 
     def dimensions(self) -> CarDimensions:
         """Length and width as the robot measured them; Robot.prepare has waited for them."""

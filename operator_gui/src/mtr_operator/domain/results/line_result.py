@@ -120,7 +120,8 @@ def result_from_document(result_type: type[Result], document: Any) -> Result:
     result = read_record(result_type, document)
     for name, unit in ((item.name, item.unit) for item in result.columns()):
         value = getattr(result, name)
-        if isinstance(value, float) and not limits.OF_UNIT.get(unit, limits.PLAIN).allows(value):
+        limit, each = limits.OF_UNIT.get(unit, limits.PLAIN), value if isinstance(value, tuple) else (value,)
+        if not all(limit.allows(number) for number in each if isinstance(number, float)):
             raise ValueError(f"{name} is beyond all limits")
     for distance in result.distances:
         _check(distance)

@@ -2,39 +2,26 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
-from typing import Any, Callable, Sequence
+from typing import Any, Sequence
 
 from ..actions.car import Car
-from ..actions.distance import Distance, outline_sigma, recorded_values
-from ..actions.line_watch import LineWatch
-from ..actions.lock_history import Expected
+from ..actions.distance import recorded_values
 from ..actions.robot import Robot
 from ..actions.trouble import LineInvalid
 from ..geometry.axes import Axis, axes_around
 from ..geometry.ray import Ray
-from ..ports import PASSIVE_ENTRY, CarEvent, LockState
-from ..requests import Direction
+from ..ports import LockFacts
 from ..results.carried import carried_values
 from ..results.line_result import LineStatus, MeasuredDistance
 from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along
 from ..robot_status import CarDimensions
 from ..scenario import Scenario
+from .autolock_boundary import with_boundaries
 from .autolock_parameters import AutolockParameters
+from .autolock_pass import AxisPass, Course, Measured
 from .autolock_result import LOCK, UNLOCK, AutolockResult
-from .autolock_resume import can_go_on, come_back
-
-_VICINITY = "the Remote key's vicinity"
-
-
-@dataclass
-class _Measured:
-    """One of the two measurements on an axis; time_s: robot time from which on it holds."""
-
-    status: LineStatus = LineStatus.INVALID
-    distance: Distance | None = None
-    time_s: float = math.inf
+from .autolock_resume import can_go_on
+from .autolock_speeds import FURTHER_M, TURNING_S, USUAL_CYCLE_S, pass_speeds, speed_cautions
 
 
 class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
@@ -52,35 +39,29 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
         return axes_around(car, parameters.measurements_distance_m)
 
     def measure(self, line: Axis, parameters: AutolockParameters, robot: Robot, car: Car) -> AutolockResult:
-        """The thesis' algorithm 2 for one axis."""
-        unlock, lock = _Measured(), _Measured()
-        trouble: LineInvalid | None = None
-        axis, origin_sigma_m = line.ray, outline_sigma(line.ray, car.dimensions())
-
-        def place_of(event: CarEvent) -> Distance:
-            return robot.key_distance(axis, event.time_s, event.time_sigma_s, origin_sigma_m)
-
-        _take_up(unlock, robot.kept(UNLOCK))
-        _take_up(lock, robot.kept(LOCK))
+        """The thesis' algorithm 2 for one axis, and further passes at other speeds."""
+        first, *further = planned_passes(parameters, car.facts.told_every_s)
+        course, done, trouble = Course(line, parameters, robot, car), [first], None
         try:
-            if unlock.distance is None:
-                _go_to_start(line, parameters, robot, car)
-            with robot.watched(parameters) as watch:
-                if unlock.distance is None:
-                    _approach(axis, watch, parameters, robot)
-                    _record(unlock, watch, parameters, place_of)
-                    robot.keep(UNLOCK, unlock.status, unlock.distance)
-                elif lock.distance is None:
-                    come_back(axis, unlock.distance, robot)
-                if lock.distance is None:
-                    _retreat(axis, watch, parameters, robot, is_unlocked=unlock.distance is not None)
-                    _record(lock, watch, parameters, place_of)
-                    robot.keep(LOCK, lock.status, lock.distance)
+            course.measure(first)
+            if first.is_complete:
+                done += _further(course, first, further, robot)
         except LineInvalid as error:
             trouble = error
-            if unlock.time_s >= error.since_s:
-                unlock = _Measured()
-        return _result(line, unlock, lock, trouble)
+            if first.unlock.time_s >= error.since_s:
+                first.unlock = Measured()
+        result = _result(line, done, trouble, car.facts.told_every_s)
+        others = [each for each in robot.results if isinstance(each, AutolockResult) and each.axis != line.number]
+        return with_boundaries([*others, result], parameters, [result])[0]
+
+    def concluded(self, parameters: AutolockParameters, results: Sequence[AutolockResult]) -> list[AutolockResult]:
+        """See Scenario: what all axes say of the Car's reaction time moves the boundary of each."""
+        revised = with_boundaries(results, parameters, results)
+        return [new for new, old in zip(revised, results) if new != old]
+
+    def cautions(self, parameters: AutolockParameters, facts: LockFacts) -> Sequence[str]:
+        """See Scenario."""
+        return tuple(speed_cautions(parameters, facts.told_every_s))
 
     def can_go_on(self, line: Axis, parameters: AutolockParameters, robot: Robot, car: Car) -> bool:
         """See Scenario."""
@@ -107,82 +88,62 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
     def expected_line_s(self, parameters: AutolockParameters) -> float:
         """See Scenario: the Car is taken to unlock half way between the straightening's end and the minimum."""
         straight_m = parameters.straightened_distance_m - parameters.minimum_distance_m
-        return (parameters.straightening_distance_m / parameters.maximum_speed_mps
-                + straight_m / parameters.speed_on_axis_mps)
+        first_mps, *others_mps = (each.speed_mps for each in planned_passes(parameters, USUAL_CYCLE_S))
+        return (parameters.straightening_distance_m / parameters.maximum_speed_mps + straight_m / first_mps
+                + sum(TURNING_S + FURTHER_M / speed_mps for speed_mps in others_mps))
 
 
-def _go_to_start(line: Axis, parameters: AutolockParameters, robot: Robot, car: Car) -> None:
-    robot.say(f"axis {line.number} ({line.side.replace('_', ' ')}): go to the start")
-    robot.set_maximum_speed(parameters.maximum_speed_mps)
-    robot.go_to(line.ray, parameters.maximum_distance_m)
-    robot.wait_until_reached()
-    robot.wait(parameters.lock_timeout_s, or_when=lambda: car.is_locked() and not robot.trouble())
-    if robot.trouble():
-        raise LineInvalid(robot.trouble())
-    if not car.is_locked():
-        raise LineInvalid(
-            f"The Car was still unlocked {parameters.lock_timeout_s:g} s after the robot had reached the starting "
-            f"distance of {parameters.maximum_distance_m:g} m; lock it with its key, or increase maximum_distance_m if "
-            "it locks farther away.")
+def planned_passes(parameters: AutolockParameters, cycle_s: float) -> list[AxisPass]:
+    """Passes of each axis, not yet measured; one in steps is the last, and retreats as slowly as the slowest."""
+    speeds_mps = pass_speeds(parameters, cycle_s)
+    passes = [AxisPass(number, speed_mps) for number, speed_mps in enumerate(speeds_mps, 1)]
+    if parameters.last_step_m is not None:
+        passes.append(AxisPass(len(passes) + 1, min(speeds_mps), parameters.last_step_m))
+    return passes
 
 
-def _approach(axis: Ray, watch: LineWatch, parameters: AutolockParameters, robot: Robot) -> None:
-    robot.say("approach until the Car unlocks")
-    watch.expect(Expected(LockState.UNLOCKED, PASSIVE_ENTRY, _VICINITY, robot.now_s))
-    robot.go_to(axis, parameters.straightened_distance_m, Direction.FORWARD)
-    robot.wait_until_reached(or_when=lambda: watch.answer)
-    watch.ray = axis
-    robot.set_maximum_speed(parameters.speed_on_axis_mps)
-    if not watch.answer:
-        robot.go_to(axis, parameters.minimum_distance_m, Direction.FORWARD)
-        robot.wait_until_reached(or_when=lambda: watch.answer)
-    robot.wait(parameters.response_timeout_s, or_when=lambda: watch.answer)
+def _further(course: Course, first: AxisPass, passes: Sequence[AxisPass], robot: Robot) -> list[AxisPass]:
+    """Those that came to their end: each is tried twice, and one that fails takes nothing from the others but what it
+    makes doubtful; LineInvalid when that is the first pass."""
+    done: list[AxisPass] = []
+    for this in passes:
+        for planned in (this, AxisPass(this.number, this.speed_mps, this.step_m)):
+            try:
+                course.measure(planned, first)
+            except LineInvalid as error:
+                if first.lock.time_s >= error.since_s:
+                    first.lock = Measured()
+                    raise
+                done = [each for each in done if each.lock.time_s < error.since_s]
+                robot.say(f"warning: pass {planned.number} of this axis was not measured. {error}")
+            else:
+                done.append(planned)
+                break
+    return done
 
 
-def _take_up(measured: _Measured, kept: Distance | None) -> None:
-    if kept is not None:
-        measured.distance, measured.status, measured.time_s = kept, LineStatus.OK, kept.robot_time_s
-
-
-def _retreat(axis: Ray, watch: LineWatch, parameters: AutolockParameters, robot: Robot, is_unlocked: bool) -> None:
-    robot.say("retreat until the Car locks")
-    watch.ray = axis
-    if is_unlocked:
-        watch.expect(Expected(LockState.LOCKED, PASSIVE_ENTRY, _VICINITY, robot.now_s))
-    else:
-        watch.close()
-    robot.go_to(axis, parameters.straightened_distance_m, Direction.BACKWARD)
-    robot.wait_until_reached(or_when=lambda: watch.answer)
-    robot.wait(parameters.response_timeout_s, or_when=lambda: watch.answer)
-    # What a single frame says may be a glitch: the one before was followed by the retreat, this one by nothing.
-    robot.wait(watch.confirmed_s - robot.now_s if watch.answer else 0.0)
-
-
-def _record(measured: _Measured, watch: LineWatch, parameters: AutolockParameters,
-            place_of: Callable[[CarEvent], Distance]) -> None:
-    event = watch.answer
-    if event is None:
-        measured.status, measured.time_s = LineStatus.NOT_REACHED, watch.now_s
-        return
-    distance = place_of(event)
-    watch.check_distance(distance, parameters.minimum_distance_m, parameters.maximum_distance_m,
-                         parameters.maximum_speed_mps)
-    measured.distance = replace(distance, source=event.source)
-    measured.status, measured.time_s = LineStatus.OK, event.time_s
-
-
-def _result(line: Axis, unlock: _Measured, lock: _Measured, trouble: LineInvalid | None) -> AutolockResult:
-    axis = line.ray
+def _result(line: Axis, passes: Sequence[AxisPass], trouble: LineInvalid | None, cycle_s: float) -> AutolockResult:
+    axis, first = line.ray, passes[0]
     return AutolockResult(line.number, line.side, axis.origin_x, axis.origin_y, axis.direction_x, axis.direction_y,
                           reason=str(trouble or ""), evidence=trouble.evidence if trouble else (),
-                          **_columns(UNLOCK, unlock), **_columns(LOCK, lock))
+                          told_every_s=cycle_s, **_columns(UNLOCK, first.unlock), **_columns(LOCK, first.lock),
+                          **_pass_columns(UNLOCK, [(each.unlock, each.step_m) for each in passes]),
+                          **_pass_columns(LOCK, [(each.lock, None) for each in passes]))
 
 
-def _columns(word: str, measured: _Measured) -> dict[str, Any]:
+def _columns(word: str, measured: Measured) -> dict[str, Any]:
     distance_m, uncertainty_m, robot_time_s = recorded_values(measured.distance)
     return {f"{word}_status": measured.status, f"{word}_distance_m": distance_m,
             f"{word}_uncertainty_m": uncertainty_m, f"{word}_robot_time_s": robot_time_s,
             **carried_values(f"{word}_", measured.distance)}
+
+
+def _pass_columns(word: str, passes: Sequence[tuple[Measured, float | None]]) -> dict[str, Any]:
+    """Of a pass in steps the speed is 0: the key stood."""
+    known = [(each.distance, step_m) for each, step_m in passes if each.distance is not None]
+    return {f"{word}_pass_distances_m": tuple(round(distance.distance_m, 6) for distance, _ in known),
+            f"{word}_pass_speeds_mps": tuple(0.0 if step_m else round(abs(distance.speed_mps), 6)
+                                             for distance, step_m in known)}
 
 
 def _area(label: str, role: PointRole, measured: Sequence[tuple[Ray, MeasuredDistance]]) -> PointSet:

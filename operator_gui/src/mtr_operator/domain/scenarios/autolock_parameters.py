@@ -5,8 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..errors import InvalidParameter
+from ..parameter_lists import MAX_NUMBERS, parameter_list
 from ..parameters import CENTIMETRES, KILOMETRES_PER_HOUR, parameter
 from ..scenario import ScenarioParameters
+
+MIN_SPEED_MPS = 0.05
 
 
 @dataclass(frozen=True)
@@ -23,8 +26,19 @@ class AutolockParameters(ScenarioParameters):
     maximum_speed_mps: float = parameter(1.0, 0.05, 2.0, "m/s", "Speed limit on the whole way.",
                                          shown=KILOMETRES_PER_HOUR)
     measuring_speed_mps: float | None = parameter(
-        None, 0.05, 2.0, "m/s", "Speed limit while approaching and retreating; default: the maximum speed.",
+        None, MIN_SPEED_MPS, 2.0, "m/s", "Speed limit while approaching and retreating; default: the maximum speed.",
         shown=KILOMETRES_PER_HOUR)
+    passes: int = parameter(
+        1, 1, MAX_NUMBERS, "", "Approaches and retreats on each axis; those at two speeds tell the Car's reaction time "
+                               "from the static boundary.")
+    measuring_speeds_mps: tuple[float, ...] | None = parameter_list(
+        MIN_SPEED_MPS, 2.0, "m/s", "Speed limits of the passes, in turn; default: proposed from the cycle of the Car's "
+                                   "message.", shown=KILOMETRES_PER_HOUR)
+    boundary_sigma_m: float = parameter(
+        0.03, 0.005, 1.0, "m", "Sigma of the static boundary for which the speeds are proposed.", shown=CENTIMETRES)
+    last_step_m: float | None = parameter(
+        None, 0.01, 0.5, "m", "Step of one more approach, with a stop for the response time after each, for Cars that "
+                              "poll slowly; default: none.", shown=CENTIMETRES)
     clearance_m: float = parameter(
         0.3, 0.0, 5.0, "m", "Gap that has to remain between Remote key and Car.")
     response_timeout_s: float = parameter(
@@ -48,6 +62,17 @@ class AutolockParameters(ScenarioParameters):
         if self.speed_on_axis_mps > self.maximum_speed_mps:
             raise InvalidParameter(f"Parameter measuring_speed_mps is {self.speed_on_axis_mps:g} m/s; allowed is at "
                                    f"most maximum_speed_mps, {self.maximum_speed_mps:g} m/s.")
+        self._check_speeds(self.measuring_speeds_mps or ())
+
+    def _check_speeds(self, speeds_mps: tuple[float, ...]) -> None:
+        if speeds_mps and max(speeds_mps) > self.maximum_speed_mps:
+            raise InvalidParameter(f"Parameter measuring_speeds_mps is {max(speeds_mps):g} m/s; allowed is at most "
+                                   f"maximum_speed_mps, {self.maximum_speed_mps:g} m/s.")
+        if speeds_mps and self.measuring_speed_mps is not None:
+            raise InvalidParameter("Parameters measuring_speed_mps and measuring_speeds_mps are both given; give one.")
+        if len(speeds_mps) > self.passes:
+            raise InvalidParameter(f"Parameter passes is {self.passes}; allowed is at least one for each of the "
+                                   f"{len(speeds_mps)} speeds of measuring_speeds_mps.")
 
     @property
     def speed_on_axis_mps(self) -> float:

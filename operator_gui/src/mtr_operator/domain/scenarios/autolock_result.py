@@ -3,13 +3,39 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from ..geometry.ray import Ray
 from ..results.carried import CAUSE_DOC, HEADING_DOC, HEIGHT_DOC, LATERAL_DOC, SPEED_DOC
-from ..results.document import OptionalFloat, Texts
+from ..results.document import Floats, OptionalFloat, Texts
 from ..results.line_result import LineResult, LineStatus, MeasuredDistance, column, stored
 
 UNLOCK, LOCK = "unlock", "lock"
+
+
+def pass_word(word: str, number: int) -> str:
+    """What a point of a pass is called in the journal: "unlock", "unlock 2"."""
+    return word if number == 1 else f"{word} {number}"
+
+
+def _distances(event: str) -> Any:
+    return column(f"Remote key at each pass when the Car {event}, with its reaction time, in the order of the passes",
+                  "m", default=())
+
+
+def _speeds(event: str) -> Any:
+    return column(f"speed of the robot at each of these passes; 0 for an approach in steps, when the Car {event}",
+                  "m/s", default=())
+
+
+def _static(what: str, unit: str = "m") -> Any:
+    return column(what, unit, default=None)
+
+
+STATIC_DOC = "static boundary: where a standing Remote key is noticed every other time, by all passes, when the Car"
+_OF_PASSES = tuple(f"{word}_{name}" for word in (UNLOCK, LOCK) for name in (
+    "passes", "pass_distances_m", "pass_speeds_mps", "static_m", "static_sigma_m", "static_low_m", "static_high_m",
+    "reaction_s", "reaction_low_s", "reaction_high_s"))
 
 
 @dataclass(frozen=True)
@@ -21,7 +47,7 @@ class AutolockResult(LineResult):
                   "lock_distance_m", "lock_uncertainty_m", "lock_robot_time_s", "lock_status",
                   "unlock_lateral_offset_m", "unlock_heading_offset_deg", "unlock_key_height_m", "unlock_speed_mps",
                   "unlock_cause", "lock_lateral_offset_m", "lock_heading_offset_deg", "lock_key_height_m",
-                  "lock_speed_mps", "lock_cause", "evidence")
+                  "lock_speed_mps", "lock_cause", *_OF_PASSES, "told_every_s", "evidence")
 
     axis: int = column("number of the axis, clockwise around the Car")
     side: str = column("side or corner of the Car that the axis belongs to")
@@ -48,6 +74,29 @@ class AutolockResult(LineResult):
     lock_key_height_m: OptionalFloat = column(f"{HEIGHT_DOC} when the Car locked", "m", default=None)
     lock_speed_mps: OptionalFloat = column(f"{SPEED_DOC} when the Car locked", "m/s", default=None)
     lock_cause: str = column(f"what locked the Car: {CAUSE_DOC}", default="")
+    unlock_passes: int = column(
+        "passes at which the Car unlocked; unlock_distance_m is the first one's, reaction time inside", default=0)
+    unlock_pass_distances_m: Floats = _distances("unlocked")
+    unlock_pass_speeds_mps: Floats = _speeds("unlocked")
+    unlock_static_m: OptionalFloat = _static(f"{STATIC_DOC} unlocked")
+    unlock_static_sigma_m: OptionalFloat = _static("1 sigma of unlock_static_m, spread of the passes included")
+    unlock_static_low_m: OptionalFloat = _static("lower end of the 95 % interval of unlock_static_m")
+    unlock_static_high_m: OptionalFloat = _static("upper end of the 95 % interval of unlock_static_m")
+    unlock_reaction_s: OptionalFloat = _static("the Car's mean reaction time until it was unlocked", "s")
+    unlock_reaction_low_s: OptionalFloat = _static("lower end of the 95 % interval of unlock_reaction_s", "s")
+    unlock_reaction_high_s: OptionalFloat = _static("upper end of the 95 % interval of unlock_reaction_s", "s")
+    lock_passes: int = column(
+        "passes at which the Car locked; lock_distance_m is the first one's, reaction time inside", default=0)
+    lock_pass_distances_m: Floats = _distances("locked")
+    lock_pass_speeds_mps: Floats = _speeds("locked")
+    lock_static_m: OptionalFloat = _static(f"{STATIC_DOC} locked")
+    lock_static_sigma_m: OptionalFloat = _static("1 sigma of lock_static_m, spread of the passes included")
+    lock_static_low_m: OptionalFloat = _static("lower end of the 95 % interval of lock_static_m")
+    lock_static_high_m: OptionalFloat = _static("upper end of the 95 % interval of lock_static_m")
+    lock_reaction_s: OptionalFloat = _static("the Car's mean reaction time until it was locked", "s")
+    lock_reaction_low_s: OptionalFloat = _static("lower end of the 95 % interval of lock_reaction_s", "s")
+    lock_reaction_high_s: OptionalFloat = _static("upper end of the 95 % interval of lock_reaction_s", "s")
+    told_every_s: OptionalFloat = stored(None)
     evidence: Texts = stored(())
 
     @property
@@ -67,6 +116,17 @@ class AutolockResult(LineResult):
 
     @property
     def distances(self) -> tuple[MeasuredDistance, ...]:
-        """See LineResult."""
-        return (MeasuredDistance(UNLOCK, self.unlock_status, self.unlock_distance_m, self.unlock_uncertainty_m),
-                MeasuredDistance(LOCK, self.lock_status, self.lock_distance_m, self.lock_uncertainty_m))
+        """See LineResult: the static boundaries, if passes tell them, else those of the one pass."""
+        return self._distance(UNLOCK, self.unlock_status), self._distance(LOCK, self.lock_status)
+
+    def passes(self, word: str) -> tuple[tuple[float, float], ...]:
+        """Distance in m and speed in m/s, 0 for one in steps, of each pass at which the Car reacted."""
+        return tuple(zip(getattr(self, f"{word}_pass_distances_m"), getattr(self, f"{word}_pass_speeds_mps")))
+
+    def _distance(self, word: str, status: LineStatus) -> MeasuredDistance:
+        static_m, sigma_m, low_m, high_m = (getattr(self, f"{word}_static_{name}")
+                                            for name in ("m", "sigma_m", "low_m", "high_m"))
+        if static_m is not None and status is LineStatus.OK:
+            return MeasuredDistance(word, status, static_m, sigma_m, low_m, high_m)
+        return MeasuredDistance(word, status, getattr(self, f"{word}_distance_m"),
+                                getattr(self, f"{word}_uncertainty_m"))

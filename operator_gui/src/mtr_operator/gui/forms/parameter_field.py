@@ -7,7 +7,7 @@ from typing import Any
 from PyQt5.QtWidgets import QWidget
 
 from mtr_operator.domain.parameters import Declaration
-from mtr_operator.station.number_text import Fault, Reading, read, shown_number, shown_range, written
+from mtr_operator.station.number_text import Fault, Reading, read, shown_range, shown_value, written
 
 from ..i18n import decimal_sign, translate
 from ..names import parameter_doc, parameter_title
@@ -29,7 +29,7 @@ class ParameterField(Field):
 
     def show_value(self, value: Any) -> None:
         """Show an SI value; None empties the field."""
-        self.edit.setText(written(shown_number(self._declared, value), decimal_sign()))
+        self.edit.setText(shown_value(self._declared, value, decimal_sign()))
 
     def check(self) -> bool:
         """Show what is wrong with the text; True when nothing is."""

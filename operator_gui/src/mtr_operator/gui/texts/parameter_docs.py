@@ -11,6 +11,13 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("ParameterDoc", "Height of the Remote key above ground."),
     QT_TRANSLATE_NOOP("ParameterDoc", "Speed limit on the whole way."),
     QT_TRANSLATE_NOOP("ParameterDoc", "Speed limit while approaching and retreating; default: the maximum speed."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Approaches and retreats on each axis; those at two speeds tell the Car's "
+                                      "reaction time from the static boundary."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Speed limits of the passes, in turn; default: proposed from the cycle of the "
+                                      "Car's message."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Sigma of the static boundary for which the speeds are proposed."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Step of one more approach, with a stop for the response time after each, for "
+                                      "Cars that poll slowly; default: none."),
     QT_TRANSLATE_NOOP("ParameterDoc", "Gap that has to remain between Remote key and Car."),
     QT_TRANSLATE_NOOP("ParameterDoc", "How long the Car may take to react at the end of the approach and of the "
                                       "retreat."),

@@ -493,74 +493,94 @@
         <translation>Rychlost měření</translation>
     </message>
     <message>
-        <location filename="../names.py" line="25"/>
+        <location filename="../names.py" line="29"/>
         <source>Clearance</source>
         <translation>Odstup</translation>
     </message>
     <message>
-        <location filename="../names.py" line="26"/>
+        <location filename="../names.py" line="30"/>
         <source>Response time</source>
         <translation>Doba odezvy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="27"/>
+        <location filename="../names.py" line="31"/>
         <source>Locking time</source>
         <translation>Doba zamčení</translation>
     </message>
     <message>
-        <location filename="../names.py" line="28"/>
+        <location filename="../names.py" line="32"/>
         <source>Press strength</source>
         <translation>Síla stisku</translation>
     </message>
     <message>
-        <location filename="../names.py" line="29"/>
+        <location filename="../names.py" line="33"/>
         <source>Press duration</source>
         <translation>Délka stisku</translation>
     </message>
     <message>
-        <location filename="../names.py" line="30"/>
+        <location filename="../names.py" line="34"/>
         <source>Standstill before a press</source>
         <translation>Klid před stiskem</translation>
     </message>
     <message>
-        <location filename="../names.py" line="31"/>
+        <location filename="../names.py" line="35"/>
         <source>Attempts</source>
         <translation>Počet pokusů</translation>
     </message>
     <message>
-        <location filename="../names.py" line="51"/>
+        <location filename="../names.py" line="55"/>
         <source>Check the Car&apos;s position before the test</source>
         <translation>Před testem ověřit polohu auta</translation>
     </message>
     <message>
-        <location filename="../names.py" line="57"/>
+        <location filename="../names.py" line="61"/>
         <source>yes</source>
         <translation>ano</translation>
     </message>
     <message>
-        <location filename="../names.py" line="57"/>
+        <location filename="../names.py" line="61"/>
         <source>no</source>
         <translation>ne</translation>
     </message>
     <message>
-        <location filename="../names.py" line="32"/>
+        <location filename="../names.py" line="36"/>
         <source>Distance beside the line</source>
         <translation>Odchylka od osy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="33"/>
+        <location filename="../names.py" line="37"/>
         <source>Turn from the line</source>
         <translation>Natočení od osy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="34"/>
+        <location filename="../names.py" line="38"/>
         <source>Difference in height</source>
         <translation>Odchylka výšky</translation>
     </message>
     <message>
-        <location filename="../names.py" line="35"/>
+        <location filename="../names.py" line="39"/>
         <source>Difference in speed</source>
         <translation>Odchylka rychlosti</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="25"/>
+        <source>Passes</source>
+        <translation>Průjezdy</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="26"/>
+        <source>Speeds of the passes</source>
+        <translation>Rychlosti průjezdů</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="27"/>
+        <source>Sigma of the boundary</source>
+        <translation>Sigma hranice</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="28"/>
+        <source>Step of a last approach</source>
+        <translation>Krok posledního přiblížení</translation>
     </message>
 </context>
 <context>
@@ -689,6 +709,26 @@
         <location filename="../texts/parameter_docs.py" line="5"/>
         <source>How much faster than wanted the robot may be when something is measured.</source>
         <translation>O kolik smí robot jet rychleji, než má, když se měří.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Approaches and retreats on each axis; those at two speeds tell the Car&apos;s reaction time from the static boundary.</source>
+        <translation>Přiblížení a vzdálení na každé ose; dvě rychlosti oddělí reakční dobu vozu od statické hranice.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Speed limits of the passes, in turn; default: proposed from the cycle of the Car&apos;s message.</source>
+        <translation>Nejvyšší rychlosti průjezdů, postupně; výchozí: navržené podle periody zprávy vozu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Sigma of the static boundary for which the speeds are proposed.</source>
+        <translation>Sigma statické hranice, pro kterou se rychlosti navrhují.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Step of one more approach, with a stop for the response time after each, for Cars that poll slowly; default: none.</source>
+        <translation>Krok ještě jednoho přiblížení se zastavením na dobu odezvy po každém kroku, pro vozy s pomalým dotazováním; výchozí: žádný.</translation>
     </message>
 </context>
 <context>
@@ -2094,6 +2134,46 @@
         <location filename="../texts/limits.py" line="5"/>
         <source>Limits {} and {} contradict each other on {} {}: {}, {}.</source>
         <translation>Meze {} a {} si odporují ({} {}): {}, {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/passes.py" line="5"/>
+        <source>warning: {}</source>
+        <translation>upozornění: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/passes.py" line="5"/>
+        <source>pass {}: approach until the Car unlocks</source>
+        <translation>průjezd {}: přiblížení, dokud se vůz neodemkne</translation>
+    </message>
+    <message>
+        <location filename="../texts/passes.py" line="5"/>
+        <source>warning: pass {} of this axis was not measured. {}</source>
+        <translation>upozornění: průjezd {} této osy nebyl změřen. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/passes.py" line="5"/>
+        <source>All passes have about the same speed, so that the Car&apos;s reaction time stays inside the distances; give measuring_speeds_mps two speeds.</source>
+        <translation>Všechny průjezdy mají přibližně stejnou rychlost, takže reakční doba vozu zůstává ve vzdálenostech; zadejte do measuring_speeds_mps dvě rychlosti.</translation>
+    </message>
+    <message>
+        <location filename="../texts/passes.py" line="5"/>
+        <source>At {} m/s, with a message of the Car every {} s, the static boundary of an axis has a sigma of {} m; boundary_sigma_m asks for {} m. Pass more slowly.</source>
+        <translation>Při {} m/s a zprávě vozu každých {} s má statická hranice osy sigma {} m; boundary_sigma_m žádá {} m. Projíždějte pomaleji.</translation>
+    </message>
+    <message>
+        <location filename="../texts/passes.py" line="5"/>
+        <source>Parameters measuring_speed_mps and measuring_speeds_mps are both given; give one.</source>
+        <translation>Parametry measuring_speed_mps a measuring_speeds_mps jsou zadány oba; zadejte jeden.</translation>
+    </message>
+    <message>
+        <location filename="../texts/passes.py" line="5"/>
+        <source>Parameter passes is {}; allowed is at least one for each of the {} speeds of measuring_speeds_mps.</source>
+        <translation>Parametr passes je {}; dovolen je alespoň jeden pro každou z {} rychlostí v measuring_speeds_mps.</translation>
+    </message>
+    <message>
+        <location filename="../texts/passes.py" line="5"/>
+        <source>Parameter {} is {}; allowed is a list of numbers, {}.</source>
+        <translation>Parametr {} je {}; dovolen je seznam čísel, {}.</translation>
     </message>
 </context>
 <context>

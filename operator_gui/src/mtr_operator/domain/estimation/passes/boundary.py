@@ -12,26 +12,13 @@ from dataclasses import dataclass
 from typing import Sequence
 
 import numpy as np
-from scipy.special import logsumexp
 
-from ..interval import FloatArray, Interval, interval_of
-from .reaction import STEP_M, depths, reaction_table
-from .timing import DELAYS_S, PRIOR, TIMINGS
+from ..interval import UNKNOWN, FloatArray, Interval, interval_of
+from .delay import base_delay
+from .likelihood import Circumstances, Pass, evidence_of, likelihood_of
+from .timing import DELAYS_S, MAX_REACTION_S, PRIOR, TIMINGS
 
-# How far from the event the boundary is looked for, in steps of the table.
-_BINS = 400
-# Speeds are told apart by this; tables are made once for each.
-_SPEED_STEP_MPS = 0.005
-
-
-@dataclass(frozen=True)
-class Pass:
-    """One event: the key's distance at it, and its speed. outward: the key went away (lock), else it came (unlock)."""
-
-    distance_m: float
-    speed_mps: float
-    outward: bool = False
-
+__all__ = ["NO_BOUNDARY", "Boundary", "BoundaryCampaign", "Pass"]
 
 @dataclass(frozen=True)
 class Boundary:
@@ -41,54 +28,45 @@ class Boundary:
     reaction_s: Interval
 
 
+NO_BOUNDARY = Boundary(UNKNOWN, UNKNOWN)
+
+
 class BoundaryCampaign:
-    """Axes of one Car; cycle_s: of the message that tells the state, sigma_m: of the key's place."""
+    """Axes of one Car; cycle_s: of the message that tells the state, sigma_m: of the key's place from pass to pass."""
 
     def __init__(self, cycle_s: float, sigma_m: float = 0.003):
         self._cycle_s = cycle_s
         self._sigma_m = sigma_m
-        self._tables: dict[int, FloatArray] = {}
-        self._axes: dict[int, tuple[FloatArray, FloatArray]] = {}
-        self._evidence: dict[int, FloatArray] = {}
+        self._passes: dict[int, tuple[Pass, ...]] = {}
 
     def keep(self, axis: int, passes: Sequence[Pass]) -> None:
         """Take or replace all passes of an axis in one direction."""
-        # Along the way: outward counts as it is, inward with its sign turned, so that depth is boundary to event.
-        along_m = np.array([each.distance_m if each.outward else -each.distance_m for each in passes])
-        slowest = min(range(len(passes)), key=lambda number: passes[number].speed_mps)
-        boundary_m = along_m[slowest] + STEP_M * (np.arange(_BINS) - 0.75 * _BINS)
-        log = sum(self._log(each.speed_mps, place_m - boundary_m) for each, place_m in zip(passes, along_m))
-        signed_m = boundary_m if passes[0].outward else -boundary_m
-        self._axes[axis] = signed_m, np.asarray(log)
-        self._evidence[axis] = np.asarray(logsumexp(log, axis=-1))
+        self._passes[axis] = tuple(passes)
 
     def boundary(self, axis: int) -> Boundary:
-        """With what the other axes say of the Car."""
-        others = [evidence for number, evidence in self._evidence.items() if number != axis]
+        """With what the other axes say of the Car; NO_BOUNDARY for an axis without passes."""
+        if not self._passes.get(axis):
+            return NO_BOUNDARY
+        base_s = base_delay([[(each.along_m, each.speed_mps) for each in passes if each.steps is None]
+                             for passes in self._passes.values()])
+        given = Circumstances(self._cycle_s, self._sigma_m, base_s)
+        others = [evidence_of(passes, given) for number, passes in self._passes.items() if passes and number != axis]
         prior = np.log(PRIOR)[:, None] + sum(others)
-        boundary_m, log = self._axes[axis]
+        boundary_m, log = likelihood_of(self._passes[axis], given)
         total = log + prior[..., None]
         weights = np.exp(total - np.max(total))
-        order = np.argsort(boundary_m)
-        edges_m = np.append(boundary_m[order] - STEP_M / 2.0, boundary_m[order][-1] + STEP_M / 2.0)
-        return Boundary(interval_of(edges_m, np.sum(weights, axis=(0, 1))[order]),
-                        self._reaction(np.sum(weights, axis=2)))
+        half_m = (boundary_m[1] - boundary_m[0]) / 2.0
+        places_m, counts = boundary_m, np.sum(weights, axis=(0, 1))
+        if not self._passes[axis][0].outward:
+            places_m, counts = -boundary_m[::-1], counts[::-1]
+        return Boundary(interval_of(np.append(places_m - half_m, places_m[-1] + half_m), counts),
+                        _reaction(np.sum(weights, axis=2), base_s))
 
-    def _log(self, speed_mps: float, depth_m: FloatArray) -> FloatArray:
-        """Axes [timing, delay, boundary]."""
-        key = max(1, round(speed_mps / _SPEED_STEP_MPS))
-        if key not in self._tables:
-            self._tables[key] = reaction_table(key * _SPEED_STEP_MPS, self._cycle_s, self._sigma_m)
-        table, first_m = self._tables[key], depths()[0]
-        late_m = depth_m - speed_mps * np.array(DELAYS_S)[:, None]
-        bins = np.clip(np.round((late_m - first_m) / STEP_M).astype(int), 0, table.shape[1] - 1)
-        return np.asarray(np.log(table[:, bins]))
 
-    @staticmethod
-    def _reaction(weights: FloatArray) -> Interval:
-        """Mean reaction time of each hypothesis, weighted; axes of the weights [timing, delay]."""
-        times_s = np.array([[timing.poll_s * (timing.debounce - 0.5) + delay_s for delay_s in DELAYS_S]
-                            for timing in TIMINGS])
-        edges_s = np.arange(0.0, 3.2, 0.01)
-        counts, _ = np.histogram(times_s, edges_s, weights=weights)
-        return interval_of(edges_s, counts.astype(float))
+def _reaction(weights: FloatArray, base_s: float) -> Interval:
+    """Mean reaction time of each hypothesis, weighted; axes of the weights [timing, delay]."""
+    times_s = np.array([[timing.poll_s * (timing.debounce - 0.5) + base_s + delay_s for delay_s in DELAYS_S]
+                        for timing in TIMINGS])
+    edges_s = np.arange(0.0, base_s + MAX_REACTION_S + 0.4, 0.01)
+    counts, _ = np.histogram(times_s, edges_s, weights=weights)
+    return interval_of(edges_s, counts.astype(float))

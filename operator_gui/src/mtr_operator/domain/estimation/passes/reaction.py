@@ -9,6 +9,7 @@ cycle, even within +- v * cycle_s / 2, and the place of the key by a normal of s
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -16,16 +17,16 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.special import ndtr
 
 from ..interval import FloatArray
-from .timing import TIMINGS, CarTiming
+from .timing import DEBOUNCES, NOISES_M, POLLS_S
 
 _PHASES = 24
 # Depths of which a table tells, in steps of 2 mm.
 STEP_M = 0.002
-MIN_DEPTH_M, MAX_DEPTH_M = -0.6, 2.4
+MIN_DEPTH_M, MAX_DEPTH_M = -1.2, 2.8
 # Beyond this many sigmas a poll does what the sign of the depth says.
 _CERTAIN_SIGMAS = 4.0
 # A pass that no timing explains (the Car was disturbed) leaves all places alike.
-_OUTLIER = 1e-4
+OUTLIER = 1e-4
 
 
 def depths() -> FloatArray:
@@ -35,25 +36,27 @@ def depths() -> FloatArray:
 
 def reaction_table(speed_mps: float, cycle_s: float, sigma_m: float) -> FloatArray:
     """Density of the depth, in 1/m; axes [timing, depth]."""
-    return np.stack([_told(_polled(timing, speed_mps), speed_mps * cycle_s, sigma_m) for timing in TIMINGS])
+    return np.stack([_told(row, speed_mps * cycle_s, sigma_m) for poll_s, debounce in itertools.product(
+        POLLS_S, DEBOUNCES) for row in _polled(speed_mps * poll_s, debounce)])
 
 
-def _polled(timing: CarTiming, speed_mps: float) -> FloatArray:
-    """Probability of each bin of depth at the poll that decides."""
-    step_m = speed_mps * timing.poll_s
-    start_m = -_CERTAIN_SIGMAS * timing.noise_m
-    polls = math.ceil((2.0 * _CERTAIN_SIGMAS * timing.noise_m) / step_m) + timing.debounce + 1
-    depth_m = start_m + (np.arange(polls)[:, None] + (np.arange(_PHASES) + 0.5) / _PHASES) * step_m
-    notices = ndtr(depth_m / timing.noise_m)
-    agreeing = np.zeros((timing.debounce, _PHASES))
+def _polled(step_m: float, debounce: int) -> list[FloatArray]:
+    """Probability of each bin of depth at the poll that decides, for each noise; step_m is the way between polls."""
+    noises_m = np.array(NOISES_M)[:, None]
+    polls = math.ceil(2.0 * _CERTAIN_SIGMAS * max(NOISES_M) / step_m) + debounce + 1
+    first_m = -_CERTAIN_SIGMAS * max(NOISES_M) + (np.arange(_PHASES) + 0.5) / _PHASES * step_m
+    agreeing = np.zeros((debounce, len(NOISES_M), _PHASES))
     agreeing[0] = 1.0
-    decided = np.zeros_like(depth_m)
-    for number, notice in enumerate(notices):
+    decided = np.zeros((polls, len(NOISES_M), _PHASES))
+    for number in range(polls):
+        notice = ndtr((first_m + number * step_m) / noises_m)
         decided[number] = agreeing[-1] * notice
         missed = np.sum(agreeing, axis=0) * (1.0 - notice)
         agreeing = np.concatenate((missed[None], agreeing[:-1] * notice))
+    depth_m = (first_m + np.arange(polls)[:, None] * step_m).ravel()
     # A phase stands for its part of the way between polls.
-    return _spread(depth_m.ravel(), decided.ravel() / _PHASES, step_m / _PHASES)
+    return [_spread(depth_m, decided[:, number].ravel() / _PHASES, step_m / _PHASES)
+            for number in range(len(NOISES_M))]
 
 
 def _spread(depth_m: FloatArray, weights: FloatArray, width_m: float) -> FloatArray:
@@ -71,4 +74,4 @@ def _told(polled: FloatArray, cycle_m: float, sigma_m: float) -> FloatArray:
     bins = max(1, round(cycle_m / STEP_M) | 1)
     even = np.convolve(polled, np.full(bins, 1.0 / bins), mode="same")
     blurred = gaussian_filter1d(even, sigma_m / STEP_M, mode="constant")
-    return np.asarray(blurred / STEP_M + _OUTLIER)
+    return np.asarray(blurred / STEP_M + OUTLIER)

@@ -30,3 +30,9 @@ def intercept_sigma(slow_mps: float, fast_mps: float, poll_s: float, cycle_s: fl
     if slow_mps == fast_mps:
         return math.inf
     return (math.sqrt(2.0) * slow_mps * fast_mps / abs(fast_mps - slow_mps)) * pass_sigma(1.0, poll_s, cycle_s)
+
+
+def proposed_slow_speed(sigma_m: float, fast_mps: float, poll_s: float, cycle_s: float) -> float:
+    """Speed of the slower of two passes at which their intercept has the sigma wanted, in m/s; below the faster."""
+    phases_s = pass_sigma(1.0, poll_s, cycle_s)
+    return sigma_m * fast_mps / (math.sqrt(2.0) * fast_mps * phases_s + sigma_m)

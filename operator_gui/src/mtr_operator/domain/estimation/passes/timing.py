@@ -11,11 +11,13 @@ import itertools
 from dataclasses import dataclass
 
 # Polls of real cars come every 100 to 700 ms; faster ones are as good as continuous.
-POLLS_S = (0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.3, 0.36, 0.43, 0.5, 0.6, 0.7, 0.85)
+POLLS_S = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.36, 0.43, 0.5, 0.6, 0.7, 0.85)
 DEBOUNCES = (1, 2, 3)
 # Of 0.1 to 1 dB of noise in time at 60 dB a decade and 1.5 m; inductive fields of low frequency hardly fade.
-NOISES_M, NOISE_PRIOR = (0.005, 0.012, 0.025, 0.06), (0.4, 0.3, 0.2, 0.1)
+NOISES_M, NOISE_PRIOR = (0.005, 0.012, 0.03, 0.07, 0.15, 0.3), (0.25, 0.25, 0.2, 0.15, 0.1, 0.05)
 DELAYS_S = tuple(0.04 * number for number in range(11))
+# Longest reaction that polls, debounce and these delays explain.
+MAX_REACTION_S = max(POLLS_S) * max(DEBOUNCES) + max(DELAYS_S)
 
 
 @dataclass(frozen=True)

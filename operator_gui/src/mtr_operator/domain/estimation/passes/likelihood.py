@@ -1,0 +1,94 @@
+"""What the passes of one axis make of each place of the boundary, for each hypothesis on the Car's timing."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import functools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import logsumexp
+
+from ..interval import FloatArray
+from .reaction import MIN_DEPTH_M, STEP_M, depths, reaction_table
+from .steps import Steps, steps_table
+from .timing import DELAYS_S, MAX_REACTION_S
+
+# Places at which the boundary may be.
+_BINS = 400
+# Tables are made for speeds that differ by this; depths in between are scaled, as most of them goes with the speed.
+_SPEED_RATIO = 1.06
+
+
+@dataclass(frozen=True)
+class Pass:
+    """One event: the key's distance at it, and its speed. outward: the key went away (lock), else it came (unlock).
+
+    steps: of an approach in steps, whose speed says nothing; None for a key that moves.
+    """
+
+    distance_m: float
+    speed_mps: float
+    outward: bool = False
+    steps: Steps | None = None
+
+    @property
+    def along_m(self) -> float:
+        """Place along the way: it grows outward and inward, so that depth is boundary to event."""
+        return self.distance_m if self.outward else -self.distance_m
+
+
+@dataclass(frozen=True)
+class Circumstances:
+    """What all passes have in common.
+
+    cycle_s: of the message that tells the state. sigma_m: of the key's place. base_s: delay on top of all hypotheses.
+    """
+
+    cycle_s: float
+    sigma_m: float
+    base_s: float
+
+
+def likelihood_of(passes: tuple[Pass, ...], given: Circumstances) -> tuple[FloatArray, FloatArray]:
+    """Places along the way, and the logarithm of what the passes make of each; axes [timing, delay, boundary]."""
+    first_m, last_m = (pick(end) for pick, end in zip((max, min), zip(*(_ends(each, given) for each in passes))))
+    boundary_m = np.linspace(first_m, max(last_m, first_m + _BINS * STEP_M), _BINS)
+    return boundary_m, np.asarray(sum(_log(each, each.along_m - boundary_m, given) for each in passes))
+
+
+@functools.lru_cache(maxsize=1024)
+def evidence_of(passes: tuple[Pass, ...], given: Circumstances) -> FloatArray:
+    """The same with the boundary integrated out; axes [timing, delay]."""
+    boundary_m, log = likelihood_of(passes, given)
+    return np.asarray(logsumexp(log, axis=-1) + math.log(boundary_m[1] - boundary_m[0]))
+
+
+def _ends(each: Pass, given: Circumstances) -> tuple[float, float]:
+    """Where the boundary of a pass may be, along the way."""
+    way_m = each.speed_mps * (given.base_s + MAX_REACTION_S) if each.steps is None else each.steps.step_m
+    return each.along_m - way_m + MIN_DEPTH_M / 4.0, each.along_m - MIN_DEPTH_M
+
+
+def _log(each: Pass, depth_m: FloatArray, given: Circumstances) -> FloatArray:
+    """Axes [timing, delay, boundary]."""
+    if each.steps is None:
+        number = round(math.log(each.speed_mps) / math.log(_SPEED_RATIO))
+        table = _pass_table(number, given.cycle_s, given.sigma_m)
+        late_m = depth_m - each.speed_mps * (given.base_s + np.array(DELAYS_S)[:, None])
+        late_m = late_m * (_SPEED_RATIO ** number / each.speed_mps)
+    else:
+        table = _steps_table(each.steps, given.sigma_m)
+        late_m = depth_m - np.zeros((len(DELAYS_S), 1))
+    bins = np.clip(np.round((late_m - depths()[0]) / STEP_M).astype(int), 0, table.shape[1] - 1)
+    return np.asarray(table[:, bins])
+
+
+@functools.lru_cache(maxsize=64)
+def _pass_table(number: int, cycle_s: float, sigma_m: float) -> FloatArray:
+    return np.log(reaction_table(_SPEED_RATIO ** number, cycle_s, sigma_m)).astype(np.float32)
+
+
+@functools.lru_cache(maxsize=8)
+def _steps_table(steps: Steps, sigma_m: float) -> FloatArray:
+    return np.log(steps_table(steps, sigma_m)).astype(np.float32)

@@ -1,0 +1,59 @@
+"""How fast the key passes on each go of an axis, and what that is worth on a Car that tells its state in cycles."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Iterator
+
+from ..estimation.passes.delay import has_two_speeds
+from ..estimation.passes.speeds import intercept_sigma, proposed_slow_speed
+from .autolock_parameters import MIN_SPEED_MPS, AutolockParameters
+
+# Most cars look for the key every 100 to 700 ms; no bus tells it.
+USUAL_POLL_S = 0.3
+# Bodies of cars tell the state of their locks every 20 to 800 ms.
+USUAL_CYCLE_S = 0.2
+# Of a further pass: what is driven at its speed, and the time to turn round and go back.
+FURTHER_M, TURNING_S = 1.7, 6.0
+# Proposed for the first of several passes.
+_FAST_MPS = 0.4
+
+
+def pass_speeds(parameters: AutolockParameters, cycle_s: float) -> tuple[float, ...]:
+    """Speed limit of each pass in m/s; cycle_s: of the message that tells the state of the locks."""
+    given = parameters.measuring_speeds_mps
+    if given is None and parameters.passes == 1:
+        given = (parameters.speed_on_axis_mps,)
+    elif given is None:
+        given = _proposed(parameters, cycle_s)
+    return tuple(given[number % len(given)] for number in range(parameters.passes))
+
+
+def expected_sigma(parameters: AutolockParameters, cycle_s: float) -> float:
+    """1 sigma in m of the static boundary of an axis from its own passes; infinite when they are at one speed."""
+    speeds_mps = pass_speeds(parameters, cycle_s)
+    if not has_two_speeds(speeds_mps):
+        return float("inf")
+    return intercept_sigma(min(speeds_mps), max(speeds_mps), USUAL_POLL_S, cycle_s)
+
+
+def speed_cautions(parameters: AutolockParameters, cycle_s: float) -> Iterator[str]:
+    """Sentences on speeds that do not hold the budget asked for."""
+    speeds_mps = pass_speeds(parameters, cycle_s)
+    if len(speeds_mps) == 1:
+        return
+    if not has_two_speeds(speeds_mps):
+        yield ("All passes have about the same speed, so that the Car's reaction time stays inside the distances; give "
+               "measuring_speeds_mps two speeds.")
+        return
+    sigma_m = expected_sigma(parameters, cycle_s)
+    # A hundredth over is rounding of the speed that was proposed.
+    if sigma_m > 1.01 * parameters.boundary_sigma_m:
+        yield (f"At {min(speeds_mps):.2f} m/s, with a message of the Car every {cycle_s:.2f} s, the static boundary of "
+               f"an axis has a sigma of {sigma_m:.3f} m; boundary_sigma_m asks for "
+               f"{parameters.boundary_sigma_m:.3f} m. Pass more slowly.")
+
+
+def _proposed(parameters: AutolockParameters, cycle_s: float) -> tuple[float, float]:
+    fast_mps = parameters.measuring_speed_mps or min(parameters.maximum_speed_mps, _FAST_MPS)
+    slow_mps = proposed_slow_speed(parameters.boundary_sigma_m, fast_mps, USUAL_POLL_S, cycle_s)
+    return fast_mps, max(MIN_SPEED_MPS, min(slow_mps, fast_mps / 2.0))
