@@ -48,6 +48,8 @@ def list_parameters(options: argparse.Namespace) -> None:
     for declared in SCENARIOS[options.scenario].parameters_type.declarations().values():
         default = "-" if declared.default is None else declared.text(declared.default)
         rows.append((declared.file_key, default, declared.allowed, declared.doc))
+    for name, chosen in SCENARIOS[options.scenario].parameters_type.choices().items():
+        rows.append((name, chosen.default, chosen.allowed, chosen.doc))
     for name, declared in SCENARIOS[options.scenario].parameters_type.flags().items():
         rows.append((name, str(declared.default).lower(), declared.allowed, declared.doc))
     widths = [max(len(row[column]) for row in rows) for column in range(3)]

@@ -20,6 +20,7 @@ import sys
 from dataclasses import dataclass
 from typing import Any, Mapping, TypeVar
 
+from .choice import Choice
 from .errors import InvalidParameter
 
 Set = TypeVar("Set", bound="ParameterSet")
@@ -37,7 +38,8 @@ _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
 class Declaration:
     """One parameter as it stands in a file: file_key, range and default are in the unit.
 
-    shown: unit in which a person reads it, and how many of it are one of the file's unit.
+    shown: unit in which a person reads it, and how many of it are one of the file's unit. only: choice and word without
+    which the number has no effect, None when it always has.
     """
 
     file_key: str
@@ -49,6 +51,7 @@ class Declaration:
     is_integer: bool
     si_per_unit: float
     shown: tuple[str, float]
+    only: tuple[str, str] | None = None
 
     @property
     def allowed(self) -> str:
@@ -134,15 +137,17 @@ def short_text(value: Any) -> str:
 
 
 def parameter(default: Any, low: float, high: float, unit: str, doc: str, *, file_key: str = "",
-              si_per_unit: float = 1.0, shown: tuple[str, float] | None = None) -> Any:
+              si_per_unit: float = 1.0, shown: tuple[str, float] | None = None,
+              only: tuple[str, str] | None = None) -> Any:
     """Field of a ParameterSet; default, low and high in the unit of the file, the field's value in SI units.
 
     file_key: name in files when it differs from the field's (because the unit does). shown: see Declaration; without it
-    a person reads the unit of the file. A default of None is left to the scenario.
+    a person reads the unit of the file. only: see Declaration. A default of None is left to the scenario.
     """
     is_integer = isinstance(default, int) and not isinstance(default, bool)
     value = default if default is None or is_integer else float(default) * si_per_unit
-    declared = Declaration(file_key, default, low, high, unit, doc, is_integer, si_per_unit, shown or (unit, 1.0))
+    declared = Declaration(file_key, default, low, high, unit, doc, is_integer, si_per_unit, shown or (unit, 1.0),
+                           only)
     return dataclasses.field(default=value, metadata={"declared": declared})
 
 
@@ -161,6 +166,8 @@ class ParameterSet:
     def __post_init__(self) -> None:
         for name, declared_flag in self.flags().items():
             declared_flag.checked(name, getattr(self, name))
+        for name, declared_choice in self.choices().items():
+            declared_choice.checked(name, getattr(self, name))
         for name, declared in self.declarations().items():
             declared.check(getattr(self, name))
         self.check()
@@ -182,27 +189,41 @@ class ParameterSet:
         return {item.name: item.metadata["flag"] for item in dataclasses.fields(cls) if "flag" in item.metadata}
 
     @classmethod
+    def choices(cls) -> dict[str, Choice]:
+        """Choices by field name, which is also their file key."""
+        return {item.name: item.metadata["choice"] for item in dataclasses.fields(cls) if "choice" in item.metadata}
+
+    @classmethod
+    def proposed(cls) -> dict[str, Any]:
+        """What from_mapping takes, with what a person begins who chooses anew."""
+        return {name: choice.proposed for name, choice in cls.choices().items()}
+
+    def has_effect(self, declared: Declaration) -> bool:
+        """False for a number that means nothing with what is chosen."""
+        return declared.only is None or bool(getattr(self, declared.only[0]) == declared.only[1])
+
+    @classmethod
     def from_mapping(cls: type[Set], mapping: Mapping[str, Any]) -> Set:
         """Parameters from what stood in a file; what is missing takes its default."""
         fields = {declared.file_key: (name, declared) for name, declared in cls.declarations().items()}
-        flags = cls.flags()
-        values = {}
+        words: dict[str, Flag | Choice] = {**cls.flags(), **cls.choices()}
+        values: dict[str, Any] = {}
         for key, value in mapping.items():
-            if key in flags:
-                values[key] = flags[key].checked(key, value)
+            if key in words:
+                values[key] = words[key].checked(key, value)
             elif key in fields:
                 name, declared = fields[key]
                 values[name] = declared.to_si(value)
             else:
                 name = key[:_MAX_SHOWN] if isinstance(key, str) else short_text(key)
-                raise InvalidParameter(f"Parameter {name} is unknown; {_alternatives(name, [*fields, *flags])}")
+                raise InvalidParameter(f"Parameter {name} is unknown; {_alternatives(name, [*fields, *words])}")
         return cls(**values)
 
     def to_mapping(self) -> dict[str, Any]:
-        """What from_mapping takes: every number in the unit of its file key, and the flags."""
+        """What from_mapping takes: every number in the unit of its file key, the choices and the flags."""
         return {**{declared.file_key: declared.to_unit(getattr(self, name))
                    for name, declared in self.declarations().items()},
-                **{name: getattr(self, name) for name in self.flags()}}
+                **{name: getattr(self, name) for name in (*self.choices(), *self.flags())}}
 
 
 def _alternatives(key: str, known: list[str]) -> str:

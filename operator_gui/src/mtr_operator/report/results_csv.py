@@ -44,6 +44,8 @@ def _metadata(scenario: AnyScenario, progress: Progress) -> Iterator[str]:
         value = progress.parameters[declared.file_key]
         shown = "not set" if value is None else declared.text(value)
         yield f"parameter {declared.file_key}: {shown}"
+    for name, choice in scenario.parameters_type.choices().items():
+        yield f"parameter {name}: {progress.parameters.get(name, choice.default)}"
     for name in scenario.parameters_type.flags():
         yield f"parameter {name}: {str(progress.parameters.get(name, False)).lower()}"
     yield from progress.frame_record.sentences()

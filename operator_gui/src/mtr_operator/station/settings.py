@@ -16,6 +16,8 @@ VERSION = 1
 REMEMBERED_HOSTS = 8
 # No parameter comes near it.
 _LARGEST = 1e12
+# Letters of a word to choose.
+_LONGEST = 100
 THEMES = ("system", "light", "dark")
 LANGUAGES = ("system", "en", "cs")
 
@@ -75,7 +77,7 @@ def settings_from_document(document: Any) -> Settings:
             tuple(str(host) for host in document["hosts"])[:REMEMBERED_HOSTS],
             _one_of(THEMES, document["theme"]), _one_of(LANGUAGES, document["language"]),
             _path(document["result_folder"]), _path(document["progress_folder"]),
-            {str(name): _numbers(values) for name, values in document["parameters"].items()},
+            {str(name): _remembered(values) for name, values in document["parameters"].items()},
             None if document["unfinished"] is None else _path(document["unfinished"]))
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError):
         raise NotSettings("They are damaged.") from None
@@ -87,11 +89,12 @@ def _path(text: Any) -> pathlib.Path:
     return pathlib.Path(text)
 
 
-def _numbers(values: Any) -> dict[str, Any]:
+def _remembered(values: Any) -> dict[str, Any]:
     """Parameters as they are remembered; what does not fit a scenario any more is seen when it is used."""
     known = {str(name): value for name, value in values.items()}
     each = [item for value in known.values() for item in (isinstance(value, list) and value or [value])]
-    if not all(value is None or (isinstance(value, (bool, int, float)) and abs(value) < _LARGEST) for value in each):
+    if not all(value is None or (isinstance(value, (bool, int, float)) and abs(value) < _LARGEST)
+               or (isinstance(value, str) and len(value) <= _LONGEST) for value in each):
         raise TypeError("parameters")
     return known
 

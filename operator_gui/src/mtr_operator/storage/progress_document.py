@@ -95,15 +95,19 @@ def _check_parameters(stored: Any, wanted: dict[str, Any], scenario: AnyScenario
     if not isinstance(stored, dict):
         raise ProgressFileError("It is damaged: the parameters are missing.")
     # A parameter that came after the file had its default then.
-    former = {**{item.file_key: item.default for item in scenario.parameters_type.declarations().values()}, **stored}
+    declared = scenario.parameters_type
+    former = {**{item.file_key: item.default for item in declared.declarations().values()},
+              **{name: choice.default for name, choice in declared.choices().items()}, **stored}
     # Whether the Car is checked before a test changes no distance.
-    for name in sorted((set(former) | set(wanted)) - set(scenario.parameters_type.flags())):
+    for name in sorted((set(former) | set(wanted)) - set(declared.flags())):
         if former.get(name) != wanted.get(name):
             raise ProgressFileError(f"It was measured with other parameters: {name[:_MAX_SHOWN]} was "
                                     f"{_shown(former.get(name))}, now it is {_shown(wanted.get(name))}.")
 
 
 def _shown(value: Any) -> str:
+    if isinstance(value, str):
+        return value[:_MAX_SHOWN]
     is_short = value is None or isinstance(value, (bool, float)) or (isinstance(value, int) and abs(value) < 1e15)
     return str(value) if is_short else f"of the kind {type(value).__name__}"
 
