@@ -50,6 +50,13 @@ def test_autolock_violation_is_a_sentence_with_name_value_and_range(values, part
     ({"press_strength": 1.01}, ["press_strength", "1.01", "0.05 to 1"]),
     ({"minimum_distance_m": 7.0}, ["minimum_distance_m is 7 m", "at most", "6.5 m"]),
     ({"straightening_distance_m": 3.6}, ["straightening_distance_m is 3.6 m", "3.5 m"]),
+    ({"method": "fast"}, ["method is fast", "scan or adaptive"]),
+    ({"method": "x" * 5000}, ["method is xxx", "scan or adaptive"]),
+    ({"method": None}, ["method is no word (NoneType)", "scan or adaptive"]),
+    ({"method": True}, ["method is no word (bool)"]),
+    ({"metod": "scan"}, ["metod is unknown", "did you mean method"]),
+    ({"interval_m": 0.01}, ["interval_m is 0.01 m", "0.05 to 5 m"]),
+    ({"attempts_limit": 5}, ["attempts_limit", "6 to 200"]),
 ])
 def test_key_press_violation_is_a_sentence_with_name_value_and_range(values, parts):
     with pytest.raises(InvalidParameter) as caught:
@@ -141,3 +148,27 @@ def test_json_and_empty_files_are_parameter_files(tmp_path):
     assert load_parameters(path, AutolockParameters).minimum_distance_m == 0.6
     path.write_text("", encoding="utf-8")
     assert load_parameters(path, AutolockParameters) == AutolockParameters()
+
+
+def test_file_from_before_there_was_a_choice_means_what_it_meant():
+    assert KeyPressParameters.from_mapping({}).method == "scan"
+    assert KeyPressParameters.from_mapping(KeyPressParameters.proposed()).method == "adaptive"
+
+
+@pytest.mark.parametrize("name", ["key_press.yaml", "demo/key_press.yaml"])
+def test_shipped_parameters_of_key_press_search_for_intervals(name):
+    assert load_parameters(EXAMPLES / name, KeyPressParameters).method == "adaptive"
+
+
+def test_key_frequency_sets_the_half_wavelength():
+    plan = KeyPressParameters.from_mapping({"method": "adaptive", "key_frequency_mhz": 868.3}).search_plan
+    assert plan.half_wavelength_m == pytest.approx(0.1726, abs=1e-4)
+    assert (plan.minimum_m, plan.maximum_m, plan.interval_m, plan.attempts_limit) == (3.0, 6.0, 0.25, 24)
+
+
+def test_numbers_of_the_other_method_have_no_effect():
+    declarations = KeyPressParameters.declarations()
+    for method, idle in (("scan", {"interval_m", "attempts_limit", "key_frequency_hz", "key_rest_limit_s"}),
+                         ("adaptive", {"approach_distance_m", "attempts"})):
+        parameters = KeyPressParameters.from_mapping({"method": method})
+        assert {name for name, declared in declarations.items() if not parameters.has_effect(declared)} == idle

@@ -17,7 +17,7 @@ from ..results.frame_history import FrameHistory
 from ..results.journal import EVENT, Journal, plain_fields
 from ..robot_status import CarDimensions, RobotStatus
 from .observer import RunObserver
-from .pose_history import PoseHistory
+from .pose_history import STANDING_MPS, PoseHistory
 from .trouble import Cancelled, LineInvalid, trouble_between
 
 # Wall time of one look for a Status, after which a stop leaves, and another one as long as no Status comes.
@@ -33,9 +33,8 @@ SILENCE_LIMIT_S = 30.0
 FIRST_STATUS_LIMIT_S = 10.0
 # Silence that is reported to a view.
 _SILENCE_SHOWN_S = 1.0
-# Robot time that stopping may take, and the speed at which the robot stands.
+# Robot time that stopping may take.
 _STOP_LIMIT_S = 3.0
-_STANDING_MPS = 0.02
 _KEPT_EVENTS = 1000
 HELD = "the robot stands until you have it go on"
 
@@ -136,7 +135,7 @@ class ControlLoop:
         stands = False
         with contextlib.suppress(LinkLost, RobotFailed, Cancelled):
             while not stands and self._exchange(patience_s=_STOP_LIMIT_S).stamp_s < until_s:
-                stands = abs(self.status.speed_mps) < _STANDING_MPS
+                stands = abs(self.status.speed_mps) < STANDING_MPS
             self._robot_link.send(self.desired)
         return stands
 

@@ -15,6 +15,8 @@ from ..robot_status import RobotStatus
 # longer gap it would be a guess.
 MAX_GAP_S = 0.5
 KEPT_S = 60.0
+# Noise of the odometry at rest is below it.
+STANDING_MPS = 0.02
 # A pose is at most that old when it is sent. So long after the robot's clock was set a stamp may be one of before.
 _MAX_AGE_S = 1.0
 
@@ -79,6 +81,12 @@ class PoseHistory:
     def samples(self) -> tuple[PoseSample, ...]:
         """All that are remembered."""
         return tuple(self._samples)
+
+    @property
+    def moved_s(self) -> float:
+        """Stamp of the newest pose in motion; minus infinity when none is remembered."""
+        return next((sample.stamp_s for sample in reversed(self._samples) if abs(sample.speed_mps) > STANDING_MPS),
+                    -math.inf)
 
     def clear(self) -> None:
         """Forget everything: the robot's clock or the Car's frame is another one now."""

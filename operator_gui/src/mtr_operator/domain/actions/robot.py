@@ -52,6 +52,11 @@ class Robot:
         """Robot time."""
         return self._loop.now_s
 
+    @property
+    def rest_s(self) -> float:
+        """For how long the robot has stood, in s of robot time; infinite when nobody knows when it moved."""
+        return self.now_s - self._loop.poses.moved_s
+
     def set_maximum_speed(self, speed_mps: float) -> None:
         """Limit the speed from now on."""
         self._loop.change(max_speed_mps=speed_mps)
@@ -163,14 +168,19 @@ class Robot:
 
     def kept(self, word: str) -> Distance | None:
         """What was measured on the line at hand before an interruption; None unless it is in the present Car frame."""
+        status, distance = self.kept_point(word) or (None, None)
+        return distance if status is LineStatus.OK else None
+
+    def kept_point(self, word: str) -> tuple[LineStatus, Distance] | None:
+        """The same with what became of it, for a place where nothing happened says something too."""
         point, frame = self._kept.get(word), self._loop.frames.newest
-        if point is None or point.status is not LineStatus.OK or point.distance is None or frame is None:
+        if point is None or point.distance is None or frame is None:
             return None
         measured_in = frame_from(point.frame)
         if measured_in is None or not measured_in.is_same(frame):
             return None
         values: dict[str, Any] = {name: math.nan if value is None else value for name, value in point.distance.items()}
-        return Distance(**values)
+        return point.status, Distance(**values)
 
     @property
     def results(self) -> tuple[LineResult, ...]:
@@ -180,7 +190,7 @@ class Robot:
     def keep(self, word: str, status: LineStatus, distance: Distance | None = None) -> None:
         """Keep a measurement of the line at hand, before the robot is ordered on; returns when it is safe.
 
-        word: what it is called, of the scenario's distance_words.
+        word: what it is called, of the scenario's distance_words, with a number where there are several.
         """
         self._loop.journal.add(POINT, {
             "word": word, "status": status.value, "distance": None if distance is None else plain_fields(distance),

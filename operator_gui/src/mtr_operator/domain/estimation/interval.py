@@ -33,6 +33,13 @@ class Interval:
         """Half of the distance between the ends; NaN when nothing is known."""
         return (self.high_m - self.low_m) / 2.0
 
+    def widened(self, sigma_m: float) -> Interval:
+        """With an independent normal error of this sigma added; NaN leaves nothing known of the ends."""
+        reach_m = SIGMAS_OF_LEVEL * sigma_m
+        return Interval(self.value_m, self.value_m - math.hypot(self.value_m - self.low_m, reach_m),
+                        self.value_m + math.hypot(self.high_m - self.value_m, reach_m),
+                        math.hypot(self.sigma_m, sigma_m))
+
     def holds(self, value_m: float) -> bool:
         """True when a value lies within; never for NaN."""
         return self.low_m <= value_m <= self.high_m

@@ -98,6 +98,11 @@ class LineResult(ABC):
         return ()
 
     @property
+    def is_possible(self) -> bool:
+        """False for a result from a file that cannot be one, beside what has to hold for each scenario's."""
+        return True
+
+    @property
     def invalid_count(self) -> int:
         """How many of the distances are invalid."""
         return sum(distance.status is LineStatus.INVALID for distance in self.distances)
@@ -127,6 +132,8 @@ def result_from_document(result_type: type[Result], document: Any) -> Result:
         _check(distance)
     if not limits.LINE_NUMBER.allows(result.number) or bool(result.reason) != bool(result.invalid_count):
         raise ValueError("number or reason of a line")
+    if not result.is_possible:
+        raise ValueError("values that are none of the scenario's")
     return result
 
 

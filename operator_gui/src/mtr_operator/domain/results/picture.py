@@ -14,8 +14,8 @@ from .line_result import MeasuredDistance
 class PointRole(enum.Enum):
     """Role of a set of points; a view gives each role its colour and marker."""
 
-    FIRST = "first"                    # the nearer area: unlocked, pressed with success
-    SECOND = "second"                  # the farther area: locked
+    FIRST = "first"                    # unlocked, pressed with success, half of the presses work
+    SECOND = "second"                  # locked, nearly all presses work
     FIRST_FAILED = "first failed"
     SECOND_FAILED = "second failed"
     FAILED = "failed"                  # where there is only one area
@@ -36,7 +36,8 @@ class PointSet:
     """Points with the same meaning.
 
     is_outline: they enclose an area, in this order; None stands for a line without a point, where the outline is not
-    known. bars: 1 sigma to both sides of the points, where it is known.
+    known. bars: 1 sigma to both sides of the points, where it is known and no interval is. intervals: ends of the 95 %
+    interval of each point, where both are known.
     """
 
     label: str
@@ -44,6 +45,7 @@ class PointSet:
     points: tuple[Point | None, ...]
     is_outline: bool = False
     bars: tuple[tuple[Point, Point], ...] = ()
+    intervals: tuple[tuple[Point, Point], ...] = ()
 
     @property
     def known(self) -> tuple[Point, ...]:
@@ -66,7 +68,14 @@ class Picture:
 
 
 def bars_along(measured: Sequence[tuple[Ray, MeasuredDistance]]) -> tuple[tuple[Point, Point], ...]:
-    """Ends of 1 sigma to both sides of each measured point along its ray."""
-    known = [(ray, distance.distance_m, distance.uncertainty_m) for ray, distance in measured]
+    """Ends of 1 sigma to both sides of each measured point along its ray, unless it has an interval."""
+    known = [(ray, distance.distance_m, distance.uncertainty_m) for ray, distance in measured
+             if distance.low_m is None or distance.high_m is None]
     return tuple((ray.point(middle_m - sigma_m), ray.point(middle_m + sigma_m)) for ray, middle_m, sigma_m in known
                  if middle_m is not None and sigma_m is not None)
+
+
+def intervals_along(measured: Sequence[tuple[Ray, MeasuredDistance]]) -> tuple[tuple[Point, Point], ...]:
+    """Ends of the 95 % interval of each measured point along its ray."""
+    return tuple((ray.point(distance.low_m), ray.point(distance.high_m)) for ray, distance in measured
+                 if distance.distance_m is not None and distance.low_m is not None and distance.high_m is not None)

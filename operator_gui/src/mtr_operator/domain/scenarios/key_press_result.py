@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from .. import limits
+from ..estimation.press.radial_estimate import Reach
 from ..results.carried import CAUSE_DOC, HEADING_DOC, HEIGHT_DOC, LATERAL_DOC, SPEED_DOC
 from ..results.document import Floats, OptionalFloat, Texts
 from ..results.line_result import BOUNDARY_PERCENT, LineResult, LineStatus, MeasuredDistance, column, stored
@@ -14,8 +16,12 @@ PRESS = "press"
 SURE_PERCENT = 95
 SCAN, ADAPTIVE = "scan", "adaptive"
 _NUMBER = re.compile(r"\d+(?:\.\d+)?")
+_REACHES = ("", *(reach.value for reach in Reach))
+# Far beyond any attempts_limit.
+_MAX_PRESSES = 1000
 _OF_D50 = "distance at which half of the presses work"
 _OF_D95 = "distance at which 95 % of the presses work, lapses apart"
+_BEYOND = ", empty when it lies beyond the places"
 _LOW, _HIGH = "lower end of the 95 % interval of the", "upper end of the 95 % interval of the"
 
 
@@ -27,7 +33,7 @@ class KeyPressResult(LineResult):
                   "attempts", "reason", "lateral_offset_m", "heading_offset_deg", "key_height_m", "speed_mps", "cause",
                   "method", "reach", "d50_m", "d50_sigma_m", "d50_low_m", "d50_high_m", "d95_m", "d95_low_m",
                   "d95_high_m", "nearest_failure_m", "holes_m", "lapse", "fit_quality", "worked_at_m", "failed_at_m",
-                  "evidence")
+                  "place_sigma_m", "evidence")
 
     radial: int = column("number of the radial, clockwise from the Car's front")
     angle_deg: float = column("angle of the radial, clockwise from the Car's front", "deg", digits=3)
@@ -50,11 +56,11 @@ class KeyPressResult(LineResult):
                         "farthest one; no_answer: nobody knows", default="")
     d50_m: OptionalFloat = column(_OF_D50, "m", default=None)
     d50_sigma_m: OptionalFloat = column(f"1 sigma of the {_OF_D50}", "m", default=None)
-    d50_low_m: OptionalFloat = column(f"{_LOW} {_OF_D50}, empty when it lies nearer", "m", default=None)
-    d50_high_m: OptionalFloat = column(f"{_HIGH} {_OF_D50}, empty when it lies farther", "m", default=None)
+    d50_low_m: OptionalFloat = column(f"{_LOW} {_OF_D50}{_BEYOND}", "m", default=None)
+    d50_high_m: OptionalFloat = column(f"{_HIGH} {_OF_D50}{_BEYOND}", "m", default=None)
     d95_m: OptionalFloat = column(_OF_D95, "m", default=None)
-    d95_low_m: OptionalFloat = column(f"{_LOW} {_OF_D95}", "m", default=None)
-    d95_high_m: OptionalFloat = column(f"{_HIGH} {_OF_D95}", "m", default=None)
+    d95_low_m: OptionalFloat = column(f"{_LOW} {_OF_D95}{_BEYOND}", "m", default=None)
+    d95_high_m: OptionalFloat = column(f"{_HIGH} {_OF_D95}{_BEYOND}", "m", default=None)
     nearest_failure_m: OptionalFloat = column("nearest press that failed", "m", default=None)
     holes_m: str = column("places that failed again and again although farther ones worked", "m", default="")
     lapse: OptionalFloat = column("share of presses that fail at any distance", default=None)
@@ -63,7 +69,16 @@ class KeyPressResult(LineResult):
         default=None)
     worked_at_m: Floats = stored(())
     failed_at_m: Floats = stored(())
+    place_sigma_m: OptionalFloat = stored(None)
     evidence: Texts = stored(())
+
+    @property
+    def is_possible(self) -> bool:
+        """See LineResult."""
+        places_m = (*self.worked_at_m, *self.failed_at_m)
+        return (self.method in (SCAN, ADAPTIVE) and self.reach in _REACHES and len(places_m) <= _MAX_PRESSES
+                and all(limits.DISTANCE.allows(place_m) for place_m in places_m)
+                and (self.place_sigma_m is None or limits.DISTANCE_SIGMA.allows(self.place_sigma_m)))
 
     @property
     def number(self) -> int:

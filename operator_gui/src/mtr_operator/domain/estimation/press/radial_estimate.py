@@ -31,7 +31,7 @@ _RARE = 0.005
 
 
 class Reach(enum.Enum):
-    """Where the boundary lies."""
+    """Where the boundary lies, as likely as not."""
 
     MEASURED = "measured"
     NEARER = "nearer"  # than the nearest place: only an upper bound is known
@@ -72,13 +72,18 @@ def estimate(plan: SearchPlan, search: RadialSearch) -> RadialEstimate:
                           _quality(posterior, presses))
 
 
-def _reach(plan: SearchPlan, d50: Interval, presses: Sequence[Press]) -> Reach:
+def answers_nowhere(plan: SearchPlan, presses: Sequence[Press]) -> bool:
+    """True when nothing worked, again and again not at the nearest place either: nobody knows why."""
     at_nearest = sum(press.distance_m <= plan.minimum_m + plan.half_wavelength_m / 2.0 for press in presses)
-    if not any(press.worked for press in presses) and at_nearest >= PRESSES_IN_DOUBT:
+    return not any(press.worked for press in presses) and at_nearest >= PRESSES_IN_DOUBT
+
+
+def _reach(plan: SearchPlan, d50: Interval, presses: Sequence[Press]) -> Reach:
+    if answers_nowhere(plan, presses):
         return Reach.NO_ANSWER
-    if not d50.low_m > plan.minimum_m:
+    if not d50.value_m > plan.minimum_m:
         return Reach.NEARER
-    return Reach.MEASURED if d50.high_m < plan.maximum_m else Reach.FARTHER
+    return Reach.MEASURED if d50.value_m < plan.maximum_m else Reach.FARTHER
 
 
 def _curve(posterior: RadialPosterior, distance_m: float) -> float:

@@ -7,6 +7,8 @@ nothing worked at all the nearest place is tried several times, so that a key th
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from typing import Sequence
+
 import numpy as np
 
 from ..interval import FloatArray
@@ -77,6 +79,13 @@ class RadialSearch:
     def place_of(self, distance_m: float) -> int:
         """Number of the half wavelength in whose midst a distance lies: presses there count as made at one place."""
         return self._likelihood.place_of(distance_m)
+
+    def recall(self, presses: Sequence[Press]) -> None:
+        """Take presses of a radial that has come to its end; nothing is doubted any more."""
+        for press in presses:
+            self._likelihood.add(press)
+        self.presses.extend(presses)
+        self.revisit()
 
     def is_finished(self) -> bool:
         """True when the interval is reached, or no press is left."""

@@ -1,0 +1,64 @@
+"""What the protocol of Key press shows."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Sequence
+
+from ..estimation.press.radial_estimate import Reach
+from ..geometry.pose import Point
+from ..geometry.radials import radials_around
+from ..geometry.ray import Ray
+from ..results.line_result import LineStatus, MeasuredDistance
+from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along, intervals_along
+from .key_press_parameters import KeyPressParameters
+from .key_press_result import ADAPTIVE, SURE_PERCENT, KeyPressResult
+
+_Measured = Sequence[tuple[Ray, KeyPressResult]]
+
+
+def picture_of(parameters: KeyPressParameters, results: Sequence[KeyPressResult]) -> Picture:
+    """Radials, the outlines of the distances found, and where nothing is known."""
+    rays = {radial.number: radial.ray for radial in radials_around(parameters.angle_between_radials_rad)}
+    measured = [(rays[result.radial], result) for result in results]
+    stretches = tuple(Stretch(ray.point(parameters.minimum_distance_m), ray.point(parameters.maximum_distance_m),
+                              result.place) for ray, result in measured)
+    invalid = tuple(ray.point(parameters.press_distances_m[0]) for ray, result in measured
+                    if result.status is LineStatus.INVALID)
+    sets = _searched(parameters, measured) if parameters.method == ADAPTIVE else _scanned(measured)
+    return Picture(stretches, (*sets, PointSet("Invalid", PointRole.INVALID, invalid)))
+
+
+def _scanned(measured: _Measured) -> tuple[PointSet, ...]:
+    """The places that worked, and the next ones that did not."""
+    worked = tuple(_place(ray, result.distance_m) for ray, result in measured)
+    failed = tuple(_place(ray, result.failed_distance_m) for ray, result in measured)
+    return (PointSet("Press worked", PointRole.FIRST, worked, is_outline=True,
+                     bars=bars_along([(ray, result.distances[0]) for ray, result in measured])),
+            PointSet("Press failed", PointRole.FAILED, failed))
+
+
+def _searched(parameters: KeyPressParameters, measured: _Measured) -> tuple[PointSet, ...]:
+    """Where half and where nearly all presses work with their intervals, and where the border was not found."""
+    half = [(ray, result.distances[0]) for ray, result in measured]
+    sure = [(ray, distance) for ray, result in measured for distance in result.distances_at(SURE_PERCENT)]
+    holes = tuple(ray.point(hole_m) for ray, result in measured for hole_m in result.holes_nearer_than(float("inf")))
+    nearest_m, farthest_m = parameters.minimum_distance_m, parameters.search_plan.maximum_m
+    return (_area("50 % of the presses work", PointRole.FIRST, half),
+            _area("95 % of the presses work", PointRole.SECOND, sure),
+            _beyond("Border farther than here", PointRole.FIRST_FAILED, measured, Reach.FARTHER, farthest_m),
+            _beyond("Border nearer than here", PointRole.SECOND_FAILED, measured, Reach.NEARER, nearest_m),
+            PointSet("Hole", PointRole.FAILED, holes))
+
+
+def _area(label: str, role: PointRole, measured: Sequence[tuple[Ray, MeasuredDistance]]) -> PointSet:
+    places = tuple(_place(ray, distance.distance_m) for ray, distance in measured)
+    return PointSet(label, role, places, is_outline=True, bars=bars_along(measured),
+                    intervals=intervals_along(measured))
+
+
+def _beyond(label: str, role: PointRole, measured: _Measured, reach: Reach, place_m: float) -> PointSet:
+    return PointSet(label, role, tuple(ray.point(place_m) for ray, result in measured if result.reach == reach.value))
+
+
+def _place(ray: Ray, distance_m: float | None) -> Point | None:
+    return None if distance_m is None else ray.point(distance_m)

@@ -1,0 +1,55 @@
+"""What the presses of a radial come to in its result, beside the estimate."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Sequence
+
+from ..actions.distance import recorded_values
+from ..geometry.radials import Radial
+from ..results.carried import carried_values
+from ..results.line_result import LineStatus
+from .key_press_button import PressMade
+from .key_press_result import ADAPTIVE, KeyPressResult
+
+_DIGITS = 6
+# Columns of the farthest press that worked.
+_OF_FARTHEST = ("distance_m", "uncertainty_m", "robot_time_s", "lateral_offset_m", "heading_offset_deg", "key_height_m",
+                "speed_mps", "cause")
+
+
+def invalid_result(line: Radial, made: Sequence[PressMade], reason: str,
+                   evidence: tuple[str, ...] = ()) -> KeyPressResult:
+    """The presses alone; nothing follows from them."""
+    sigma_m = max((press.place.uncertainty_m for press in made), default=math.nan)
+    return KeyPressResult(
+        line.number, line.clockwise_deg, LineStatus.INVALID, None, None, None, len(made), None, reason,
+        evidence=evidence, method=ADAPTIVE, place_sigma_m=sigma_m if math.isfinite(sigma_m) else None,
+        worked_at_m=tuple(round(press.place.distance_m, _DIGITS) for press in made if press.worked),
+        failed_at_m=tuple(round(press.place.distance_m, _DIGITS) for press in made if not press.worked))
+
+
+def result_of(line: Radial, made: Sequence[PressMade]) -> KeyPressResult:
+    """What is known without the estimate, and without a word of doubt."""
+    farthest = max((press.place for press in made if press.worked), key=lambda place: place.distance_m, default=None)
+    distance_m, uncertainty_m, robot_time_s = recorded_values(farthest)
+    return _with_failure(replace(invalid_result(line, made, ""), distance_m=distance_m, uncertainty_m=uncertainty_m,
+                                 robot_time_s=robot_time_s, **carried_values("", farthest)))
+
+
+def joined(before: KeyPressResult, after: KeyPressResult) -> KeyPressResult:
+    """Of a radial that was measured further."""
+    farther = max((before, after), key=lambda result: -math.inf if result.distance_m is None else result.distance_m)
+    sigmas_m = [result.place_sigma_m for result in (before, after) if result.place_sigma_m is not None]
+    return _with_failure(replace(
+        after, attempts=before.attempts + after.attempts, worked_at_m=before.worked_at_m + after.worked_at_m,
+        failed_at_m=before.failed_at_m + after.failed_at_m, place_sigma_m=max(sigmas_m, default=None),
+        **{name: getattr(farther, name) for name in _OF_FARTHEST}))
+
+
+def _with_failure(result: KeyPressResult) -> KeyPressResult:
+    """With the next farther place that failed."""
+    beyond_m = [place_m for place_m in result.failed_at_m
+                if result.distance_m is None or place_m > result.distance_m]
+    return replace(result, failed_distance_m=min(beyond_m, default=None))
