@@ -8,6 +8,11 @@ from mtr_operator.gui.forms.parameter_form import ParameterForm
 ALL = [(name, field) for name, scenario in SCENARIOS.items() for field in scenario.parameters_type.declarations()]
 
 
+def usual(name):
+    parameters_type = SCENARIOS[name].parameters_type
+    return parameters_type.from_mapping(parameters_type.proposed())
+
+
 @pytest.fixture
 def form_of(qtbot):
     def make(name):
@@ -26,13 +31,16 @@ def test_every_parameter_has_a_field_with_unit_range_default_and_tool_tip(form_o
         assert declared.shown[0] in field.note.text()
         assert field.toolTip() == declared.doc
         assert field.edit.accessibleName()
-    assert form.parameters == SCENARIOS[name].parameters_type()
+    assert form.parameters == usual(name)
 
 
 @pytest.mark.parametrize(("name", "field"), ALL)
 @pytest.mark.parametrize("text", ["abc", "-1", "1e300", "nan", "1,2,3"])
 def test_bad_text_is_told_at_the_field_with_the_range(form_of, name, field, text):
     form = form_of(name)
+    declared = form.fields[field].declared
+    if declared.only is not None:
+        form.choices[declared.only[0]].show_word(declared.only[1])
     form.fields[field].edit.setText(text)
     fault = form.fields[field].fault
     assert "llowed" in fault
@@ -79,6 +87,7 @@ def test_list_with_a_bad_number_or_too_many_is_told_at_the_field(form_of, text):
 
 def test_whole_number_is_asked_for(form_of):
     form = form_of("key_press")
+    form.choices["method"].show_word("scan")
     form.fields["attempts"].edit.setText("2.5")
     assert form.fields["attempts"].fault.startswith("Only whole numbers")
 
@@ -110,7 +119,26 @@ def test_usual_values_come_back(form_of, qtbot):
     form = form_of("autolock")
     form.fields["maximum_distance_m"].edit.setText("9")
     form.usual.click()
-    assert form.parameters == SCENARIOS["autolock"].parameters_type()
+    assert form.parameters == usual("autolock")
+
+
+def test_new_key_press_test_searches_and_a_scan_can_be_chosen(form_of):
+    form = form_of("key_press")
+    assert form.parameters.method == "adaptive"
+    form.choices["method"].show_word("scan")
+    assert form.parameters.method == "scan"
+    form.usual.click()
+    assert form.parameters.method == "adaptive"
+
+
+def test_fields_that_mean_nothing_with_the_method_are_hidden_and_hinder_nothing(form_of):
+    form = form_of("key_press")
+    assert form.fields["interval_m"].isVisibleTo(form) and not form.fields["approach_distance_m"].isVisibleTo(form)
+    form.fields["interval_m"].edit.setText("x")
+    assert form.parameters is None
+    form.choices["method"].show_word("scan")
+    assert form.parameters.method == "scan"
+    assert form.fields["approach_distance_m"].isVisibleTo(form) and not form.fields["interval_m"].isVisibleTo(form)
 
 
 def test_preview_shows_lines_duration_and_battery(operator, opener):

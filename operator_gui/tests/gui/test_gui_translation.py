@@ -110,6 +110,7 @@ def test_every_parameter_scenario_and_word_is_listed():
         for name, declared in scenario.parameters_type.declarations().items():
             assert declared.doc in parameter_docs.SENTENCES
             assert parameter_title(name, declared)
+        assert {choice.doc for choice in scenario.parameters_type.choices().values()} <= set(parameter_docs.SENTENCES)
         assert {flag.doc for flag in scenario.parameters_type.flags().values()} <= set(parameter_docs.SENTENCES)
 
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from mtr_operator.domain.choice import Choice
 from mtr_operator.domain.parameters import Declaration, Flag
 from mtr_operator.domain.scenario import AnyScenario
 
@@ -33,6 +34,10 @@ def parameter_title(name: str, declared: Declaration) -> str:
         "press_duration_s": translate("Parameter", "Press duration"),
         "settle_time_s": translate("Parameter", "Standstill before a press"),
         "attempts": translate("Parameter", "Attempts"),
+        "interval_m": translate("Parameter", "Interval wanted, half width"),
+        "attempts_limit": translate("Parameter", "Presses at most"),
+        "key_frequency_hz": translate("Parameter", "Key's radio frequency"),
+        "key_rest_limit_s": translate("Parameter", "Key's rest at most"),
         "lateral_tolerance_m": translate("Parameter", "Distance beside the line"),
         "heading_tolerance_rad": translate("Parameter", "Turn from the line"),
         "height_tolerance_m": translate("Parameter", "Difference in height"),
@@ -56,12 +61,25 @@ def flag_title(name: str) -> str:
     return titles.get(name) or name.replace("_", " ").capitalize()
 
 
+def choice_title(name: str) -> str:
+    """Label of the choice of a parameter that is a word."""
+    titles = {"method": translate("Parameter", "Method")}
+    return titles.get(name) or name.replace("_", " ").capitalize()
+
+
+def choice_word(word: str) -> str:
+    """One of the words to choose from."""
+    words = {"scan": translate("Parameter", "from far to near (scan)"),
+             "adaptive": translate("Parameter", "search with intervals (adaptive)")}
+    return words.get(word) or word.replace("_", " ")
+
+
 def yes_or_no(value: bool) -> str:
     """Value of such a parameter."""
     return translate("Parameter", "yes") if value else translate("Parameter", "no")
 
 
-def parameter_doc(declared: Declaration | Flag) -> str:
+def parameter_doc(declared: Declaration | Flag | Choice) -> str:
     """Tool tip of a parameter's field."""
     return translate("ParameterDoc", declared.doc)
 

@@ -6,6 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from mtr_operator.domain.results.picture import Picture
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
@@ -14,9 +15,10 @@ from .protocol_rows import Row, assessment_rows, date_text, parameter_rows, sess
 
 INK = "#263238"
 BAR = {"linewidth": 5.0, "alpha": 0.3, "solid_capstyle": "butt"}
+INTERVAL = {"linewidth": 1.6, "solid_capstyle": "butt"}
 
 
-def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Progress, *, has_bars: bool,
+def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Progress, *, picture: Picture,
                 assessment: Assessment | None = None) -> None:
     """Write heading, date, legend, results, parameters and circumstances to the right of the axes."""
     left, top = 0.69, 0.93
@@ -24,9 +26,12 @@ def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Pro
     started = str(progress.session.get("started", ""))
     figure.text(left, top - 0.052, date_text(started), fontsize=10, color=INK, va="top")
     handles, labels = axes.get_legend_handles_labels()
-    if has_bars:
+    if any(points.bars for points in picture.point_sets):
         handles.append(Line2D((), (), color=INK, **BAR))
         labels.append("uncertainty, \N{PLUS-MINUS SIGN}1 sigma")
+    if any(points.intervals for points in picture.point_sets):
+        handles.append(Line2D((), (), color=INK, marker="|", **INTERVAL))
+        labels.append("95 % interval")
     legend = figure.legend(handles, labels, loc="upper left", bbox_to_anchor=(left - 0.008, top - 0.085), frameon=False,
                            fontsize=10, labelcolor=INK, handletextpad=0.4)
     legend.set_in_layout(False)

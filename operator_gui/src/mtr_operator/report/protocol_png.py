@@ -18,7 +18,7 @@ from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.verdict.assessment import Assessment
 
 from .car_drawing import draw_car
-from .protocol_panel import BAR, INK, write_panel
+from .protocol_panel import BAR, INK, INTERVAL, write_panel
 
 FILE_NAME = "protocol.png"
 _SIZE_INCH = (11.7, 8.3)  # A4 landscape
@@ -27,6 +27,7 @@ _POINTS_PER_INCH = 72.0
 _AXES_BOX = (0.06, 0.08, 0.60, 0.84)  # parts of the size: left, bottom, width, height
 _LABEL_GAP_INCH, _LABEL_WIDTH_INCH, _LABEL_HEIGHT_INCH = 0.18, 0.28, 0.13
 _MARGIN_PART = 0.14
+_CAP_INCH = 0.05
 _PALE = "#90a4ae"
 # Colours that colour-blind readers tell apart (Okabe and Ito), and a marker each.
 _STYLES = {
@@ -50,10 +51,11 @@ def protocol_png(scenario: AnyScenario, parameters: ScenarioParameters, progress
     for points in picture.point_sets:
         _draw_points(axes, points)
     _frame(axes, picture, progress)
+    for points in picture.point_sets:
+        _draw_intervals(axes, points)
     draw_car(axes, progress.measured_car, _POINTS_PER_INCH / _metres_per_inch(axes))
     label_stretches(axes, picture)
-    write_panel(figure, axes, scenario, progress, has_bars=any(points.bars for points in picture.point_sets),
-                assessment=assessment)
+    write_panel(figure, axes, scenario, progress, picture=picture, assessment=assessment)
     file = io.BytesIO()
     figure.savefig(file, format="png", dpi=_RESOLUTION_DPI)
     return file.getvalue()
@@ -97,6 +99,17 @@ def _draw_points(axes: Axes, points: PointSet) -> None:
               marker=style["marker"], label=f"{points.label} ({len(points.known)})", zorder=6)
 
 
+def _draw_intervals(axes: Axes, points: PointSet) -> None:
+    """A line with a cap across each end; the frame's limits have to be set."""
+    color, cap_m = _STYLES[points.role]["color"], _CAP_INCH * _metres_per_inch(axes)
+    for (x0, y0), (x1, y1) in points.intervals:
+        length_m = max(math.dist((x0, y0), (x1, y1)), 1e-9)
+        across_x, across_y = -(y1 - y0) * cap_m / length_m, (x1 - x0) * cap_m / length_m
+        for (ax, ay), (bx, by) in (((x0, y0), (x1, y1)), *(((x - across_x, y - across_y), (x + across_x, y + across_y))
+                                                           for x, y in ((x0, y0), (x1, y1)))):
+            axes.plot((ay, by), (ax, bx), color=color, zorder=5, **INTERVAL)
+
+
 def _draw_outline(axes: Axes, points: PointSet, color: str) -> None:
     is_complete = True
     for (x0, y0), (x1, y1), is_known in points.pieces():
@@ -109,7 +122,7 @@ def _draw_outline(axes: Axes, points: PointSet, color: str) -> None:
 
 def _frame(axes: Axes, picture: Picture, progress: Progress) -> None:
     ends = [stretch.end for stretch in picture.stretches] + [point for s in picture.point_sets for point in s.known]
-    ends += [end for points in picture.point_sets for bar in points.bars for end in bar]
+    ends += [end for points in picture.point_sets for bar in (*points.bars, *points.intervals) for end in bar]
     extent_x = max([abs(x) for x, _ in ends] + [progress.measured_car.length])
     extent_y = max([abs(y) for _, y in ends] + [progress.measured_car.width])
     margin = _MARGIN_PART * max(extent_x, extent_y)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import datetime
-from typing import Tuple
+from typing import Any, Tuple
 
+from mtr_operator.domain.parameters import Declaration
 from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario
@@ -52,14 +53,21 @@ def assessment_rows(assessment: Assessment | None) -> list[Row]:
 
 def parameter_rows(scenario: AnyScenario, progress: Progress) -> list[Row]:
     """Every parameter that was set, as a person reads it."""
-    rows = []
-    for declared in scenario.parameters_type.declarations().values():
-        value = progress.parameters[declared.file_key]
+    rows = [(name, str(progress.parameters.get(name, choice.default)))
+            for name, choice in scenario.parameters_type.choices().items()]
+    for _, declared, value in numbers_with_effect(scenario, progress):
         if value is not None:
             name, _, suffix = declared.file_key.rpartition("_")
             shown = name if suffix in ("m", "s", "mps", "deg") else declared.file_key
             rows.append((shown.replace("_", " "), declared.shown_text(value)))
     return rows
+
+
+def numbers_with_effect(scenario: AnyScenario, progress: Progress) -> list[tuple[str, Declaration, Any]]:
+    """Field name, declaration and value in the file's unit of each number that means something in this test."""
+    parameters = scenario.parameters_type.from_mapping(progress.parameters)
+    return [(name, declared, progress.parameters.get(declared.file_key, declared.default))
+            for name, declared in parameters.declarations().items() if parameters.has_effect(declared)]
 
 
 def session_rows(progress: Progress) -> list[Row]:

@@ -15,26 +15,29 @@ from .field import Field
 
 
 class ParameterField(Field):
-    """A Field that knows its parameter's declaration."""
+    """A Field that knows its parameter's declaration.
+
+    Attributes: declared: see Declaration.
+    """
 
     def __init__(self, name: str, declared: Declaration, parent: QWidget | None = None):
-        self._declared = declared
+        self.declared = declared
         super().__init__(parameter_title(name, declared), _range_text(declared), declared.shown[0], parent)
         self.setToolTip(parameter_doc(declared))
 
     @property
     def reading(self) -> Reading:
         """What the text says."""
-        return read(self._declared, self.text)
+        return read(self.declared, self.text)
 
     def show_value(self, value: Any) -> None:
         """Show an SI value; None empties the field."""
-        self.edit.setText(shown_value(self._declared, value, decimal_sign()))
+        self.edit.setText(shown_value(self.declared, value, decimal_sign()))
 
     def check(self) -> bool:
         """Show what is wrong with the text; True when nothing is."""
         fault = self.reading.fault
-        self.show_fault("" if fault is None else _sentence(fault, self._declared))
+        self.show_fault("" if fault is None else _sentence(fault, self.declared))
         return fault is None
 
 

@@ -8,12 +8,13 @@ from PyQt5.QtCore import Qt, pyqtSignal
 from PyQt5.QtWidgets import QCheckBox, QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.errors import InvalidParameter
-from mtr_operator.domain.parameters import Flag
+from mtr_operator.domain.parameters import Declaration, Flag
 from mtr_operator.domain.scenario import ScenarioParameters
 
 from ..names import flag_title, parameter_doc
 from ..sentences import parameter_sentence
 from ..theme.scale import L, M
+from .choice_field import ChoiceField
 from .parameter_field import ParameterField
 
 # By convention a scenario declares the parameters that every test needs up to this one.
@@ -22,9 +23,10 @@ _COLUMNS = 2
 
 
 class ParameterForm(QWidget):
-    """Attributes: fields: numbers by parameter. flags: check boxes by parameter. more, usual: buttons.
+    """A field that means nothing with what is chosen is hidden.
 
-    fault: what does not fit together.
+    Attributes: fields: numbers by parameter. choices: words by parameter. flags: check boxes by parameter. more, usual:
+    buttons. fault: what does not fit together.
 
     Signals: changed: something else was typed.
     """
@@ -37,6 +39,7 @@ class ParameterForm(QWidget):
         self._is_filling = False
         self.fields = {name: ParameterField(name, declared)
                        for name, declared in parameters_type.declarations().items()}
+        self.choices = {name: ChoiceField(name, declared) for name, declared in parameters_type.choices().items()}
         self.flags = {name: self._make_flag(name, declared) for name, declared in parameters_type.flags().items()}
         self.usual = QPushButton(self.tr("Usual values"))
         self.more = QPushButton()
@@ -46,13 +49,16 @@ class ParameterForm(QWidget):
         self.fault = QLabel()
         self.fault.setWordWrap(True)
         self.fault.setProperty("role", "error")
-        self._rest = QWidget()
+        self._main, self._rest = QWidget(), QWidget()
+        self._grids = (QGridLayout(self._main), QGridLayout(self._rest))
         self.more.toggled.connect(self._show_rest)
         self._show_rest(False)
         self.usual.clicked.connect(lambda: self.show_mapping({}))
         self._lay_out()
         for field in self.fields.values():
             field.changed.connect(self._check)
+        for chosen in self.choices.values():
+            chosen.changed.connect(self._choose)
         for box in self.flags.values():
             box.toggled.connect(self._check)
         self.show_mapping({})
@@ -64,26 +70,46 @@ class ParameterForm(QWidget):
         return box
 
     def _lay_out(self) -> None:
-        names = list(self.fields)
-        split = names.index(_LAST_MAIN) + 1 if _LAST_MAIN in names else len(names)
-        main = QWidget()
-        for page, part in ((main, names[:split]), (self._rest, names[split:])):
-            grid = QGridLayout(page)
+        for grid in self._grids:
             grid.setContentsMargins(0, 0, 0, 0)
             grid.setHorizontalSpacing(L)
             grid.setVerticalSpacing(M)
-            for index, name in enumerate(part):
-                grid.addWidget(self.fields[name], index // _COLUMNS, index % _COLUMNS, Qt.AlignmentFlag.AlignTop)
             for column in range(_COLUMNS):
                 grid.setColumnStretch(column, 1)
-        self.more.setVisible(split < len(names))
+        self._arrange()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, M, 0)
         layout.setSpacing(M)
-        for widget in (main, *self.flags.values(), self.fault, self.more, self._rest, self.usual):
+        for widget in (*self.choices.values(), self._main, *self.flags.values(), self.fault, self.more, self._rest,
+                       self.usual):
             is_button = isinstance(widget, QPushButton)
             layout.addWidget(widget, 0, Qt.AlignmentFlag.AlignLeft if is_button else Qt.Alignment())
         layout.addStretch(1)
+
+    def _arrange(self) -> None:
+        """Place the fields that have an effect, without gaps."""
+        names = list(self.fields)
+        split = names.index(_LAST_MAIN) + 1 if _LAST_MAIN in names else len(names)
+        for grid, part in zip(self._grids, (names[:split], names[split:])):
+            for name in part:
+                grid.removeWidget(self.fields[name])
+                self.fields[name].setVisible(False)
+            shown = [self.fields[name] for name in part if self._has_effect(self.fields[name].declared)]
+            for index, field in enumerate(shown):
+                grid.addWidget(field, index // _COLUMNS, index % _COLUMNS, Qt.AlignmentFlag.AlignTop)
+                field.setVisible(True)
+        self.more.setVisible(split < len(names))
+
+    def _has_effect(self, declared: Declaration) -> bool:
+        return declared.only is None or self.choices[declared.only[0]].word == declared.only[1]
+
+    def _choose(self) -> None:
+        self._arrange()
+        for name, field in self.fields.items():
+            # What nobody sees nobody can mend.
+            if not self._has_effect(field.declared) and field.reading.fault is not None:
+                field.show_value(getattr(self._type(), name))
+        self._check()
 
     def _show_rest(self, is_shown: bool) -> None:
         self._rest.setVisible(is_shown)
@@ -100,12 +126,14 @@ class ParameterForm(QWidget):
             return None
 
     def show_mapping(self, mapping: Mapping[str, Any]) -> None:
-        """Show parameters as in a parameter file; those that are missing or no longer allowed take their default."""
+        """Show parameters as in a parameter file; those that are missing or no longer allowed take what is usual."""
         try:
-            values = self._type.from_mapping(mapping)
+            values = self._type.from_mapping({**self._type.proposed(), **mapping})
         except InvalidParameter:
-            values = self._type()
+            values = self._type.from_mapping(self._type.proposed())
         self._is_filling = True
+        for name, chosen in self.choices.items():
+            chosen.show_word(getattr(values, name))
         for name, field in self.fields.items():
             field.show_value(getattr(values, name))
         for name, box in self.flags.items():
@@ -120,6 +148,7 @@ class ParameterForm(QWidget):
 
     def _typed(self) -> ScenarioParameters:
         values: dict[str, Any] = {name: field.reading.value for name, field in self.fields.items()}
+        values.update({name: chosen.word for name, chosen in self.choices.items()})
         values.update({name: box.isChecked() for name, box in self.flags.items()})
         return self._type(**values)
 

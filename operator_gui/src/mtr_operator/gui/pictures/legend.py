@@ -15,7 +15,7 @@ from ..names import domain_word
 from ..theme.appearance import Appearance
 from ..theme.scale import XS, M
 from .layers.layer import Canvas
-from .layers.points_layer import colour_of, draw_marker
+from .layers.points_layer import colour_of, draw_interval, draw_marker
 from .viewport import Viewport
 
 ROW_PX = 24.0
@@ -28,6 +28,8 @@ def legend_texts(sets: Sequence[PointSet]) -> list[str]:
     texts = [f"{domain_word(points.label)} ({len(points.known)})" for points in sets if points.known]
     if any(points.bars for points in sets):
         texts.append(translate("Picture", "uncertainty (1 sigma)"))
+    if any(points.intervals for points in sets):
+        texts.append(translate("Picture", "95 % interval"))
     return texts
 
 
@@ -41,6 +43,10 @@ def paint_entry(canvas: Canvas, sets: Sequence[PointSet], index: int, corner: QP
         painter.setPen(canvas.pen(colour, 2.2))
         painter.setBrush(QColor(colour))
         draw_marker(painter, shown[index].role, middle, 5.5 * unit)
+    elif index > len(shown) or not any(points.bars for points in sets):
+        painter.setPen(canvas.pen(canvas.palette.ink_soft, 2.2))
+        reach = QPointF(8.0 * unit, 0.0)
+        draw_interval(painter, middle - reach, middle + reach, 5.0 * unit)
     else:
         bar = canvas.pen(canvas.palette.ink_soft, 7.0, alpha=0.5)
         bar.setCapStyle(Qt.PenCapStyle.FlatCap)

@@ -5,10 +5,17 @@ from __future__ import annotations
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QPainter
 
-from mtr_operator.report.protocol_rows import Row, assessment_rows, date_text, session_rows, summary_rows
+from mtr_operator.report.protocol_rows import (
+    Row,
+    assessment_rows,
+    date_text,
+    numbers_with_effect,
+    session_rows,
+    summary_rows,
+)
 
 from ..i18n import decimal_sign, translate
-from ..names import domain_word, flag_title, parameter_title, scenario_title, yes_or_no
+from ..names import choice_title, choice_word, domain_word, flag_title, parameter_title, scenario_title, yes_or_no
 from ..sentences import translated
 from ..theme.palette import LIGHT
 from .layers.layer import Canvas, paint_all
@@ -85,13 +92,14 @@ class ProtocolSheet:
 
     def _parameter_rows(self) -> list[Row]:
         protocol = self._protocol
-        rows = []
-        for name, declared in protocol.scenario.parameters_type.declarations().items():
-            value = protocol.progress.parameters[declared.file_key]
+        stored = protocol.progress.parameters
+        rows = [(choice_title(name), choice_word(stored.get(name, choice.default)))
+                for name, choice in protocol.scenario.parameters_type.choices().items()]
+        for name, declared, value in numbers_with_effect(protocol.scenario, protocol.progress):
             if value is not None:
                 shown = declared.shown_text(value).replace(".", decimal_sign())
                 rows.append((parameter_title(name, declared), shown))
-        return rows + [(flag_title(name), yes_or_no(bool(protocol.progress.parameters.get(name))))
+        return rows + [(flag_title(name), yes_or_no(bool(stored.get(name))))
                        for name in protocol.scenario.parameters_type.flags()]
 
     def _session_rows(self) -> list[Row]:

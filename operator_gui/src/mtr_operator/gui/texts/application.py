@@ -16,6 +16,13 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "retreat until the Car locks"),
     QT_TRANSLATE_NOOP("Sentence", "radial {} ({}): go to the start"),
     QT_TRANSLATE_NOOP("Sentence", "press at {} m"),
+    QT_TRANSLATE_NOOP("Sentence", "move the key so that it does not sleep"),
+    QT_TRANSLATE_NOOP("Sentence", "The key has answered nowhere on {} radials one after the other; see whether it "
+                                  "sleeps, whether its battery is empty and whether it is the Car's key, then continue "
+                                  "the test, or begin one with a smaller minimum_distance_m."),
+    QT_TRANSLATE_NOOP("Sentence", "Parameter minimum_distance_m leaves {} m up to the first press at {} m; the method "
+                                  "adaptive needs {} m."),
+    QT_TRANSLATE_NOOP("Sentence", "Parameter {} is {}; allowed is {} or {}."),
     QT_TRANSLATE_NOOP("Sentence", "The Car's lock state is unknown: {}"),
     QT_TRANSLATE_NOOP("Sentence", "The bus does not carry it."),
     QT_TRANSLATE_NOOP("Sentence", "The Car fell silent: {}"),

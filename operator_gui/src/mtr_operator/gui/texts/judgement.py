@@ -31,6 +31,8 @@ SENTENCES = (
                                   "doors and switches alone during the test."),
     QT_TRANSLATE_NOOP("Sentence", "the press at {} m"),
     QT_TRANSLATE_NOOP("Sentence", "the Remote key's vicinity"),
+    QT_TRANSLATE_NOOP("Sentence", "No press worked, and none of {} at {} m either: the key sleeps, its battery is "
+                                  "empty, or the Car's range ends nearer; then decrease minimum_distance_m."),
     QT_TRANSLATE_NOOP("Sentence", "The Car reacted at {} m, where the robot was not to be: the line reaches from {} to "
                                   "{} m."),
     QT_TRANSLATE_NOOP("Sentence", "The robot was too fast for a measurement: {} m/s; allowed is {} m/s."),

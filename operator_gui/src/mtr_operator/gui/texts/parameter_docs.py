@@ -35,6 +35,15 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("ParameterDoc", "Standstill before each press."),
     QT_TRANSLATE_NOOP("ParameterDoc", "How long after the beginning of a press the Car may take to react."),
     QT_TRANSLATE_NOOP("ParameterDoc", "Presses at each place before it counts as failed."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "adaptive: search for the distances at which 50 and 95 % of the presses work, "
+                                      "with their intervals. scan: from far to near until a press works, as the "
+                                      "thesis does; it reads too far where the Car's range is no sharp border."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Half the width of the 95 % interval of the distance at which a radial ends."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Presses after which a radial ends although its interval is wider."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Radio frequency of the Remote key: presses half a wavelength apart meet another "
+                                      "fading."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Standstill after which the Remote key is moved before it is pressed, so that it "
+                                      "does not sleep."),
     QT_TRANSLATE_NOOP("ParameterDoc", "How far the Remote key may be beside the line when something is measured."),
     QT_TRANSLATE_NOOP("ParameterDoc", "How far the robot may be turned from the line when something is measured."),
     QT_TRANSLATE_NOOP("ParameterDoc", "How far the Remote key may be from its height while a line is measured."),

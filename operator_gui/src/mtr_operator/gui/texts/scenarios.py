@@ -6,5 +6,5 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Scenario", "Autolock"),
     QT_TRANSLATE_NOOP("Scenario", "Approach until the Car unlocks, retreat backwards until it locks, on every axis."),
     QT_TRANSLATE_NOOP("Scenario", "Key press"),
-    QT_TRANSLATE_NOOP("Scenario", "Press a button from far to near until the Car obeys, on every radial."),
+    QT_TRANSLATE_NOOP("Scenario", "Press a button on every radial, and find from how far the Car obeys."),
 )

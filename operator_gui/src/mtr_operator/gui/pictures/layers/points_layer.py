@@ -19,6 +19,7 @@ _RADIUS_PX = 5.5
 _LABEL_GAP_PX = 14.0
 _AREA_ALPHA = 0.12
 _BAR_ALPHA = 0.35
+_CAP_PX = 6.0
 
 
 def colour_of(role: PointRole, palette: Palette) -> str:
@@ -41,6 +42,16 @@ def draw_marker(painter: QPainter, role: PointRole, place: QPointF, radius: floa
         for dx, dy in ((1, 1), (1, -1)):
             painter.drawLine(QPointF(place.x() - dx * radius, place.y() - dy * radius),
                              QPointF(place.x() + dx * radius, place.y() + dy * radius))
+
+
+def draw_interval(painter: QPainter, start: QPointF, end: QPointF, cap: float) -> None:
+    """A line with a cap across each end."""
+    way = end - start
+    length = max(math.hypot(way.x(), way.y()), 1e-9)
+    across = QPointF(-way.y() * cap / length, way.x() * cap / length)
+    painter.drawLine(start, end)
+    for place in (start, end):
+        painter.drawLine(place - across, place + across)
 
 
 class AreasLayer(Layer):
@@ -127,6 +138,9 @@ def _paint_points(canvas: Canvas, points: PointSet) -> None:
     painter.setPen(bar)
     for start, end in points.bars:
         painter.drawLine(canvas.at(start), canvas.at(end))
+    painter.setPen(canvas.pen(colour, 2.2))
+    for start, end in points.intervals:
+        draw_interval(painter, canvas.at(start), canvas.at(end), _CAP_PX * canvas.unit)
     painter.setPen(canvas.pen(colour if points.role.value.endswith("failed") else canvas.palette.surface,
                               2.2 if points.role.value.endswith("failed") else 1.0))
     painter.setBrush(QColor(colour))
