@@ -14,6 +14,9 @@ from mtr_operator.domain.verdict.assessment import Assessment
 from .protocol_rows import Row, assessment_rows, date_text, parameter_rows, session_rows, summary_rows
 
 INK = "#263238"
+# Height of a row of the tables, if there is room for all, and of the margin below them; parts of the sheet's.
+_ROW, _BOTTOM = 0.0235, 0.02
+_TEXT_POINTS = 8.5
 BAR = {"linewidth": 5.0, "alpha": 0.3, "solid_capstyle": "butt"}
 INTERVAL = {"linewidth": 1.6, "solid_capstyle": "butt"}
 
@@ -36,16 +39,21 @@ def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Pro
                            fontsize=10, labelcolor=INK, handletextpad=0.4)
     legend.set_in_layout(False)
     height = top - 0.12 - 0.032 * max(len(labels), 1)
-    for heading, rows in (("Result", summary_rows(scenario, progress) + assessment_rows(assessment)),
-                          ("Parameters", parameter_rows(scenario, progress)), ("Test", session_rows(progress))):
-        height = _write_table(figure, heading, rows, left, height) - 0.022
+    tables = (("Result", summary_rows(scenario, progress) + assessment_rows(assessment)),
+              ("Parameters", parameter_rows(scenario, progress)), ("Test", session_rows(progress)))
+    # Each table has its heading, and a gap of a row below it.
+    row = min(_ROW, (height - _BOTTOM) / sum(len(rows) + 2 for _, rows in tables))
+    for heading, rows in tables:
+        height = _write_table(figure, heading, rows, (left, height), row) - row
 
 
-def _write_table(figure: Figure, heading: str, rows: list[Row], left: float, top: float) -> float:
-    """Write rows below each other; the height at which the table ends."""
+def _write_table(figure: Figure, heading: str, rows: list[Row], corner: tuple[float, float], row: float) -> float:
+    """Write rows of a height below each other; the height at which the table ends."""
+    left, top = corner
+    size = _TEXT_POINTS * row / _ROW
     figure.text(left, top, heading, fontsize=10, fontweight="bold", color=INK, va="top")
     for name, value in rows:
-        top -= 0.0235
-        figure.text(left, top, name, fontsize=8.5, color="#546e7a", va="top")
-        figure.text(0.985, top, value, fontsize=8.5, color=INK, va="top", ha="right")
-    return top - 0.0235
+        top -= row
+        figure.text(left, top, name, fontsize=size, color="#546e7a", va="top")
+        figure.text(0.985, top, value, fontsize=size, color=INK, va="top", ha="right")
+    return top - row

@@ -58,7 +58,7 @@ def parameter_rows(scenario: AnyScenario, progress: Progress) -> list[Row]:
     for _, declared, value in numbers_with_effect(scenario, progress):
         if value is not None:
             name, _, suffix = declared.file_key.rpartition("_")
-            shown = name if suffix in ("m", "s", "mps", "deg") else declared.file_key
+            shown = name if suffix in ("m", "s", "mps", "deg", "mhz") else declared.file_key
             rows.append((shown.replace("_", " "), declared.shown_text(value)))
     return rows
 
