@@ -448,139 +448,174 @@
 <context>
     <name>Parameter</name>
     <message>
-        <location filename="../names.py" line="16"/>
+        <location filename="../names.py" line="17"/>
         <source>Minimum distance</source>
         <translation>Nejmenší vzdálenost</translation>
     </message>
     <message>
-        <location filename="../names.py" line="17"/>
+        <location filename="../names.py" line="18"/>
         <source>Starting distance</source>
         <translation>Počáteční vzdálenost</translation>
     </message>
     <message>
-        <location filename="../names.py" line="18"/>
+        <location filename="../names.py" line="19"/>
         <source>Straightening distance</source>
         <translation>Srovnávací vzdálenost</translation>
     </message>
     <message>
-        <location filename="../names.py" line="19"/>
+        <location filename="../names.py" line="20"/>
         <source>Measurements distance</source>
         <translation>Rozteč měření</translation>
     </message>
     <message>
-        <location filename="../names.py" line="20"/>
+        <location filename="../names.py" line="21"/>
         <source>Approach distance</source>
         <translation>Krok přiblížení</translation>
     </message>
     <message>
-        <location filename="../names.py" line="21"/>
+        <location filename="../names.py" line="22"/>
         <source>Degrees between radials</source>
         <translation>Stupně mezi paprsky</translation>
     </message>
     <message>
-        <location filename="../names.py" line="22"/>
+        <location filename="../names.py" line="23"/>
         <source>Device height</source>
         <translation>Výška zařízení</translation>
     </message>
     <message>
-        <location filename="../names.py" line="23"/>
+        <location filename="../names.py" line="24"/>
         <source>Maximum speed</source>
         <translation>Nejvyšší rychlost</translation>
     </message>
     <message>
-        <location filename="../names.py" line="24"/>
+        <location filename="../names.py" line="25"/>
         <source>Measuring speed</source>
         <translation>Rychlost měření</translation>
     </message>
     <message>
-        <location filename="../names.py" line="29"/>
+        <location filename="../names.py" line="30"/>
         <source>Clearance</source>
         <translation>Odstup</translation>
     </message>
     <message>
-        <location filename="../names.py" line="30"/>
+        <location filename="../names.py" line="31"/>
         <source>Response time</source>
         <translation>Doba odezvy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="31"/>
+        <location filename="../names.py" line="32"/>
         <source>Locking time</source>
         <translation>Doba zamčení</translation>
     </message>
     <message>
-        <location filename="../names.py" line="32"/>
+        <location filename="../names.py" line="33"/>
         <source>Press strength</source>
         <translation>Síla stisku</translation>
     </message>
     <message>
-        <location filename="../names.py" line="33"/>
+        <location filename="../names.py" line="34"/>
         <source>Press duration</source>
         <translation>Délka stisku</translation>
     </message>
     <message>
-        <location filename="../names.py" line="34"/>
+        <location filename="../names.py" line="35"/>
         <source>Standstill before a press</source>
         <translation>Klid před stiskem</translation>
     </message>
     <message>
-        <location filename="../names.py" line="35"/>
+        <location filename="../names.py" line="36"/>
         <source>Attempts</source>
         <translation>Počet pokusů</translation>
     </message>
     <message>
-        <location filename="../names.py" line="55"/>
+        <location filename="../names.py" line="60"/>
         <source>Check the Car&apos;s position before the test</source>
         <translation>Před testem ověřit polohu auta</translation>
     </message>
     <message>
-        <location filename="../names.py" line="61"/>
+        <location filename="../names.py" line="79"/>
         <source>yes</source>
         <translation>ano</translation>
     </message>
     <message>
-        <location filename="../names.py" line="61"/>
+        <location filename="../names.py" line="79"/>
         <source>no</source>
         <translation>ne</translation>
     </message>
     <message>
-        <location filename="../names.py" line="36"/>
+        <location filename="../names.py" line="41"/>
         <source>Distance beside the line</source>
         <translation>Odchylka od osy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="37"/>
+        <location filename="../names.py" line="42"/>
         <source>Turn from the line</source>
         <translation>Natočení od osy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="38"/>
+        <location filename="../names.py" line="43"/>
         <source>Difference in height</source>
         <translation>Odchylka výšky</translation>
     </message>
     <message>
-        <location filename="../names.py" line="39"/>
+        <location filename="../names.py" line="44"/>
         <source>Difference in speed</source>
         <translation>Odchylka rychlosti</translation>
     </message>
     <message>
-        <location filename="../names.py" line="25"/>
+        <location filename="../names.py" line="26"/>
         <source>Passes</source>
         <translation>Průjezdy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="26"/>
+        <location filename="../names.py" line="27"/>
         <source>Speeds of the passes</source>
         <translation>Rychlosti průjezdů</translation>
     </message>
     <message>
-        <location filename="../names.py" line="27"/>
+        <location filename="../names.py" line="28"/>
         <source>Sigma of the boundary</source>
         <translation>Sigma hranice</translation>
     </message>
     <message>
-        <location filename="../names.py" line="28"/>
+        <location filename="../names.py" line="29"/>
         <source>Step of a last approach</source>
         <translation>Krok posledního přiblížení</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="37"/>
+        <source>Interval wanted, half width</source>
+        <translation>Požadovaný interval, polovina šířky</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="38"/>
+        <source>Presses at most</source>
+        <translation>Nejvýše stisků</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="39"/>
+        <source>Key&apos;s radio frequency</source>
+        <translation>Rádiová frekvence klíče</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="40"/>
+        <source>Key&apos;s rest at most</source>
+        <translation>Klid klíče nejvýše</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="66"/>
+        <source>Method</source>
+        <translation>Metoda</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="72"/>
+        <source>from far to near (scan)</source>
+        <translation>z dálky k autu (scan)</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="73"/>
+        <source>search with intervals (adaptive)</source>
+        <translation>hledání s intervaly (adaptive)</translation>
     </message>
 </context>
 <context>
@@ -730,36 +765,61 @@
         <source>Step of one more approach, with a stop for the response time after each, for Cars that poll slowly; default: none.</source>
         <translation>Krok ještě jednoho přiblížení se zastavením na dobu odezvy po každém kroku, pro vozy s pomalým dotazováním; výchozí: žádný.</translation>
     </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>adaptive: search for the distances at which 50 and 95 % of the presses work, with their intervals. scan: from far to near until a press works, as the thesis does; it reads too far where the Car&apos;s range is no sharp border.</source>
+        <translation>adaptive: hledá vzdálenosti, na které funguje 50 a 95 % stisků, a jejich intervaly. scan: z dálky k autu, dokud stisk nefunguje, jako v diplomové práci; kde dosah auta nemá ostrou hranici, naměří příliš mnoho.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Half the width of the 95 % interval of the distance at which a radial ends.</source>
+        <translation>Polovina šířky 95% intervalu vzdálenosti, při které paprsek končí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Presses after which a radial ends although its interval is wider.</source>
+        <translation>Počet stisků, po kterém paprsek končí, i když je jeho interval širší.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Radio frequency of the Remote key: presses half a wavelength apart meet another fading.</source>
+        <translation>Rádiová frekvence klíče: stisky vzdálené půl vlnové délky mají jiný únik signálu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Standstill after which the Remote key is moved before it is pressed, so that it does not sleep.</source>
+        <translation>Doba klidu, po které se klíč před stiskem pohne, aby neusnul.</translation>
+    </message>
 </context>
 <context>
     <name>ParameterField</name>
     <message>
-        <location filename="../forms/parameter_field.py" line="44"/>
+        <location filename="../forms/parameter_field.py" line="47"/>
         <source>{low} to {high} {unit}; may be empty</source>
         <translation>{low} až {high} {unit}; smí být prázdné</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_field.py" line="46"/>
+        <location filename="../forms/parameter_field.py" line="49"/>
         <source>{low} to {high} {unit}, usually {default}</source>
         <translation>{low} až {high} {unit}, obvykle {default}</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_field.py" line="53"/>
+        <location filename="../forms/parameter_field.py" line="56"/>
         <source>Enter a value from {low} to {high} {unit}.</source>
         <translation>Zadejte hodnotu od {low} do {high} {unit}.</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_field.py" line="54"/>
+        <location filename="../forms/parameter_field.py" line="57"/>
         <source>This is not a number; allowed is {low} to {high} {unit}.</source>
         <translation>Toto není číslo; povoleno je {low} až {high} {unit}.</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_field.py" line="55"/>
+        <location filename="../forms/parameter_field.py" line="58"/>
         <source>Only whole numbers are allowed, {low} to {high} {unit}.</source>
         <translation>Povolena jsou jen celá čísla, {low} až {high} {unit}.</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_field.py" line="56"/>
+        <location filename="../forms/parameter_field.py" line="59"/>
         <source>Allowed is {low} to {high} {unit}.</source>
         <translation>Povoleno je {low} až {high} {unit}.</translation>
     </message>
@@ -767,17 +827,17 @@
 <context>
     <name>ParameterForm</name>
     <message>
-        <location filename="../forms/parameter_form.py" line="41"/>
+        <location filename="../forms/parameter_form.py" line="44"/>
         <source>Usual values</source>
         <translation>Obvyklé hodnoty</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_form.py" line="91"/>
+        <location filename="../forms/parameter_form.py" line="117"/>
         <source>Fewer parameters</source>
         <translation>Méně parametrů</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_form.py" line="91"/>
+        <location filename="../forms/parameter_form.py" line="117"/>
         <source>More parameters</source>
         <translation>Více parametrů</translation>
     </message>
@@ -793,6 +853,11 @@
         <location filename="../pictures/legend.py" line="30"/>
         <source>uncertainty (1 sigma)</source>
         <translation>nejistota (1 sigma)</translation>
+    </message>
+    <message>
+        <location filename="../pictures/legend.py" line="32"/>
+        <source>95 % interval</source>
+        <translation>95% interval</translation>
     </message>
 </context>
 <context>
@@ -834,22 +899,22 @@
 <context>
     <name>Protocol</name>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="62"/>
+        <location filename="../pictures/protocol_sheet.py" line="69"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="75"/>
+        <location filename="../pictures/protocol_sheet.py" line="82"/>
         <source>Result</source>
         <translation>Výsledek</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="75"/>
+        <location filename="../pictures/protocol_sheet.py" line="82"/>
         <source>Parameters</source>
         <translation>Parametry</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="75"/>
+        <location filename="../pictures/protocol_sheet.py" line="82"/>
         <source>Test</source>
         <translation>Test</translation>
     </message>
@@ -979,8 +1044,8 @@
     </message>
     <message>
         <location filename="../texts/scenarios.py" line="5"/>
-        <source>Press a button from far to near until the Car obeys, on every radial.</source>
-        <translation>Na každém paprsku tisknout tlačítko z dálky stále blíž, dokud auto neposlechne.</translation>
+        <source>Press a button on every radial, and find from how far the Car obeys.</source>
+        <translation>Na každém paprsku tiskne tlačítko a zjišťuje, na jakou vzdálenost auto poslechne.</translation>
     </message>
 </context>
 <context>
@@ -2175,6 +2240,31 @@
         <source>Parameter {} is {}; allowed is a list of numbers, {}.</source>
         <translation>Parametr {} je {}; dovolen je seznam čísel, {}.</translation>
     </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>move the key so that it does not sleep</source>
+        <translation>pohyb klíčem, aby neusnul</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>The key has answered nowhere on {} radials one after the other; see whether it sleeps, whether its battery is empty and whether it is the Car&apos;s key, then continue the test, or begin one with a smaller minimum_distance_m.</source>
+        <translation>Klíč na {} paprscích za sebou nikde neodpověděl; zjistěte, zda nespí, zda nemá vybitou baterii a zda patří k autu, pak v testu pokračujte, nebo začněte nový s menší minimum_distance_m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>Parameter minimum_distance_m leaves {} m up to the first press at {} m; the method adaptive needs {} m.</source>
+        <translation>Parametr minimum_distance_m nechává {} m k prvnímu stisku na {} m; metoda adaptive potřebuje {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>Parameter {} is {}; allowed is {} or {}.</source>
+        <translation>Parametr {} je {}; povoleno je {} nebo {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>No press worked, and none of {} at {} m either: the key sleeps, its battery is empty, or the Car&apos;s range ends nearer; then decrease minimum_distance_m.</source>
+        <translation>Žádný stisk nefungoval, ani žádný z {} na {} m: klíč spí, má vybitou baterii, nebo dosah auta končí blíž; pak zmenšete minimum_distance_m.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -2773,6 +2863,31 @@
         <location filename="../texts/words.py" line="5"/>
         <source>aborted</source>
         <translation>přerušeno</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>50 % of the presses work</source>
+        <translation>funguje 50 % stisků</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>95 % of the presses work</source>
+        <translation>funguje 95 % stisků</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Border farther than here</source>
+        <translation>hranice dále než zde</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Border nearer than here</source>
+        <translation>hranice blíže než zde</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Hole</source>
+        <translation>díra</translation>
     </message>
 </context>
 </TS>
