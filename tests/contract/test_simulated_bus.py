@@ -5,7 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from mtr_operator.car_link.lock_watch import CanFrame, LockWatch
+from mtr_operator.car_link.can_frame import CanFrame
+from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.profile import load_profile
 from mtr_operator.domain.ports import KEY_BUTTON, LockState
 from mtr_operator.domain.robot_status import RobotStatus

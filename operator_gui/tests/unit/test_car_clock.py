@@ -5,8 +5,8 @@ import random
 
 import pytest
 
-from mtr_operator.car_link.adapter_clock import AdapterClockMap, StampUnwrapper
-from mtr_operator.car_link.arrival_clock import ArrivalClockMap
+from mtr_operator.car_link.clocks.adapter_clock import AdapterClockMap, StampUnwrapper
+from mtr_operator.car_link.clocks.arrival_clock import ArrivalClockMap
 
 SEEDS = range(10)
 STEP_S = 0.02

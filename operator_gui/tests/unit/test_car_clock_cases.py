@@ -6,8 +6,8 @@ import statistics
 
 import pytest
 
-from mtr_operator.car_link.adapter_clock import AdapterClockMap, StampUnwrapper
-from mtr_operator.car_link.arrival_clock import ArrivalClockMap
+from mtr_operator.car_link.clocks.adapter_clock import AdapterClockMap, StampUnwrapper
+from mtr_operator.car_link.clocks.arrival_clock import ArrivalClockMap
 
 GAP_S = 0.03125
 FIRST_S = 100.0

@@ -9,8 +9,9 @@ from typing import NamedTuple
 
 import pytest
 
+from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.fake_message import DemoLockMessage
-from mtr_operator.car_link.lock_watch import CanFrame, LockWatch
+from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.profile import load_profile
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import RobotStatus

@@ -6,7 +6,7 @@ import time
 import can
 import pytest
 
-from mtr_operator.car_link.frame_stamps import frame_time
+from mtr_operator.car_link.clocks.frame_stamps import frame_time
 
 NOW_S = 500.0
 

@@ -110,7 +110,7 @@ def test_robot_is_not_ordered_on_when_a_point_cannot_be_kept(run, robot_link):  
         run("autolock", diary)
     before = len(diary.order) - 1 - diary.kinds()[::-1].index(EVENT)
     assert LINE not in diary.kinds()
-    assert diary.kinds()[before + 1:] and set(diary.kinds()[before + 1:]) <= {"sent", "decision"}
+    assert diary.kinds()[before + 1:] and set(diary.kinds()[before + 1:]) <= {"sent", "decision", "session"}
     assert all(desired.stop for _, desired in robot_link.answers[-diary.kinds()[before + 1:].count("sent"):])
 
 

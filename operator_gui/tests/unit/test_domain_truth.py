@@ -8,8 +8,9 @@ from dataclasses import replace
 
 import pytest
 
+from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.fake_message import DemoLockMessage
-from mtr_operator.car_link.lock_watch import CanFrame, LockWatch
+from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.profile import PROFILE_FOLDER, load_profile
 from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, CarLink, LockFacts, LockState
 from mtr_operator.domain.requests import Direction

@@ -8,11 +8,12 @@ import time
 from typing import Any
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import CarEvent, CarLink, LockFacts, LockState
+from mtr_operator.domain.ports import CarEvent, CarLink, LockFacts, LockState, Refused
 from mtr_operator.domain.robot_status import RobotStatus
 
 from .adapter import AdapterSettings, open_adapter
-from .lock_watch import CanFrame, LockWatch
+from .can_frame import CanFrame
+from .lock_watch import LockWatch
 from .profile import CarProfile, load_profile
 from .reader import CanReader, FrameSink
 
@@ -85,6 +86,12 @@ class CanCarLink(CarLink, FrameSink):
     def facts(self) -> LockFacts:
         """See CarLink."""
         return LockFacts() if self.profile is None else self.profile.facts
+
+    @property
+    def refused(self) -> Refused:
+        """See CarLink."""
+        with self._changed:
+            return Refused() if self._watch is None else self._watch.refused
 
     @property
     def problem(self) -> str:

@@ -12,8 +12,8 @@ import can
 from mtr_operator.domain.errors import ConnectionFailed
 
 from .adapter import shut_down
-from .frame_stamps import frame_time
-from .lock_watch import CanFrame
+from .can_frame import CanFrame
+from .clocks.frame_stamps import frame_time
 from .slcan import FLAG_BUS_ERROR, FLAG_ERROR_PASSIVE, StampedSlcanBus
 
 _POLL_S = 0.1

@@ -62,6 +62,14 @@ class LockFacts:
     told_every_s: float = 0.0
 
 
+@dataclass(frozen=True)
+class Refused:
+    """How many messages were not believed or not obeyed, and a sentence about the last one."""
+
+    count: int = 0
+    last: str = ""
+
+
 @dataclass
 class LinkStatistics:
     """Counts since the connection was made. implausible: messages with a number beyond domain.limits, not used."""
@@ -77,6 +85,11 @@ class LinkStatistics:
     def ignored(self) -> int:
         """Messages that were not used."""
         return self.undecodable + self.oversized + self.implausible
+
+    @property
+    def refused(self) -> Refused:
+        """The same with the last sentence."""
+        return Refused(self.ignored, self.last_error)
 
 
 class RobotLink(ABC):
@@ -133,6 +146,11 @@ class CarLink(ABC):
     def facts(self) -> LockFacts:
         """What is known of this car beforehand."""
         return LockFacts()
+
+    @property
+    def refused(self) -> Refused:
+        """Frames of the Car's lock message that are not to be believed, since the start."""
+        return Refused()
 
     @property
     @abstractmethod

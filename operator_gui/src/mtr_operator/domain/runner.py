@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import contextlib
 from typing import Any, Callable, Sequence
 
 from .actions.car import Car
 from .actions.control_loop import ControlLoop
 from .actions.preparation import check_car, prepare
 from .actions.robot import Robot
-from .errors import ProgressFileError, RobotFailed
+from .errors import OperatorError, OutputError, ProgressFileError, RobotFailed
 from .results.frame_record import check_entry
 from .results.journal import (
     CAR,
@@ -18,6 +19,7 @@ from .results.journal import (
     LINE_BEGUN,
     LINE_RESUMED,
     REVISED,
+    SESSION,
     SUPERSEDED,
     Journal,
     plain_fields,
@@ -25,6 +27,8 @@ from .results.journal import (
 from .results.line_result import LineResult
 from .results.notebook import Notebook
 from .results.progress import Progress
+from .results.refusals import Refusals
+from .results.session_record import ENDED_BY, RECOVERED
 from .robot_status import CheckState
 from .scenario import AnyScenario, Line, ScenarioParameters
 from .verdict.assessment import Assessor
@@ -46,6 +50,7 @@ class Runner:
         self._progress = progress
         self._save = save
         self._notebook = loop.journal = Notebook(progress, scenario.result_type, journal or Journal())
+        loop.refusals = Refusals(progress.session, self._notebook)
         self._robot = Robot(loop, progress.results)
         self._car = Car(loop)
         self._total = 0
@@ -53,6 +58,8 @@ class Runner:
     def run(self) -> None:
         """Measure all lines, the invalid ones once more at the end; the robot stands still afterwards in any case."""
         parameters = self._parameters
+        if self._progress.notice:
+            self._notebook.add(SESSION, {RECOVERED: self._progress.notice})
         try:
             prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
             for sentence in self._scenario.cautions(parameters, self._car.facts):
@@ -66,9 +73,19 @@ class Runner:
                 self._notebook.add(LINE, {"result": half.to_document(), "frame": self._frame()})
             self._measure(lines)
             self._measure_further(lines)
+            self._loop.refusals.keep()
+        except OperatorError as error:
+            self._note_end(error)
+            raise
         finally:
             self._halt()
         self._conclude()
+
+    def _note_end(self, error: OperatorError) -> None:
+        """Why a test ended and what was refused until then stands in its record, if anything can still be kept."""
+        with contextlib.suppress(OutputError):
+            self._loop.refusals.keep()
+            self._notebook.add(SESSION, {ENDED_BY: str(error)})
 
     def _halt(self) -> None:
         stands = self._loop.halt()

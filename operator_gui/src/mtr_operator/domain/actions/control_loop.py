@@ -15,6 +15,7 @@ from ..ports import CarEvent, CarLink, RobotLink
 from ..requests import DesiredState
 from ..results.frame_history import FrameHistory
 from ..results.journal import EVENT, Journal, plain_fields
+from ..results.refusals import Refusals
 from ..robot_status import CarDimensions, RobotStatus
 from .observer import RunObserver
 from .pose_history import STANDING_MPS, PoseHistory
@@ -49,6 +50,7 @@ class ControlLoop:
         car_dimensions: the Car as the robot measured it last, None before.
         frames: the Car coordinate systems that the robot has had in this run.
         journal: where events, presses and measurements are kept before the robot is ordered on.
+        refusals: what is refused meanwhile.
     """
 
     def __init__(self, robot_link: RobotLink, car_link: CarLink, observer: RunObserver | None = None,
@@ -60,6 +62,7 @@ class ControlLoop:
         self.car_dimensions: CarDimensions | None = None
         self.frames = FrameHistory()
         self.journal = Journal()
+        self.refusals = Refusals()
         self.observer = observer or RunObserver()
         self._robot_link = robot_link
         self._car_link = car_link
@@ -151,6 +154,7 @@ class ControlLoop:
         self._status = status
         self.car_dimensions = status.car or self.car_dimensions
         self._learn_events(self._car_link.observe(status))
+        self.refusals.look(status, self._robot_link.statistics, self._car_link.refused)
         self.observer.on_status(status)
         if restarted:
             raise RobotFailed("The robot started anew during the test; the measured lines are kept, go on with a "

@@ -7,6 +7,11 @@ import datetime
 from mtr_operator import __version__
 
 STARTED, CONTINUED, ROBOT_SOFTWARE = "started", "continued", "robot software"
+# Only in the record of a test in which it happened.
+ENDED_BY, RECOVERED = "ended before its end", "recovered"
+REFUSED_STATUSES = "messages of the robot that were not used"
+REFUSED_COMMANDS = "messages that the robot refused"
+REFUSED_FRAMES = "frames of the Car that were not believed"
 
 
 def session_record(started: datetime.datetime, robot: str, car_profile: str) -> dict[str, str]:

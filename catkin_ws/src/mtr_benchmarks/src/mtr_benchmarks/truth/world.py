@@ -4,7 +4,8 @@ import math
 from dataclasses import dataclass, field
 from typing import Callable, List, Optional, Tuple
 
-from mtr_operator.car_link.lock_watch import CanFrame, LockWatch
+from mtr_operator.car_link.can_frame import CanFrame
+from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.profile import CarProfile
 from mtr_operator.domain.ports import CarEvent, CarLink, LinkStatistics, LockFacts, LockState, RobotLink
 from mtr_operator.domain.requests import DesiredState

@@ -1,0 +1,26 @@
+"""A frame as it comes from the reader."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class CanFrame:
+    """A received frame.
+
+    arrival_s: laptop's monotonic clock. stamp_ms: adapter's clock, starting again each minute; stamp_s: adapter's clock
+    that does not; None when it gives none.
+    """
+
+    can_id: int
+    is_extended: bool
+    data: bytes
+    arrival_s: float
+    stamp_ms: int | None = None
+    stamp_s: float | None = None
+
+    @property
+    def is_stamped(self) -> bool:
+        """The adapter gave it a stamp."""
+        return self.stamp_ms is not None or self.stamp_s is not None
