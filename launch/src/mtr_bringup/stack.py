@@ -32,6 +32,7 @@ class StackOptions:
         lockstep_operator: time waits for the Operator's application.
         rviz: show the robot.
         arguments: further arguments of sim.launch.
+        variables: further variables of the nodes' environment.
     """
 
     folder: pathlib.Path
@@ -40,6 +41,7 @@ class StackOptions:
     lockstep_operator: bool = True
     rviz: bool = False
     arguments: Optional[Dict[str, str]] = None
+    variables: Optional[Dict[str, str]] = None
 
 
 def free_port() -> int:
@@ -77,7 +79,8 @@ class Stack:
     def __enter__(self) -> "Stack":
         self.log.parent.mkdir(parents=True, exist_ok=True)
         with self.log.open("wb") as log:
-            process = subprocess.Popen(self._command(), env=self.environment(), stdout=log, stderr=subprocess.STDOUT,
+            environment = {**self.environment(), **(self.options.variables or {})}
+            process = subprocess.Popen(self._command(), env=environment, stdout=log, stderr=subprocess.STDOUT,
                                        start_new_session=True)
         self._process = process
         try:

@@ -106,11 +106,11 @@ class TruthMessage:
     def __init__(self) -> None:
         self._odometry = OdometryMessage(names.CAR, (0.0,) * 6)
 
-    def fill(self, truth: TrueState) -> Odometry:
-        """Message for the true state."""
+    def fill(self, truth: TrueState, offset_ns: int = 0) -> Odometry:
+        """Message for the true state; its stamp is so far ahead of the simulated clock."""
         pose = truth.car_from_base
         reading = WheelOdometry(pose.x, pose.y, pose.heading, truth.linear_mps, truth.angular_radps)
-        return self._odometry.fill(truth.time_ns, reading, truth.lateral_mps)
+        return self._odometry.fill(truth.time_ns + offset_ns, reading, truth.lateral_mps)
 
 
 def battery_message(time_ns: int, reading: BatteryReading) -> BatteryState:

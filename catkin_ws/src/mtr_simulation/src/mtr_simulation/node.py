@@ -21,6 +21,7 @@ from mtr_description.robot_description import described_robot
 from . import conversions
 from .clock import connections
 from .clock.barrier import Barrier, Watcher
+from .clock.machine import offset_of, stamped
 from .clock.pacing import Pace
 from .firmware.connections import emulated_firmware, firmware_topics
 from .parameters import SimulatorParameters
@@ -42,6 +43,7 @@ class SimulatorNode:
         self._output = Output(parameters.rear_lidar, self._firmware.publishers)
         self._barrier = Barrier(parameters.held_by, NodeWatcher(self._output))
         self._pace = Pace(parameters.real_time_factor)
+        self._offset_ns = offset_of(rospy.get_param("/use_sim_time", False), parameters.real_time_factor)
         self._stopped = threading.Event()
         self._received: Deque[Callable[[], None]] = collections.deque()
         self._contacts: Set[str] = set()
@@ -71,7 +73,7 @@ class SimulatorNode:
             delay_s = self._pace.delay(time_ns * 1e-9)
             if delay_s:
                 self._stopped.wait(delay_s)
-            self._output.publish(sensors, self._world)
+            self._output.publish(sensors, self._world, self._offset_ns(time_ns))
             self._firmware.publish(time_ns)
             self._output.clock(time_ns, self._barrier.asleep(time_ns))
             self._world.sim.cast_ahead()
@@ -160,19 +162,19 @@ class Output:
             except (OSError, TransportException):
                 topic.remove_connection(connection)
 
-    def publish(self, sensors: Sensors, world: World) -> None:
-        """Everything of a tick but the clock, which comes last."""
-        time_ns = sensors.time_ns
+    def publish(self, sensors: Sensors, world: World, offset_ns: int) -> None:
+        """Everything of a tick but the clock, which comes last; stamps are so far ahead of the simulated clock."""
+        due_ns, sensors = sensors.time_ns, stamped(sensors, offset_ns)
         for publisher, scan, frame in ((self._front, sensors.front_scan, names.FRONT_LIDAR),
                                        (self._rear, sensors.rear_scan, names.REAR_LIDAR)):
             if scan and publisher is not None and publisher.get_num_connections():
                 publisher.publish(conversions.scan_message(scan, frame))
-        if LIDAR.last_at(time_ns) == time_ns and self._truth.get_num_connections():
-            self._truth.publish(self._truth_message.fill(world.truth))
-        if BATTERY.last_at(time_ns) == time_ns:
-            self._battery.publish(conversions.battery_message(time_ns, sensors.battery))
-        self._imu.publish(self._imu_message.fill(time_ns, sensors.imu))
-        self._odometry.publish(self._odometry_message.fill(time_ns, sensors.odometry))
+        if LIDAR.last_at(due_ns) == due_ns and self._truth.get_num_connections():
+            self._truth.publish(self._truth_message.fill(world.truth, offset_ns))
+        if BATTERY.last_at(due_ns) == due_ns:
+            self._battery.publish(conversions.battery_message(sensors.time_ns, sensors.battery))
+        self._imu.publish(self._imu_message.fill(sensors.time_ns, sensors.imu))
+        self._odometry.publish(self._odometry_message.fill(sensors.time_ns, sensors.odometry))
 
 
 class NodeWatcher(Watcher):
