@@ -1,4 +1,4 @@
-"""Between ROS messages and the planner's plain types."""
+"""Between ROS messages and the planner's plain types; a stamp_s is of the steady clock, which nobody sets."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Any, Optional, Tuple
@@ -25,11 +25,11 @@ RED, GREEN, YELLOW = (0.9, 0.2, 0.1), (0.1, 0.9, 0.2), (1.0, 0.9, 0.1)
 SLOW, FAST = (0.2, 0.4, 1.0), (1.0, 1.0, 1.0)
 
 
-def desired_from(message: Optional[RobotMode]) -> Optional[DesiredMotion]:
+def desired_from(message: Optional[RobotMode], stamp_s: float) -> Optional[DesiredMotion]:
     """What the state machine wants of the robot's motion."""
     if message is None:
         return None
-    return DesiredMotion(message.header.stamp.to_sec(), goal_from(message), message.max_speed_mps,
+    return DesiredMotion(stamp_s, goal_from(message), message.max_speed_mps,
                          message.mode == RobotMode.FOLLOWING_WAYPOINT)
 
 
@@ -41,30 +41,30 @@ def nav_goal_from(message: PoseStamped) -> Optional[Tuple[Pose2, bool]]:
     return Pose2(at.x, at.y, 2.0 * math.atan2(turned.z, turned.w)), frame == names.CAR
 
 
-def robot_from(message: Optional[LocalizedPose]) -> Optional[RobotState]:
+def robot_from(message: Optional[LocalizedPose], stamp_s: float) -> Optional[RobotState]:
     """State of the robot."""
     if message is None:
         return None
-    return RobotState(message.header.stamp.to_sec(), message.valid, Pose2(message.x, message.y, message.heading),
+    return RobotState(stamp_s, message.valid, Pose2(message.x, message.y, message.heading),
                       message.speed_mps, message.yaw_rate_radps, problem_of(message.problems, message.message),
                       message.degenerate)
 
 
-def car_from(message: Optional[CarEstimate]) -> Optional[EstimatedCar]:
+def car_from(message: Optional[CarEstimate], stamp_s: float) -> Optional[EstimatedCar]:
     """The Car as estimated; its outline is the prior's before it is located."""
     if message is None:
         return None
-    return EstimatedCar(message.header.stamp.to_sec(), message.state == CarEstimate.LOCATED,
+    return EstimatedCar(stamp_s, message.state == CarEstimate.LOCATED,
                         Pose2(message.x, message.y, message.heading),
                         tuple(zip(message.outline_x, message.outline_y)))
 
 
-def collision_stop_from(message: Optional[DriveStatus]) -> Optional[CollisionStop]:
+def collision_stop_from(message: Optional[DriveStatus], stamp_s: float) -> Optional[CollisionStop]:
     """What the collision stop does."""
     if message is None:
         return None
     zone = Zone(message.zone) if message.zone in tuple(Zone) else Zone.BLOCKED
-    return CollisionStop(message.header.stamp.to_sec(), zone, message.obstacle_m, message.obstacle_bearing,
+    return CollisionStop(stamp_s, zone, message.obstacle_m, message.obstacle_bearing,
                          problem_of(message.problems, message.message))
 
 

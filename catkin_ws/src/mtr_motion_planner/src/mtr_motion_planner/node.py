@@ -9,8 +9,9 @@ from std_msgs.msg import Header
 from visualization_msgs.msg import MarkerArray
 
 from mtr_core import names, schedule
+from mtr_core.liveness import NS
 from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
-from mtr_core.lockstep.clock import is_simulated, stamp_of
+from mtr_core.lockstep.clock import is_simulated, stamp_of, steady_at
 from mtr_description.robot_description import described_robot
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
@@ -69,12 +70,13 @@ class MotionPlannerNode:
 
     def tick(self, tick_ns: int) -> None:
         """One step of the planner."""
-        desired = self._nav_goals.joined(desired_from(self._mode.at(tick_ns)))
+        desired = self._nav_goals.joined(desired_from(self._mode.at(tick_ns), self._mode.stamp_s))
         refusal = self._nav_goals.refusal()
         if refusal:
             rospy.logwarn("%s", refusal)
-        inputs = Inputs(tick_ns * 1e-9, desired, robot_from(self._pose.at(tick_ns)),
-                        car_from(self._car.at(tick_ns)), collision_stop_from(self._drive.at(tick_ns)))
+        inputs = Inputs(steady_at(tick_ns) * NS, desired, robot_from(self._pose.at(tick_ns), self._pose.stamp_s),
+                        car_from(self._car.at(tick_ns), self._car.stamp_s),
+                        collision_stop_from(self._drive.at(tick_ns), self._drive.stamp_s))
         output = self._planner.step(inputs)
         stamp = stamp_of(tick_ns)
         self._velocity.publish(velocity_message(output, Header(stamp=stamp)))

@@ -83,7 +83,7 @@ def test_picture_shows_zone_way_and_goal_in_the_frame_of_the_plan():
 
 def test_goal_of_the_state_machine_is_echoed_in_the_status():
     waypoint = Waypoint(3, "car_locator", "map", Pose2(1.0, 2.0, 0.5), 1)
-    goal = desired_from(RobotMode(goal=waypoint_message(waypoint), goal_attempt=6)).goal
+    goal = desired_from(RobotMode(goal=waypoint_message(waypoint), goal_attempt=6), 1.0).goal
     assert goal == Goal(waypoint, 6)
     why = Problem("motion_planner.why", "Why.")
     status = status_message(PlannerOutput(0.1, 0.2, True, goal.id, Result.BLOCKED, 1.5, why), Header())

@@ -45,6 +45,11 @@ class TickInput:
         """Age at the tick of the message that `at` gave last, whatever was done to the robot's clock; inf for none."""
         return (clock.steady_at(tick_ns) - self._used.steady_stamp_ns) * NS if self._used else math.inf
 
+    @property
+    def stamp_s(self) -> float:
+        """Stamp of the message that `at` gave last, on the steady clock in s; NaN for none."""
+        return self._used.steady_stamp_ns * NS if self._used else math.nan
+
     def fresh_at(self, tick_ns: int, limit_s: float) -> Optional[Any]:
         """The same as `at`, None when it no longer tells the present."""
         message = self.at(tick_ns)
