@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "mtr_core/names.hpp"
 #include "mtr_core/parameter_reader.hpp"
 
 namespace mtr_core {
@@ -32,8 +33,11 @@ int run_node(int argc, char** argv, const std::string& name) {
     made = std::make_unique<N>(node, parameters);
   } catch (const ConfigurationError& error) {
     ROS_FATAL("The node %s cannot start. %s", name.c_str(), error.what());
+    // For the Operator: a log may be lost with the process.
+    ros::param::set(names::kStartFailures + ros::this_node::getName(), std::string(error.what()));
     return kCannotStart;
   }
+  ros::param::del(names::kStartFailures + ros::this_node::getName());
   made->spin();
   return 0;
 }

@@ -13,6 +13,8 @@ IMU = "imu"
 
 # Parameter of the whole robot: its URDF
 ROBOT_DESCRIPTION = "/robot_description"
+# Of each node that cannot start, by its name: why. It is gone when the node has started
+START_FAILURES = "/start_failures"
 
 # Sensors and wheels, as on a Jackal
 FRONT_SCAN = "/front/scan"

@@ -40,6 +40,34 @@ def printed(monkeypatch):
     return lines
 
 
+@pytest.fixture(autouse=True)
+def master(monkeypatch):
+    """Parameters on the master."""
+    kept = {}
+    monkeypatch.setattr(rospy, "get_name", lambda: "/walker")
+    monkeypatch.setattr(rospy, "set_param", kept.__setitem__)
+    monkeypatch.setattr(rospy, "has_param", kept.__contains__)
+    monkeypatch.setattr(rospy, "delete_param", kept.__delitem__)
+    return kept
+
+
+def test_why_a_node_cannot_start_is_kept_until_it_has_started(printed, master, monkeypatch):
+    monkeypatch.setattr(rospy, "get_param", lambda name, default: {"speed_mps": 3.0})
+    run_node("walker", Parameters, Node)
+    assert master == {"/start_failures/walker": "Parameter speed_mps is 3 m/s; allowed is 0.05 to 2 m/s."}
+    monkeypatch.setattr(rospy, "get_param", lambda name, default: {})
+    run_node("walker", Parameters, Node)
+    assert master == {}
+
+
+def test_node_whose_master_is_gone_ends_all_the_same(printed, monkeypatch):
+    def refuse(name, value):
+        raise ConnectionRefusedError("master")
+    monkeypatch.setattr(rospy, "set_param", refuse)
+    monkeypatch.setattr(rospy, "get_param", lambda name, default: {"speed_mps": 3.0})
+    assert run_node("walker", Parameters, Node) == 2
+
+
 def test_node_prints_its_parameters_in_one_line_and_ends_with_0(printed):
     assert run_node("walker", Parameters, Node) == 0
     assert printed == [("info", "Parameters: speed_mps 0.5 m/s")]

@@ -40,6 +40,7 @@ PRESS_DURATION = Sentence("dispatcher.press_duration",
                           "Button press {id}: duration is {value} s; allowed is {low} to {high} s.")
 
 # Nodes and battery
+NODE_CANNOT_START = Sentence("dispatcher.node_cannot_start", "The node {node} cannot start: {why}")
 STATE_MACHINE_SILENT = Sentence("dispatcher.state_machine_silent",
                                 "The robot's state machine is silent; the robot stands still.")
 PERIPHERALS_SILENT = Sentence("dispatcher.peripherals_silent", "The node of lift and buttons is silent.")

@@ -13,6 +13,7 @@ from mtr_dispatcher.order_numbers import OrderNumbers
 from mtr_dispatcher.parameters import Parameters
 from mtr_dispatcher.sent_statuses import KEPT, SentStatuses
 from mtr_dispatcher.session import MAX_FIRST_ID, MAX_ID_STEP, CommandResult, ControlSession
+from mtr_dispatcher.start_failures import StartFailures
 from mtr_dispatcher.status.builder import Identity
 from mtr_dispatcher.status.emergency import EmergencyStop, EmergencyWatch
 from mtr_dispatcher.status.inputs import Inputs
@@ -257,3 +258,34 @@ def test_waypoint_and_its_problem_are_untouched():
     order = Command(1, 1, 1, 1.0, waypoint=Waypoint(1, "application/1", "car", Pose2(1.0, 2.0, 3.0)), resume_hold_id=9)
     assert session.take(order, 1.0, 1.0) is CommandResult.TAKEN
     assert session.desired(1.0).stop_reason == NO_PROBLEM == Problem() and session.command.resume_hold_id == 9
+
+
+def test_operator_reads_which_node_cannot_start_and_why_until_it_has():
+    core = Dispatcher(Parameters(), Identity(7, "1.2.3", 0.25, 0.0))
+    why = "Parameter speed_mps is 3 m/s; allowed is 0.05 to 2 m/s."
+    told = link.Status.FromString(core.status(Inputs(1.0, start_failures={"walker": why})))
+    notice = next(note for note in told.notifications if note.code == "node_cannot_start")
+    assert notice.severity == link.SEVERITY_ERROR and "walker" in notice.text and why in notice.text
+    later = link.Status.FromString(core.status(Inputs(2.0)))
+    assert "node_cannot_start" not in {note.code for note in later.notifications}
+
+
+@pytest.mark.parametrize("parameter", [None, [], "text", 7, {}])
+def test_what_anybody_has_set_on_the_master_is_no_failure_of_a_node(parameter):
+    failures = StartFailures(lambda: parameter)
+    failures.update()
+    assert failures.known == {}
+
+
+def test_few_nodes_are_told_and_a_master_that_does_not_answer_changes_nothing():
+    answers = [{f"node_{number}": "Why." for number in range(100)}, ConnectionRefusedError("master")]
+
+    def ask():
+        answer = answers.pop(0)
+        if isinstance(answer, OSError):
+            raise answer
+        return answer
+    failures = StartFailures(ask)
+    failures.update()
+    failures.update()
+    assert list(failures.known) == ["node_0", "node_1", "node_10", "node_11"]

@@ -1,9 +1,11 @@
 """Life of a node from its parameters to its exit status, the same for all."""
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
 from typing import Any, Callable, Type, TypeVar
 
 import rospy
 
+from mtr_core import names
 from mtr_core.errors import RobotError
 from mtr_core.parameters import ParameterSet, described, parameters_from
 
@@ -25,7 +27,9 @@ def run_node(name: str, parameter_type: Type[P], make: Callable[[P], Any], **opt
         node = make(parameters)
     except RobotError as error:
         rospy.logfatal("The node %s cannot start. %s", name, error)
+        _tell_failure(str(error))
         return CANNOT_START
+    _tell_failure("")
     try:
         node.spin()
     except rospy.ROSException:
@@ -33,3 +37,14 @@ def run_node(name: str, parameter_type: Type[P], make: Callable[[P], Any], **opt
         if not rospy.is_shutdown():
             raise
     return 0
+
+
+def _tell_failure(why: str) -> None:
+    """Keep for the Operator why this node cannot start; nothing when it has. A log may be lost with the process."""
+    parameter = f"{names.START_FAILURES}/{rospy.get_name().lstrip('/')}"
+    # A master that is gone ends all nodes anyway.
+    with contextlib.suppress(OSError, rospy.ROSException):
+        if why:
+            rospy.set_param(parameter, why)
+        elif rospy.has_param(parameter):
+            rospy.delete_param(parameter)

@@ -1,6 +1,7 @@
 """What the dispatcher knows of the robot when it writes a Status: the fields that it reads of the nodes' messages."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Any, NamedTuple, Optional, Protocol, Sequence
+from types import MappingProxyType
+from typing import Any, Mapping, NamedTuple, Optional, Protocol, Sequence
 
 from mtr_core.problems import ProblemFields
 
@@ -125,6 +126,7 @@ class Inputs(NamedTuple):
         steady_s: the steady clock at that instant.
         clock_steps: times that the robot's clock was set.
         emergency_stop: as its owners say.
+        start_failures: why nodes cannot start, by their names.
     """
 
     now_s: float
@@ -138,3 +140,4 @@ class Inputs(NamedTuple):
     steady_s: float = 0.0
     clock_steps: int = 0
     emergency_stop: EmergencyStop = EmergencyStop.ABSENT
+    start_failures: Mapping[str, str] = MappingProxyType({})
