@@ -9,7 +9,7 @@ from typing import Tuple
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from mtr_core.errors import check_range
+from mtr_core.errors import ConfigurationError, check_range
 from mtr_core.lockstep import run_node
 
 from .board_topics import FIRMWARE_TOPICS, board_topics
@@ -26,6 +26,7 @@ LEVELS = (DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR)
 # Changes in quick succession all leave.
 DIAGNOSTICS_QUEUED = 10
 MAX_TOPICS = 100
+HOST = "builtin"
 
 
 @dataclass(frozen=True)
@@ -34,13 +35,18 @@ class BridgeParameters(SerialParameters):
         port: path of the board, best the one in /dev/serial/by-id, which stays with the board.
         topics: what the board may offer, each "from NAME TYPE", "to NAME TYPE" or "service NAME TYPE"; by default those
             of the project's own firmware.
+        host: which program serves the line, as robot.launch was asked; there is none but this one.
     """
 
     port: str = "/dev/serial/by-id/missing"
     topics: Tuple[str, ...] = FIRMWARE_TOPICS
+    host: str = HOST
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        if self.host != HOST:
+            raise ConfigurationError(f"Parameter host is {self.host!r}; allowed is {HOST!r}: another program serves "
+                                     "whatever topics the board names, the wheels' too.")
         check_range("length of port", len(self.port), 1, 4096)
         check_range("length of topics", len(board_topics(self.topics)), 1, MAX_TOPICS)
 

@@ -6,7 +6,9 @@ import re
 import pytest
 
 from mtr_core.errors import ConfigurationError
+from mtr_core.parameters import parameters_from
 from mtr_serial_link.board_topics import FIRMWARE_TOPICS, BoardTopic, Direction, board_topics
+from mtr_serial_link.node import BridgeParameters
 
 FIRMWARE_TABLE = pathlib.Path(__file__).resolve().parents[5] / "firmware" / "logic" / "link" / "endpoints.cpp"
 
@@ -27,3 +29,9 @@ def test_topics_of_the_firmware_are_those_that_it_offers():  # F1
     served = {("kTopicNegotiate" if topic.direction is Direction.FROM_BOARD else "kTopicSubscriber", topic.name,
                topic.type_name.split("/")[1].upper()) for topic in board_topics(FIRMWARE_TOPICS)}
     assert served == set(offered) and len(offered) == 6
+
+
+@pytest.mark.parametrize("host", ["rosserial_python", "bultin", ""])
+def test_line_that_another_program_shall_serve_is_refused_with_a_sentence(host):  # F1
+    with pytest.raises(ConfigurationError, match="allowed is 'builtin'"):
+        parameters_from({"host": host}, BridgeParameters)
