@@ -13,7 +13,7 @@ from mtr_operator.domain.estimation.press.campaign import Campaign
 from mtr_operator.domain.estimation.press.hypotheses import hypotheses_for
 from mtr_operator.domain.estimation.press.information import PressInformation
 from mtr_operator.domain.estimation.press.likelihood import Press, PressLikelihood
-from mtr_operator.domain.estimation.press.plan import SearchPlan
+from mtr_operator.domain.estimation.press.plan import RobotTimes, SearchPlan
 from mtr_operator.domain.estimation.press.posterior import RadialPosterior
 from mtr_operator.domain.estimation.press.radial_estimate import Reach, estimate
 from mtr_operator.domain.estimation.press.radial_search import RadialSearch
@@ -204,14 +204,17 @@ def test_radials_share_what_they_know_of_the_width():
     assert spread[1] < 0.6 * spread[0]
 
 
-def test_first_press_is_where_it_tells_and_not_where_the_key_happens_to_be():
-    plan = SearchPlan(3.0, 20.0, interval_m=0.3)
+def test_slow_robot_does_not_press_where_it_happens_to_be_though_little_is_told_there():
+    rng, plan = np.random.default_rng(4), SearchPlan(3.0, 20.0, interval_m=0.3, times=RobotTimes(speed_mps=0.1))
     grid = plan.hypotheses()
-    campaign = Campaign(grid)
-    for radial in range(3):
-        measured(plan, lambda place_m, _: place_m <= 9.0, campaign, radial)
-    # A press at 20 m takes no way, and tells nothing.
-    assert RadialSearch(plan, grid, campaign, 3, 20.0).next_place_m() < 15.0
+    search = RadialSearch(plan, grid, Campaign(grid), 1, 20.0)
+    shares = []
+    while not search.is_finished():
+        place_m, summary = search.next_place_m(), PressInformation(search.posterior())
+        here, best = (np.max(summary.at(places)[1]) for places in (np.array([place_m]), plan.places_m()))
+        shares.append(here / best)
+        search.add(Press(place_m, bool(rng.random() < expit((9.0 - place_m) * WIDTH_PER_SCALE))))
+    assert len(shares) > 10 and np.median(shares) > 0.6
 
 
 def test_narrow_transition_leaves_fading_likely_as_no_press_can_rule_it_out():

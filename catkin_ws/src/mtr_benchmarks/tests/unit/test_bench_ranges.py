@@ -11,7 +11,7 @@ from mtr_benchmarks.ranges.pass_methods import AxesDraw
 from mtr_benchmarks.ranges.press_methods import Draw, scan
 from mtr_benchmarks.ranges.referees import up_and_down
 from mtr_benchmarks.ranges.repeated import pairs_agree
-from mtr_benchmarks.ranges.result import LineFound, false_pass, figures, point
+from mtr_benchmarks.ranges.result import LineFound, false_passes, figures, point
 from mtr_benchmarks.ranges.table import report
 
 
@@ -60,8 +60,12 @@ def test_seeds_of_all_campaigns_differ():
 
 def test_verdict_passes_no_car_that_is_to_fail_when_intervals_hold():
     honest = [LineFound(1.0, point(1.0 + error, 0.1)) for error in np.random.default_rng(2).normal(0.0, 0.1, 2000)]
-    assert false_pass(honest) == pytest.approx(0.025, abs=0.012)
-    assert false_pass([LineFound(1.0, point(1.3, 0.01))] * 3) == 1.0
+    shares = false_passes(honest)
+    assert shares["at least, missed by 0 m"] == pytest.approx(0.025, abs=0.012)
+    assert shares["at most, missed by 0 m"] == pytest.approx(0.025, abs=0.012)
+    assert shares["at least, missed by 1 m"] == 0.0
+    too_far = false_passes([LineFound(1.0, point(1.3, 0.01))] * 3)
+    assert too_far["at least, missed by 0.1 m"] == 1.0 and too_far["at least, missed by 1 m"] == 0.0
 
 
 def test_pairs_of_campaigns_agree_within_their_sigmas():
@@ -85,7 +89,7 @@ def test_every_row_has_a_value_and_its_details():
             found.update({("adaptive", *kind): lines(0.1), ("adaptive_scan_time", *kind): lines(0.1),
                           ("scan_beside", *kind): lines(0.5)})
     made = report(found)
-    assert [row.value is not None and row.value >= 0.0 for row in made.rows] == [True] * 9
+    assert [row.value is not None and row.value >= 0.0 for row in made.rows] == [True] * 13
     values = {row.requirement.name: row.value for row in made.rows}
     assert values["rms of d50 by the scan's, equal time, worst"] == pytest.approx(0.2, abs=0.06)
     assert values["presses for +-0.3 m, width 1 m"] == 9.0

@@ -46,13 +46,20 @@ def share(values: List[bool]) -> Optional[float]:
     return float(np.mean(values)) if values else None
 
 
-def false_pass(lines: List[LineFound]) -> float:
-    """Largest share of a verdict Pass on Cars that are to fail: limits just beside the truth and far from it.
+# How far the limit lies beyond the Car's distance: a Car just outside the limit, a little, and far.
+BEYOND_M = (0.0, 0.1, 1.0)
 
-    Pass is when the whole 95 % interval lies on the good side of the limit (guard band, JCGM 106).
+
+def false_passes(lines: List[LineFound]) -> Dict[str, float]:
+    """Share of a verdict Pass on Cars that are to fail, by limit.
+
+    Pass is when the whole 95 % interval lies on the good side of the limit (guard band, JCGM 106), as
+    mtr_operator.domain.verdict has it.
     """
-    shares = []
-    for beyond_m in (0.0, 0.1, 1.0):
-        shares.append(np.mean([line.found.low_m >= line.truth_m + beyond_m for line in lines]))
-        shares.append(np.mean([line.found.high_m <= line.truth_m - beyond_m for line in lines]))
-    return float(max(shares))
+    shares = {}
+    for beyond_m in BEYOND_M:
+        shares[f"at least, missed by {beyond_m:g} m"] = np.mean([line.found.low_m >= line.truth_m + beyond_m
+                                                                 for line in lines])
+        shares[f"at most, missed by {beyond_m:g} m"] = np.mean([line.found.high_m <= line.truth_m - beyond_m
+                                                                for line in lines])
+    return {name: float(value) for name, value in shares.items()}

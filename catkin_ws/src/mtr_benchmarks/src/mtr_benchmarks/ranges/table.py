@@ -1,5 +1,6 @@
 """Figures by method, and the rows of the table."""
 # SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
 from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
@@ -8,18 +9,17 @@ from ..harness.report import BenchmarkReport
 from ..harness.rows import Requirement, Row
 from .campaigns import FADINGS, POLLINGS, WIDTHS_M, Found
 from .repeated import pairs_agree
-from .result import LineFound, false_pass, figures, share
+from .result import LineFound, false_passes, figures, share
 
-# Distance from 95 %: goal 94 to 96, must 92 to 98 % in every width and kind.
-COVERAGE_50 = Requirement("coverage of d50, worst distance from 95 %", "(share)", 0.01, 0.03)
-COVERAGE_95 = Requirement("coverage of d95, worst distance from 95 %", "(share)", 0.01, 0.03)
-COVERAGE_STATIC = Requirement("coverage of the static boundary, the same", "(share)", 0.01, 0.03)
+# A share that shall be 95 % has two rows: too few intervals hold, or they are wider than they need to be.
+LEAST = Requirement("least", "(share)", 0.94, 0.92, at_least=True)
+MOST = Requirement("most", "(share)", 0.96, 0.98)
+LEAST_AGAIN = Requirement("least", "(share)", 0.94, 0.93, at_least=True)
 BIAS = Requirement("bias of d50, width up to 2.2 m, worst", "m", 0.02, 0.05)
 RATIO = Requirement("rms of d50 by the scan's, equal time, worst", "(ratio)", 1.0 / 3.0, 0.5)
 PRESSES = Requirement("presses for +-0.3 m, width 1 m", "(count)", 10.0, 16.0)
 STATIC = Requirement("static boundary, poll 300 ms, cycle 200 ms, rms", "m", 0.015, 0.03)
-AGAIN = Requirement("ten campaigns: pairs that agree, off 95 %", "(share)", 0.01, 0.03)
-FALSE_PASS = Requirement("false pass, worst limit", "(share)", 0.025, 0.05)
+FALSE_PASS = Requirement("false pass, worst of Cars and limits", "(share)", 0.025, 0.05)
 
 
 def report(found: Found) -> BenchmarkReport:
@@ -35,33 +35,42 @@ def rows(found: Found, pooled: Dict[Tuple[str, ...], List[LineFound]], details: 
     """Of the table."""
     kinds = [f"{fading}/{width_m:g}" for fading in FADINGS for width_m in WIDTHS_M]
     adaptive, passes = details["adaptive"], details["passes"]
-    judged = [line for key, lines in pooled.items() if key[0] in ("adaptive", "passes") for line in lines]
+    again = {name: share(pairs_agree(found[(method, f"again_{name}")]))
+             for name, method in (("key_press", "adaptive"), ("autolock", "passes"))}
     return [
-        _coverage(COVERAGE_50, "coverage_95", adaptive, kinds),
-        _coverage(COVERAGE_95, "d95_coverage_95", adaptive, kinds),
-        _coverage(COVERAGE_STATIC, "coverage_95", passes, list(POLLINGS)),
+        *_shares("coverage of d50", {kind: adaptive[kind]["coverage_95"] for kind in kinds}),
+        *_shares("coverage of d95", {kind: adaptive[kind]["d95_coverage_95"] for kind in kinds}),
+        *_shares("coverage of the static boundary", {kind: passes[kind]["coverage_95"] for kind in POLLINGS}),
         Row(BIAS, max(abs(adaptive[kind]["bias_m"]) for kind in kinds if float(kind.split("/")[1]) <= 2.2)),
         _ratio(details, kinds),
         Row(PRESSES, adaptive["steady/1"]["presses_median"]),
         Row(STATIC, passes["poll_300_cycle_200"]["rms_m"]),
-        Row(AGAIN, _off([*pairs_agree(found[("adaptive", "again_key_press")]),
-                         *pairs_agree(found[("passes", "again_autolock")])])),
-        Row(FALSE_PASS, false_pass(judged)),
+        *_shares("ten campaigns, pairs that agree", again, LEAST_AGAIN),
+        _false_pass(pooled),
     ]
 
 
-def _coverage(wanted: Requirement, name: str, method: Dict[str, Any], kinds: List[str]) -> Row:
-    values = {kind: method[kind][name] for kind in kinds}
-    worst = max(abs(value - 0.95) for value in values.values())
-    return Row(wanted, worst, details=values, remark=f"{min(values.values()):.3f} to {max(values.values()):.3f}")
+def _shares(name: str, values: Dict[str, Optional[float]], least: Requirement = LEAST) -> List[Row]:
+    """Two rows: of the kind with the smallest share, and of that with the largest; none when one is not known."""
+    known = {kind: value for kind, value in values.items() if value is not None}
+    rows_made = []
+    for wanted, choose in ((least, min), (MOST, max)):
+        kind = choose(known, key=lambda each: known[each]) if len(known) == len(values) else ""
+        rows_made.append(Row(replace(wanted, name=f"{name}, {wanted.name}"), known.get(kind), details=values,
+                             remark=kind))
+    return rows_made
+
+
+def _false_pass(pooled: Dict[Tuple[str, ...], List[LineFound]]) -> Row:
+    """Of all Cars of one method together: a limit asks for a share of the tests of many Cars."""
+    shares = {method: false_passes([line for key, lines in pooled.items() if key[0] == method for line in lines])
+              for method in ("adaptive", "passes")}
+    named = {f"{method}, {limit}": value for method, each in shares.items() for limit, value in each.items()}
+    worst = max(named, key=lambda name: named[name])
+    return Row(FALSE_PASS, named[worst], details=named, remark=worst)
 
 
 def _ratio(details: Dict[str, Any], kinds: List[str]) -> Row:
     ratios = {kind: details["adaptive_scan_time"][kind]["rms_m"] / details["scan_beside"][kind]["rms_m"]
               for kind in kinds}
     return Row(RATIO, max(ratios.values()), details=ratios, remark=f"median {np.median(list(ratios.values())):.2f}")
-
-
-def _off(values: List[bool]) -> Optional[float]:
-    part = share(values)
-    return None if part is None else abs(part - 0.95)
