@@ -23,7 +23,7 @@ from ..interval import SIGMAS_OF_LEVEL
 from .plan import SearchPlan
 from .transition import SIGMA_PER_SCALE, WIDTH_PER_SCALE
 
-EFFICIENCY = 0.8
+EFFICIENCY = 0.9
 SEARCH = 2.0
 _PROBIT_INFORMATION = 1.8
 # Of the ways between presses near d50, beside the first one from the far end.

@@ -21,8 +21,9 @@ _BINS = 30
 _MIN_SHARE = 3e-3
 _TAIL = 1e-4
 _MIN_WEIGHT = 1e-300
-# The width is pooled over the campaign's radials; d50 is each one's own.
-WIDTH_PART = 0.5
+# Of the information on the width against that on d50: less of it saves one press in fifteen, and the pooled width, with
+# it the 95 % distance, is known worse.
+WIDTH_PART = 1.0
 
 
 class PressInformation:
