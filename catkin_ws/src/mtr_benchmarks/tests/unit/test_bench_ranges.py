@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from mtr_benchmarks.ranges import referees
 from mtr_benchmarks.ranges.campaigns import FADINGS, POLLINGS, WIDTHS_M, Amount, Task, run_task, tasks
 from mtr_benchmarks.ranges.cars import Polling, Radial, Radio, noticed_at
 from mtr_benchmarks.ranges.pass_methods import AxesDraw
@@ -45,6 +46,28 @@ def test_all_methods_measure_the_same_radials():
     first, second = scan(draw), up_and_down(draw)
     assert [line.truth_m for line in first] == [line.truth_m for line in second]
     assert figures(first)["rms_m"] < 0.6 and figures(second)["rms_m"] < 0.6
+
+
+class FarDesign:
+    """Stands in for senpy's: it wants presses beyond the range, which senpy refuses when it has bounds."""
+
+    def __init__(self, **options):
+        assert not [name for name in options if "bound" in name]
+        self.pressed_m = []
+
+    def next_pt(self):
+        return 25.0 if len(self.pressed_m) % 2 else -1.0
+
+    def post_test_outcome(self, _worked, place_m):
+        self.pressed_m.append(place_m)
+        assert 3.0 <= place_m <= 20.0
+
+
+def test_place_that_a_referee_wants_beyond_the_range_is_pressed_at_its_end(monkeypatch):
+    monkeypatch.setattr(referees, "Neyer", FarDesign)
+    found = referees.neyer(Draw(Radio(0.4, 0.0, 0.0), 3, 4), 2)
+    assert [line.presses for line in found] == [24, 24]
+    assert all(3.0 <= line.found.value_m <= 20.0 for line in found)
 
 
 def test_passes_of_one_campaign_hold_their_boundaries():

@@ -44,12 +44,13 @@ def neyer(draw: Draw, radials: int) -> List[LineFound]:
 
 
 def _designed(radial: Radial) -> LineFound:
+    # Bounds of its own make senpy ask on the terminal when a place lies beyond them, and end there.
     design: Any = Neyer(latent="logistic", inverted=True, t1_min=MINIMUM_M, t1_max=MAXIMUM_M, t2_guess=0.5,
-                        lower_bound=MINIMUM_M, upper_bound=MAXIMUM_M, num_restarts=1)
+                        num_restarts=1)
     time_s, way_total_m, before_m = 0.0, 0.0, MAXIMUM_M
     places: Dict[bool, List[float]] = {True: [], False: []}
     for _ in range(PRESSES):
-        place_m = float(design.next_pt())
+        place_m = float(np.clip(float(design.next_pt()), MINIMUM_M, MAXIMUM_M))
         worked = radial.press(place_m)
         time_s += TIMES.press_s(worked) + TIMES.way_s(abs(place_m - before_m))
         way_total_m += abs(place_m - before_m)
