@@ -11,8 +11,12 @@ SHELL := /bin/bash
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
 FACTOR ?= 1
-# Of demo, sim and gui, the simulated Car: gentle, honest, honest_868, honest_handle, honest_slow, or a file's path.
-CAR ?= gentle
+# Of demo, sim and gui, the simulated Car: gentle, honest, honest_868, honest_handle, honest_slow, or a file's path. The demo
+# shows what a range is worth; a person who tries the window wants it short.
+ifeq ($(origin CAR),undefined)
+CAR := gentle
+demo: CAR := honest
+endif
 # Of demo and sim: fake (simulated in the simulator) or emulated (the flashed firmware on an emulated board).
 PERIPHERALS ?= fake
 # For `make flash`: mega or uno, and its serial port.

@@ -82,7 +82,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--seed", type=int, default=1, help="seed of every random number in the simulation")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/demo"), help="result folder")
     parser.add_argument("--firmware", default="", help="firmware for an emulated ATmega2560; else it is simulated")
-    parser.add_argument("--car", default="gentle", help="simulated Car: gentle, honest, ... or a file")
+    parser.add_argument("--car", default="honest", help="simulated Car: honest, gentle, ... or a file")
     options = parser.parse_args(arguments)
     try:
         result = run_demo(DemoOptions(options.out, options.seed, options.firmware, options.car))

@@ -20,6 +20,7 @@ from mtr_core.errors import ConfigurationError, RobotError, check_range
 from ..car.choice import chosen_car
 from .distance import CarSize, Comparison, compare
 from .expected import expected
+from .intervals import coverage, interval_table, read_intervals
 from .results import ResultsError, column_names, key_height_m, read_autolock, read_events, read_key_press
 
 RESULTS_NAME = "results.csv"
@@ -50,7 +51,9 @@ def main(arguments: Optional[List[str]] = None) -> int:
     except RobotError as error:
         print(error, file=sys.stderr)
         return 2
-    print("\n".join([*table(comparisons), *summary(scenario, comparisons)]))
+    told = read_intervals(results, scenario, comparisons)
+    print("\n".join([*table(comparisons), *interval_table(told), *summary(scenario, comparisons),
+                     *coverage(scenario, told)]))
     lost = [c for c in comparisons if c.measured.status == "ok" and c.true_distance_m is None]
     for comparison in lost:
         m = comparison.measured

@@ -92,6 +92,16 @@ def key_height_m(path: pathlib.Path) -> float:
     return float(found.group(1)) if found else DEFAULT_KEY_HEIGHT_M
 
 
+def rows_of(path: pathlib.Path) -> Iterator[Dict[str, str]]:
+    """All lines below the metadata."""
+    return _rows(path, ())
+
+
+def optional_number(row: Dict[str, str], column: str, path: pathlib.Path) -> float:
+    """NaN for an empty cell, and for a column that the file does not have."""
+    return _number(row, column, path) if column in row else math.nan
+
+
 def _measured(row: Dict[str, str], path: pathlib.Path, line: str, event: str, prefix: str) -> MeasuredEvent:
     time_s, distance_m, uncertainty_m = (_number(row, f"{prefix}{name}", path)
                                          for name in ("robot_time_s", "distance_m", "uncertainty_m"))
