@@ -4,8 +4,10 @@ from dataclasses import replace
 
 import pytest
 
+from mtr_operator.domain.actions.car import Car
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.observer import RunObserver
+from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.ports import PASSIVE_ENTRY, LockFacts
@@ -124,6 +126,26 @@ def test_boundary_out_of_reach_is_not_passed_again(run_scenario, late_world):
     results = run_scenario(SCENARIO, TWO, observer=actions)
     assert {result.unlock_status for result in results} == {LineStatus.NOT_REACHED}
     assert not any(text.startswith("pass 2") for text in actions.said)
+
+
+def test_one_more_pass_of_an_inconclusive_axis_makes_its_interval_narrower(robot_link, car_link, late_world):
+    late_world.facts = replace(late_world.facts, told_every_s=0.2)
+    progress = Progress("autolock", TWO.to_mapping())
+    loop = ControlLoop(robot_link, car_link)
+    Runner(SCENARIO, TWO, loop, progress, lambda _: None).run()
+    before, car = progress.results[3], Car(loop)
+    result = SCENARIO.measure_further(SCENARIO.lines(TWO, car.dimensions())[3], TWO, Robot(loop, progress.results), car,
+                                      before)
+    assert result.unlock_pass_distances_m[:2] == before.unlock_pass_distances_m
+    assert result.unlock_pass_speeds_mps == pytest.approx((0.4, 0.1, 0.1)) and result.lock_passes == 3
+    assert (result.unlock_static_high_m - result.unlock_static_low_m
+            < before.unlock_static_high_m - before.unlock_static_low_m)
+    assert SCENARIO.measure_further(SCENARIO.lines(ONE, car.dimensions())[3], ONE, Robot(loop), car, before) is None
+
+
+def test_limits_may_ask_for_the_static_boundary_where_passes_tell_it():
+    assert SCENARIO.judged_shares(TWO) == SCENARIO.judged_shares(replace(ONE, last_step_m=0.05)) == (50,)
+    assert SCENARIO.judged_shares(ONE) == SCENARIO.judged_shares(replace(TWO, measuring_speeds_mps=(0.4,))) == ()
 
 
 def test_result_with_passes_survives_its_file(run_scenario, late_world):

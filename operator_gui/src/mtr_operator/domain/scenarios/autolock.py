@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from typing import Any, Sequence
 
 from ..actions.car import Car
-from ..actions.distance import recorded_values
+from ..actions.distance import Distance, recorded_values
 from ..actions.robot import Robot
 from ..actions.trouble import LineInvalid
+from ..estimation.passes.delay import has_two_speeds
 from ..geometry.axes import Axis, axes_around
 from ..geometry.ray import Ray
 from ..ports import LockFacts
@@ -22,6 +25,9 @@ from .autolock_pass import AxisPass, Course, Measured
 from .autolock_result import LOCK, UNLOCK, AutolockResult
 from .autolock_resume import can_go_on
 from .autolock_speeds import FURTHER_M, TURNING_S, USUAL_CYCLE_S, pass_speeds, speed_cautions
+
+# A line that nobody can decide ends some time.
+_MAX_PASSES = 16
 
 
 class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
@@ -58,6 +64,26 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
         """See Scenario: what all axes say of the Car's reaction time moves the boundary of each."""
         revised = with_boundaries(results, parameters, results)
         return [new for new, old in zip(revised, results) if new != old]
+
+    def measure_further(self, line: Axis, parameters: AutolockParameters, robot: Robot, car: Car,
+                        so_far: AutolockResult) -> AutolockResult | None:
+        """See Scenario: one more pass, at the slowest speed."""
+        speeds_mps, count = pass_speeds(parameters, car.facts.told_every_s), len(so_far.passes(UNLOCK))
+        if so_far.lock_distance_m is None or count >= _MAX_PASSES or not self.judged_shares(parameters):
+            return None
+        more = _further(Course(line, parameters, robot, car), _first_of(so_far, speeds_mps[0]),
+                        [AxisPass(count + 1, min(speeds_mps))], robot)
+        if not more:
+            return None
+        added = {**_pass_columns(UNLOCK, [(more[0].unlock, None)]), **_pass_columns(LOCK, [(more[0].lock, None)])}
+        result = replace(so_far, **{name: getattr(so_far, name) + values for name, values in added.items()})
+        return with_boundaries([each if each.number != line.number else result for each in robot.results
+                                if isinstance(each, AutolockResult)], parameters, [result])[0]
+
+    def judged_shares(self, parameters: AutolockParameters) -> tuple[int, ...]:
+        """See Scenario: at the static boundary half of the polls notice the key; one speed does not tell it."""
+        has_boundary = parameters.last_step_m is not None or has_two_speeds(pass_speeds(parameters, USUAL_CYCLE_S))
+        return (50,) if has_boundary else ()
 
     def cautions(self, parameters: AutolockParameters, facts: LockFacts) -> Sequence[str]:
         """See Scenario."""
@@ -100,6 +126,14 @@ def planned_passes(parameters: AutolockParameters, cycle_s: float) -> list[AxisP
     if parameters.last_step_m is not None:
         passes.append(AxisPass(len(passes) + 1, min(speeds_mps), parameters.last_step_m))
     return passes
+
+
+def _first_of(result: AutolockResult, speed_mps: float) -> AxisPass:
+    """The first pass as far as one more has to know it: where the Car reacted."""
+    unlock, lock = (None if distance_m is None else Distance(distance_m, math.nan, -math.inf)
+                    for distance_m in (result.unlock_distance_m, result.lock_distance_m))
+    return AxisPass(1, speed_mps, None, Measured(LineStatus.OK, unlock, -math.inf),
+                    Measured(LineStatus.OK, lock, -math.inf))
 
 
 def _further(course: Course, first: AxisPass, passes: Sequence[AxisPass], robot: Robot) -> list[AxisPass]:
