@@ -148,6 +148,15 @@ def test_limits_may_ask_for_the_static_boundary_where_passes_tell_it():
     assert SCENARIO.judged_shares(ONE) == SCENARIO.judged_shares(replace(TWO, measuring_speeds_mps=(0.4,))) == ()
 
 
+def test_picture_shows_the_intervals_of_the_static_boundaries(run_scenario, late_world):
+    results = run_scenario(SCENARIO, TWO)
+    unlocked, locked = SCENARIO.picture(TWO, late_world.car, results).point_sets[:2]
+    assert len(unlocked.intervals) == len(locked.intervals) == 8 and not unlocked.bars
+    (near_x, _), (far_x, _) = unlocked.intervals[0]
+    assert (near_x, far_x) == pytest.approx((2.25 + results[0].unlock_static_low_m,
+                                             2.25 + results[0].unlock_static_high_m))
+
+
 def test_result_with_passes_survives_its_file(run_scenario, late_world):
     result = run_scenario(SCENARIO, TWO)[0]
     assert result_from_document(AutolockResult, result.to_document()) == result

@@ -16,7 +16,7 @@ from ..geometry.ray import Ray
 from ..ports import LockFacts
 from ..results.carried import carried_values
 from ..results.line_result import LineStatus, MeasuredDistance
-from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along
+from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along, intervals_along
 from ..robot_status import CarDimensions
 from ..scenario import Scenario
 from .autolock_boundary import with_boundaries
@@ -183,7 +183,8 @@ def _pass_columns(word: str, passes: Sequence[tuple[Measured, float | None]]) ->
 def _area(label: str, role: PointRole, measured: Sequence[tuple[Ray, MeasuredDistance]]) -> PointSet:
     points = tuple(None if distance.distance_m is None or distance.status is not LineStatus.OK
                    else ray.point(distance.distance_m) for ray, distance in measured)
-    return PointSet(label, role, points, is_outline=True, bars=bars_along(measured))
+    return PointSet(label, role, points, is_outline=True, bars=bars_along(measured),
+                    intervals=intervals_along(measured))
 
 
 def _not_reached(label: str, role: PointRole, measured: Sequence[tuple[Ray, MeasuredDistance]],
