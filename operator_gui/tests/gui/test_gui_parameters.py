@@ -160,6 +160,18 @@ def test_parameters_that_do_not_suit_the_car_are_told_before_the_start(operator)
     assert screen.notice.text() == ""
 
 
+def test_attempts_and_interval_are_told_before_the_start_with_what_an_interval_out_of_reach_takes(operator):
+    screen = operator.choose("key_press")
+    assert "Attempts on each line: " in screen.notice.text()
+    assert "Expected 95 % interval: \N{PLUS-MINUS SIGN}0.25 to " in screen.notice.text()
+    assert screen.caution.text() == ""
+    screen.form.fields["attempts_limit"].edit.setText("8")
+    assert screen.caution.text().startswith("8 presses on each radial reach an interval of ")
+    assert "\N{LEFT DOUBLE QUOTATION MARK}Presses at most" in screen.caution.text()
+    screen.form.choices["method"].show_word("scan")
+    assert screen.caution.text() == "" and "interval" not in screen.notice.text()
+
+
 def test_used_parameters_are_remembered(operator, start):
     operator.begin("key_press", maximum_distance_m="6")
     operator.finish()

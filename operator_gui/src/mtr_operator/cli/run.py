@@ -99,6 +99,9 @@ class CommandLineRun:
             loop = ControlLoop(robot, car, display, interrupt.is_requested, Release(display.say))
             rejected_before = loop.status.rejected_messages
             self._progress.session[ROBOT_SOFTWARE] = loop.status.software_version
+            prospect = self._scenario.prospect(self._parameters, car.facts, self._progress.results)
+            if prospect is not None:
+                display.say(f"expected: {prospect.text}")
             try:
                 Runner(self._scenario, self._parameters, loop, self._progress, lambda _: store.save(),
                        journal=store).run()

@@ -10,6 +10,7 @@ from .actions.robot import Robot
 from .actions.tolerances import Tolerances
 from .geometry.ray import Ray
 from .ports import LockFacts
+from .prospect import Prospect
 from .results.line_result import LineResult
 from .results.picture import Picture
 from .robot_status import CarDimensions
@@ -105,6 +106,10 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
     def unreached(self, parameters: Parameters, word: str) -> tuple[float | None, float | None]:
         """Between which distances a boundary lies that was not reached; None for an end that nobody knows."""
         return None, parameters.minimum_distance_m
+
+    def prospect(self, parameters: Parameters, facts: LockFacts, results: Sequence[Result]) -> Prospect | None:
+        """What each line is likely to take and to tell, with what the lines so far say; None without a model of it."""
+        return None
 
     def expected_line_s(self, parameters: Parameters) -> float:
         """How long measuring one line is likely to take, in s of robot time, without the way to its start."""

@@ -40,7 +40,12 @@ def translated(sentence: str) -> str:
 
 def parameter_sentence(error: InvalidParameter, parameters_type: type[ParameterSet]) -> str:
     """Why parameters do not fit together, in the names and units of the window instead of those of files."""
-    sentence = _SPEED.sub(_in_kilometres_per_hour, str(error))
+    return in_window_words(str(error), parameters_type)
+
+
+def in_window_words(sentence: str, parameters_type: type[ParameterSet]) -> str:
+    """A sentence on parameters, in the names and units of the window instead of those of files."""
+    sentence = _SPEED.sub(_in_kilometres_per_hour, sentence)
     sentence = translated(sentence)
     # Longer names first: one may be the beginning of another.
     declarations = sorted(parameters_type.declarations().items(), key=lambda item: -len(item[1].file_key))

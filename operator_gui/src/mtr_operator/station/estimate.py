@@ -8,12 +8,16 @@ from typing import Sequence
 
 from mtr_operator.domain.geometry.pose import wrap_angle
 from mtr_operator.domain.geometry.ray import Ray
+from mtr_operator.domain.ports import LockFacts
+from mtr_operator.domain.prospect import Prospect
 from mtr_operator.domain.results.picture import Stretch
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
 # Before the robot has measured the Car: a middle-sized one.
 USUAL_CAR = CarDimensions(4.5, 1.8, math.nan, math.nan)
+# Before its bus is read: bodies of cars tell the state of their locks every 20 to 800 ms.
+USUAL_FACTS = LockFacts(told_every_s=0.2)
 # Measured in the simulation's demo: the way round the Car, the self-check, and what stops, turns on the spot and gentle
 # accelerations add to each line. With these its Autolock is expected to take 384 s and takes 370 s, its Key press on a
 # mapped Car 188 s and 220 s, for the Car reacts nearer than in the middle.
@@ -32,11 +36,14 @@ class Plan:
 
     Attributes:
         stretches: where the key would be carried. preparation_s, lines_s: expected robot times.
+        prospect: of each line, None without a model of it. cautions: what the parameters cannot give.
     """
 
     stretches: tuple[Stretch, ...]
     preparation_s: float
     lines_s: tuple[float, ...]
+    prospect: Prospect | None = None
+    cautions: tuple[str, ...] = ()
 
     @property
     def duration_s(self) -> float:
@@ -63,7 +70,8 @@ def plan_of(scenario: AnyScenario, parameters: ScenarioParameters, car: CarDimen
     return Plan(
         tuple(Stretch(ray.point(near_m), ray.point(far_m), str(line.number)) for line, ray in zip(lines, rays)),
         (0.0 if is_mapped else MAPPING_S) + (SELF_CHECK_S if parameters.self_check else 0.0),
-        tuple(own_s + MANOEUVRES_S + way_m / parameters.maximum_speed_mps for way_m in ways))
+        tuple(own_s + MANOEUVRES_S + way_m / parameters.maximum_speed_mps for way_m in ways),
+        scenario.prospect(parameters, USUAL_FACTS, ()), tuple(scenario.cautions(parameters, USUAL_FACTS)))
 
 
 def _ways(rays: Sequence[Ray], near_m: float, far_m: float) -> list[float]:

@@ -8,10 +8,11 @@ from typing import Callable
 
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.geometry.pose import Point
+from mtr_operator.domain.prospect import Prospect
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import CarDimensions, Notification
 
-from .estimate import USUAL_CAR, TimeLeft, plan_of
+from .estimate import USUAL_CAR, USUAL_FACTS, TimeLeft, plan_of
 from .events import ActionBegun, LineMeasured, LinesPlanned, Outcome, RobotSilent, RobotSnapshot, RunEnded, StationEvent
 from .mailbox import Batch
 from .readiness import Phase, Readiness, readiness_of
@@ -84,6 +85,12 @@ class ViewModel:
     def left_s(self) -> float | None:
         """Expected time to the end of the test."""
         return self._time_left.left_s(self._clock()) if self.phase is Phase.MEASURING else None
+
+    @property
+    def prospect(self) -> Prospect | None:
+        """What each line is likely to take and to tell, with what the lines so far say."""
+        test = self.test
+        return None if test is None else test.scenario.prospect(test.parameters, USUAL_FACTS, self.results)
 
     @property
     def percent(self) -> int:

@@ -14,6 +14,7 @@ from ..estimation.passes.delay import has_two_speeds
 from ..geometry.axes import Axis, axes_around
 from ..geometry.ray import Ray
 from ..ports import LockFacts
+from ..prospect import Prospect
 from ..results.carried import carried_values
 from ..results.line_result import LineStatus, MeasuredDistance
 from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along, intervals_along
@@ -24,7 +25,7 @@ from .autolock_parameters import AutolockParameters
 from .autolock_pass import AxisPass, Course, Measured
 from .autolock_result import LOCK, UNLOCK, AutolockResult
 from .autolock_resume import can_go_on
-from .autolock_speeds import FURTHER_M, TURNING_S, USUAL_CYCLE_S, pass_speeds, speed_cautions
+from .autolock_speeds import FURTHER_M, TURNING_S, USUAL_CYCLE_S, pass_prospect, pass_speeds, speed_cautions
 
 # A line that nobody can decide ends some time.
 _MAX_PASSES = 16
@@ -92,6 +93,11 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
     def can_go_on(self, line: Axis, parameters: AutolockParameters, robot: Robot, car: Car) -> bool:
         """See Scenario."""
         return can_go_on(line.ray, parameters, robot, car)
+
+    def prospect(self, parameters: AutolockParameters, facts: LockFacts,
+                 results: Sequence[AutolockResult]) -> Prospect:
+        """See Scenario: the axes measured so far know the static boundary best."""
+        return pass_prospect(parameters, facts.told_every_s, self.expected_line_s(parameters), results)
 
     def unreached(self, parameters: AutolockParameters, word: str) -> tuple[float | None, float | None]:
         """See Scenario: the approach ends near the Car, the retreat far from it."""

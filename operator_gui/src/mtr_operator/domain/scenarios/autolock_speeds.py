@@ -2,11 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import Iterator
+import math
+from typing import Iterator, Sequence
 
+from ..estimation.interval import SIGMAS_OF_LEVEL
 from ..estimation.passes.delay import has_two_speeds
 from ..estimation.passes.speeds import intercept_sigma, proposed_slow_speed
+from ..prospect import Prospect
 from .autolock_parameters import MIN_SPEED_MPS, AutolockParameters
+from .autolock_result import AutolockResult
 
 # Most cars look for the key every 100 to 700 ms; no bus tells it.
 USUAL_POLL_S = 0.3
@@ -34,6 +38,22 @@ def expected_sigma(parameters: AutolockParameters, cycle_s: float) -> float:
     if not has_two_speeds(speeds_mps):
         return float("inf")
     return intercept_sigma(min(speeds_mps), max(speeds_mps), USUAL_POLL_S, cycle_s)
+
+
+def pass_prospect(parameters: AutolockParameters, cycle_s: float, line_s: float,
+                  results: Sequence[AutolockResult]) -> Prospect:
+    """Of each axis; the interval is that of the static boundary, before others are measured from its own passes."""
+    known_m = [(high_m - low_m) / 2.0 for result in results
+               for low_m, high_m in ((result.unlock_static_low_m, result.unlock_static_high_m),
+                                     (result.lock_static_low_m, result.lock_static_high_m))
+               if low_m is not None and high_m is not None]
+    sigma_m = expected_sigma(parameters, cycle_s)
+    if known_m:
+        interval_m: tuple[float, float] | None = (min(known_m), max(known_m))
+    else:
+        interval_m = 2 * (SIGMAS_OF_LEVEL * sigma_m,) if math.isfinite(sigma_m) else None
+    passes = parameters.passes + (parameters.last_step_m is not None)
+    return Prospect((passes, passes), interval_m, (line_s, line_s))
 
 
 def speed_cautions(parameters: AutolockParameters, cycle_s: float) -> Iterator[str]:

@@ -13,6 +13,8 @@ from ..actions.trouble import LineInvalid
 from ..errors import InvalidParameter
 from ..geometry.radials import Radial, radials_around
 from ..geometry.ray import Ray
+from ..ports import LockFacts
+from ..prospect import Prospect
 from ..requests import Direction
 from ..results.carried import carried_values
 from ..results.document import Texts
@@ -20,11 +22,13 @@ from ..results.line_result import LineStatus
 from ..results.picture import Picture
 from ..robot_status import CarDimensions
 from ..scenario import Scenario
-from . import key_press_campaign, key_press_search
-from .key_press_button import press_once
 from .key_press_parameters import KeyPressParameters
-from .key_press_picture import picture_of
 from .key_press_result import ADAPTIVE, PRESS, KeyPressResult
+from .press import campaign as press_campaign
+from .press import prospect as press_prospect
+from .press import search as press_search
+from .press.button import press_once
+from .press.picture import picture_of
 
 
 @dataclass
@@ -65,19 +69,32 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
     def measure(self, line: Radial, parameters: KeyPressParameters, robot: Robot, car: Car) -> KeyPressResult:
         """A search, or the thesis' algorithm 1."""
         if parameters.method == ADAPTIVE:
-            return key_press_search.measure_by_search(line, parameters, robot)
+            return press_search.measure_by_search(line, parameters, robot)
         return _scan(line, parameters, robot)
 
     def can_go_on(self, line: Radial, parameters: KeyPressParameters, robot: Robot, car: Car) -> bool:
         """See Scenario: a search goes on with the presses that are kept."""
-        return parameters.method == ADAPTIVE and key_press_search.can_go_on(line, robot)
+        return parameters.method == ADAPTIVE and press_search.can_go_on(line, robot)
 
     def measure_further(self, line: Radial, parameters: KeyPressParameters, robot: Robot, car: Car,
                         so_far: KeyPressResult) -> KeyPressResult | None:
         """See Scenario: a search goes on after its end."""
         if so_far.method != ADAPTIVE:
             return None
-        return key_press_search.measure_further(line, parameters, robot, so_far)
+        return press_search.measure_further(line, parameters, robot, so_far)
+
+    def cautions(self, parameters: KeyPressParameters, facts: LockFacts) -> Sequence[str]:
+        """See Scenario."""
+        return tuple(press_prospect.cautions(parameters)) if parameters.method == ADAPTIVE else ()
+
+    def prospect(self, parameters: KeyPressParameters, facts: LockFacts,
+                 results: Sequence[KeyPressResult]) -> Prospect | None:
+        """See Scenario."""
+        return press_prospect.prospect(parameters, results) if parameters.method == ADAPTIVE else None
+
+    def unreached(self, parameters: KeyPressParameters, word: str) -> tuple[float | None, float | None]:
+        """See Scenario: the results of a search say themselves to which side they are not bounded."""
+        return (None, None) if parameters.method == ADAPTIVE else super().unreached(parameters, word)
 
     def judged_shares(self, parameters: KeyPressParameters) -> tuple[int, ...]:
         """See Scenario."""
@@ -85,14 +102,16 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
 
     def concluded(self, parameters: KeyPressParameters, results: Sequence[KeyPressResult]) -> Sequence[KeyPressResult]:
         """See Scenario: what radials measured later say of the transition counts for the earlier ones too."""
-        return key_press_campaign.concluded(parameters, results) if parameters.method == ADAPTIVE else ()
+        return press_campaign.concluded(parameters, results) if parameters.method == ADAPTIVE else ()
 
     def picture(self, parameters: KeyPressParameters, car: CarDimensions, results: Sequence[KeyPressResult]) -> Picture:
         """See picture_of."""
         return picture_of(parameters, results)
 
     def expected_line_s(self, parameters: KeyPressParameters) -> float:
-        """See Scenario: the Car is taken to react at the middle one of the places."""
+        """See Scenario: a scan's Car is taken to react at the middle one of the places."""
+        if parameters.method == ADAPTIVE:
+            return sum(press_prospect.prospect(parameters, ()).line_s) / 2.0
         places = parameters.press_distances_m
         failed = len(places) // 2
         way_m = parameters.maximum_distance_m - places[failed]

@@ -92,8 +92,11 @@ def _place_sigma(result: LineResult, distance: MeasuredDistance) -> float:
 
 
 def _attempts_sigma(distance: MeasuredDistance) -> float:
-    if distance.low_m is None or distance.high_m is None:
+    if distance.low_m is None and distance.high_m is None:
         return 0.0
+    if distance.low_m is None or distance.high_m is None:
+        # The boundary may lie beyond the places: the sigma, with the key's place in it, is all that there is.
+        return distance.uncertainty_m or 0.0
     return (distance.high_m - distance.low_m) / (2.0 * SIGMAS_OF_LEVEL)
 
 

@@ -14,6 +14,7 @@ from mtr_operator.station.view_model import ViewModel
 
 from ..i18n import duration, number
 from ..names import domain_word, scenario_title
+from ..prospect_text import prospect_text
 from ..sentences import translated
 from ..theme.scale import M, S
 
@@ -85,7 +86,9 @@ class MeasurementFacts(QFrame):
 
     def _left_text(self, model: ViewModel) -> str:
         left_s = model.left_s
-        return "" if left_s is None else self.tr("about {time} left").format(time=duration(left_s))
+        left = "" if left_s is None else self.tr("about {time} left").format(time=duration(left_s))
+        prospect = prospect_text(model.prospect) if model.phase is Phase.MEASURING else ""
+        return "\n".join(filter(None, (left, prospect)))
 
     def _action_text(self, model: ViewModel) -> str:
         if model.phase is Phase.STOPPING:

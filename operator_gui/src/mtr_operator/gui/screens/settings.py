@@ -18,13 +18,16 @@ from ..pictures.layers.car_layer import CarLayer
 from ..pictures.layers.lines_layer import LinesLayer
 from ..pictures.layers.surroundings import GridLayer, ScaleLayer
 from ..pictures.picture_panel import PicturePanel
-from ..sentences import parameter_sentence
+from ..prospect_text import prospect_text
+from ..sentences import in_window_words, parameter_sentence
 from ..theme.appearance import Appearance
 from ..theme.scale import L, M, S
 
 
 class SettingsScreen(QWidget):
     """Attributes: form: the parameters. picture: preview. start: the button. notice: sentence on duration and battery.
+
+    caution: what the parameters cannot give.
 
     Signals: started(parameters), back.
     """
@@ -45,6 +48,9 @@ class SettingsScreen(QWidget):
         self.picture = PicturePanel(appearance)
         self.notice = QLabel()
         self.notice.setWordWrap(True)
+        self.caution = QLabel()
+        self.caution.setWordWrap(True)
+        self.caution.setProperty("role", "error")
         self.start = QPushButton(self.tr("Start"))
         self.start.setProperty("role", "primary")
         self.start.clicked.connect(self._start)
@@ -79,6 +85,7 @@ class SettingsScreen(QWidget):
         right.setSpacing(S)
         right.addWidget(self.picture, 1)
         right.addWidget(self.notice)
+        right.addWidget(self.caution)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(L)
@@ -107,6 +114,9 @@ class SettingsScreen(QWidget):
                 self.form.show_fault(parameter_sentence(error, self._scenario.parameters_type))
         self.picture.view.show_layers([GridLayer(), self._lines, CarLayer(car, mapped is not None), ScaleLayer()])
         self.notice.setText(self._forecast(mapped is not None))
+        self.caution.setText(" ".join(in_window_words(sentence, self._scenario.parameters_type)
+                                      for sentence in (self._plan.cautions if self._plan else ())))
+        self.caution.setVisible(bool(self.caution.text()))
         self._judge()
 
     def _forecast(self, is_mapped: bool) -> str:
@@ -115,6 +125,7 @@ class SettingsScreen(QWidget):
             return ""
         lines = self.tr("{count} lines ({word}), about {time}.").format(
             count=len(plan.stretches), word=domain_word(self._scenario.line_word), time=duration(plan.duration_s))
+        lines = " ".join(filter(None, (lines, prospect_text(plan.prospect))))
         if not is_mapped:
             lines += " " + self.tr("The Car is not measured yet; its size is a guess.")
         battery = self._model.robot.status.battery_percent if self._model.robot else None

@@ -16,6 +16,11 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "retreat until the Car locks"),
     QT_TRANSLATE_NOOP("Sentence", "radial {} ({}): go to the start"),
     QT_TRANSLATE_NOOP("Sentence", "press at {} m"),
+    QT_TRANSLATE_NOOP("Sentence", "{} presses on each radial reach an interval of {} m where the Car's range ends "
+                                  "within {} m; interval_m asks for {} m: allow {} presses (attempts_limit), or ask "
+                                  "for {} m."),
+    QT_TRANSLATE_NOOP("Sentence", "{} presses on each radial reach an interval of {} m where the Car's range ends "
+                                  "within {} m; interval_m asks for {} m: ask for {} m."),
     QT_TRANSLATE_NOOP("Sentence", "move the key so that it does not sleep"),
     QT_TRANSLATE_NOOP("Sentence", "The key has answered nowhere on {} radials one after the other; see whether it "
                                   "sleeps, whether its battery is empty and whether it is the Car's key, then continue "

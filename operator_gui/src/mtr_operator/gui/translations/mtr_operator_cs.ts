@@ -329,77 +329,77 @@
 <context>
     <name>MeasurementFacts</name>
     <message>
-        <location filename="../screens/measurement_facts.py" line="33"/>
+        <location filename="../screens/measurement_facts.py" line="34"/>
         <source>Progress of the test</source>
         <translation>Průběh testu</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="39"/>
+        <location filename="../screens/measurement_facts.py" line="40"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="39"/>
+        <location filename="../screens/measurement_facts.py" line="40"/>
         <source>Locks</source>
         <translation>Zámky</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="39"/>
+        <location filename="../screens/measurement_facts.py" line="40"/>
         <source>Key height</source>
         <translation>Výška klíče</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="40"/>
+        <location filename="../screens/measurement_facts.py" line="41"/>
         <source>Speed</source>
         <translation>Rychlost</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="40"/>
+        <location filename="../screens/measurement_facts.py" line="41"/>
         <source>Position</source>
         <translation>Poloha</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="40"/>
+        <location filename="../screens/measurement_facts.py" line="41"/>
         <source>Last result</source>
         <translation>Poslední výsledek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="64"/>
+        <location filename="../screens/measurement_facts.py" line="65"/>
         <source>{done} of {total} lines measured</source>
         <translation>změřeno {done} z {total} přímek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="77"/>
+        <location filename="../screens/measurement_facts.py" line="78"/>
         <source>locked</source>
         <translation>zamčeno</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="77"/>
+        <location filename="../screens/measurement_facts.py" line="78"/>
         <source>unlocked</source>
         <translation>odemčeno</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="78"/>
+        <location filename="../screens/measurement_facts.py" line="79"/>
         <source>unknown</source>
         <translation>neznámý stav</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="82"/>
+        <location filename="../screens/measurement_facts.py" line="83"/>
         <source>not known</source>
         <translation>není známa</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="88"/>
+        <location filename="../screens/measurement_facts.py" line="89"/>
         <source>about {time} left</source>
         <translation>zbývá asi {time}</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="92"/>
+        <location filename="../screens/measurement_facts.py" line="95"/>
         <source>The robot is being stopped.</source>
         <translation>Robot se zastavuje.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="94"/>
+        <location filename="../screens/measurement_facts.py" line="97"/>
         <source>Paused. The line at hand is measured anew after Resume.</source>
         <translation>Pozastaveno. Rozpracovaná přímka se po pokračování změří znovu.</translation>
     </message>
@@ -894,6 +894,29 @@
         <location filename="../pictures/picture_view.py" line="52"/>
         <source>Car and robot from above; plus and minus zoom, arrows move the picture</source>
         <translation>Auto a robot shora; plus a minus mění zvětšení, šipky posouvají obraz</translation>
+    </message>
+</context>
+<context>
+    <name>Prospect</name>
+    <message>
+        <location filename="../prospect_text.py" line="15"/>
+        <source>Attempts on each line: {count}.</source>
+        <translation>Pokusů na každé přímce: {count}.</translation>
+    </message>
+    <message>
+        <location filename="../prospect_text.py" line="18"/>
+        <source>The distances will have no 95 % interval.</source>
+        <translation>Vzdálenosti nebudou mít 95% interval.</translation>
+    </message>
+    <message>
+        <location filename="../prospect_text.py" line="20"/>
+        <source>Expected 95 % interval: {interval} m.</source>
+        <translation>Očekávaný 95% interval: {interval} m.</translation>
+    </message>
+    <message>
+        <location filename="../prospect_text.py" line="25"/>
+        <source>{low} to {high}</source>
+        <translation>{low} až {high}</translation>
     </message>
 </context>
 <context>
@@ -2265,36 +2288,46 @@
         <source>No press worked, and none of {} at {} m either: the key sleeps, its battery is empty, or the Car&apos;s range ends nearer; then decrease minimum_distance_m.</source>
         <translation>Žádný stisk nefungoval, ani žádný z {} na {} m: klíč spí, má vybitou baterii, nebo dosah auta končí blíž; pak zmenšete minimum_distance_m.</translation>
     </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>{} presses on each radial reach an interval of {} m where the Car&apos;s range ends within {} m; interval_m asks for {} m: allow {} presses (attempts_limit), or ask for {} m.</source>
+        <translation>Kde dosah auta končí pozvolna, dá {} stisků na každém paprsku interval {} m (dosah končí během {} m); interval_m žádá {} m: dovolte {} stisků (attempts_limit), nebo žádejte {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>{} presses on each radial reach an interval of {} m where the Car&apos;s range ends within {} m; interval_m asks for {} m: ask for {} m.</source>
+        <translation>Kde dosah auta končí pozvolna, dá {} stisků na každém paprsku interval {} m (dosah končí během {} m); interval_m žádá {} m: žádejte {} m.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
     <message>
-        <location filename="../screens/settings.py" line="48"/>
+        <location filename="../screens/settings.py" line="54"/>
         <source>Start</source>
         <translation>Spustit</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="66"/>
+        <location filename="../screens/settings.py" line="72"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="116"/>
+        <location filename="../screens/settings.py" line="126"/>
         <source>{count} lines ({word}), about {time}.</source>
         <translation>Počet přímek ({word}): {count}, asi {time}.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="119"/>
+        <location filename="../screens/settings.py" line="130"/>
         <source>The Car is not measured yet; its size is a guess.</source>
         <translation>Auto ještě není změřeno; jeho rozměry jsou odhad.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="124"/>
+        <location filename="../screens/settings.py" line="135"/>
         <source>The battery, at {percent} %, suffices.</source>
         <translation>Baterie ({percent} %) stačí.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="125"/>
+        <location filename="../screens/settings.py" line="136"/>
         <source>The battery, at {percent} %, may not suffice: the test takes about {need} %.</source>
         <translation>Baterie ({percent} %) nemusí stačit: test spotřebuje asi {need} %.</translation>
     </message>

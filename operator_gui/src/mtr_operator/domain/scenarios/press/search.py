@@ -5,22 +5,22 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Sequence
 
-from ..actions.robot import Robot
-from ..actions.trouble import LineInvalid
-from ..errors import RobotFailed
-from ..estimation.press.likelihood import Press
-from ..estimation.press.plan import SearchPlan
-from ..estimation.press.radial_estimate import Reach, answers_nowhere, estimate
-from ..estimation.press.radial_search import PRESSES_IN_DOUBT, RadialSearch
-from ..geometry.radials import Radial
-from ..geometry.ray import Ray
-from ..requests import Direction
-from ..results.line_result import LineStatus
-from .key_press_button import PressMade, press_once
-from .key_press_campaign import PressCampaign, presses_of, with_estimate
-from .key_press_parameters import KeyPressParameters
-from .key_press_record import invalid_result, joined, result_of
-from .key_press_result import PRESS, KeyPressResult
+from ...actions.robot import Robot
+from ...actions.trouble import LineInvalid
+from ...errors import RobotFailed
+from ...estimation.press.likelihood import Press
+from ...estimation.press.plan import SearchPlan
+from ...estimation.press.radial_estimate import Reach, answers_nowhere, estimate
+from ...estimation.press.radial_search import PRESSES_IN_DOUBT, RadialSearch
+from ...geometry.radials import Radial
+from ...geometry.ray import Ray
+from ...requests import Direction
+from ...results.line_result import LineStatus
+from ..key_press_parameters import KeyPressParameters
+from ..key_press_result import PRESS, KeyPressResult
+from .button import PressMade, press_once
+from .campaign import PressCampaign, presses_of, with_estimate
+from .record import invalid_result, joined, result_of
 
 # The robot stops within some millimetres; a shorter way would be a manoeuvre and no move.
 _MIN_WAY_M = 0.05

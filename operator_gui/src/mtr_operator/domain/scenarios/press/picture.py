@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Sequence
 
-from ..estimation.press.radial_estimate import Reach
-from ..geometry.pose import Point
-from ..geometry.radials import radials_around
-from ..geometry.ray import Ray
-from ..results.line_result import LineStatus, MeasuredDistance
-from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along, intervals_along
-from .key_press_parameters import KeyPressParameters
-from .key_press_result import ADAPTIVE, SURE_PERCENT, KeyPressResult
+from ...estimation.press.radial_estimate import Reach
+from ...geometry.pose import Point
+from ...geometry.radials import radials_around
+from ...geometry.ray import Ray
+from ...results.line_result import LineStatus, MeasuredDistance
+from ...results.picture import Picture, PointRole, PointSet, Stretch, bars_along, intervals_along
+from ..key_press_parameters import KeyPressParameters
+from ..key_press_result import ADAPTIVE, SURE_PERCENT, KeyPressResult
 
 _Measured = Sequence[tuple[Ray, KeyPressResult]]
 

@@ -9,15 +9,15 @@ import math
 from dataclasses import replace
 from typing import Any, Iterator, Sequence
 
-from ..estimation.press.campaign import Campaign
-from ..estimation.press.hypotheses import Hypotheses
-from ..estimation.press.likelihood import Press
-from ..estimation.press.plan import SearchPlan
-from ..estimation.press.radial_estimate import RadialEstimate, Reach, estimate
-from ..estimation.press.radial_search import RadialSearch
-from ..results.line_result import LineStatus
-from .key_press_parameters import KeyPressParameters
-from .key_press_result import ADAPTIVE, KeyPressResult
+from ...estimation.press.campaign import Campaign
+from ...estimation.press.hypotheses import Hypotheses
+from ...estimation.press.likelihood import Press
+from ...estimation.press.plan import SearchPlan
+from ...estimation.press.radial_estimate import RadialEstimate, Reach, estimate
+from ...estimation.press.radial_search import RadialSearch
+from ...results.line_result import LineStatus
+from ..key_press_parameters import KeyPressParameters
+from ..key_press_result import ADAPTIVE, KeyPressResult
 
 # Decimals of files; a tenth of a millimetre is shown.
 _DIGITS = 6

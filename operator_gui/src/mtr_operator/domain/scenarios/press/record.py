@@ -6,12 +6,12 @@ import math
 from dataclasses import replace
 from typing import Sequence
 
-from ..actions.distance import recorded_values
-from ..geometry.radials import Radial
-from ..results.carried import carried_values
-from ..results.line_result import LineStatus
-from .key_press_button import PressMade
-from .key_press_result import ADAPTIVE, KeyPressResult
+from ...actions.distance import recorded_values
+from ...geometry.radials import Radial
+from ...results.carried import carried_values
+from ...results.line_result import LineStatus
+from ..key_press_result import ADAPTIVE, KeyPressResult
+from .button import PressMade
 
 _DIGITS = 6
 # Columns of the farthest press that worked.

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from ..actions.distance import Distance
-from ..actions.line_watch import LineWatch
-from ..actions.lock_history import PRESS_SIGMA_S, Expected
-from ..actions.robot import Robot
-from ..geometry.ray import Ray
-from ..ports import KEY_BUTTON, LockState
-from ..results.line_result import LineStatus
-from .key_press_parameters import KeyPressParameters
+from ...actions.distance import Distance
+from ...actions.line_watch import LineWatch
+from ...actions.lock_history import PRESS_SIGMA_S, Expected
+from ...actions.robot import Robot
+from ...geometry.ray import Ray
+from ...ports import KEY_BUTTON, LockState
+from ...results.line_result import LineStatus
+from ..key_press_parameters import KeyPressParameters
 
 LOCK_BUTTON, UNLOCK_BUTTON = 1, 2
 # The press that changes the Car's present state: button and state that it should lead to.
