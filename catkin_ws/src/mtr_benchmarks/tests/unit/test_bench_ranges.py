@@ -70,6 +70,12 @@ def test_place_that_a_referee_wants_beyond_the_range_is_pressed_at_its_end(monke
     assert all(3.0 <= line.found.value_m <= 20.0 for line in found)
 
 
+def test_method_without_intervals_has_no_coverage():
+    found = figures([LineFound(1.0, point(1.1, math.nan)), LineFound(1.0, point(0.9, math.nan))])
+    assert found["coverage_95"] is None and found["half_width_median_m"] is None
+    assert found["rms_m"] == pytest.approx(0.1)
+
+
 def test_passes_of_one_campaign_hold_their_boundaries():
     found = run_task(Task(("poll",), AxesDraw(Polling(), 11, 11)))
     assert figures(found[("passes", "poll")])["coverage_95"] >= 0.85

@@ -13,8 +13,9 @@ from .result import LineFound
 
 WIDTHS_M = (0.1, 0.4, 1.0, 2.2, 4.0, 6.6)
 FADINGS = {"steady": (0.0, 0.0), "fading": (FADING_SHARE, LAPSE)}
-# The search for the scan's whole time takes three times as many presses; one campaign in so many does it.
-LONG_EVERY = 6
+# The search for the scan's whole time takes three times as many presses, and Neyer's design as long as ten of ours: one
+# campaign in so many does them.
+LONG_EVERY = 14
 NEYER_RADIALS = 4
 # Poll 300 ms and cycle 200 ms is what the requirement names.
 POLLINGS = {"poll_300_cycle_200": Polling(), "poll_100_cycle_20": Polling(0.1, 0.02),

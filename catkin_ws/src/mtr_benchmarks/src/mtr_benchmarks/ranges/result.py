@@ -29,10 +29,11 @@ def figures(lines: List[LineFound]) -> Dict[str, Optional[float]]:
     """Of one method on one kind of Car; names are a promise."""
     errors = np.array([line.found.value_m - line.truth_m for line in lines])
     far = [line for line in lines if math.isfinite(line.truth_95_m)]
+    sure = [line for line in lines if math.isfinite(line.found.half_width_m)]
     return {
         "lines": float(len(lines)), "bias_m": float(np.mean(errors)), "rms_m": float(np.sqrt(np.mean(errors ** 2))),
-        "coverage_95": share([line.found.holds(line.truth_m) for line in lines]),
-        "half_width_median_m": float(np.median([line.found.half_width_m for line in lines])),
+        "coverage_95": share([line.found.holds(line.truth_m) for line in sure]),
+        "half_width_median_m": float(np.median([line.found.half_width_m for line in sure])) if sure else None,
         "d95_bias_m": float(np.mean([line.found_95.value_m - line.truth_95_m for line in far])) if far else None,
         "d95_coverage_95": share([line.found_95.holds(line.truth_95_m) for line in far]),
         "presses_median": float(np.median([line.presses for line in lines])),
