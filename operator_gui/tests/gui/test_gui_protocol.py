@@ -7,9 +7,11 @@ from PyQt5.QtCore import QByteArray
 from PyQt5.QtGui import QImage
 from PyQt5.QtSvg import QSvgRenderer
 
+from mtr_operator.domain.results.line_result import LineStatus, MeasuredDistance
 from mtr_operator.gui.pictures.export import png
 from mtr_operator.gui.pictures.layers.points_layer import PointsLayer
 from mtr_operator.gui.pictures.protocol_sheet import ProtocolSheet
+from mtr_operator.gui.screens.results_model import interval_text
 from mtr_operator.gui.theme.palette import LIGHT
 
 
@@ -106,3 +108,18 @@ def test_sheet_shows_what_was_measured(protocol):
     image = QImage.fromData(png(ProtocolSheet(protocol.protocol)))
     colours = {image.pixelColor(x, y).name() for x in range(0, image.width(), 3) for y in range(0, image.height(), 3)}
     assert {LIGHT.first, LIGHT.second, LIGHT.body, LIGHT.surface} <= colours
+
+
+@pytest.mark.parametrize(("low_m", "high_m", "text"), [
+    (5.12, 5.71, "512\N{EN DASH}571"), (5.12, None, "> 512"), (None, 5.71, "< 571"), (None, None, "")])
+def test_interval_of_a_distance_is_told_also_when_it_is_open(low_m, high_m, text):
+    assert interval_text(MeasuredDistance("press", LineStatus.OK, 5.4, 0.1, low_m, high_m)) == text
+
+
+def test_table_of_a_search_has_a_column_of_intervals(operator):
+    operator.begin("key_press")
+    model = operator.finish().table.model()
+    assert [model.headerData(column, 1) for column in range(2, model.columnCount())] == [
+        "Press [cm]", "\N{PLUS-MINUS SIGN}", "95 %"]
+    low, high = model.data(model.index(0, 4)).split("\N{EN DASH}")
+    assert float(low) < float(model.data(model.index(0, 2))) < float(high)

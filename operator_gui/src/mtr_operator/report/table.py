@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Iterator, Sequence
 
-from mtr_operator.domain.results.line_result import LineResult, LineStatus, MeasuredDistance
+from mtr_operator.domain.results.line_result import LineResult, LineStatus, MeasuredDistance, has_intervals
 from mtr_operator.domain.scenario import AnyScenario
 
 _CM_PER_M = 100.0
@@ -26,10 +26,11 @@ def line_text(scenario: AnyScenario, result: LineResult) -> str:
 
 def results_table(scenario: AnyScenario, results: Sequence[LineResult]) -> Iterator[str]:
     """Lines of a table of all results, distances in cm with 1 sigma, and the reasons of the invalid ones."""
-    rows = [_heading(scenario), *(_row(result) for result in results)]
+    shows_intervals = has_intervals(results)
+    rows = [_heading(scenario, shows_intervals), *(_row(result, shows_intervals) for result in results)]
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     for row in rows:
-        cells = (cell.rjust(width) if _is_number(index) else cell.ljust(width)
+        cells = (cell.rjust(width) if _is_number(index, shows_intervals) else cell.ljust(width)
                  for index, (cell, width) in enumerate(zip(row, widths)))
         yield _GAP.join(cells).rstrip()
     for result in results:
@@ -37,23 +38,32 @@ def results_table(scenario: AnyScenario, results: Sequence[LineResult]) -> Itera
             yield f"{line_name(scenario, result)} is invalid: {result.reason}"
 
 
-def _heading(scenario: AnyScenario) -> list[str]:
+def _heading(scenario: AnyScenario, shows_intervals: bool) -> list[str]:
     row = [scenario.line_word, ""]
     for word in scenario.distance_words:
-        row += [word, "cm", f"{_PLUS_MINUS} cm"]
+        row += [word, "cm", f"{_PLUS_MINUS} cm", *(["95 % cm"] if shows_intervals else [])]
     return row
 
 
-def _row(result: LineResult) -> list[str]:
+def _row(result: LineResult, shows_intervals: bool) -> list[str]:
     row = [str(result.number), result.place]
     for distance in result.distances:
         row += [_words(distance.status), _cm(distance.distance_m), _cm(distance.uncertainty_m)]
+        row += [_interval(distance)] if shows_intervals else []
     return row
 
 
-def _is_number(column: int) -> bool:
-    # Number of the line and its place, then state, distance and uncertainty of each measurement.
-    return column == 0 or (column > 1 and (column - 2) % 3 > 0)
+def _is_number(column: int, shows_intervals: bool) -> bool:
+    # Number of the line and its place, then state, distance, uncertainty and perhaps interval of each measurement.
+    return column == 0 or (column > 1 and (column - 2) % (4 if shows_intervals else 3) > 0)
+
+
+def _interval(distance: MeasuredDistance) -> str:
+    """Such as "512 to 571"; one end alone where the boundary lies beyond the other."""
+    low, high = (None if end is None else f"{end * _CM_PER_M:.0f}" for end in (distance.low_m, distance.high_m))
+    if low is None or high is None:
+        return f"above {low}" if low else f"below {high}" if high else ""
+    return f"{low} to {high}"
 
 
 def _distance(distance: MeasuredDistance) -> str:

@@ -6,7 +6,7 @@ import dataclasses
 import enum
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, Sequence, TypeVar
 
 from .. import limits
 from .document import OptionalFloat, Texts, plain, read_record
@@ -49,6 +49,12 @@ class MeasuredDistance:
     uncertainty_m: OptionalFloat
     low_m: OptionalFloat = None
     high_m: OptionalFloat = None
+
+
+def has_intervals(results: Sequence[LineResult]) -> bool:
+    """True when a table of the results has intervals to show."""
+    return any((distance.low_m, distance.high_m) != (None, None) for result in results
+               for distance in result.distances)
 
 
 def column(doc: str, unit: str = "", digits: int = 4, default: Any = dataclasses.MISSING) -> Any:

@@ -6,7 +6,7 @@ from typing import Any
 
 from PyQt5.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt
 
-from mtr_operator.domain.results.line_result import LineResult, LineStatus
+from mtr_operator.domain.results.line_result import LineResult, LineStatus, MeasuredDistance, has_intervals
 
 from ..i18n import number
 from ..names import domain_word
@@ -15,16 +15,19 @@ from ..sentences import translated
 
 _CM_PER_M = 100.0
 _FIXED_COLUMNS = 2
+# Columns of each distance.
+_DISTANCE, _INTERVAL = 0, 2
 PLACE_COLUMN = 1
 
 
 class ResultsModel(QAbstractTableModel):
-    """Number and place of each line, then distance and uncertainty of each measurement in cm."""
+    """Number and place of each line, then distance, uncertainty and perhaps interval of each measurement in cm."""
 
     def __init__(self, protocol: Protocol, parent: QObject | None = None):
         super().__init__(parent)
         self._scenario = protocol.scenario
         self._results = protocol.progress.results
+        self._kinds = 3 if has_intervals(self._results) else 2
 
     def rowCount(self, parent: QModelIndex = QModelIndex()) -> int:  # noqa: B008
         """See QAbstractItemModel."""
@@ -32,7 +35,7 @@ class ResultsModel(QAbstractTableModel):
 
     def columnCount(self, parent: QModelIndex = QModelIndex()) -> int:  # noqa: B008
         """See QAbstractItemModel."""
-        return 0 if parent.isValid() else _FIXED_COLUMNS + 2 * len(self._scenario.distance_words)
+        return 0 if parent.isValid() else _FIXED_COLUMNS + self._kinds * len(self._scenario.distance_words)
 
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """See QAbstractItemModel."""
@@ -41,7 +44,7 @@ class ResultsModel(QAbstractTableModel):
         if section < _FIXED_COLUMNS:
             return ("#", domain_word(self._scenario.line_word).capitalize())[section]
         word = domain_word(self._scenario.distance_words[self._index(section)]).capitalize()
-        return f"{word} [cm]" if self._is_distance(section) else "\N{PLUS-MINUS SIGN}"
+        return (f"{word} [cm]", "\N{PLUS-MINUS SIGN}", "95 %")[self._kind(section)]
 
     def data(self, index: QModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """See QAbstractItemModel."""
@@ -57,17 +60,25 @@ class ResultsModel(QAbstractTableModel):
     def _text(self, result: LineResult, column: int) -> str:
         if column < _FIXED_COLUMNS:
             return (str(result.number), domain_word(result.place))[column]
-        distance = result.distances[self._index(column)]
-        if self._is_distance(column) and distance.status is not LineStatus.OK:
+        distance, kind = result.distances[self._index(column)], self._kind(column)
+        if kind == _INTERVAL:
+            return interval_text(distance)
+        if kind == _DISTANCE and distance.status is not LineStatus.OK:
             return domain_word(distance.status.value.replace("_", " "))
-        value = distance.distance_m if self._is_distance(column) else distance.uncertainty_m
+        value = distance.distance_m if kind == _DISTANCE else distance.uncertainty_m
         return "" if value is None else number(value * _CM_PER_M, 1)
 
-    @staticmethod
-    def _index(column: int) -> int:
+    def _index(self, column: int) -> int:
         """Index of the distance that a column belongs to."""
-        return (column - _FIXED_COLUMNS) // 2
+        return (column - _FIXED_COLUMNS) // self._kinds
 
-    @staticmethod
-    def _is_distance(column: int) -> bool:
-        return (column - _FIXED_COLUMNS) % 2 == 0
+    def _kind(self, column: int) -> int:
+        return (column - _FIXED_COLUMNS) % self._kinds
+
+
+def interval_text(distance: MeasuredDistance) -> str:
+    """Ends in cm; an inequality where the boundary lies beyond the other one."""
+    low, high = ("" if end is None else number(end * _CM_PER_M, 0) for end in (distance.low_m, distance.high_m))
+    if low and high:
+        return f"{low}\N{EN DASH}{high}"
+    return f"> {low}" if low else f"< {high}" if high else ""

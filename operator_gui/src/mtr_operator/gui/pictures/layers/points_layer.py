@@ -96,17 +96,42 @@ class PointsLayer(Layer):
 
     def _write_distances(self, canvas: Canvas) -> None:
         canvas.painter.setFont(canvas.font(14.0, True))
+        written: list[QPointF] = []
         for points in self.sets:
             if points.role is PointRole.FIRST:
                 for point in points.known:
                     text = f"{number(math.hypot(*point), 2)} m"
-                    canvas.label(_inward(canvas, point, text), text, colour_of(points.role, canvas.palette))
+                    place = _outward(canvas, points, point, text) if points.intervals else _inward(canvas, point, text)
+                    if all(_is_apart(canvas, place, other, text) for other in written):
+                        written.append(place)
+                        canvas.label(place, text, colour_of(points.role, canvas.palette))
+
+
+def _is_apart(canvas: Canvas, place: QPointF, other: QPointF, text: str) -> bool:
+    box, gap = canvas.painter.fontMetrics().boundingRect(text), _LABEL_GAP_PX * canvas.unit
+    return abs(place.x() - other.x()) > box.width() + gap or abs(place.y() - other.y()) > box.height()
+
+
+def _outward(canvas: Canvas, points: PointSet, point: Point, text: str) -> QPointF:
+    """Beyond a point and its interval: the points nearer to the Car stay in sight."""
+    place = canvas.at(next((end for _, end in points.intervals if _is_behind(point, end)), point))
+    inward = _toward(canvas, place, canvas.at((0.0, 0.0)), text) - place
+    return QPointF(place.x() - inward.x(), place.y() - inward.y())
+
+
+def _is_behind(point: Point, end: Point) -> bool:
+    """True for points in the same direction from the Car's centre, within a thousandth of a radian."""
+    across, along = point[0] * end[1] - point[1] * end[0], point[0] * end[0] + point[1] * end[1]
+    return along > 0.0 and abs(across) < 1e-3 * along
 
 
 def _inward(canvas: Canvas, point: Point, text: str) -> QPointF:
     """Where a text has room between a point and the Car's centre."""
-    place = canvas.at(point)
-    way = canvas.at((0.0, 0.0)) - place
+    return _toward(canvas, canvas.at(point), canvas.at((0.0, 0.0)), text)
+
+
+def _toward(canvas: Canvas, place: QPointF, goal: QPointF, text: str) -> QPointF:
+    way = goal - place
     length = max(math.hypot(way.x(), way.y()), 1e-9)
     box = canvas.painter.fontMetrics().boundingRect(text)
     room = (abs(way.x()) * box.width() + abs(way.y()) * box.height()) / (2.0 * length) + _LABEL_GAP_PX * canvas.unit

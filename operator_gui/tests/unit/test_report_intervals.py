@@ -1,0 +1,63 @@
+"""How intervals are shown: in the table, and in the picture of a search for Key press."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
+
+import pytest
+
+from mtr_operator.domain.results.line_result import LineStatus, has_intervals
+from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.robot_status import CarDimensions
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
+from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
+from mtr_operator.domain.verdict.assessment import Assessor
+from mtr_operator.report.protocol_png import protocol_png
+from mtr_operator.report.table import results_table
+from mtr_operator.storage.given_files import load_calibration
+
+KEY_PRESS = SCENARIOS["key_press"]
+CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
+PARAMETERS = KeyPressParameters.from_mapping({"method": "adaptive", "angle_between_radials_deg": 90.0})
+MEASURED = KeyPressResult(1, 0.0, LineStatus.OK, 5.3, 5.6, 0.01, 12, 1.0, "", method="adaptive", reach="measured",
+                          d50_m=5.4, d50_sigma_m=0.15, d50_low_m=5.12, d50_high_m=5.71, d95_m=4.9, d95_low_m=4.5,
+                          d95_high_m=5.3, holes_m="3.46")
+OPEN = replace(MEASURED, radial=2, angle_deg=90.0, d50_high_m=None, holes_m="")
+FARTHER = replace(OPEN, radial=3, angle_deg=180.0, status=LineStatus.NOT_REACHED, reach="farther", d50_m=None,
+                  d95_m=None, d95_low_m=None, d95_high_m=None)
+NEARER = replace(FARTHER, radial=4, angle_deg=270.0, reach="nearer", d50_low_m=None, d50_high_m=3.4)
+RESULTS = [MEASURED, OPEN, FARTHER, NEARER]
+
+
+def test_table_has_intervals_in_centimetres_and_says_where_one_is_open():
+    heading, *rows = results_table(KEY_PRESS, RESULTS)
+    assert heading.endswith("95 % cm")
+    assert [row.rsplit("  ", 1)[1] for row in rows] == ["512 to 571", "above 512", "above 512", "below 340"]
+
+
+def test_table_without_intervals_is_as_before():
+    scan = replace(MEASURED, method="scan")
+    assert not has_intervals([scan])
+    assert next(iter(results_table(KEY_PRESS, [scan]))).endswith("\N{PLUS-MINUS SIGN} cm")
+
+
+def test_picture_of_a_search_has_both_outlines_with_intervals_and_what_is_not_known():
+    half, sure, farther, nearer, holes, invalid = KEY_PRESS.picture(PARAMETERS, CAR, RESULTS).point_sets
+    assert half.is_outline and sure.is_outline
+    assert (len(half.known), len(sure.known)) == (2, 2)
+    assert half.intervals == (((5.12, 0.0), (5.71, 0.0)),) and len(sure.intervals) == 2
+    # An open interval is shown as the sigma that there is.
+    assert len(half.bars) == 1
+    assert farther.known[0] == pytest.approx((-6.0, 0.0)) and nearer.known[0] == pytest.approx((0.0, 3.0), abs=1e-9)
+    assert holes.known[0] == pytest.approx((3.46, 0.0)) and invalid.known == ()
+
+
+def test_protocol_is_drawn_with_intervals():
+    progress = Progress("key_press", PARAMETERS.to_mapping(), {}, CAR, RESULTS)
+    assert protocol_png(KEY_PRESS, PARAMETERS, progress).startswith(b"\x89PNG")
+
+
+def test_budget_of_an_open_interval_is_not_that_of_none():
+    assessor = Assessor(KEY_PRESS, PARAMETERS, CAR, load_calibration())
+    closed, opened = (assessor.assess(Progress("key_press", PARAMETERS.to_mapping(), {}, CAR, [result])).budgets[0]
+                      for result in (MEASURED, OPEN))
+    assert opened.sigma_m == pytest.approx(closed.sigma_m, rel=0.2)
