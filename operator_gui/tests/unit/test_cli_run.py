@@ -212,7 +212,7 @@ def test_terminal_gets_a_bar():
 def test_ctrl_c_while_the_report_is_written_completes_it(parameters, tmp_path, monkeypatch, capsys):
     def interrupted(*arguments):
         os.kill(os.getpid(), signal.SIGINT)
-        write_report(*arguments)
+        return write_report(*arguments)
     monkeypatch.setattr("mtr_operator.cli.run.write_report", interrupted)
     assert run("autolock", parameters, tmp_path / "out") == 130
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [

@@ -9,6 +9,7 @@ from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
+from mtr_operator.storage.given_files import load_limits
 from mtr_operator.storage.parameter_file import load_parameters
 
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
@@ -98,7 +99,10 @@ def test_mapping_makes_a_round_trip(kind):
 
 @pytest.mark.parametrize("path", sorted(EXAMPLES.rglob("*.yaml")), ids=lambda path: str(path.relative_to(EXAMPLES)))
 def test_shipped_example_is_valid(path):
-    load_parameters(path, SCENARIOS[path.stem].parameters_type)
+    if path.parent.name == "limits":
+        load_limits(path)
+    else:
+        load_parameters(path, SCENARIOS[path.stem].parameters_type)
 
 
 def test_example_of_every_scenario_is_shipped():
