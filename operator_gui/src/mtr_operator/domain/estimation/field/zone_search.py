@@ -1,0 +1,94 @@
+"""Where to press next in a zone, and what part of it is covered.
+
+The next press is the one that is expected to tell most per second of robot time. Covered is a place where at least half
+of the presses work; the part of the zone that is has an interval from fields drawn from what the presses leave possible
+(propagation of distributions, JCGM 101).
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from typing import Callable
+
+import numpy as np
+from scipy.special import ndtr
+
+from ..interval import LEVEL, FloatArray, Interval
+from .latent_field import LatentField
+from .prior import FieldPrior
+
+COVERED = 0.5
+_DRAWS, _SEED = 400, 1
+# Fewer presses say nothing of how much a field differs from place to place.
+MIN_PRESSES = 6
+
+
+class ZoneSearch:
+    """State of one zone.
+
+    Attributes: places: that may be pressed at, rows of x, y, height, gap in m. areas_m2: that each stands for.
+    """
+
+    def __init__(self, prior: FieldPrior, places: FloatArray, areas_m2: FloatArray):
+        self._prior = prior
+        self.places = places
+        self.areas_m2 = areas_m2
+        self._pressed: list[FloatArray] = []
+        self._worked: list[float] = []
+        self._field: LatentField | None = None
+        self.presses = 0
+
+    def recall(self, place: FloatArray, worked: bool) -> None:
+        """Take a press of another zone, or of before."""
+        self._pressed.append(place)
+        self._worked.append(float(worked))
+        self._field = None
+
+    def add(self, place: FloatArray, worked: bool) -> None:
+        """Take a press of this zone."""
+        self.recall(place, worked)
+        self.presses += 1
+
+    @property
+    def field(self) -> LatentField:
+        """What is possible after the presses so far."""
+        if self._field is None:
+            pressed = np.array(self._pressed).reshape(-1, 4)
+            self._field = LatentField(self._prior, pressed, np.array(self._worked))
+        return self._field
+
+    def next_place(self, seconds: Callable[[FloatArray], FloatArray]) -> int:
+        """Index of the place to press at; seconds: that a press at each of the places would take.
+
+        Information counts by how open it is whether the place is covered: what lies deep in the zone, or far beyond
+        it, changes no outline (level set estimation: Bryan et al., Active learning for identifying function threshold
+        boundaries, 2005).
+        """
+        mean, sigma = self.field.smooth_marginals(self.places)
+        covered = ndtr(mean / sigma)
+        told = self.field.information(self.places) * covered * (1.0 - covered)
+        return int(np.argmax(told / seconds(self.places)))
+
+    def coverage(self) -> Interval:
+        """Part of the zone's area that is covered, from 0 to 1, with its 95 % interval."""
+        covered = self.field.draws(self.places, _DRAWS, _SEED) >= COVERED
+        parts = covered @ self.areas_m2 / np.sum(self.areas_m2)
+        tail = (1.0 - LEVEL) / 2.0
+        low, middle, high = np.quantile(parts, [tail, 0.5, 1.0 - tail])
+        return Interval(float(middle), float(low), float(high), float(np.std(parts)))
+
+    def is_finished(self, interval: float, attempts_limit: int) -> bool:
+        """True when half the width of the coverage's interval is small enough, or no press is left."""
+        if self.presses >= attempts_limit:
+            return True
+        return self.presses >= MIN_PRESSES and self.coverage().half_width_m <= interval
+
+    def boundary(self, places: FloatArray, distances_m: FloatArray, sigmas: float = 0.0) -> float:
+        """Distance on a ray, from near to far, where half of the presses work for the last time, over the fading of
+        the places around; NaN when nowhere.
+
+        places: on the ray. sigmas: of the latent height that are taken off (below 0: added): for a sure boundary.
+        """
+        mean, sigma = self.field.smooth_marginals(places)
+        above = np.flatnonzero(mean - sigmas * sigma >= 0.0)
+        return float(distances_m[above[-1]]) if len(above) else math.nan
