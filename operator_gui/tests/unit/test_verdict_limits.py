@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import math
+import pathlib
 from dataclasses import replace
 
 import pytest
 
 from mtr_operator.domain.errors import InvalidLimits
 from mtr_operator.domain.geometry.radials import radials_around
+from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.verdict.limits_document import MAX_REQUIREMENTS, limits_from
 from mtr_operator.domain.verdict.requirement import Requirement
-from mtr_operator.domain.verdict.suitability import check_lines
+from mtr_operator.domain.verdict.suitability import check_before_start, check_lines
+from mtr_operator.storage.given_files import load_limits
+from mtr_operator.storage.parameter_file import load_parameters
 
 DOOR = {"name": "door", "what": "unlock", "at_least_m": 1.2, "sides": ["left", "front_left"]}
+EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
 LINES = radials_around(math.radians(45.0))
 
 
@@ -108,3 +113,9 @@ def test_limits_on_different_lines_or_of_different_distances_do_not_contradict()
 
 def test_a_limit_that_names_no_line_is_refused():
     assert "names no radial" in contradiction(requirement(1.0, angles_deg=(10.0, 20.0)))
+
+
+@pytest.mark.parametrize("path", sorted((EXAMPLES / "limits").glob("*.yaml")), ids=lambda path: path.stem)
+def test_shipped_limits_suit_the_shipped_parameters(path):
+    scenario = SCENARIOS[path.stem]
+    check_before_start(load_limits(path), scenario, load_parameters(EXAMPLES / path.name, scenario.parameters_type))

@@ -95,8 +95,10 @@ def _attempts_sigma(distance: MeasuredDistance) -> float:
     if distance.low_m is None and distance.high_m is None:
         return 0.0
     if distance.low_m is None or distance.high_m is None:
-        # The boundary may lie beyond the places: the sigma, with the key's place in it, is all that there is.
-        return distance.uncertainty_m or 0.0
+        # The boundary may lie beyond the places: the sigma and the end that there is are all that is known.
+        known_m = distance.low_m if distance.high_m is None else distance.high_m
+        half_m = 0.0 if known_m is None or distance.distance_m is None else abs(distance.distance_m - known_m)
+        return max(distance.uncertainty_m or 0.0, half_m / SIGMAS_OF_LEVEL)
     return (distance.high_m - distance.low_m) / (2.0 * SIGMAS_OF_LEVEL)
 
 
