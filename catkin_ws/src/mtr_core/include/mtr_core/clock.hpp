@@ -13,6 +13,7 @@
 
 #include "mtr_core/leaving.hpp"
 #include "mtr_core/samples.hpp"
+#include "mtr_core/stamp_clock.hpp"
 #include "mtr_core/steady_time.hpp"
 
 namespace mtr_core {
@@ -34,9 +35,40 @@ inline ros::Time stamp_of(std::int64_t time_ns) {
 /// Monotonic wall time in s.
 inline double wall_seconds() { return ros::SteadyTime::now().toSec(); }
 
-/// When the stamp of a message that arrives now was, on the clock of Clock::now.
-inline std::int64_t time_of(const ros::Time& stamp) {
-  return is_simulated() ? to_ns(stamp) : steady_time_of(to_ns(stamp), {boot_time_ns(), to_ns(ros::Time::now())});
+/// Two clocks that were read farther apart do not tell whether one of them was set in between; so many readings are
+/// tried.
+inline constexpr std::int64_t kReadingApartNs = 2 * kMillisecondNs;
+inline constexpr int kReadings = 5;
+
+/// Both clocks of the machine at one instant.
+inline Instant read_clocks() {
+  Instant now{};
+  std::int64_t apart_ns = kReadingApartNs;
+  for (int reading = 0; reading < kReadings && apart_ns >= kReadingApartNs; ++reading) {
+    const std::int64_t before_ns = boot_time_ns();
+    now = {0, to_ns(ros::Time::now())};
+    now.time_ns = boot_time_ns();
+    apart_ns = now.time_ns - before_ns;
+  }
+  return now;
+}
+
+/// The process's own, for its callbacks' one thread.
+inline StampClock& stamp_clock() {
+  static StampClock clock;
+  return clock;
+}
+
+/// When the stamp of a message that arrives now was, on the clock of Clock::now, whatever was done to the ROS clock; a
+/// stamp far ahead counts at no time.
+/// @param usual_age_ns see StampClock::time_of
+inline std::int64_t time_of(const ros::Time& stamp, std::int64_t& usual_age_ns) {
+  if (is_simulated()) {
+    return to_ns(stamp);
+  }
+  const Instant now = read_clocks();
+  const std::int64_t time_ns = stamp_clock().time_of(to_ns(stamp), now, usual_age_ns);
+  return steady_time_of(time_ns, {now.time_ns, now.time_ns});
 }
 
 /// Runs the callbacks of the global queue, blocking at most max_wall_s for the first one; false on shutdown, and for a

@@ -35,7 +35,7 @@ class TickInput {
         subscriber_(node.subscribe<M>(
             topic, 50,
             [this](const typename M::ConstPtr& message) {
-              const std::int64_t time_ns = time_of(message->header.stamp);
+              const std::int64_t time_ns = time_of(message->header.stamp, usual_age_ns_);
               samples_.add(time_ns, {time_ns, message});
             },
             ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay())) {}
@@ -46,6 +46,7 @@ class TickInput {
   Received<M> at(std::int64_t tick_ns) { return samples_.at(tick_ns).value_or(Received<M>{}); }
 
  private:
+  std::int64_t usual_age_ns_ = 0;
   Samples<Received<M>> samples_;
   ros::Subscriber subscriber_;
 };

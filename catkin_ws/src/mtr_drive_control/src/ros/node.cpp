@@ -100,7 +100,7 @@ void Node::listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>
   lock_subscribers_.push_back(node.subscribe<mtr_msgs::MotionLock>(
       names::kMotionLock, 50,
       [this](const mtr_msgs::MotionLock::ConstPtr& message) {
-        const Lock lock{mtr_core::time_of(message->header.stamp), static_cast<bool>(message->engaged),
+        const Lock lock{mtr_core::time_of(message->header.stamp, lock_age_ns_), static_cast<bool>(message->engaged),
                         mtr_core::problem_of(message->problems, message->reason),
                         static_cast<bool>(message->emergency)};
         take(message->owner, lock);

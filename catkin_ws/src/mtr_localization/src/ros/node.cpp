@@ -14,6 +14,7 @@
 #include "mtr_core/names.hpp"
 #include "mtr_description/robot_description.hpp"
 #include "ros/conversions.hpp"
+#include "ros/stamps.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -33,7 +34,9 @@ ros::Subscriber subscribe(ros::NodeHandle& node, const char* topic, Callback cal
 std::optional<StampedPose> map_from_odom_in(const tf2_ros::Buffer& transforms) {
   try {
     const auto transform = transforms.lookupTransform(names::kMap, names::kOdom, ros::Time(0));
-    return StampedPose{mtr_core::to_ns(transform.header.stamp), pose_of(transform.transform)};
+    // The newest there is, perhaps of long ago: how old such a transform usually is, nobody knows.
+    std::int64_t unknown_age_ns = 0;
+    return StampedPose{time_of(mtr_core::to_ns(transform.header.stamp), unknown_age_ns), pose_of(transform.transform)};
   } catch (const tf2::TransformException&) {
     return std::nullopt;
   }
@@ -68,14 +71,20 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
       outputs_(node, parameters.publish_odom_tf),
       front_(node, Lidar::kFront, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
       rear_(node, Lidar::kRear, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
-      gnss_(node, frames_, [this](const GnssFix& fix) { return source_->add_fix(fix); }),
+      gnss_(node, frames_,
+            [this](GnssFix fix) {
+              fix.stamp_ns = time_of(fix.stamp_ns, ages_.fix_ns);
+              return source_->add_fix(fix);
+            }),
       orders_received_(mtr_core::kCarLocator, mtr_core::kClockStep.period_ns, input_waiting()),
       orders_(subscribe<mtr_msgs::MappingOrder>(node, names::kMappingOrder,
                                                 [this](const auto& message) { receive_order(message); })),
-      imu_(subscribe<sensor_msgs::Imu>(
-          node, names::kImuData, [this](const auto& message) { publish(source_->add_imu(imu_sample_of(message))); })),
-      wheels_(subscribe<nav_msgs::Odometry>(
-          node, names::kWheelOdometry, [this](const auto& message) { waiting_.push_back(wheel_sample_of(message)); })) {
+      imu_(subscribe<sensor_msgs::Imu>(node, names::kImuData,
+                                       [this](const auto& message) { receive_imu(imu_sample_of(message)); })),
+      wheels_(subscribe<nav_msgs::Odometry>(node, names::kWheelOdometry, [this](const auto& message) {
+        waiting_.push_back(wheel_sample_of(message));
+        waiting_.back().stamp_ns = time_of(waiting_.back().stamp_ns, ages_.wheels_ns);
+      })) {
   subscribe_to_time(node);
 }
 
@@ -103,13 +112,26 @@ void Node::subscribe_to_time(ros::NodeHandle& node) {
         },
         ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
   } else {
-    timer_ = node.createWallTimer(ros::WallDuration(kPeriodS), [this](const ros::WallTimerEvent&) {
-      publish(source_->check_silence(mtr_core::to_ns(ros::Time::now())));
+    timer_ = node.createSteadyTimer(ros::WallDuration(kPeriodS), [this](const ros::SteadyTimerEvent&) {
+      publish(source_->check_silence(mtr_core::boot_time_ns()));
     });
   }
 }
 
+void Node::receive_imu(ImuSample sample) {
+  sample.stamp_ns = time_of(sample.stamp_ns, ages_.imu_ns);
+  publish(source_->add_imu(sample));
+}
+
+void Node::publish(std::vector<Estimate> estimates) {
+  for (Estimate& estimate : estimates) {
+    estimate.stamp_ns = stamp_of(estimate.stamp_ns);
+  }
+  outputs_.publish(*source_, estimates, load_);
+}
+
 void Node::receive_sweep(Sweep sweep) {
+  sweep.stamp_ns = time_of(sweep.stamp_ns, sweep.lidar == Lidar::kFront ? ages_.front_ns : ages_.rear_ns);
   if (!mtr_core::is_simulated()) {
     // A node that was woken late has received both at once: the wheels came first.
     answer_waiting();
@@ -125,13 +147,14 @@ void Node::receive_sweep(Sweep sweep) {
   if (source_->use_scans()) {
     load_.add(timer.elapsed_ms(), 1);
     if (source_->owns_map_frame()) {
-      outputs_.publish_map_from_odom(end_ns, source_->map_from_odom());
+      outputs_.publish_map_from_odom(stamp_of(end_ns), source_->map_from_odom());
     }
   }
 }
 
 void Node::receive_order(const mtr_msgs::MappingOrder& message) {
-  const MapOrder order = order_of(message);
+  MapOrder order = order_of(message);
+  order.stamp_ns = time_of(order.stamp_ns, ages_.order_ns);
   orders_received_.add(order.stamp_ns, order.stamp_ns);
   source_->add_order(order);
 }

@@ -53,12 +53,24 @@ class Node {
  private:
   std::unique_ptr<PoseSource> pose_source_of(NodeParameters parameters) const;
   void subscribe_to_time(ros::NodeHandle& node);
+  void receive_imu(ImuSample sample);
   void receive_sweep(Sweep sweep);
   void receive_order(const mtr_msgs::MappingOrder& message);
   void answer(const WheelSample& wheels);
   void answer_waiting();
-  void publish(const std::vector<Estimate>& estimates) { outputs_.publish(*source_, estimates, load_); }
+  void publish(std::vector<Estimate> estimates);
 
+  /// Of the message of each producer that came last, see mtr_core::StampClock::time_of.
+  struct Ages {
+    std::int64_t imu_ns = 0;
+    std::int64_t wheels_ns = 0;
+    std::int64_t front_ns = 0;
+    std::int64_t rear_ns = 0;
+    std::int64_t order_ns = 0;
+    std::int64_t fix_ns = 0;
+  };
+
+  Ages ages_;
   RobotFrames frames_;
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_;
@@ -73,7 +85,7 @@ class Node {
   ros::Subscriber imu_;
   ros::Subscriber wheels_;
   ros::Subscriber clock_;
-  ros::WallTimer timer_;
+  ros::SteadyTimer timer_;
   std::deque<WheelSample> waiting_;
   std::string scan_problem_;
 };

@@ -10,6 +10,7 @@
 #include "ros/conversions.hpp"
 #include "ros/diagnostics.hpp"
 #include "ros/map_messages.hpp"
+#include "ros/stamps.hpp"
 
 namespace mtr_localization {
 
@@ -24,7 +25,11 @@ Outputs::Outputs(ros::NodeHandle& node, bool publish_odom_tf)
       diagnostics_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {}
 
 void Outputs::publish(PoseSource& source, const std::vector<Estimate>& estimates, const WorkLoad& load) {
-  if (const auto result = source.take_map()) {
+  if (auto result = source.take_map()) {
+    result->stamp_ns = stamp_of(result->stamp_ns);
+    for (KeyFrame& frame : result->map.key_frames) {
+      frame.stamp_ns = stamp_of(frame.stamp_ns);
+    }
     publish_map(*result, source.owns_map_frame());
   }
   for (const Estimate& estimate : estimates) {

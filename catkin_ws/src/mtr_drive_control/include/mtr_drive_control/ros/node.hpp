@@ -83,6 +83,7 @@ class Node {
   std::optional<LidarInput> rear_;
   ZoneMarkers markers_;
   InterventionCounter interventions_;
+  std::int64_t lock_age_ns_ = 0;
   std::vector<ros::Subscriber> lock_subscribers_;
   ros::Publisher wheels_;
   ros::Publisher status_;

@@ -1,0 +1,67 @@
+/// @file
+/// Stamps of a ROS clock that may be set, on the steady clock that goes through. No ROS.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+
+#include "mtr_core/steady_time.hpp"
+
+namespace mtr_core {
+
+/// What moves a clock by more than this between two readings has set it: NTP slews by at most 0.5 ms per s. As in
+/// mtr_core/liveness.py.
+inline constexpr std::int64_t kClockStepNs = 20 * kMillisecondNs;
+/// After a step messages of before may still arrive for so long.
+inline constexpr std::int64_t kUnderWayNs = kSecondNs;
+/// The offset follows the readings by at most one ns in so many, so that a late reading does not shift all stamps.
+inline constexpr std::int64_t kNsPerNsOfSlew = 1000;
+
+/// Knows by how much the ROS clock is ahead of the steady one, now and before it was set.
+class StampClock {
+ public:
+  /// The steady time of the stamp of a message that arrives now.
+  ///
+  /// Just after a step the message may be of before; of both offsets that one holds with which it is as old as usual.
+  /// @param usual_age_ns age of the message of this producer that came last; becomes this one's
+  std::int64_t time_of(std::int64_t stamp_ns, const Instant& now, std::int64_t& usual_age_ns) {
+    follow(now);
+    std::int64_t time_ns = stamp_ns - *offset_ns_;
+    if (former_ns_ && now.time_ns - set_ns_ <= kUnderWayNs) {
+      const auto misfit = [&](std::int64_t time) { return std::abs(now.time_ns - time - usual_age_ns); };
+      const std::int64_t other_ns = stamp_ns - *former_ns_;
+      time_ns = misfit(other_ns) < misfit(time_ns) ? other_ns : time_ns;
+    }
+    usual_age_ns = now.time_ns - time_ns;
+    return time_ns;
+  }
+
+  /// The stamp of a steady time, as the ROS clock is set since the newest reading.
+  std::int64_t stamp_of(std::int64_t time_ns) const { return time_ns + offset_ns_.value_or(0); }
+
+ private:
+  void follow(const Instant& now) {
+    const std::int64_t offset_ns = now.stamp_ns - now.time_ns;
+    if (!offset_ns_) {
+      offset_ns_ = offset_ns;
+    } else if (std::abs(offset_ns - *offset_ns_) > kClockStepNs) {
+      former_ns_ = offset_ns_;
+      offset_ns_ = offset_ns;
+      set_ns_ = now.time_ns;
+    } else {
+      const std::int64_t slew_ns = (now.time_ns - read_ns_) / kNsPerNsOfSlew;
+      *offset_ns_ += std::clamp(offset_ns - *offset_ns_, -slew_ns, slew_ns);
+    }
+    read_ns_ = now.time_ns;
+  }
+
+  std::optional<std::int64_t> offset_ns_;
+  std::optional<std::int64_t> former_ns_;
+  std::int64_t set_ns_ = 0;
+  std::int64_t read_ns_ = 0;
+};
+
+}  // namespace mtr_core
