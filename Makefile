@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations clean \
-	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-truth firmware \
+	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-stalls bench-truth firmware \
 	flash bare-root docs tidy mutants
 
 SEED ?= 1
@@ -130,6 +130,9 @@ bench-range: setup build ## Ranges of both scenarios on Cars that fade, lapse an
 	@$(RUN) python -m pip install --quiet --no-warn-conflicts --no-deps --upgrade --target out/bench/tools -r setup/range-requirements.txt
 	@$(RUN) OPENBLAS_NUM_THREADS=1 PYTHONPATH=$$PYTHONPATH:$(CURDIR)/out/bench/tools \
 		python -m mtr_benchmarks.ranges --seed $(SEED) --radials $(RADIALS) --axes $(RADIALS) --out out/bench
+
+bench-stalls: setup build ## Each node stopped and the clock set while the robot drives; figures in out/bench/liveness.json
+	@$(RUN) python -m mtr_benchmarks.liveness --out out/bench
 
 bench-truth: setup build ## Lines of both scenarios, one disturbance each, against the truth; figures in out/bench/truth.json
 	@$(RUN) python -m mtr_benchmarks.truth --seed $(SEED) --out out/bench

@@ -11,9 +11,9 @@ import rospy
 import rostest
 import yaml
 from geometry_msgs.msg import PoseStamped
-from operator_link import OperatorLink
 from scripted_time import NS, STEP_NS, Listener, ScriptedTime, Speaker, wait_for
 
+from mtr_benchmarks.harness.operator_link import OperatorLink
 from mtr_core import names, schedule
 from mtr_core.conversions import goal_report_from
 from mtr_core.requests import NO_GOAL_ID, RVIZ

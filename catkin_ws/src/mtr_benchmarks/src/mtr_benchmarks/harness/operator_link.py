@@ -1,8 +1,8 @@
-"""The Operator's end of the link in simulated time: every Status is answered, and time waits for the answer."""
+"""The Operator's end of the link, scripted: every Status is answered."""
 # SPDX-License-Identifier: Apache-2.0
 import secrets
 import threading
-from typing import Any
+from typing import Any, Callable
 
 import zmq
 
@@ -18,10 +18,11 @@ class OperatorLink:
         status: the newest Status.
     """
 
-    def __init__(self, status_port: int, command_port: int):
+    def __init__(self, status_port: int, command_port: int, on_status: Callable[[], None] = lambda: None):
+        """on_status: called from the thread with each Status."""
         self.status = link.Status()
         self._command = link.Command(session_id=secrets.randbits(63) | 1, id=1)
-        self._lock = threading.Lock()
+        self._lock, self._on_status = threading.Lock(), on_status
         self._stopped = threading.Event()
         context = zmq.Context.instance()
         self._statuses, self._commands = context.socket(zmq.SUB), context.socket(zmq.PUB)
@@ -54,3 +55,4 @@ class OperatorLink:
             data = self._command.SerializeToString()
         self.status = status
         self._commands.send(data)
+        self._on_status()

@@ -1,0 +1,111 @@
+"""The robot's clock is set in the middle of a drive; who takes whom for silent, and whether the robot drives on."""
+# SPDX-License-Identifier: Apache-2.0
+import time
+from dataclasses import dataclass
+from typing import List, Sequence, Tuple
+
+import rospy
+
+from mtr_core import names
+from mtr_msgs.msg import DriveStatus, LocalizedPose, MotionStatus, RobotMode
+
+from ..harness.rows import Requirement, Row
+from .judge import longest_pause_s
+from .live_robot import LiveRobot
+from .set_clock import SettableClock
+
+STEPS_S = (0.05, -0.05, 0.4, -0.4, 5.0, -5.0, 60.0, -60.0, 3600.0, -3600.0)
+# What a step does shows within the longest time-out of a node.
+SEEN_AFTER_S = 2.5
+MOVES_AGAIN_S = 60.0
+# Sensors speak 50 times a second; a machine on which they are silent for longer has too much else to do, and what nodes
+# then complain of is not the clock's fault: the step is tried again.
+MAX_SENSOR_PAUSE_S = 0.1
+TRIES = 5
+# Statuses come ten times a second; a tick is left out where the clock goes over it.
+MAX_STATUS_PAUSE_S = 0.5
+ALARMS = Requirement("alarms of nodes because the robot's clock was set", "(count)", must=0.0)
+PAUSE = Requirement("longest time without a Status while it was set", "s", must=MAX_STATUS_PAUSE_S)
+
+
+@dataclass(frozen=True)
+class ClockStep:
+    """One step of the clock.
+
+    Attributes:
+        alarms: what nodes said that they had not said before, each once.
+        status_pause_s: longest time without a Status.
+        speed_mps: of the wheels when it was set.
+        sensor_pause_s: longest time without odometry, which no clock has to do with.
+    """
+
+    step_s: float
+    alarms: Tuple[str, ...]
+    status_pause_s: float
+    speed_mps: float
+    sensor_pause_s: float
+
+
+class AlarmWatch:
+    """What the nodes have to complain of: locks, poses that are not valid, inputs that are not there, other modes."""
+
+    def __init__(self) -> None:
+        self._alarms: List[str] = []
+        for topic, kind, take in ((names.DRIVE_STATUS, DriveStatus, self._take_drive),
+                                  (names.LOCALIZED_POSE, LocalizedPose, self._take_pose),
+                                  (names.ROBOT_MODE, RobotMode, self._take_mode),
+                                  (names.MOTION_STATUS, MotionStatus, self._take_motion)):
+            rospy.Subscriber(topic, kind, take, queue_size=200)
+
+    def take(self) -> Tuple[str, ...]:
+        """What was said since the last call, each once, in order."""
+        said, self._alarms = self._alarms, []
+        return tuple(dict.fromkeys(said))
+
+    def _take_drive(self, status: DriveStatus) -> None:
+        self._alarms += [f"drive control: lock of {owner}" for owner in status.engaged_locks]
+        if status.zone == DriveStatus.BLIND:
+            self._alarms.append(f"drive control: {status.message}")
+
+    def _take_pose(self, pose: LocalizedPose) -> None:
+        if not pose.valid:
+            self._alarms.append(f"localization: {pose.message}")
+
+    def _take_mode(self, mode: RobotMode) -> None:
+        if mode.mode in (RobotMode.STARTING, RobotMode.FAULT):
+            self._alarms.append(f"state machine: {mode.message}")
+
+    def _take_motion(self, status: MotionStatus) -> None:
+        if any(problem.code.startswith("motion_planner.input") for problem in status.problems):
+            self._alarms.append(f"motion planner: {status.message}")
+
+
+def clock_step(robot: LiveRobot, clock: SettableClock, watch: AlarmWatch, step_s: float) -> ClockStep:
+    """Set the clock of a robot that drives."""
+    robot.wait_for_motion(MOVES_AGAIN_S)
+    watch.take()
+    begin_s, speed_mps = time.monotonic(), robot.wheels[-1].linear_mps
+    clock.set_by(step_s)
+    robot.watch(SEEN_AFTER_S)
+    end_s = time.monotonic()
+    pause_s = longest_pause_s(list(robot.status_times_s), begin_s, end_s)
+    sensor_pause_s = longest_pause_s([each.time_s for each in list(robot.wheels)], begin_s, end_s)
+    return ClockStep(step_s, watch.take(), pause_s, speed_mps, sensor_pause_s)
+
+
+def clock_steps(robot: LiveRobot, clock: SettableClock, steps_s: Sequence[float]) -> List[ClockStep]:
+    """One step after the other, each as soon as the machine has time for the robot."""
+    watch, found = AlarmWatch(), []
+    for step_s in steps_s:
+        for _ in range(TRIES):
+            step = clock_step(robot, clock, watch, step_s)
+            if step.sensor_pause_s <= MAX_SENSOR_PAUSE_S:
+                break
+        found.append(step)
+    return found
+
+
+def rows(found: Sequence[ClockStep]) -> List[Row]:
+    """The sum and the worst of all."""
+    return [Row(ALARMS, sum(len(each.alarms) for each in found), remark=f"{len(found)} steps"),
+            Row(PAUSE, max(each.status_pause_s for each in found))]

@@ -1,0 +1,149 @@
+"""The simulated robot with all nodes on the machine's clock, driven by a scripted Operator and watched."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+import os
+import pathlib
+import time
+import xmlrpc.client
+from typing import Any, Callable, Dict, List, Optional
+
+import rosgraph
+import rospy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Joy
+
+from mtr_bringup.stack import Stack, StackOptions
+from mtr_core import names, schedule
+from mtr_proto import robot_link_pb2 as link
+
+from ..harness.operator_link import OperatorLink
+from .judge import Motion
+
+# Of a game controller; see mtr_controller_input.
+AXES, BUTTONS, RELEASE_BUTTONS = 8, 12, (8, 9)
+RELEASE_HELD_S = 1.5
+NS = 1e-9
+POLL_S = 0.02
+# Round the Car, as far from it as a key is measured; the robot goes there and back.
+LEGS = ((3.2, -2.2, 0.0), (-3.2, -2.2, 0.0))
+NOT_READY = (link.MODE_UNSPECIFIED, link.MODE_STARTING)
+START_LIMIT_S = 120.0
+MOVES_MPS = 0.3
+
+
+class LiveError(Exception):
+    """The robot does not do what the measurement needs; the text says what."""
+
+
+class LiveRobot:
+    """Use as a context manager.
+
+    Attributes:
+        commands: to the wheels, at their arrival.
+        wheels: what the base says they do, at its arrival.
+        status_times_s: arrivals of Statuses.
+    """
+
+    def __init__(self, folder: pathlib.Path, variables: Optional[Dict[str, str]] = None):
+        """variables: of the nodes' environment."""
+        self.commands: List[Motion] = []
+        self.wheels: List[Motion] = []
+        self.status_times_s: List[float] = []
+        self._joy = Joy(axes=[0.0] * AXES, buttons=[0] * BUTTONS)
+        self._stack = Stack(StackOptions(folder, real_time_factor=1.0, lockstep_operator=False, variables=variables,
+                                         arguments={"machine_clock": "true", "controller": "true",
+                                                    "base_guard": "true", "scenario": "lot"}))
+        self._legs = 0
+
+    def __enter__(self) -> "LiveRobot":
+        self._stack.__enter__()
+        os.environ.update(ROS_MASTER_URI=self._stack.master_uri, ROS_IP="127.0.0.1")
+        rospy.init_node("live_robot", disable_signals=True)
+        self._operator = OperatorLink(self._stack.status_port, self._stack.command_port, self._take_status)
+        self._joystick = rospy.Publisher(names.JOY, Joy, queue_size=1, tcp_nodelay=True)
+        self._timer = rospy.Timer(rospy.Duration(schedule.CONTROLLER_INPUT.period_ns * NS), self._speak)
+        for topic, kind, take in ((names.WHEEL_COMMAND, Twist, self._take_command),
+                                  (names.WHEEL_ODOMETRY, Odometry, self._take_odometry)):
+            rospy.Subscriber(topic, kind, take, queue_size=200, tcp_nodelay=True)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._timer.shutdown()
+        self._operator.close()
+        rospy.signal_shutdown("The measurement is over.")
+        self._stack.stop()
+
+    @property
+    def status(self) -> Any:
+        """The newest Status."""
+        return self._operator.status
+
+    def start(self) -> None:
+        """Release the emergency stop and have the Car mapped; returns when the robot goes round it."""
+        self.wait_until(lambda: self._joystick.get_num_connections() and self.wheels, "a robot that speaks")
+        self.wait_until(lambda: self.status.mode not in NOT_READY, "a robot that is ready")
+        self.release()
+        self._operator.order(map_car_id=1)
+
+    def release(self) -> None:
+        """Hold the buttons that release the emergency stop."""
+        for button in RELEASE_BUTTONS:
+            self._joy.buttons[button] = 1
+        released = time.monotonic() + RELEASE_HELD_S
+        self.wait_until(lambda: time.monotonic() > released
+                        and self.status.emergency_stop == link.EMERGENCY_STOP_RELEASED, "the release")
+        self._joy.buttons = [0] * BUTTONS
+
+    def keep_driving(self) -> None:
+        """Order the next leg when there is none under way; to be called again and again."""
+        status = self.status
+        if status.mode == link.MODE_FOLLOWING_WAYPOINT and status.car.mapped and (
+                not self._legs or (status.waypoint_id == self._legs and status.waypoint_result in (
+                    link.WAYPOINT_RESULT_REACHED, link.WAYPOINT_RESULT_REFUSED))):
+            x, y, heading = LEGS[self._legs % len(LEGS)]
+            self._legs += 1
+            self._operator.order(map_car_id=1, max_speed_mps=1.0,
+                                 waypoint=link.Waypoint(id=self._legs, x=x, y=y, heading=heading))
+
+    def wait_for_motion(self, limit_s: float) -> None:
+        """Return when the robot drives."""
+        self.wait_until(lambda: bool(self.wheels) and abs(self.wheels[-1].linear_mps) > MOVES_MPS, "motion", limit_s)
+
+    def wait_until(self, condition: Callable[[], Any], what: str, limit_s: float = START_LIMIT_S) -> None:
+        """Wait, and keep the robot driving; LiveError when it takes longer."""
+        deadline_s = time.monotonic() + limit_s
+        while not condition():
+            if time.monotonic() > deadline_s:
+                raise LiveError(f"It did not come to pass within {limit_s:g} s: {what}. The robot says: "
+                                f"{[note.text for note in self.status.notifications]}; see {self._stack.log}.")
+            self.keep_driving()
+            time.sleep(POLL_S)
+
+    def watch(self, duration_s: float) -> None:
+        """Let so much time pass; s."""
+        end_s = time.monotonic() + duration_s
+        while time.monotonic() < end_s:
+            self.keep_driving()
+            time.sleep(POLL_S)
+
+    def process_of(self, node: str) -> int:
+        """Id of a node's process."""
+        uri = rosgraph.Master(rospy.get_name()).lookupNode(node)
+        node_api: Any = xmlrpc.client.ServerProxy(uri)
+        return int(node_api.getPid(rospy.get_name())[2])
+
+    def _take_status(self) -> None:
+        self.status_times_s.append(time.monotonic())
+
+    def _speak(self, _: Any) -> None:
+        self._joy.header.stamp = rospy.Time.now()
+        self._joystick.publish(self._joy)
+
+    def _take_command(self, twist: Any) -> None:
+        self.commands.append(Motion(time.monotonic(), twist.linear.x, twist.angular.z))
+
+    def _take_odometry(self, odometry: Any) -> None:
+        twist = odometry.twist.twist
+        assert math.isfinite(twist.linear.x)
+        self.wheels.append(Motion(time.monotonic(), twist.linear.x, twist.angular.z))
