@@ -22,14 +22,17 @@ WRITTEN_BEFORE = pathlib.Path(__file__).resolve().parents[1] / "unit" / "written
 NASTY = (None, True, False, 0, -1, 1, 2 ** 31, 2 ** 63, 10 ** 400, -0.0, 1e-300, 1e30, -1e30, 4.5e6, "1e999", "NaN", "",
          "x", "0", "\0", "a" * 5000, [], [1], [[]], {}, {"a": 1}, [None] * 50, math.pi)
 
+# Scenarios of which there are files.
+NAMES = sorted(path.name for path in WRITTEN_BEFORE.iterdir())
+
 
 def cases(folder, count, chance):
     """So many cases; each returns what became of it."""
     documents = {name: json.loads((WRITTEN_BEFORE / name / "progress.json").read_text(encoding="utf-8"))
-                 for name in SCENARIOS}
-    with_journal = {name: _with_journal(folder / name, name) for name in SCENARIOS}
+                 for name in NAMES}
+    with_journal = {name: _with_journal(folder / name, name) for name in NAMES}
     for number in range(count):
-        name = chance.choice(list(SCENARIOS))
+        name = chance.choice(NAMES)
         path = folder / "case" / "progress.json"
         shutil.rmtree(path.parent, ignore_errors=True)
         path.parent.mkdir()

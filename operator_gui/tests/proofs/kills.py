@@ -189,7 +189,7 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="default %(default)s")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        totals = {name: prove(name, options.kills, options.seed, folder) for name in SCENARIOS}
+        totals = {name: prove(name, options.kills, options.seed, folder) for name in PARAMETERS}
     counts = {name: sum(total[name] for total in totals.values()) for name in MUST}
     figures = {name: {key: total[key] for key in ("kills", "chains", "with a line at hand")}
                for name, total in totals.items()}

@@ -47,7 +47,7 @@ def test_round_trip(path, progress):
     assert load_progress(path, SCENARIO, PARAMETERS) == progress
 
 
-@pytest.mark.parametrize("name", list(SCENARIOS))
+@pytest.mark.parametrize("name", ["autolock", "key_press"])
 def test_files_of_version_0_1_are_read_and_written_again_with_nothing_changed(tmp_path, name):
     scenario, _, progress = open_progress(WRITTEN_BEFORE / name / "progress.json", SCENARIOS)
     save_progress(tmp_path / "progress.json", progress)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..scenario import AnyScenario
-from . import autolock, key_press
+from . import autolock, key_press, zone_map
 
-SCENARIOS: dict[str, AnyScenario] = {module.SCENARIO.name: module.SCENARIO for module in (autolock, key_press)}
+SCENARIOS: dict[str, AnyScenario] = {module.SCENARIO.name: module.SCENARIO
+                                    for module in (autolock, key_press, zone_map)}

@@ -15,6 +15,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "approach until the Car unlocks"),
     QT_TRANSLATE_NOOP("Sentence", "retreat until the Car locks"),
     QT_TRANSLATE_NOOP("Sentence", "radial {} ({}): go to the start"),
+    QT_TRANSLATE_NOOP("Sentence", "zone {} ({})"),
     QT_TRANSLATE_NOOP("Sentence", "press at {} m"),
     QT_TRANSLATE_NOOP("Sentence", "{} presses on each radial reach an interval of {} m where the Car's range ends "
                                   "within {} m; interval_m asks for {} m: allow {} presses (attempts_limit), or ask "

@@ -48,4 +48,14 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("ParameterDoc", "How far the robot may be turned from the line when something is measured."),
     QT_TRANSLATE_NOOP("ParameterDoc", "How far the Remote key may be from its height while a line is measured."),
     QT_TRANSLATE_NOOP("ParameterDoc", "How much faster than wanted the robot may be when something is measured."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Nearest places of the map."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Farthest places of the map."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Distance between neighbouring places away from the Car."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Highest of the heights at which the map is made, if there are several."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Heights at which the map is made."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Half the width of the 95 % interval of a zone's coverage at which the zone "
+                                      "ends."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Presses in a zone after which it ends anyway."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Half a wavelength of the Remote key's radio: 0.35 m at 434 MHz, 0.17 m at "
+                                      "868 MHz."),
 )

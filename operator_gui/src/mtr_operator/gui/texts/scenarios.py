@@ -7,4 +7,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Scenario", "Approach until the Car unlocks, retreat backwards until it locks, on every axis."),
     QT_TRANSLATE_NOOP("Scenario", "Key press"),
     QT_TRANSLATE_NOOP("Scenario", "Press a button on every radial, and find from how far the Car obeys."),
+    QT_TRANSLATE_NOOP("Scenario", "Zone map"),
+    QT_TRANSLATE_NOOP("Scenario", "Press a button where it tells most, in every zone around the Car, and draw the "
+                                  "map of where it works."),
 )

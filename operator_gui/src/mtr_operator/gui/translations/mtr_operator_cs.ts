@@ -790,6 +790,46 @@
         <source>Standstill after which the Remote key is moved before it is pressed, so that it does not sleep.</source>
         <translation>Doba klidu, po které se klíč před stiskem pohne, aby neusnul.</translation>
     </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Nearest places of the map.</source>
+        <translation>Nejbližší místa mapy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Farthest places of the map.</source>
+        <translation>Nejvzdálenější místa mapy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Distance between neighbouring places away from the Car.</source>
+        <translation>Vzdálenost sousedních míst směrem od vozidla.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Highest of the heights at which the map is made, if there are several.</source>
+        <translation>Nejvyšší z výšek, ve kterých se mapa pořizuje, je-li jich více.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Heights at which the map is made.</source>
+        <translation>Počet výšek, ve kterých se mapa pořizuje.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Half the width of the 95 % interval of a zone&apos;s coverage at which the zone ends.</source>
+        <translation>Polovina šířky 95% intervalu pokrytí zóny, při které zóna končí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Presses in a zone after which it ends anyway.</source>
+        <translation>Počet stisků v zóně, po kterém zóna končí v každém případě.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Half a wavelength of the Remote key&apos;s radio: 0.35 m at 434 MHz, 0.17 m at 868 MHz.</source>
+        <translation>Polovina vlnové délky klíče: 0,35 m při 434 MHz, 0,17 m při 868 MHz.</translation>
+    </message>
 </context>
 <context>
     <name>ParameterField</name>
@@ -1069,6 +1109,16 @@
         <location filename="../texts/scenarios.py" line="5"/>
         <source>Press a button on every radial, and find from how far the Car obeys.</source>
         <translation>Na každém paprsku tiskne tlačítko a zjišťuje, na jakou vzdálenost auto poslechne.</translation>
+    </message>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Zone map</source>
+        <translation>Mapa zón</translation>
+    </message>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Press a button where it tells most, in every zone around the Car, and draw the map of where it works.</source>
+        <translation>Tiskne tlačítko tam, kde to řekne nejvíce, v každé zóně kolem vozidla, a kreslí mapu míst, kde funguje.</translation>
     </message>
 </context>
 <context>
@@ -2298,6 +2348,11 @@
         <source>{} presses on each radial reach an interval of {} m where the Car&apos;s range ends within {} m; interval_m asks for {} m: ask for {} m.</source>
         <translation>Kde dosah auta končí pozvolna, dá {} stisků na každém paprsku interval {} m (dosah končí během {} m); interval_m žádá {} m: žádejte {} m.</translation>
     </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>zone {} ({})</source>
+        <translation>zóna {} ({})</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -2921,6 +2976,31 @@
         <location filename="../texts/words.py" line="5"/>
         <source>Hole</source>
         <translation>díra</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>zone</source>
+        <translation>zóna</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>reach</source>
+        <translation>dosah</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Covered for sure</source>
+        <translation>Jistě pokryto</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Covered perhaps</source>
+        <translation>Snad pokryto</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Half of the presses work</source>
+        <translation>Funguje polovina stisků</translation>
     </message>
 </context>
 </TS>

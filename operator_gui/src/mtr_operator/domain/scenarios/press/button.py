@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 from ...actions.distance import Distance
 from ...actions.line_watch import LineWatch
@@ -11,7 +12,6 @@ from ...actions.robot import Robot
 from ...geometry.ray import Ray
 from ...ports import KEY_BUTTON, LockState
 from ...results.line_result import LineStatus
-from ..key_press_parameters import KeyPressParameters
 
 LOCK_BUTTON, UNLOCK_BUTTON = 1, 2
 # The press that changes the Car's present state: button and state that it should lead to.
@@ -27,7 +27,31 @@ class PressMade:
     worked: bool
 
 
-def press_once(radial: Ray, watch: LineWatch, parameters: KeyPressParameters, robot: Robot, word: str) -> PressMade:
+class PressParameters(Protocol):
+    """What a press needs of a scenario's parameters."""
+
+    @property
+    def press_strength(self) -> float:
+        """Travel of the button, 0 to 1."""
+
+    @property
+    def press_duration_s(self) -> float:
+        """How long it is held down."""
+
+    @property
+    def response_timeout_s(self) -> float:
+        """How long the Car may take."""
+
+    @property
+    def minimum_distance_m(self) -> float:
+        """Nearest place on the ray."""
+
+    @property
+    def maximum_distance_m(self) -> float:
+        """Farthest place on the ray."""
+
+
+def press_once(radial: Ray, watch: LineWatch, parameters: PressParameters, robot: Robot, word: str) -> PressMade:
     """Press where the robot stands; it has settled. word: under which the press is kept.
 
     LineInvalid when it was no clean press, or when something else moved the Car's locks.
