@@ -11,8 +11,8 @@ SHELL := /bin/bash
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
 FACTOR ?= 1
-# Of demo, sim and gui, the simulated Car: gentle, honest, honest_868, honest_handle, honest_slow, or a file's path. The demo
-# shows what a range is worth; a person who tries the window wants it short.
+# Of demo, sim and gui, the simulated Car: gentle, honest, honest_868, honest_button, honest_handle, honest_slow, or a
+# file's path. The demo shows what a range is worth; a person who tries the window wants it short.
 ifeq ($(origin CAR),undefined)
 CAR := gentle
 demo: CAR := honest

@@ -3,7 +3,7 @@
 import pytest
 
 from mtr_bringup import demo
-from mtr_bringup.demo import MIN_LINES, OUTPUTS, DemoOptions, DemoResult, event_times, problems_of, read_rows, run_demo
+from mtr_bringup.demo import MIN_LINES, OUTPUTS, DemoOptions, DemoResult, last_event, problems_of, read_rows, run_demo
 from mtr_core.errors import ConfigurationError
 
 HEADER = "line,unlock_robot_time_s,lock_robot_time_s\n"
@@ -27,27 +27,28 @@ def results(folder, lines):
 @pytest.mark.usefixtures("agrees")
 def test_complete_results_have_no_problem(tmp_path):
     results(tmp_path / "key_press", MIN_LINES["key_press"])
-    assert problems_of(tmp_path, "key_press") == []
+    assert problems_of(tmp_path, "key_press", tmp_path / "events.csv") == []
 
 
 @pytest.mark.usefixtures("agrees")
 def test_missing_file_and_missing_lines_are_named(tmp_path):
     results(tmp_path / "key_press", 3)
     (tmp_path / "key_press" / "protocol.png").unlink()
-    assert problems_of(tmp_path, "key_press") == ["key_press: protocol.png is missing",
-                                                  "key_press: 3 lines instead of at least 8"]
+    assert problems_of(tmp_path, "key_press", tmp_path / "events.csv") == [
+        "key_press: protocol.png is missing", "key_press: 3 lines instead of at least 8"]
 
 
 def test_results_that_do_not_match_the_truth_are_a_problem(tmp_path, monkeypatch):
     monkeypatch.setattr(demo, "compare", lambda events, folder: 1)
     results(tmp_path / "autolock", MIN_LINES["autolock"])
-    assert problems_of(tmp_path, "autolock") == ["autolock: measured and true events do not match"]
+    problems = problems_of(tmp_path, "autolock", tmp_path / "events.csv")
+    assert problems == ["autolock: measured and true events do not match"]
 
 
-def test_event_times_are_read_past_metadata_and_empty_cells(tmp_path):
+def test_last_event_is_read_past_metadata_and_empty_cells(tmp_path):
     results(tmp_path / "autolock", 2)
-    assert event_times(read_rows(tmp_path / "autolock" / "results.csv")) == [0.5, 1.5]
-    assert read_rows(tmp_path / "missing.csv") == []
+    assert last_event(read_rows(tmp_path / "autolock" / "results.csv")) == 1.5
+    assert read_rows(tmp_path / "missing.csv") == [] and last_event([]) == 0.0
 
 
 def test_car_of_a_file_is_found_from_any_folder_and_the_comparison_knows_it(tmp_path, monkeypatch):
@@ -56,6 +57,11 @@ def test_car_of_a_file_is_found_from_any_folder_and_the_comparison_knows_it(tmp_
     options = DemoOptions(tmp_path, seed=4, car="mine.yaml")
     assert options.car_argument == str(tmp_path / "mine.yaml")
     assert options.model == ("--car", "mine.yaml", "--seed", "4")
+
+
+def test_button_is_tried_with_passive_entry_switched_off_where_a_car_has_it(tmp_path):
+    assert [DemoOptions(tmp_path, car="honest").car_for(name) for name in MIN_LINES] == ["honest", "honest_button"]
+    assert {DemoOptions(tmp_path, car="gentle").car_for(name) for name in MIN_LINES} == {"gentle"}
 
 
 def test_unknown_car_is_refused_before_anything_is_deleted(tmp_path):
