@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <optional>
 
 #include "mtr_core/steady_time.hpp"
 
@@ -29,10 +28,10 @@ class StampClock {
   /// @param usual_age_ns age of the message of this producer that came last; becomes this one's
   std::int64_t time_of(std::int64_t stamp_ns, const Instant& now, std::int64_t& usual_age_ns) {
     follow(now);
-    std::int64_t time_ns = stamp_ns - *offset_ns_;
-    if (former_ns_ && now.time_ns - set_ns_ <= kUnderWayNs) {
+    std::int64_t time_ns = stamp_ns - offset_ns_;
+    if (was_set_ && now.time_ns - set_ns_ <= kUnderWayNs) {
       const auto misfit = [&](std::int64_t time) { return std::abs(now.time_ns - time - usual_age_ns); };
-      const std::int64_t other_ns = stamp_ns - *former_ns_;
+      const std::int64_t other_ns = stamp_ns - former_ns_;
       time_ns = misfit(other_ns) < misfit(time_ns) ? other_ns : time_ns;
     }
     usual_age_ns = now.time_ns - time_ns;
@@ -40,26 +39,32 @@ class StampClock {
   }
 
   /// The stamp of a steady time, as the ROS clock is set since the newest reading.
-  std::int64_t stamp_of(std::int64_t time_ns) const { return time_ns + offset_ns_.value_or(0); }
+  std::int64_t stamp_of(std::int64_t time_ns) const { return time_ns + offset_ns_; }
 
  private:
   void follow(const Instant& now) {
     const std::int64_t offset_ns = now.stamp_ns - now.time_ns;
-    if (!offset_ns_) {
+    if (!is_known_) {
+      is_known_ = true;
       offset_ns_ = offset_ns;
-    } else if (std::abs(offset_ns - *offset_ns_) > kClockStepNs) {
+    } else if (std::abs(offset_ns - offset_ns_) > kClockStepNs) {
       former_ns_ = offset_ns_;
+      was_set_ = true;
       offset_ns_ = offset_ns;
       set_ns_ = now.time_ns;
     } else {
       const std::int64_t slew_ns = (now.time_ns - read_ns_) / kNsPerNsOfSlew;
-      *offset_ns_ += std::clamp(offset_ns - *offset_ns_, -slew_ns, slew_ns);
+      offset_ns_ += std::clamp(offset_ns - offset_ns_, -slew_ns, slew_ns);
     }
     read_ns_ = now.time_ns;
   }
 
-  std::optional<std::int64_t> offset_ns_;
-  std::optional<std::int64_t> former_ns_;
+  // Plain numbers: GCC 12 takes std::optional's for uninitialized.
+  bool is_known_ = false;
+  std::int64_t offset_ns_ = 0;
+  // Offset before the clock was last set, and when that was.
+  bool was_set_ = false;
+  std::int64_t former_ns_ = 0;
   std::int64_t set_ns_ = 0;
   std::int64_t read_ns_ = 0;
 };
