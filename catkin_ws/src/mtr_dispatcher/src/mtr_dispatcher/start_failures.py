@@ -24,7 +24,7 @@ class StartFailures:
     """
 
     def __init__(self, ask: Callable[[], Any]):
-        """ask: what the master has; it may raise OSError."""
+        """ask: what the master has; whatever it raises is no answer."""
         self.known: Dict[str, str] = {}
         self._ask = ask
 
@@ -36,7 +36,7 @@ class StartFailures:
         """Ask once; without an answer the one before stands."""
         try:
             self.known = failures_in(self._ask())
-        except OSError:
+        except Exception:  # Of sockets, HTTP, XML, the master: a thread that ended would tell nothing any more.
             return
 
     def _run(self) -> None:

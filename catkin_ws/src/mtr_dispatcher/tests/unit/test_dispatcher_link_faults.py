@@ -1,6 +1,9 @@
 """What the link does while messages are lost, clocks are set and strangers send."""
 # SPDX-License-Identifier: Apache-2.0
 import math
+from http.client import CannotSendRequest
+from xml.parsers.expat import ExpatError
+from xmlrpc.client import Fault, ProtocolError
 
 import pytest
 
@@ -277,12 +280,14 @@ def test_what_anybody_has_set_on_the_master_is_no_failure_of_a_node(parameter):
     assert failures.known == {}
 
 
-def test_few_nodes_are_told_and_a_master_that_does_not_answer_changes_nothing():
-    answers = [{f"node_{number}": "Why." for number in range(100)}, ConnectionRefusedError("master")]
+@pytest.mark.parametrize("trouble", [ConnectionRefusedError("master"), CannotSendRequest(), Fault(1, "master"),
+                                     ProtocolError("/", 500, "master", {}), ExpatError()])
+def test_few_nodes_are_told_and_a_master_that_does_not_answer_changes_nothing(trouble):
+    answers = [{f"node_{number}": "Why." for number in range(100)}, trouble]
 
     def ask():
         answer = answers.pop(0)
-        if isinstance(answer, OSError):
+        if isinstance(answer, Exception):
             raise answer
         return answer
     failures = StartFailures(ask)
