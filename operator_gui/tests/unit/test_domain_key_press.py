@@ -5,13 +5,14 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.errors import InvalidParameter
-from mtr_operator.domain.ports import PASSIVE_ENTRY, LockFacts
+from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, LockFacts
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios.key_press import SCENARIO
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 
 CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
-PARAMETERS = KeyPressParameters.from_mapping({"angle_between_radials_deg": 90.0})
+PARAMETERS = KeyPressParameters.from_mapping({"angle_between_radials_deg": 90.0, "confirming_presses": 0})
+CONFIRMED = replace(PARAMETERS, confirming_presses=1)
 
 
 @pytest.fixture(autouse=True)
@@ -139,3 +140,33 @@ def test_picture_shows_both_places(run_scenario):
     assert worked.points[1] == pytest.approx((0.0, -5.0), abs=1e-6)
     assert failed.points[1] == pytest.approx((0.0, -5.5), abs=1e-6)
     assert invalid.known == ()
+
+
+def test_another_keys_button_is_not_taken_for_the_press(run_scenario, world, robot_link):
+    take = world.take
+
+    def interfere(desired):
+        take(desired)
+        if len(world.presses) == 1 and not world.foreign and world.locked:
+            world.foreign.append((world.presses[0].start_s + 0.3, False, KEY_BUTTON))
+
+    world.take = interfere
+    result = run_scenario(SCENARIO, CONFIRMED)[0]
+    assert (result.status.value, result.distance_m, result.failed_distance_m) == (
+        "ok", pytest.approx(5.0), pytest.approx(5.5))
+    # At 6 m, there again to tell that it was another key's, at 5.5 m, at 5 m, and there again to confirm it.
+    assert (result.attempts, buttons(robot_link)[:5]) == (5, [2, 1, 1, 1, 2])
+
+
+@pytest.mark.parametrize("reaction_s", [1.6, 2.0, 2.4])
+def test_late_answer_to_the_press_before_is_not_taken_for_the_next_one(run_scenario, world, reaction_s):
+    """The Car answers late to every press: none works in time."""
+    world.reaction_s = reaction_s
+    results = run_scenario(SCENARIO, CONFIRMED)
+    assert all(result.distance_m is None for result in results)
+
+
+def test_confirmed_place_is_the_first_press_that_worked(run_scenario, world):
+    result = run_scenario(SCENARIO, CONFIRMED)[0]
+    assert (result.status.value, result.distance_m, result.attempts) == ("ok", pytest.approx(5.0), 4)
+    assert result.robot_time_s == pytest.approx(world.presses[2].start_s)

@@ -174,6 +174,6 @@ def test_key_frequency_sets_the_half_wavelength():
 def test_numbers_of_the_other_method_have_no_effect():
     declarations = KeyPressParameters.declarations()
     for method, idle in (("scan", {"interval_m", "attempts_limit", "key_frequency_hz", "key_rest_limit_s"}),
-                         ("adaptive", {"approach_distance_m", "attempts"})):
+                         ("adaptive", {"approach_distance_m", "attempts", "confirming_presses"})):
         parameters = KeyPressParameters.from_mapping({"method": method})
         assert {name for name, declared in declarations.items() if not parameters.has_effect(declared)} == idle

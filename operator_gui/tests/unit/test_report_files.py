@@ -35,6 +35,7 @@ HEADERS = {
     "key_press": "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
                  "lateral_offset_m,heading_offset_deg,key_height_m,speed_mps,cause,method,reach,d50_m,d50_sigma_m,"
                  "d50_low_m,d50_high_m,d95_m,d95_low_m,d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,"
+                 "unconfirmed_m,"
                  "press_own_sigma_m,press_common_sigma_m,press_expanded_m,verdict,verdict_reason",
     "zone_map": "zone,side,height_m,status,presses,distance_m,low_m,high_m,uncertainty_m,coverage,coverage_low,"
                 "coverage_high,reach_own_sigma_m,reach_common_sigma_m,reach_expanded_m,verdict,verdict_reason",

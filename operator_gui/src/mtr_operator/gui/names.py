@@ -36,6 +36,7 @@ def parameter_title(name: str, declared: Declaration) -> str:
         "attempts": translate("Parameter", "Attempts"),
         "interval_m": translate("Parameter", "Interval wanted, half width"),
         "attempts_limit": translate("Parameter", "Presses at most"),
+        "confirming_presses": translate("Parameter", "Presses that confirm"),
         "key_frequency_hz": translate("Parameter", "Key's radio frequency"),
         "key_rest_limit_s": translate("Parameter", "Key's rest at most"),
         "lateral_tolerance_m": translate("Parameter", "Distance beside the line"),

@@ -23,7 +23,7 @@ from ..results.picture import Picture
 from ..robot_status import CarDimensions
 from ..scenario import Scenario
 from .key_press_parameters import KeyPressParameters
-from .key_press_result import ADAPTIVE, PRESS, KeyPressResult
+from .key_press_result import ADAPTIVE, CONFIRMING, PRESS, KeyPressResult
 from .press import campaign as press_campaign
 from .press import prospect as press_prospect
 from .press import search as press_search
@@ -147,11 +147,22 @@ def _press_here(radial: Ray, watch: LineWatch, measured: _Measured, parameters: 
         robot.wait(parameters.settle_time_s)
         measured.attempts += 1
         made = press_once(radial, watch, parameters, robot, PRESS)
-        if made.worked:
+        if made.worked and _is_confirmed(radial, watch, measured, parameters, robot):
             measured.success = made.place
             return True
         measured.failure = made.place
     return False
+
+
+def _is_confirmed(radial: Ray, watch: LineWatch, measured: _Measured, parameters: KeyPressParameters,
+                  robot: Robot) -> bool:
+    """Another key of the same Car names the cause that this one would: only a second press tells them apart."""
+    for _ in range(parameters.confirming_presses):
+        robot.wait(parameters.settle_time_s)
+        measured.attempts += 1
+        if press_once(radial, watch, parameters, robot, CONFIRMING).worked:
+            return True
+    return not parameters.confirming_presses
 
 
 def _result(line: Radial, measured: _Measured) -> KeyPressResult:

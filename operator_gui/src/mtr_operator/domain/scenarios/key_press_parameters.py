@@ -56,6 +56,10 @@ class KeyPressParameters(ScenarioParameters):
     response_timeout_s: float = parameter(
         1.0, 0.1, 60.0, "s", "How long after the beginning of a press the Car may take to react.")
     attempts: int = parameter(1, 1, 20, "", "Presses at each place before it counts as failed.", only=_ONLY_SCAN)
+    confirming_presses: int = parameter(
+        1, 0, 20, "", "Presses at the place of one that worked; unless one of them works too, another key or a late "
+        "answer may have been taken for it, and the place counts as failed. 0: none, as the thesis does.",
+        only=_ONLY_SCAN)
     key_frequency_hz: float = parameter(
         433.92, 100.0, 10_000.0, "MHz", "Radio frequency of the Remote key: presses half a wavelength apart meet "
         "another fading.", file_key="key_frequency_mhz", si_per_unit=_HZ_PER_MHZ, only=_ONLY_ADAPTIVE)

@@ -12,6 +12,8 @@ from ..results.document import Floats, OptionalFloat, Texts
 from ..results.line_result import BOUNDARY_PERCENT, LineResult, LineStatus, MeasuredDistance, column, stored
 
 PRESS = "press"
+# Of another press at the place of one that worked.
+CONFIRMING = "confirming press"
 # Share of the presses at d95.
 SURE_PERCENT = 95
 SCAN, ADAPTIVE = "scan", "adaptive"
@@ -32,8 +34,8 @@ class KeyPressResult(LineResult):
     FILE_ORDER = ("radial", "angle_deg", "status", "distance_m", "uncertainty_m", "robot_time_s", "failed_distance_m",
                   "attempts", "reason", "lateral_offset_m", "heading_offset_deg", "key_height_m", "speed_mps", "cause",
                   "method", "reach", "d50_m", "d50_sigma_m", "d50_low_m", "d50_high_m", "d95_m", "d95_low_m",
-                  "d95_high_m", "nearest_failure_m", "holes_m", "lapse", "fit_quality", "worked_at_m", "failed_at_m",
-                  "place_sigma_m", "evidence")
+                  "d95_high_m", "nearest_failure_m", "holes_m", "lapse", "fit_quality", "unconfirmed_m",
+                  "worked_at_m", "failed_at_m", "place_sigma_m", "evidence")
 
     radial: int = column("number of the radial, clockwise from the Car's front")
     angle_deg: float = column("angle of the radial, clockwise from the Car's front", "deg", digits=3)
@@ -67,6 +69,8 @@ class KeyPressResult(LineResult):
     fit_quality: OptionalFloat = column(
         "share of radials on the curve found that would fit worse; below 0.02 the curve does not describe this one",
         default=None)
+    unconfirmed_m: str = column("places of presses that worked against all expectation, and not again: not counted",
+                                "m", default="")
     worked_at_m: Floats = stored(())
     failed_at_m: Floats = stored(())
     place_sigma_m: OptionalFloat = stored(None)

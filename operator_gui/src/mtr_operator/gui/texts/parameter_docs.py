@@ -35,6 +35,9 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("ParameterDoc", "Standstill before each press."),
     QT_TRANSLATE_NOOP("ParameterDoc", "How long after the beginning of a press the Car may take to react."),
     QT_TRANSLATE_NOOP("ParameterDoc", "Presses at each place before it counts as failed."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Presses at the place of one that worked; unless one of them works too, another "
+                                      "key or a late answer may have been taken for it, and the place counts as "
+                                      "failed. 0: none, as the thesis does."),
     QT_TRANSLATE_NOOP("ParameterDoc", "adaptive: search for the distances at which 50 and 95 % of the presses work, "
                                       "with their intervals. scan: from far to near until a press works, as the "
                                       "thesis does; it reads too far where the Car's range is no sharp border."),

@@ -528,37 +528,37 @@
         <translation>Počet pokusů</translation>
     </message>
     <message>
-        <location filename="../names.py" line="60"/>
+        <location filename="../names.py" line="61"/>
         <source>Check the Car&apos;s position before the test</source>
         <translation>Před testem ověřit polohu auta</translation>
     </message>
     <message>
-        <location filename="../names.py" line="79"/>
+        <location filename="../names.py" line="80"/>
         <source>yes</source>
         <translation>ano</translation>
     </message>
     <message>
-        <location filename="../names.py" line="79"/>
+        <location filename="../names.py" line="80"/>
         <source>no</source>
         <translation>ne</translation>
     </message>
     <message>
-        <location filename="../names.py" line="41"/>
+        <location filename="../names.py" line="42"/>
         <source>Distance beside the line</source>
         <translation>Odchylka od osy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="42"/>
+        <location filename="../names.py" line="43"/>
         <source>Turn from the line</source>
         <translation>Natočení od osy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="43"/>
+        <location filename="../names.py" line="44"/>
         <source>Difference in height</source>
         <translation>Odchylka výšky</translation>
     </message>
     <message>
-        <location filename="../names.py" line="44"/>
+        <location filename="../names.py" line="45"/>
         <source>Difference in speed</source>
         <translation>Odchylka rychlosti</translation>
     </message>
@@ -593,29 +593,34 @@
         <translation>Nejvýše stisků</translation>
     </message>
     <message>
-        <location filename="../names.py" line="39"/>
+        <location filename="../names.py" line="40"/>
         <source>Key&apos;s radio frequency</source>
         <translation>Rádiová frekvence klíče</translation>
     </message>
     <message>
-        <location filename="../names.py" line="40"/>
+        <location filename="../names.py" line="41"/>
         <source>Key&apos;s rest at most</source>
         <translation>Klid klíče nejvýše</translation>
     </message>
     <message>
-        <location filename="../names.py" line="66"/>
+        <location filename="../names.py" line="67"/>
         <source>Method</source>
         <translation>Metoda</translation>
     </message>
     <message>
-        <location filename="../names.py" line="72"/>
+        <location filename="../names.py" line="73"/>
         <source>from far to near (scan)</source>
         <translation>z dálky k autu (scan)</translation>
     </message>
     <message>
-        <location filename="../names.py" line="73"/>
+        <location filename="../names.py" line="74"/>
         <source>search with intervals (adaptive)</source>
         <translation>hledání s intervaly (adaptive)</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="39"/>
+        <source>Presses that confirm</source>
+        <translation>Potvrzujících stisků</translation>
     </message>
 </context>
 <context>
@@ -829,6 +834,11 @@
         <location filename="../texts/parameter_docs.py" line="5"/>
         <source>Half a wavelength of the Remote key&apos;s radio: 0.35 m at 434 MHz, 0.17 m at 868 MHz.</source>
         <translation>Polovina vlnové délky klíče: 0,35 m při 434 MHz, 0,17 m při 868 MHz.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Presses at the place of one that worked; unless one of them works too, another key or a late answer may have been taken for it, and the place counts as failed. 0: none, as the thesis does.</source>
+        <translation>Stisky na místě toho, který zafungoval; nezafunguje-li žádný z nich, mohl být za něj zaměněn jiný klíč nebo opožděná odpověď a místo platí za neúspěšné. 0: žádné, jako v diplomové práci.</translation>
     </message>
 </context>
 <context>

@@ -1,8 +1,9 @@
 """One radial measured by Bayesian search: the next press is the one that is expected to tell most per second.
 
-It ends when the 95 % interval of d50 is as narrow as wanted, or after the presses allowed. Two things go before: a
-press that failed where it should have worked is repeated at its place, so that a hole is told from a lapse, and where
-nothing worked at all the nearest place is tried several times, so that a key that sleeps is no range of zero.
+It ends when the 95 % interval of d50 is as narrow as wanted, or after the presses allowed. Three things go before: a
+press that failed where it should have worked is repeated at its place, so that a hole is told from a lapse; one that
+worked where it should not counts only if it does so again, so that another key's button is no range; and where nothing
+worked at all the nearest place is tried several times, so that a key that sleeps is no range of zero.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -27,13 +28,16 @@ _QUANTILES = np.linspace(0.1, 0.9, 9)
 # A press that fails although it should work with this probability is repeated, until there are so many at its place.
 SURE_TO_WORK = 0.95
 PRESSES_IN_DOUBT = 3
+# A press that works although it should with this probability at most is repeated likewise. What leaves it out when it
+# does not work again is a bias of that size in the far tail of the curve; believing another key's button is metres.
+UNLIKELY_TO_WORK = 0.05
 
 
 class RadialSearch:
     """State of one radial.
 
     Attributes:
-        presses: so far, in order.
+        presses: so far that count, in order.
         place_m: where the key is.
     """
 
@@ -45,6 +49,9 @@ class RadialSearch:
         self._likelihood = PressLikelihood(hypotheses, plan.half_wavelength_m, plan.minimum_m)
         self._posterior: RadialPosterior | None = None
         self._doubted_m: float | None = None
+        self._awaiting: Press | None = None
+        self._repeats_failed = 0
+        self._unconfirmed: list[Press] = []
         self.presses: list[Press] = []
         self.place_m = place_m
 
@@ -66,8 +73,32 @@ class RadialSearch:
         self._posterior = None
         return self.posterior()
 
+    @property
+    def unconfirmed(self) -> list[Press]:
+        """Presses that worked against all expectation and not again, or not yet: they do not count."""
+        return self._unconfirmed if self._awaiting is None else [*self._unconfirmed, self._awaiting]
+
     def add(self, press: Press) -> None:
         """Take what a press did."""
+        if self._awaiting is not None:
+            self._confirm(self._awaiting, press)
+        elif press.worked and self.posterior().works(press.distance_m) <= UNLIKELY_TO_WORK:
+            self._awaiting, self._repeats_failed, self.place_m = press, 0, press.distance_m
+        else:
+            self._count(press)
+
+    def _confirm(self, awaiting: Press, press: Press) -> None:
+        """Another press at the place of an unlikely one."""
+        if press.worked:
+            self._awaiting = None
+            self._count(awaiting)
+        self._count(press)
+        self._repeats_failed += not press.worked
+        if self._repeats_failed == PRESSES_IN_DOUBT - 1:
+            self._unconfirmed.append(awaiting)
+            self._awaiting = None
+
+    def _count(self, press: Press) -> None:
         is_repeated = self._doubted_m is not None and self.place_of(press.distance_m) == self.place_of(self._doubted_m)
         doubtful = is_repeated or self.posterior().works(press.distance_m) >= SURE_TO_WORK
         self._doubted_m = press.distance_m if doubtful and not press.worked else None
@@ -89,9 +120,9 @@ class RadialSearch:
 
     def is_finished(self) -> bool:
         """True when the interval is reached, or no press is left."""
-        if len(self.presses) >= self._plan.attempts_limit:
+        if len(self.presses) + len(self.unconfirmed) >= self._plan.attempts_limit:
             return True
-        if not self.presses or self._place_in_doubt() is not None:
+        if not (self.presses or self.unconfirmed) or self._place_in_doubt() is not None:
             return False
         return self.posterior().d50().half_width_m <= self._plan.interval_m
 
@@ -114,6 +145,8 @@ class RadialSearch:
                                self._campaign.log_place_prior(self._radial))
 
     def _place_in_doubt(self) -> float | None:
+        if self._awaiting is not None:
+            return self._awaiting.distance_m
         nearest_m = self._plan.minimum_m
         tried = self._likelihood.presses_beside(nearest_m)
         if 0 < tried < PRESSES_IN_DOUBT and not any(press.worked for press in self.presses):

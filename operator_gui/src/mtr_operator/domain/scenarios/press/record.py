@@ -19,23 +19,25 @@ _OF_FARTHEST = ("distance_m", "uncertainty_m", "robot_time_s", "lateral_offset_m
                 "speed_mps", "cause")
 
 
-def invalid_result(line: Radial, made: Sequence[PressMade], reason: str,
-                   evidence: tuple[str, ...] = ()) -> KeyPressResult:
-    """The presses alone; nothing follows from them."""
+def invalid_result(line: Radial, made: Sequence[PressMade], reason: str, evidence: tuple[str, ...] = (),
+                   unconfirmed: Sequence[PressMade] = ()) -> KeyPressResult:
+    """The presses alone, those that count and those that do not; nothing follows from them."""
     sigma_m = max((press.place.uncertainty_m for press in made), default=math.nan)
     return KeyPressResult(
-        line.number, line.clockwise_deg, LineStatus.INVALID, None, None, None, len(made), None, reason,
-        evidence=evidence, method=ADAPTIVE, place_sigma_m=sigma_m if math.isfinite(sigma_m) else None,
+        line.number, line.clockwise_deg, LineStatus.INVALID, None, None, None, len(made) + len(unconfirmed), None,
+        reason, evidence=evidence, method=ADAPTIVE, place_sigma_m=sigma_m if math.isfinite(sigma_m) else None,
+        unconfirmed_m=" ".join(f"{press.place.distance_m:.2f}" for press in unconfirmed),
         worked_at_m=tuple(round(press.place.distance_m, _DIGITS) for press in made if press.worked),
         failed_at_m=tuple(round(press.place.distance_m, _DIGITS) for press in made if not press.worked))
 
 
-def result_of(line: Radial, made: Sequence[PressMade]) -> KeyPressResult:
+def result_of(line: Radial, made: Sequence[PressMade], unconfirmed: Sequence[PressMade]) -> KeyPressResult:
     """What is known without the estimate, and without a word of doubt."""
     farthest = max((press.place for press in made if press.worked), key=lambda place: place.distance_m, default=None)
     distance_m, uncertainty_m, robot_time_s = recorded_values(farthest)
-    return _with_failure(replace(invalid_result(line, made, ""), distance_m=distance_m, uncertainty_m=uncertainty_m,
-                                 robot_time_s=robot_time_s, **carried_values("", farthest)))
+    return _with_failure(replace(
+        invalid_result(line, made, "", unconfirmed=unconfirmed), distance_m=distance_m, uncertainty_m=uncertainty_m,
+        robot_time_s=robot_time_s, **carried_values("", farthest)))
 
 
 def joined(before: KeyPressResult, after: KeyPressResult) -> KeyPressResult:
@@ -44,7 +46,9 @@ def joined(before: KeyPressResult, after: KeyPressResult) -> KeyPressResult:
     sigmas_m = [result.place_sigma_m for result in (before, after) if result.place_sigma_m is not None]
     return _with_failure(replace(
         after, attempts=before.attempts + after.attempts, worked_at_m=before.worked_at_m + after.worked_at_m,
-        failed_at_m=before.failed_at_m + after.failed_at_m, place_sigma_m=max(sigmas_m, default=None),
+        failed_at_m=before.failed_at_m + after.failed_at_m,
+        unconfirmed_m=f"{before.unconfirmed_m} {after.unconfirmed_m}".strip(),
+        place_sigma_m=max(sigmas_m, default=None),
         **{name: getattr(farther, name) for name in _OF_FARTHEST}))
 
 

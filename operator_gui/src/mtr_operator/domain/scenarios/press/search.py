@@ -40,11 +40,23 @@ class _Radial:
 
     line: Radial
     search: RadialSearch
-    made: list[PressMade] = field(default_factory=list)
+    made: list[tuple[PressMade, Press]] = field(default_factory=list)
 
     def take(self, made: PressMade) -> None:
-        self.made.append(made)
-        self.search.add(Press(made.place.distance_m, made.worked))
+        press = Press(made.place.distance_m, made.worked)
+        self.made.append((made, press))
+        self.search.add(press)
+
+    def counted(self) -> list[PressMade]:
+        """Presses that the estimate is made of."""
+        return [made for made, press in self.made if not self._is_unconfirmed(press)]
+
+    def unconfirmed(self) -> list[PressMade]:
+        """Presses that worked, and are not believed."""
+        return [made for made, press in self.made if self._is_unconfirmed(press)]
+
+    def _is_unconfirmed(self, press: Press) -> bool:
+        return any(other is press for other in self.search.unconfirmed)
 
 
 def measure_by_search(line: Radial, parameters: KeyPressParameters, robot: Robot) -> KeyPressResult:
@@ -78,10 +90,10 @@ def _measured(line: Radial, parameters: KeyPressParameters, plan: SearchPlan, ro
         robot.wait(parameters.response_timeout_s, or_when=lambda: not robot.trouble())
         _search(radial, plan, parameters, robot)
     except LineInvalid as error:
-        return invalid_result(line, radial.made, str(error), error.evidence)
+        return invalid_result(line, radial.counted(), str(error), error.evidence, radial.unconfirmed())
     if answers_nowhere(plan, radial.search.presses):
         return _silent(radial, parameters, robot)
-    result = result_of(line, radial.made)
+    result = result_of(line, radial.counted(), radial.unconfirmed())
     return with_estimate(plan, result if so_far is None else joined(so_far, result), estimate(plan, radial.search))
 
 
@@ -164,4 +176,5 @@ def _silent(radial: _Radial, parameters: KeyPressParameters, robot: Robot) -> Ke
             "one with a smaller minimum_distance_m.")
     reason = (f"No press worked, and none of {PRESSES_IN_DOUBT} at {parameters.minimum_distance_m:.2f} m either: the "
               "key sleeps, its battery is empty, or the Car's range ends nearer; then decrease minimum_distance_m.")
-    return replace(invalid_result(radial.line, radial.made, reason), reach=_NO_ANSWER)
+    return replace(invalid_result(
+        radial.line, radial.counted(), reason, unconfirmed=radial.unconfirmed()), reach=_NO_ANSWER)
