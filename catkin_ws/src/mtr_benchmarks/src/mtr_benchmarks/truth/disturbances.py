@@ -4,7 +4,7 @@ import math
 import random
 from typing import Callable, Dict, NamedTuple, Optional
 
-from .car import SOURCE_BUTTON, SOURCE_NONE, SOURCE_VICINITY, Frame, Order, lock_data
+from .car import SOURCE_BUTTON, SOURCE_NONE, Frame, Order, lock_data
 from .robot import Push
 from .world import World
 
@@ -55,12 +55,6 @@ def cause(world: World, chance: random.Random, at_s: float) -> Disturbance:
     """Somebody unlocks or locks the Car: with another key, a handle, a switch."""
     source = chance.choice((SOURCE_BUTTON, *UNLISTED_SOURCES))
     world.car.foreign.append(Order(at_s, chance.random() < 0.5, source))
-    return Disturbance(at_s, at_s)
-
-
-def cause_beside_presses(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """The same without another key's button: nobody could tell it from the press that is awaited."""
-    world.car.foreign.append(Order(at_s, chance.random() < 0.5, chance.choice((SOURCE_VICINITY, *UNLISTED_SOURCES))))
     return Disturbance(at_s, at_s)
 
 
@@ -144,8 +138,9 @@ def late_press(world: World, chance: random.Random, at_s: float) -> Disturbance:
 
 
 def late_reaction(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """The Car takes its time after a press, but not until the next one: nobody could tell the two apart."""
-    world.reaction_s = chance.uniform(0.6, 1.7)
+    """The Car takes its time after each press, or after the first ones, so long that it reacts during the next one."""
+    world.late_reaction_s = chance.uniform(0.6, 4.0)
+    world.late_presses = chance.choice((1, 2, 5, 1000))
     return Disturbance(-math.inf, math.inf)
 
 
@@ -153,5 +148,4 @@ BOTH: Dict[str, Make] = {"none": nothing, "frame glitch": frame_glitch, "cause":
                          "clock step": clock_step, "lateral offset": lateral_offset, "height": height, "hand": hand,
                          "blocked": blocked, "frozen frame": frozen_frame, "lost Status": lost_status,
                          "stall": stall}
-OF_PRESSES: Dict[str, Make] = {**BOTH, "cause": cause_beside_presses, "late press": late_press,
-                               "late reaction": late_reaction}
+OF_PRESSES: Dict[str, Make] = {**BOTH, "late press": late_press, "late reaction": late_reaction}

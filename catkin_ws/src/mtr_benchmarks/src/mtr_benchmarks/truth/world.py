@@ -28,7 +28,8 @@ POSE_AGE_S = 0.06
 class World:
     """True time is the laptop's. loses: whether a Status that is sent now is lost.
 
-    tells_steady_clock: False for a robot with software of before.
+    tells_steady_clock: False for a robot with software of before. late_presses: to so many more presses the Car reacts
+    only after late_reaction_s.
     """
 
     robot: RobotBody
@@ -42,6 +43,8 @@ class World:
     is_stamped: bool
     tells_steady_clock: bool
     loses: Callable[[float], bool] = lambda time_s: False
+    late_reaction_s: float = 0.0
+    late_presses: int = 0
     time_s: float = 0.0
     _status_id: int = 0
     _arrived: List[Tuple[float, Frame]] = field(default_factory=list)
@@ -55,7 +58,7 @@ class World:
             self.time_s = round(self.time_s + dt_s, 9)
             for press in self.robot.step(self.time_s, dt_s):
                 if math.hypot(press.place.x, press.place.y) <= self.press_range_m:
-                    self.car.press(press.id, press.locks, press.start_s + self.reaction_s)
+                    self.car.press(press.id, press.locks, press.start_s + self._next_reaction_s())
             gap_m = self._gap_m()
             self.car.step(before_s, self.time_s, gap_before_m, gap_m, self.robot.key(self.time_s))
             robot = self.robot
@@ -85,6 +88,12 @@ class World:
             waypoint_id=robot.waypoint.id if robot.waypoint else 0, interventions=robot.interventions(now_s),
             presses=tuple(PressReport(press.id, clock.at(press.start_s), clock.at(press.end_s))
                           for press in robot.presses if press.end_s <= now_s))
+
+    def _next_reaction_s(self) -> float:
+        if self.late_presses <= 0:
+            return self.reaction_s
+        self.late_presses -= 1
+        return self.late_reaction_s
 
     def _gap_m(self) -> float:
         key = self.robot.key(self.time_s)
