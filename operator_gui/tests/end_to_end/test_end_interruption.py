@@ -85,8 +85,11 @@ def test_point_measured_before_a_kill_in_the_retreat_is_in_the_journal(laptop): 
 def test_second_application_is_told_and_the_first_loses_nothing(laptop):  # C2
     first = laptop.start("--simulated-car")
     first.wait_until_said("[2/8]")
+    # On a busy machine the second one takes longer to start than the first one to its end.
+    first.process.send_signal(signal.SIGSTOP)
     second = laptop.start("--simulated-car", "--continue", laptop.folder / "out" / "progress.json")
     code, _, said = second.finish()
+    first.process.send_signal(signal.SIGCONT)
     assert code == 2
     assert said.endswith(f"Another application (process {first.process.pid}) is measuring the test in the folder "
                          f"{laptop.folder / 'out'}; end it there first, or choose another folder.\n")
