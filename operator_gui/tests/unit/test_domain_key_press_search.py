@@ -312,9 +312,10 @@ def test_radial_is_measured_further_with_all_its_presses(run_scenario, soften, w
 
 def test_radial_is_not_measured_further_for_ever(run_scenario):
     first, *_ = run_scenario(SCENARIO, PARAMETERS)
+    line, *_ = SCENARIO.lines(PARAMETERS, CAR)
     spent = replace(first, worked_at_m=first.worked_at_m * 10)
-    assert SCENARIO.measure_further(None, PARAMETERS, None, None, spent) is None
+    assert SCENARIO.measure_further(line, PARAMETERS, None, None, spent) is None
     assert SCENARIO.judged_shares(PARAMETERS) == (5, 50, 95)
     scan = replace(PARAMETERS, method="scan")
     assert SCENARIO.judged_shares(scan) == ()
-    assert SCENARIO.measure_further(None, scan, None, None, replace(first, method="scan")) is None
+    assert SCENARIO.measure_further(line, scan, None, None, replace(first, method="scan")) is None

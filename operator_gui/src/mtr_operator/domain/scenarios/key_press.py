@@ -24,11 +24,11 @@ from ..robot_status import CarDimensions
 from ..scenario import Scenario
 from .key_press_parameters import KeyPressParameters
 from .key_press_result import ADAPTIVE, CONFIRMING, PRESS, KeyPressResult
-from .press import campaign as press_campaign
-from .press import prospect as press_prospect
-from .press import search as press_search
+from .line_search import campaign, prospect, search
+from .line_search.result import SHARES
 from .press.button import press_once
 from .press.picture import picture_of
+from .press.radial import LIMITS, WIDTHS, RadialTrial
 
 
 @dataclass
@@ -69,28 +69,30 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
     def measure(self, line: Radial, parameters: KeyPressParameters, robot: Robot, car: Car) -> KeyPressResult:
         """A search, or the thesis' algorithm 1."""
         if parameters.method == ADAPTIVE:
-            return press_search.measure_by_search(line, parameters, robot)
+            return search.measure_by_search(RadialTrial(line, parameters), robot)
         return _scan(line, parameters, robot)
 
     def can_go_on(self, line: Radial, parameters: KeyPressParameters, robot: Robot, car: Car) -> bool:
         """See Scenario: a search goes on with the presses that are kept."""
-        return parameters.method == ADAPTIVE and press_search.can_go_on(line, robot)
+        return parameters.method == ADAPTIVE and search.can_go_on(RadialTrial(line, parameters), robot)
 
     def measure_further(self, line: Radial, parameters: KeyPressParameters, robot: Robot, car: Car,
                         so_far: KeyPressResult) -> KeyPressResult | None:
         """See Scenario: a search goes on after its end."""
         if so_far.method != ADAPTIVE:
             return None
-        return press_search.measure_further(line, parameters, robot, so_far)
+        return search.measure_further(RadialTrial(line, parameters), robot, so_far)
 
     def cautions(self, parameters: KeyPressParameters, facts: LockFacts) -> Sequence[str]:
         """See Scenario."""
-        return tuple(press_prospect.cautions(parameters)) if parameters.method == ADAPTIVE else ()
+        if parameters.method != ADAPTIVE:
+            return ()
+        return tuple(prospect.cautions(parameters.search_plan, WIDTHS, LIMITS))
 
     def prospect(self, parameters: KeyPressParameters, facts: LockFacts,
                  results: Sequence[KeyPressResult]) -> Prospect | None:
         """See Scenario."""
-        return press_prospect.prospect(parameters, results) if parameters.method == ADAPTIVE else None
+        return prospect.prospect(parameters.search_plan, WIDTHS, results) if parameters.method == ADAPTIVE else None
 
     def unreached(self, parameters: KeyPressParameters, word: str) -> tuple[float | None, float | None]:
         """See Scenario: the results of a search say themselves to which side they are not bounded."""
@@ -98,11 +100,11 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
 
     def judged_shares(self, parameters: KeyPressParameters) -> tuple[int, ...]:
         """See Scenario."""
-        return (5, 50, 95) if parameters.method == ADAPTIVE else ()
+        return SHARES if parameters.method == ADAPTIVE else ()
 
     def concluded(self, parameters: KeyPressParameters, results: Sequence[KeyPressResult]) -> Sequence[KeyPressResult]:
         """See Scenario: what radials measured later say of the transition counts for the earlier ones too."""
-        return press_campaign.concluded(parameters, results) if parameters.method == ADAPTIVE else ()
+        return campaign.concluded(parameters.search_plan, results) if parameters.method == ADAPTIVE else ()
 
     def picture(self, parameters: KeyPressParameters, car: CarDimensions, results: Sequence[KeyPressResult]) -> Picture:
         """See picture_of."""
@@ -111,7 +113,7 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
     def expected_line_s(self, parameters: KeyPressParameters) -> float:
         """See Scenario: a scan's Car is taken to react at the middle one of the places."""
         if parameters.method == ADAPTIVE:
-            return sum(press_prospect.prospect(parameters, ()).line_s) / 2.0
+            return sum(prospect.prospect(parameters.search_plan, WIDTHS, ()).line_s) / 2.0
         places = parameters.press_distances_m
         failed = len(places) // 2
         way_m = parameters.maximum_distance_m - places[failed]

@@ -2,35 +2,25 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
-from .. import limits
-from ..estimation.press.radial_estimate import Reach
 from ..results.carried import CAUSE_DOC, HEADING_DOC, HEIGHT_DOC, LATERAL_DOC, SPEED_DOC
 from ..results.document import Floats, OptionalFloat, Texts
-from ..results.line_result import BOUNDARY_PERCENT, LineResult, LineStatus, MeasuredDistance, column, stored
+from ..results.line_result import LineStatus, MeasuredDistance, column, stored
+from .line_search.result import BEYOND, FIT_DOC, HIGH_OF, LOW_OF, OF_D50, OF_D95, UNCONFIRMED_DOC, SearchedResult
 
 PRESS = "press"
 # Of another press at the place of one that worked.
 CONFIRMING = "confirming press"
-# Share of the presses at d95.
-SURE_PERCENT = 95
 SCAN, ADAPTIVE = "scan", "adaptive"
-_NUMBER = re.compile(r"\d+(?:\.\d+)?")
-_REACHES = ("", *(reach.value for reach in Reach))
-# Far beyond any attempts_limit.
-_MAX_PRESSES = 1000
-_OF_D50 = "distance at which half of the presses work"
-_OF_D95 = "distance at which 95 % of the presses work, lapses apart"
-_BEYOND = ", empty when it lies beyond the places"
-_LOW, _HIGH = "lower end of the 95 % interval of the", "upper end of the 95 % interval of the"
+_OF_D50, _OF_D95 = OF_D50.format("presses"), OF_D95.format("presses")
 
 
 @dataclass(frozen=True)
-class KeyPressResult(LineResult):
+class KeyPressResult(SearchedResult):
     """Distances are those of the Remote key from the Car's centre, along the radial."""
 
+    WORD = PRESS
     FILE_ORDER = ("radial", "angle_deg", "status", "distance_m", "uncertainty_m", "robot_time_s", "failed_distance_m",
                   "attempts", "reason", "lateral_offset_m", "heading_offset_deg", "key_height_m", "speed_mps", "cause",
                   "method", "reach", "d50_m", "d50_sigma_m", "d50_low_m", "d50_high_m", "d95_m", "d95_low_m",
@@ -58,31 +48,30 @@ class KeyPressResult(LineResult):
                         "farthest one; no_answer: nobody knows", default="")
     d50_m: OptionalFloat = column(_OF_D50, "m", default=None)
     d50_sigma_m: OptionalFloat = column(f"1 sigma of the {_OF_D50}", "m", default=None)
-    d50_low_m: OptionalFloat = column(f"{_LOW} {_OF_D50}{_BEYOND}", "m", default=None)
-    d50_high_m: OptionalFloat = column(f"{_HIGH} {_OF_D50}{_BEYOND}", "m", default=None)
+    d50_low_m: OptionalFloat = column(f"{LOW_OF} {_OF_D50}{BEYOND}", "m", default=None)
+    d50_high_m: OptionalFloat = column(f"{HIGH_OF} {_OF_D50}{BEYOND}", "m", default=None)
     d95_m: OptionalFloat = column(_OF_D95, "m", default=None)
-    d95_low_m: OptionalFloat = column(f"{_LOW} {_OF_D95}{_BEYOND}", "m", default=None)
-    d95_high_m: OptionalFloat = column(f"{_HIGH} {_OF_D95}{_BEYOND}", "m", default=None)
+    d95_low_m: OptionalFloat = column(f"{LOW_OF} {_OF_D95}{BEYOND}", "m", default=None)
+    d95_high_m: OptionalFloat = column(f"{HIGH_OF} {_OF_D95}{BEYOND}", "m", default=None)
     nearest_failure_m: OptionalFloat = column("nearest press that failed", "m", default=None)
     holes_m: str = column("places that failed again and again although farther ones worked", "m", default="")
     lapse: OptionalFloat = column("share of presses that fail at any distance", default=None)
-    fit_quality: OptionalFloat = column(
-        "share of radials on the curve found that would fit worse; below 0.02 the curve does not describe this one",
-        default=None)
-    unconfirmed_m: str = column("places of presses that worked against all expectation, and not again: not counted",
-                                "m", default="")
+    fit_quality: OptionalFloat = column(FIT_DOC.format("radials"), default=None)
+    unconfirmed_m: str = column(UNCONFIRMED_DOC.format("presses"), "m", default="")
     worked_at_m: Floats = stored(())
     failed_at_m: Floats = stored(())
     place_sigma_m: OptionalFloat = stored(None)
     evidence: Texts = stored(())
 
     @property
+    def was_searched(self) -> bool:
+        """See SearchedResult."""
+        return self.method == ADAPTIVE
+
+    @property
     def is_possible(self) -> bool:
         """See LineResult."""
-        places_m = (*self.worked_at_m, *self.failed_at_m)
-        return (self.method in (SCAN, ADAPTIVE) and self.reach in _REACHES and len(places_m) <= _MAX_PRESSES
-                and all(limits.DISTANCE.allows(place_m) for place_m in places_m)
-                and (self.place_sigma_m is None or limits.DISTANCE_SIGMA.allows(self.place_sigma_m)))
+        return self.method in (SCAN, ADAPTIVE) and super().is_possible
 
     @property
     def number(self) -> int:
@@ -97,27 +86,6 @@ class KeyPressResult(LineResult):
     @property
     def distances(self) -> tuple[MeasuredDistance, ...]:
         """See LineResult: where half of the presses work, if that was searched, else the farthest that worked."""
-        if self.method == ADAPTIVE:
-            return (MeasuredDistance(PRESS, self.status, self.d50_m, self.d50_sigma_m, self.d50_low_m,
-                                     self.d50_high_m),)
+        if self.was_searched:
+            return super().distances
         return (MeasuredDistance(PRESS, self.status, self.distance_m, self.uncertainty_m),)
-
-    def distances_at(self, share_percent: int) -> tuple[MeasuredDistance, ...]:
-        """See LineResult. The curve is symmetrical: 5 % work as far beyond d50 as 95 % do nearer than it; the ends of
-        that interval are the safe ones, for how the errors of d50 and d95 go together is not kept."""
-        if self.method != ADAPTIVE or share_percent == BOUNDARY_PERCENT:
-            return super().distances_at(share_percent)
-        sure = MeasuredDistance(PRESS, self.status, self.d95_m, None, self.d95_low_m, self.d95_high_m)
-        if share_percent == SURE_PERCENT:
-            return (sure,)
-        half = self.distances[0]
-        return (MeasuredDistance(PRESS, self.status, _mirrored(half.distance_m, sure.distance_m), None,
-                                 _mirrored(half.low_m, sure.high_m), _mirrored(half.high_m, sure.low_m)),)
-
-    def holes_nearer_than(self, distance_m: float) -> tuple[float, ...]:
-        """See LineResult."""
-        return tuple(hole_m for hole_m in map(float, _NUMBER.findall(self.holes_m)) if hole_m < distance_m)
-
-
-def _mirrored(half_m: float | None, sure_m: float | None) -> float | None:
-    return None if half_m is None or sure_m is None else 2.0 * half_m - sure_m

@@ -2,29 +2,21 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Protocol
 
-from ...actions.distance import Distance
 from ...actions.line_watch import LineWatch
 from ...actions.lock_history import PRESS_SIGMA_S, Expected
 from ...actions.robot import Robot
 from ...geometry.ray import Ray
 from ...ports import KEY_BUTTON, LockState
 from ...results.line_result import LineStatus
+from ..line_search.attempt import AttemptMade
 
 LOCK_BUTTON, UNLOCK_BUTTON = 1, 2
 # The press that changes the Car's present state: button and state that it should lead to.
 _CHANGING_PRESS = {LockState.LOCKED: (UNLOCK_BUTTON, LockState.UNLOCKED),
                    LockState.UNLOCKED: (LOCK_BUTTON, LockState.LOCKED)}
-
-
-@dataclass(frozen=True)
-class PressMade:
-    """Where the key was when the button went down, and whether the Car obeyed."""
-
-    place: Distance
-    worked: bool
 
 
 class PressParameters(Protocol):
@@ -51,7 +43,7 @@ class PressParameters(Protocol):
         """Farthest place on the ray."""
 
 
-def press_once(radial: Ray, watch: LineWatch, parameters: PressParameters, robot: Robot, word: str) -> PressMade:
+def press_once(radial: Ray, watch: LineWatch, parameters: PressParameters, robot: Robot, word: str) -> AttemptMade:
     """Press where the robot stands; it has settled. word: under which the press is kept.
 
     LineInvalid when it was no clean press, or when something else moved the Car's locks.
@@ -68,8 +60,8 @@ def press_once(radial: Ray, watch: LineWatch, parameters: PressParameters, robot
     if watch.answer is None:
         watch.close()
         robot.keep(word, LineStatus.NOT_REACHED, place)
-        return PressMade(place, False)
+        return AttemptMade(place, False)
     robot.wait(watch.confirmed_s - robot.now_s)
-    made = PressMade(replace(place, source=watch.answer.source), True)
+    made = AttemptMade(replace(place, source=watch.answer.source), True)
     robot.keep(word, LineStatus.OK, made.place)
     return made

@@ -11,7 +11,8 @@ from ...geometry.ray import Ray
 from ...results.line_result import LineStatus, MeasuredDistance
 from ...results.picture import Picture, PointRole, PointSet, Stretch, bars_along, intervals_along
 from ..key_press_parameters import KeyPressParameters
-from ..key_press_result import ADAPTIVE, SURE_PERCENT, KeyPressResult
+from ..key_press_result import ADAPTIVE, KeyPressResult
+from ..line_search.result import SURE_PERCENT
 
 _Measured = Sequence[tuple[Ray, KeyPressResult]]
 

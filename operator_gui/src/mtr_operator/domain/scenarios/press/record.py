@@ -4,40 +4,39 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Sequence
 
 from ...actions.distance import recorded_values
 from ...geometry.radials import Radial
 from ...results.carried import carried_values
 from ...results.line_result import LineStatus
 from ..key_press_result import ADAPTIVE, KeyPressResult
-from .button import PressMade
+from ..line_search.attempt import AttemptsMade
+from ..line_search.campaign import DIGITS
 
-_DIGITS = 6
 # Columns of the farthest press that worked.
 _OF_FARTHEST = ("distance_m", "uncertainty_m", "robot_time_s", "lateral_offset_m", "heading_offset_deg", "key_height_m",
                 "speed_mps", "cause")
 
 
-def invalid_result(line: Radial, made: Sequence[PressMade], reason: str, evidence: tuple[str, ...] = (),
-                   unconfirmed: Sequence[PressMade] = ()) -> KeyPressResult:
+def invalid_result(line: Radial, made: AttemptsMade, reason: str, evidence: tuple[str, ...] = ()) -> KeyPressResult:
     """The presses alone, those that count and those that do not; nothing follows from them."""
-    sigma_m = max((press.place.uncertainty_m for press in made), default=math.nan)
+    counted = made.counted
+    sigma_m = max((press.place.uncertainty_m for press in counted), default=math.nan)
     return KeyPressResult(
-        line.number, line.clockwise_deg, LineStatus.INVALID, None, None, None, len(made) + len(unconfirmed), None,
-        reason, evidence=evidence, method=ADAPTIVE, place_sigma_m=sigma_m if math.isfinite(sigma_m) else None,
-        unconfirmed_m=" ".join(f"{press.place.distance_m:.2f}" for press in unconfirmed),
-        worked_at_m=tuple(round(press.place.distance_m, _DIGITS) for press in made if press.worked),
-        failed_at_m=tuple(round(press.place.distance_m, _DIGITS) for press in made if not press.worked))
+        line.number, line.clockwise_deg, LineStatus.INVALID, None, None, None, len(made.all), None, reason,
+        evidence=evidence, method=ADAPTIVE, place_sigma_m=sigma_m if math.isfinite(sigma_m) else None,
+        unconfirmed_m=made.unconfirmed_text,
+        worked_at_m=tuple(round(press.place.distance_m, DIGITS) for press in counted if press.worked),
+        failed_at_m=tuple(round(press.place.distance_m, DIGITS) for press in counted if not press.worked))
 
 
-def result_of(line: Radial, made: Sequence[PressMade], unconfirmed: Sequence[PressMade]) -> KeyPressResult:
+def result_of(line: Radial, made: AttemptsMade) -> KeyPressResult:
     """What is known without the estimate, and without a word of doubt."""
-    farthest = max((press.place for press in made if press.worked), key=lambda place: place.distance_m, default=None)
+    farthest = max((press.place for press in made.counted if press.worked),
+                   key=lambda place: place.distance_m, default=None)
     distance_m, uncertainty_m, robot_time_s = recorded_values(farthest)
-    return _with_failure(replace(
-        invalid_result(line, made, "", unconfirmed=unconfirmed), distance_m=distance_m, uncertainty_m=uncertainty_m,
-        robot_time_s=robot_time_s, **carried_values("", farthest)))
+    return _with_failure(replace(invalid_result(line, made, ""), distance_m=distance_m, uncertainty_m=uncertainty_m,
+                                 robot_time_s=robot_time_s, **carried_values("", farthest)))
 
 
 def joined(before: KeyPressResult, after: KeyPressResult) -> KeyPressResult:

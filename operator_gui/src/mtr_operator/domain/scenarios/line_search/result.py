@@ -1,0 +1,100 @@
+"""What the results of all lines that are measured by search have in common."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import re
+from typing import ClassVar
+
+from ... import limits
+from ...estimation.press.likelihood import Press
+from ...estimation.press.radial_estimate import Reach
+from ...results.document import Floats, OptionalFloat
+from ...results.line_result import BOUNDARY_PERCENT, LineResult, LineStatus, MeasuredDistance
+
+# Shares of the attempts for whose distances there are intervals; the last is that at d95.
+SHARES = (5, 50, 95)
+SURE_PERCENT = SHARES[-1]
+REACHES = ("", *(reach.value for reach in Reach))
+OF_D50, OF_D95 = "distance at which half of the {} work", "distance at which 95 % of the {} work, lapses apart"
+LOW_OF, HIGH_OF = "lower end of the 95 % interval of the", "upper end of the 95 % interval of the"
+BEYOND = ", empty when it lies beyond the places"
+FIT_DOC = "share of {} on the curve found that would fit worse; below 0.02 the curve does not describe this one"
+UNCONFIRMED_DOC = "places of {} that worked against all expectation, and not again: not counted"
+_NUMBER = re.compile(r"\d+(?:\.\d+)?")
+# Far beyond any attempts_limit.
+_MAX_ATTEMPTS = 1000
+
+
+class SearchedResult(LineResult):
+    """The columns that a search fills; a scenario's dataclass declares each, with the scenario's words.
+
+    Attributes:
+        WORD: what the distance is called, of the scenario's distance_words.
+        reach: see Reach; empty when nothing was searched.
+        d50_m, d95_m: distances at which 50 and 95 % of the attempts work; None beyond the places.
+        holes_m: places that failed again and again although farther ones worked, "3.10 4.20".
+        unconfirmed_m: places of attempts that worked against all expectation, and not again; likewise.
+        worked_at_m, failed_at_m: of all attempts that count.
+        place_sigma_m: largest 1 sigma of these places.
+    """
+
+    WORD: ClassVar[str]
+    status: LineStatus
+    reach: str
+    d50_m: OptionalFloat
+    d50_sigma_m: OptionalFloat
+    d50_low_m: OptionalFloat
+    d50_high_m: OptionalFloat
+    d95_m: OptionalFloat
+    d95_low_m: OptionalFloat
+    d95_high_m: OptionalFloat
+    holes_m: str
+    unconfirmed_m: str
+    worked_at_m: Floats
+    failed_at_m: Floats
+    place_sigma_m: OptionalFloat
+
+    @property
+    def was_searched(self) -> bool:
+        """False for a line that was measured in another way."""
+        return True
+
+    @property
+    def attempts_made(self) -> list[Press]:
+        """All of them; their order says nothing."""
+        return [*(Press(place_m, True) for place_m in self.worked_at_m),
+                *(Press(place_m, False) for place_m in self.failed_at_m)]
+
+    @property
+    def is_possible(self) -> bool:
+        """See LineResult."""
+        places_m = (*self.worked_at_m, *self.failed_at_m)
+        return (self.reach in REACHES and len(places_m) <= _MAX_ATTEMPTS
+                and all(limits.DISTANCE.allows(place_m) for place_m in places_m)
+                and (self.place_sigma_m is None or limits.DISTANCE_SIGMA.allows(self.place_sigma_m)))
+
+    @property
+    def distances(self) -> tuple[MeasuredDistance, ...]:
+        """See LineResult: where half of the attempts work."""
+        return (MeasuredDistance(self.WORD, self.status, self.d50_m, self.d50_sigma_m, self.d50_low_m,
+                                 self.d50_high_m),)
+
+    def distances_at(self, share_percent: int) -> tuple[MeasuredDistance, ...]:
+        """See LineResult. The curve is symmetrical: 5 % work as far beyond d50 as 95 % do nearer than it; the ends of
+        that interval are the safe ones, for how the errors of d50 and d95 go together is not kept."""
+        if not self.was_searched or share_percent == BOUNDARY_PERCENT or share_percent not in SHARES:
+            return super().distances_at(share_percent)
+        sure = MeasuredDistance(self.WORD, self.status, self.d95_m, None, self.d95_low_m, self.d95_high_m)
+        if share_percent == SURE_PERCENT:
+            return (sure,)
+        half = self.distances[0]
+        return (MeasuredDistance(self.WORD, self.status, _mirrored(half.distance_m, sure.distance_m), None,
+                                 _mirrored(half.low_m, sure.high_m), _mirrored(half.high_m, sure.low_m)),)
+
+    def holes_nearer_than(self, distance_m: float) -> tuple[float, ...]:
+        """See LineResult."""
+        return tuple(hole_m for hole_m in map(float, _NUMBER.findall(self.holes_m)) if hole_m < distance_m)
+
+
+def _mirrored(half_m: float | None, sure_m: float | None) -> float | None:
+    return None if half_m is None or sure_m is None else 2.0 * half_m - sure_m

@@ -1,0 +1,178 @@
+"""A line by search: an attempt where it tells most, until the interval of the distance is as narrow as wanted."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Generic, Sequence
+
+from ...actions.robot import Robot
+from ...actions.trouble import LineInvalid
+from ...errors import RobotFailed
+from ...estimation.press.likelihood import Press
+from ...estimation.press.plan import SearchPlan
+from ...estimation.press.radial_estimate import Reach, answers_nowhere, estimate
+from ...estimation.press.radial_search import RadialSearch
+from ...requests import Direction
+from ...results.line_result import LineStatus
+from .attempt import AttemptMade, AttemptsMade
+from .campaign import LineCampaign, Searched, with_estimate
+from .trial import Trial
+
+# So many lines without any answer, one after the other, and the test waits for a person.
+MAX_SILENT_LINES = 3
+# The robot stops within some millimetres; a shorter way would be a manoeuvre and no move.
+_MIN_WAY_M = 0.05
+# Of a line that is measured further: attempts each time, part of the interval so far that is wanted next, its least,
+# and how many times the attempts allowed it gets in all.
+_FURTHER_ATTEMPTS, _FURTHER_PART, _MIN_INTERVAL_M, _FURTHER_TIMES = 8, 0.5, 0.05, 3
+_NO_ANSWER = Reach.NO_ANSWER.value
+# One Status.
+_SOON_S = 0.01
+
+
+@dataclass
+class _Line(Generic[Searched]):
+    """A line at hand; first_m: places that are left to be tried before the search."""
+
+    trial: Trial[Searched]
+    plan: SearchPlan
+    search: RadialSearch
+    first_m: tuple[float, ...]
+    made: list[tuple[AttemptMade, Press]] = field(default_factory=list)
+
+    def take(self, made: AttemptMade) -> None:
+        press = Press(made.place.distance_m, made.worked)
+        self.made.append((made, press))
+        self.search.add(press)
+
+    def attempts(self) -> AttemptsMade:
+        return AttemptsMade([made for made, _ in self.made],
+                            [made for made, press in self.made if any(press is other
+                                                                      for other in self.search.unconfirmed)])
+
+    def next_place_m(self) -> float | None:
+        """None when the line has come to its end."""
+        if len(self.made) < len(self.first_m):
+            return self.first_m[len(self.made)]
+        if self.search.is_finished() or answers_nowhere(self.plan, self.search.presses):
+            return None
+        return self.search.next_place_m()
+
+
+def measure_by_search(trial: Trial[Searched], robot: Robot) -> Searched:
+    """One line; RobotFailed when the key has answered nowhere on several of them."""
+    return _measured(trial, trial.parameters.search_plan, robot)
+
+
+def measure_further(trial: Trial[Searched], robot: Robot, so_far: Searched) -> Searched | None:
+    """More attempts on a line for a narrower interval; None when it has had as many as make sense."""
+    count = len(so_far.attempts_made)
+    if so_far.invalid_count or count >= _FURTHER_TIMES * trial.parameters.attempts_limit:
+        return None
+    plan = trial.parameters.search_plan
+    if so_far.d50_low_m is not None and so_far.d50_high_m is not None:
+        narrower_m = _FURTHER_PART * (so_far.d50_high_m - so_far.d50_low_m) / 2.0
+        plan = replace(plan, interval_m=max(min(_MIN_INTERVAL_M, plan.interval_m), min(narrower_m, plan.interval_m)))
+    return _measured(trial, replace(plan, attempts_limit=count + _FURTHER_ATTEMPTS), robot, so_far)
+
+
+def can_go_on(trial: Trial[Searched], robot: Robot) -> bool:
+    """True when attempts of the line are kept, and the key was not silent."""
+    return not robot.trouble() and any(made.worked for made in _kept(trial, robot))
+
+
+def _measured(trial: Trial[Searched], plan: SearchPlan, robot: Robot, so_far: Searched | None = None) -> Searched:
+    campaign = LineCampaign(plan)
+    line = _Line(trial, plan, campaign.search(trial.number), trial.first_places_m if so_far is None else ())
+    robot.say(f"{trial.title}: go to the start")
+    try:
+        trial.begin(robot)
+        robot.go_to(trial.ray, trial.parameters.maximum_distance_m)
+        _recall_on_the_way(campaign, _earlier(trial, robot), robot)
+        if so_far is not None:
+            line.search.recall(so_far.attempts_made)
+        robot.wait(trial.parameters.response_timeout_s, or_when=lambda: not robot.trouble())
+        _search(line, robot)
+    except LineInvalid as error:
+        return trial.invalid(line.attempts(), str(error), error.evidence)
+    if answers_nowhere(plan, line.search.presses):
+        return _silent(line, robot)
+    result = trial.result(line.attempts())
+    return with_estimate(plan, result if so_far is None else trial.joined(so_far, result), estimate(plan, line.search))
+
+
+def _earlier(trial: Trial[Searched], robot: Robot) -> Sequence[Searched]:
+    """Results of the scenario's other lines; all results of a test are of one scenario."""
+    results: Sequence[Searched] = robot.results  # type: ignore[assignment]
+    return [result for result in results if result.number != trial.number]
+
+
+def _recall_on_the_way(campaign: LineCampaign, results: Sequence[Searched], robot: Robot) -> None:
+    """One earlier line with each Status, so that no Status waits long for its answer."""
+    earlier = campaign.recall(results)
+
+    def take_one() -> None:
+        next(earlier, None)
+
+    robot.wait_until_reached(or_when=take_one)
+    for _ in earlier:
+        robot.wait(_SOON_S)
+
+
+def _search(line: _Line[Searched], robot: Robot) -> None:
+    trial, search, parameters = line.trial, line.search, line.trial.parameters
+    with robot.watched(trial.tolerances) as watch:
+        for made in _kept(trial, robot):
+            line.take(made)
+        search.place_m = robot.key_distance(trial.ray, robot.now_s, 0.0).distance_m
+        place_m = line.next_place_m()
+        while place_m is not None:
+            robot.say(f"{trial.action} at {place_m:.2f} m")
+            _drive(trial, search.place_m, place_m, robot)
+            robot.wait(parameters.settle_time_s)
+            if robot.rest_s > parameters.key_rest_limit_s:
+                _wake_key(line, place_m, robot)
+            line.take(trial.attempt(watch, robot, _word(trial, len(line.made) + 1)))
+            place_m = line.next_place_m()
+
+
+def _drive(trial: Trial[Searched], from_m: float, to_m: float, robot: Robot) -> None:
+    """Along the line, facing the Car: forwards to it, backwards from it."""
+    if abs(to_m - from_m) >= _MIN_WAY_M:
+        robot.go_to(trial.ray, to_m, Direction.FORWARD if to_m < from_m else Direction.BACKWARD)
+        robot.wait_until_reached()
+
+
+def _wake_key(line: _Line[Searched], place_m: float, robot: Robot) -> None:
+    robot.say("move the key so that it does not sleep")
+    plan = line.plan
+    beside_m = place_m + (1.0 if place_m < plan.maximum_m else -1.0) * plan.half_wavelength_m
+    _drive(line.trial, place_m, beside_m, robot)
+    _drive(line.trial, beside_m, place_m, robot)
+    robot.wait(line.trial.parameters.settle_time_s)
+
+
+def _word(trial: Trial[Searched], number: int) -> str:
+    return f"{trial.word} {number}"
+
+
+def _kept(trial: Trial[Searched], robot: Robot) -> list[AttemptMade]:
+    """Attempts of this line from before an interruption; none unless all of them are of the present Car frame."""
+    made: list[AttemptMade] = []
+    while True:
+        point = robot.kept_point(_word(trial, len(made) + 1))
+        if point is None:
+            return made
+        status, place = point
+        made.append(AttemptMade(place, status is LineStatus.OK))
+
+
+def _silent(line: _Line[Searched], robot: Robot) -> Searched:
+    """Whether the key sleeps or the Car's range ends nearer, nobody knows: it is asked for, and no range."""
+    trial = line.trial
+    before = [result for result in _earlier(trial, robot) if result.number < trial.number]
+    silent = [result.reach for result in before[1 - MAX_SILENT_LINES:]].count(_NO_ANSWER)
+    if silent >= MAX_SILENT_LINES - 1:
+        raise RobotFailed(trial.lasting_silence)
+    result: Searched = replace(trial.invalid(line.attempts(), trial.silence), reach=_NO_ANSWER)  # type: ignore[type-var]
+    return result
