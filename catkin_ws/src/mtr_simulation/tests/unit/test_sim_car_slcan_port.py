@@ -196,3 +196,9 @@ def test_link_below_a_file_is_refused_with_the_reason(tmp_path):
     (tmp_path / "file").write_text("", encoding="utf-8")
     with pytest.raises(ConfigurationError, match="cannot be made"):
         SlcanPort(tmp_path / "file" / "can0")
+
+
+def test_frame_of_the_host_is_taken_once(port, host):
+    host.ask(b"t4B1101\r", b"z\r")
+    assert port.taken() == [(0x4B1, b"\x01")]
+    assert port.taken() == []

@@ -104,6 +104,15 @@ def test_listen_only_channel_does_not_transmit():
     assert adapter.transmitted == 0
 
 
+def test_frames_of_the_host_lie_ready_for_the_car_without_their_number_growing():
+    adapter = opened()
+    adapter.receive(b"t4B1101\rr1230\rT0000123420A0B\rt4B13\r")
+    assert list(adapter.sent) == [(0x4B1, b"\x01"), (0x1234, b"\x0a\x0b")]
+    for _ in range(1000):
+        adapter.receive(b"t1230\r")
+    assert len(adapter.sent) < 100
+
+
 def test_endless_line_is_answered_once_and_forgotten():
     adapter = SlcanAdapter()
     assert adapter.receive(b"t" * 100_000) == b""

@@ -7,7 +7,7 @@ import cantools
 import numpy as np
 import pytest
 
-from mtr_simulation.car.can_port import MemoryCanPort
+from mtr_simulation.car.can_port import MemoryCanPort, SentFrame
 from mtr_simulation.car.ecu import Command
 from mtr_simulation.car.honest.car import STEP_NS, HonestCar
 from mtr_simulation.car.honest.frames import DBC_PATH, ON_CHANGE_NS
@@ -180,6 +180,30 @@ def test_handle_car_waits_for_a_hand_and_looks_where_the_key_is(bench):
     assert bench.car.locks.cause is Cause.HANDLE
     bench.car.request_handle(Command.LOCK)
     assert bench.stays(DOOR, 0.5) is LockState.LOCKED
+
+
+def test_actuator_on_the_bus_takes_the_handle_once_each_time(bench):
+    bench = bench(passive_entry={"unlock_on": "handle"})
+    message = cantools.database.load_file(str(DBC_PATH)).get_message_by_name("HandleActuator")
+
+    def send(order):
+        bench.port.from_host.append(SentFrame(message.frame_id, message.encode({"HandleRequest": order})))
+        return bench.stays(DOOR, 0.5)
+
+    assert send("released") is LockState.LOCKED
+    assert send("open") is LockState.UNLOCKED and bench.car.locks.cause is Cause.HANDLE
+    bench.presses(DOOR, LOCK_PRESSED)
+    assert send("open") is LockState.LOCKED  # it was not released
+    assert send("released") is LockState.LOCKED
+    assert send("open") is LockState.UNLOCKED
+    assert send("lock") is LockState.LOCKED
+
+
+def test_other_and_damaged_frames_of_the_host_take_no_handle(bench):
+    bench = bench(passive_entry={"unlock_on": "handle"})
+    bench.port.from_host += [SentFrame(1200, b"\x01"), SentFrame(1201, b""), SentFrame(1201, b"\x03")]
+    assert bench.stays(DOOR, 0.5) is LockState.LOCKED
+    assert not bench.frames("HandleActuator")
 
 
 def test_hand_that_comes_by_itself_unlocks_near_the_door_only(bench):

@@ -10,11 +10,11 @@ import select
 import termios
 import threading
 import tty
-from typing import Tuple, Union
+from typing import List, Tuple, Union
 
 from mtr_core.errors import ConfigurationError
 
-from .can_port import CanPort
+from .can_port import CanPort, SentFrame
 from .slcan_protocol import SlcanAdapter
 
 # Answers kept for a host that asks and does not read.
@@ -101,6 +101,13 @@ class SlcanPort(CanPort):
             if self._fault is Fault.GARBAGE:
                 self._unsent = hashlib.blake2b(b"%d" % time_ns, digest_size=len(self._unsent)).digest()
             self._flush()
+
+    def taken(self) -> List[SentFrame]:
+        """See CanPort."""
+        with self._lock:
+            taken = list(self.adapter.sent)
+            self.adapter.sent.clear()
+        return taken
 
     def close(self) -> None:
         """Take the adapter away; safe to call twice."""

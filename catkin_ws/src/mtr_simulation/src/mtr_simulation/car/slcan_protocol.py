@@ -3,7 +3,10 @@
 Only bytes in and bytes out: no device, no clock.
 """
 # SPDX-License-Identifier: Apache-2.0
-from typing import Callable, Dict, NamedTuple
+import collections
+from typing import Callable, Deque, Dict, NamedTuple
+
+from .can_port import SentFrame
 
 OK = b"\r"
 ERROR = b"\a"
@@ -20,6 +23,8 @@ STATUS_BUS_OFF = STATUS_ERROR_WARNING | STATUS_ERROR_PASSIVE | STATUS_BUS_ERROR
 _BITRATES = b"012345678"
 # The stamp counts milliseconds and starts again each minute.
 _STAMP_MODULO_MS = 60_000
+# What a Car that listens to nothing leaves lying.
+_MAX_SENT = 64
 _MAX_LINE = len("Tiiiiiiiildddddddddddddddd")
 
 
@@ -49,6 +54,7 @@ class SlcanAdapter:
         bus_off: the controller has left the bus: no frames either way, and F says so.
         overrun: a frame was lost for want of room; the next F says so once.
         transmitted: frames that the host sent to the bus.
+        sent: the newest of them that carry data, until somebody takes them.
     """
 
     def __init__(self) -> None:
@@ -57,6 +63,7 @@ class SlcanAdapter:
         self.bus_off = False
         self.overrun = False
         self.transmitted = 0
+        self.sent: Deque[SentFrame] = collections.deque(maxlen=_MAX_SENT)
         self._configured = False
         self._listen_only = False
         self._line = bytearray()
@@ -143,6 +150,9 @@ class SlcanAdapter:
         if not self.is_open or self._listen_only or self.bus_off or not _is_frame(shape, argument):
             return ERROR
         self.transmitted += 1
+        if shape.has_data:
+            digits = shape.id_digits
+            self.sent.append(SentFrame(int(argument[:digits], 16), bytes.fromhex(argument[digits + 1 :].decode())))
         return shape.answer + OK
 
 

@@ -10,7 +10,8 @@ from ..ecu import Command
 from ..noise import uniform_pair
 from ..parameters import RemoteParameters
 from .attempts import Attempts
-from .frames import HonestFrames
+from .frames import HonestFrames, database
+from .handle import HandleActuator
 from .key import RemoteKey
 from .locks import Cause, Locks, LockState
 from .parameters import HonestParameters
@@ -44,6 +45,7 @@ class HonestCar:
         self._passive = PassiveEntry(passive)
         self._polls = _Period(seed, "poll_phase", passive.poll_period_ms * 1_000_000)
         self._hand = _Period(seed, "hand_phase", round(passive.handle_period_s * 1e9))
+        self._actuator = HandleActuator(database())
         self._handle_requests: Deque[Command] = collections.deque(maxlen=_MAX_REQUESTS)
         contact = RemoteParameters(contact_travel=remote.contact_travel, contact_ms=remote.contact_ms)
         self._contacts = ((Command.LOCK, ButtonContact(contact)), (Command.UNLOCK, ButtonContact(contact)))
@@ -58,6 +60,7 @@ class HonestCar:
         The frames of those 20 ms carry the state at their beginning; then the Car sees where the key is now.
         """
         self._port.poll()
+        self._follow_actuator()
         for frame in self._frames.due(time_ns - STEP_NS, time_ns):
             self._port.send(*frame)
         attitude = Attitude(key_yaw_rad)
@@ -72,6 +75,12 @@ class HonestCar:
         if self.locks.is_ready and self._passive_parameters.enabled:
             self._poll(time_ns, key_xyz, attitude)
             self._answer_handle(time_ns, key_xyz, attitude)
+
+    def _follow_actuator(self) -> None:
+        for frame in self._port.taken():
+            command = self._actuator.request(frame)
+            if command is not None:
+                self.request_handle(command)
 
     def _transmit(self, command: Command, closing: Closing, time_ns: int, attitude: Attitude) -> None:
         sent = closing.counts and self.locks.is_ready and self.key.buttons_work

@@ -8,6 +8,7 @@ import cantools
 
 from ..frames import Frame
 from ..noise import uniform_pair
+from .handle import HANDLE_MESSAGE
 from .locks import Cause, Locks
 from .parameters import BusParameters
 
@@ -25,7 +26,7 @@ class HonestFrames:
     def __init__(self, seed: int, locks: Locks, bus: BusParameters):
         self._locks = locks
         self._bus = bus
-        self._database = _database()
+        self._database = database()
         self._encode = functools.lru_cache(maxsize=4096)(self._encode_once)
         self._ids = {message.name: message.frame_id for message in self._database.messages}
         self._cycles = dict(self._cycles_ns())
@@ -43,7 +44,8 @@ class HonestFrames:
 
     def _cycles_ns(self) -> Iterator[Tuple[str, int]]:
         own = {LOCK_MESSAGE: self._bus.lock_cycle_ms, CAUSE_MESSAGE: self._bus.cause_cycle_ms}
-        for message in self._database.messages:
+        own_messages = [message for message in self._database.messages if message.name != HANDLE_MESSAGE]
+        for message in own_messages:
             if message.name != CAUSE_MESSAGE or self._bus.cause_in == "other":
                 yield message.name, own.get(message.name, message.cycle_time) * _MS
 
@@ -82,5 +84,6 @@ class HonestFrames:
 
 
 @functools.lru_cache(maxsize=1)
-def _database() -> Any:
+def database() -> Any:
+    """All messages on the honest Car's bus."""
     return cantools.database.load_file(str(DBC_PATH))

@@ -1,0 +1,42 @@
+"""An output of the test on the Car's bus that takes the driver's handle, as an actuator at a real one would."""
+# SPDX-License-Identifier: Apache-2.0
+import enum
+from typing import Any, Optional
+
+import cantools
+
+from ..can_port import SentFrame
+from ..ecu import Command
+
+HANDLE_MESSAGE = "HandleActuator"
+_SIGNAL = "HandleRequest"
+
+
+class HandleOrder(enum.IntEnum):
+    """Numbers of HandleRequest in the honest Car's DBC."""
+
+    RELEASED = 0
+    OPEN = 1
+    LOCK = 2
+
+
+_COMMANDS = {HandleOrder.OPEN: Command.UNLOCK, HandleOrder.LOCK: Command.LOCK}
+
+
+class HandleActuator:
+    """Follows the message of the output: each change from released to taken is one request."""
+
+    def __init__(self, database: Any):
+        self._message = database.get_message_by_name(HANDLE_MESSAGE)
+        self._order = HandleOrder.RELEASED
+
+    def request(self, frame: SentFrame) -> Optional[Command]:
+        """What a frame of the host has the hand do now; None for another message and for one that changes nothing."""
+        if frame.can_id != self._message.frame_id:
+            return None
+        try:
+            order = HandleOrder(self._message.decode(frame.data, decode_choices=False)[_SIGNAL])
+        except (ValueError, cantools.database.DecodeError):
+            return None
+        before, self._order = self._order, order
+        return _COMMANDS.get(order) if order is not before else None
