@@ -3,7 +3,7 @@
 import mtr_operator
 
 project = "Mobile testing robot, Python"
-copyright = "its maintainers, Apache-2.0"  # noqa: A001 - the name that Sphinx reads
+copyright = "its maintainers, Apache-2.0"
 release = mtr_operator.__version__
 extensions = ["sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 html_theme = "alabaster"

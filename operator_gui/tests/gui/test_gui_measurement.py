@@ -271,3 +271,32 @@ def test_robot_that_is_held_goes_on_by_a_click(operator, opener):  # A8
     assert operator.model.done == done
     opener.spoil_with()
     operator.finish()
+
+
+def test_person_is_asked_for_the_handle_and_says_that_it_is_taken(operator):
+    screen = operator.begin("handle_request", border_distance_m="1.8", handle_timeout_s="3600")
+    operator.wait(screen.taken.isVisible)
+    assert screen.handle.text().startswith("Take the Car's handle now, with the Remote key at 1.80 m")
+    assert screen.taken.hasFocus()
+    operator.click(screen.taken)
+    operator.wait(lambda: operator.model.handle is not None and operator.model.handle.number == 2)
+    assert screen.taken.isVisible() and screen.handle.isVisible()
+
+
+def test_prompt_goes_when_the_car_unlocks_and_when_the_test_is_stopped(operator, opener):
+    screen = operator.begin("handle_request", border_distance_m="1.0", handle_timeout_s="3600")
+    operator.wait(screen.taken.isVisible)
+    opener.passive = True
+    operator.wait(lambda: not screen.taken.isVisible())
+    opener.passive = False
+    operator.wait(screen.taken.isVisible)
+    assert operator.model.handle.number == 2
+    operator.click(screen.stop)
+    operator.wait(lambda: not screen.taken.isVisible() and not screen.handle.isVisible())
+    operator.wait(screen.resume.isEnabled)
+
+
+def test_person_who_does_not_come_pauses_the_test_with_a_sentence(operator):
+    screen = operator.begin("handle_request", handle_timeout_s="5")
+    operator.wait(screen.resume.isVisible)
+    assert screen.trouble.text().startswith("Nobody has taken the Car's handle within 5 s")

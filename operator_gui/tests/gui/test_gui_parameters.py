@@ -191,7 +191,8 @@ def test_third_scenario_appears_by_itself(qtbot):
         name, title = "trunk", "Trunk"
     screen = MeasurementTypeScreen({**SCENARIOS, "trunk": Trunk()})
     qtbot.addWidget(screen)
-    assert [tile.title for tile in screen.tiles.values()] == ["Autolock", "Key press", "Zone map", "Trunk"]
+    assert [tile.title for tile in screen.tiles.values()] == ["Autolock", "Key press", "Zone map", "Handle request",
+                                                                "Trunk"]
     with qtbot.waitSignal(screen.chosen) as chosen:
         screen.tiles["trunk"].click()
     assert chosen.args == ["trunk"]

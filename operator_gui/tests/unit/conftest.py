@@ -8,10 +8,14 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.ports import (
+    HANDLE,
     KEY_BUTTON,
+    OPERATOR,
+    OUTPUT,
     PASSIVE_ENTRY,
     CarEvent,
     CarLink,
+    HandlePort,
     LinkStatistics,
     LockFacts,
     LockState,
@@ -42,6 +46,8 @@ class World:
         source_of: what the Car says for the true source of a change. facts: what is known of the Car beforehand.
         check: what a self-check finds, None for a robot that knows none.
         frame: Car coordinate system of the poses.
+        handle_m: distance of the key from the Car's outline up to which a hand at the handle unlocks.
+        output: takes the handle; None for a Car without one.
     """
 
     def __init__(self):
@@ -56,6 +62,7 @@ class World:
         self.check, self.frame, self.checked_id = None, CarFrame(), 0
         self.desired, self.waypoint, self.result, self.message = None, None, WaypointResult.NONE, ""
         self.press_delay_s, self.reaction_s, self.foreign = 0.03, REACTION_S, []
+        self.handle_m, self.output = 1.5, None
         self.pressed, self.presses, self.toggles, self.events = set(), [], [], []
 
     def take(self, desired):
@@ -100,9 +107,16 @@ class World:
         self.x, self.y = self.x + dx / left_m * step_m, self.y + dy / left_m * step_m
         self.speed_mps = self.desired.max_speed_mps
 
-    def _watch_key(self):
+    def gap_m(self):
         x, y = self.key()
-        gap_m = math.hypot(max(abs(x) - CAR.length / 2, 0.0), max(abs(y) - CAR.width / 2, 0.0))
+        return math.hypot(max(abs(x) - CAR.length / 2, 0.0), max(abs(y) - CAR.width / 2, 0.0))
+
+    def take_handle(self):
+        if self.gap_m() <= self.handle_m:
+            self.foreign.append((self.time_s + self.reaction_s, False, HANDLE))
+
+    def _watch_key(self):
+        gap_m = self.gap_m()
         # A departure that was no arrival locks nothing, as in the simulated Car.
         if not self.near and gap_m < self.unlock_m:
             self.near = True
@@ -122,6 +136,28 @@ class World:
             self.locked = locked
             state = LockState.LOCKED if locked else LockState.UNLOCKED
             self.events.append(CarEvent(time_s, 0.005, state, self.source_of(source)))
+
+
+class FakeHandle(HandlePort):
+    """Takes the world's handle so long after it was asked for; never with None. `asked` are the distances told."""
+
+    def __init__(self, world, by=OUTPUT, delay_s=0.0):
+        self.world, self.by, self.delay_s, self.asked, self.due_s, self.released = world, by, delay_s, [], None, 0
+
+    def request(self, distance_m):
+        self.asked.append(distance_m)
+        self.due_s = None if self.delay_s is None else self.world.time_s + self.delay_s
+
+    def is_taken(self):
+        if self.due_s is None or self.world.time_s < self.due_s:
+            return False
+        if self.due_s > -math.inf:
+            self.world.take_handle()
+            self.due_s = -math.inf
+        return True
+
+    def release(self):
+        self.due_s, self.released = None, self.released + 1
 
 
 class FakeRobot(RobotLink):
@@ -174,6 +210,10 @@ class FakeCar(CarLink):
         return self.world.facts
 
     @property
+    def handle(self):
+        return self.world.output
+
+    @property
     def lock_state(self):
         if self.problem:
             return LockState.UNKNOWN
@@ -206,6 +246,19 @@ def car_link(world):
 
 
 @pytest.fixture
+def output(world):
+    """An output that takes the Car's handle at once."""
+    world.output = FakeHandle(world)
+    return world.output
+
+
+@pytest.fixture
+def person(world):
+    """Somebody who takes it half a second after being asked."""
+    return FakeHandle(world, OPERATOR, 0.5)
+
+
+@pytest.fixture
 def spoil(world):
     """spoil(condition, **changes) changes each Status that fulfils the condition."""
     def arrange(condition, **changes):
@@ -220,10 +273,11 @@ def run_scenario(robot_link, car_link):
     from mtr_operator.domain.results.progress import Progress
     from mtr_operator.domain.runner import Runner
 
-    def run(scenario, parameters, progress=None, is_cancelled=lambda: False, observer=None):
+    def run(scenario, parameters, progress=None, is_cancelled=lambda: False, *, observer=None, person=None):
         run.progress = progress or Progress(scenario.name, parameters.to_mapping())
         run.saved = []
         loop = ControlLoop(robot_link, car_link, observer, is_cancelled)
+        loop.person = person
         Runner(scenario, parameters, loop, run.progress,
                lambda state: run.saved.append(list(state.results))).run()
         return run.progress.results

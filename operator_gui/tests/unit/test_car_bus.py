@@ -302,3 +302,47 @@ def test_adapter_of_another_program_is_left_alone(adapter, link):
         CanCarLink("slcan", adapter.path).connect()
     assert adapter.commands[:len(before)] == before
     assert adapter.commands.count(b"Z1") == before.count(b"Z1")
+
+
+HANDLE_TAKEN, HANDLE_RELEASED = b"t4B1101", b"t4B1100"
+
+
+@pytest.fixture(name="handle_link")
+def handle_link_fixture(adapter):
+    """Link of a car whose profile declares an output."""
+    link = CanCarLink("slcan", adapter.path, profile="mtr_honest_car")
+    link.connect()
+    yield link
+    link.close()
+
+
+def test_output_is_switched_and_released_through_the_adapter(adapter, handle_link):
+    handle = handle_link.handle
+    assert not handle.is_taken()
+    handle.request(1.5)
+    wait_for(handle.is_taken)
+    wait_for(lambda: HANDLE_TAKEN in adapter.commands)
+    handle.release()
+    wait_for(lambda: HANDLE_RELEASED in adapter.commands)
+    handle.release()
+    assert not handle.is_taken() and adapter.commands.count(HANDLE_TAKEN) == 1
+
+
+def test_link_that_is_closed_lets_the_handle_go(adapter, handle_link):
+    handle_link.handle.request(1.5)
+    wait_for(handle_link.handle.is_taken)
+    handle_link.close()
+    wait_for(lambda: HANDLE_RELEASED in adapter.commands)
+
+
+def test_request_that_an_adapter_could_not_send_is_not_sent_later(adapter, handle_link):
+    adapter.close()
+    wait_for(lambda: handle_link.problem)
+    handle_link.handle.request(1.5)
+    time.sleep(0.2)
+    assert not handle_link.handle.is_taken()
+
+
+def test_car_without_an_output_has_no_handle_and_nothing_is_sent(adapter, link):
+    assert link.handle is None
+    assert not any(command[:1] in (b"t", b"T") for command in adapter.commands)

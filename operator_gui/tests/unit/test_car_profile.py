@@ -94,7 +94,7 @@ def test_other_frames_are_not_the_lock_message(tmp_path):
     (("sent_on_change: true", "sources: {1: key_button}"), "source_signal and sources belong together"),
     (("sent_on_change: true", "source_signal: Why\nsources: {1: key_button}"), "no signal Why"),
     (("sent_on_change: true", "source_signal: Speed\nsources: {1: wind}"),
-     "sources has 1: 'wind'; allowed is a whole number with passive_entry or key_button"),
+     "sources has 1: 'wind'; allowed is a whole number with passive_entry, key_button or handle"),
     (("1: locked", "1: unknown"), "must name a value for locked and one for unlocked"),
     (("{0: unlocked, 1: locked}", "locked"), "must be a table"),
     (("description: another car", "colour: red"), "unknown entry colour"),
@@ -105,6 +105,34 @@ def test_wrong_profile_is_refused_with_a_sentence(tmp_path, change, words):
         load_profile(write(tmp_path, OTHER_PROFILE.replace(*change)))
     assert words in str(raised.value)
     assert "\n" not in str(raised.value)
+
+
+def with_handle(entry):
+    """A change of the profile that declares an output."""
+    return "sent_on_change: true", f"handle_request: {entry}"
+
+
+def test_output_that_takes_the_handle_is_sent_as_its_message(tmp_path):
+    change = with_handle("{message: Doors, signal: Speed, taken: 258, released: 0}")
+    output = load_profile(write(tmp_path, OTHER_PROFILE.replace(*change))).handle_output
+    taken, released = output.frame(True), output.frame(False)
+    assert taken.is_extended_id and taken.arbitration_id == OTHER_ID
+    assert bytes(taken.data) == bytes(4) + b"\x02\x01" + bytes(2) and bytes(released.data) == bytes(8)
+    assert load_profile(write(tmp_path)).handle_output is None
+
+
+@pytest.mark.parametrize(("entry", "words"), [
+    ("1", "handle_request must be a table of message, signal, taken, released"),
+    ("{message: Doors, signal: Speed, taken: 1}", "must be a table of message, signal, taken, released"),
+    ("{message: Doors, signal: Speed, taken: yes, released: 0}", "has taken: True; allowed is a whole number"),
+    ("{message: Doors, signal: Speed, taken: 1, released: 1}", "taken and released of handle_request are both 1"),
+    ("{message: Windows, signal: Speed, taken: 1, released: 0}", "no message Windows"),
+    ("{message: Doors, signal: Open, taken: 1, released: 0}", "no signal Open"),
+    ("{message: Doors, signal: Closed, taken: 2, released: 0}", "Closed of message Doors cannot carry the value 2")])
+def test_wrong_output_is_refused_with_a_sentence(tmp_path, entry, words):
+    with pytest.raises(ConnectionFailed) as raised:
+        load_profile(write(tmp_path, OTHER_PROFILE.replace(*with_handle(entry))))
+    assert words in str(raised.value) and "\n" not in str(raised.value)
 
 
 def test_broken_database_is_refused_with_a_sentence(tmp_path):

@@ -1,30 +1,44 @@
-"""The command line asks whether a robot that is held may go on. A8"""
+"""The command line asks whether a robot that is held may go on (A8), and for the Car's handle."""
 # SPDX-License-Identifier: Apache-2.0
 import os
 import time
 
 import pytest
 
+from mtr_operator.cli.enter import Enter
+from mtr_operator.cli.handle import HandleQuestion
 from mtr_operator.cli.release import QUESTION, Release
 
 LIMIT_S = 5.0
 
 
-@pytest.fixture(name="person")
-def person_fixture():
-    """What was asked, the object, and where a person types."""
+@pytest.fixture(name="stdin")
+def stdin_fixture():
+    """What was asked, who reads Enter, and where a person types."""
     read_end, write_end = os.pipe()
-    asked = []
     with os.fdopen(read_end) as stream, os.fdopen(write_end, "w", buffering=1) as keys:
-        yield asked, Release(asked.append, stream), keys
+        yield [], Enter(stream), keys
         keys.close()
+
+
+@pytest.fixture(name="person")
+def person_fixture(stdin):
+    """What was asked, the object, and where a person types."""
+    asked, enter, keys = stdin
+    return asked, Release(asked.append, enter), keys
+
+
+def within_limit(condition):
+    """True as soon as the condition holds."""
+    deadline = time.monotonic() + LIMIT_S
+    while not condition() and time.monotonic() < deadline:
+        time.sleep(0.005)
+    return condition()
 
 
 def released(release, hold_id):
     """What it gives within the limit for this hold."""
-    deadline = time.monotonic() + LIMIT_S
-    while release(hold_id) != hold_id and time.monotonic() < deadline:
-        time.sleep(0.005)
+    within_limit(lambda: release(hold_id) == hold_id)
     return release(hold_id)
 
 
@@ -69,3 +83,38 @@ def test_end_of_the_input_is_no_answer(person):
     keys.close()
     time.sleep(0.05)
     assert release(7) == 0
+
+
+def test_handle_is_asked_for_with_its_distance_and_taken_with_enter(stdin):
+    asked, enter, keys = stdin
+    person = HandleQuestion(asked.append, enter).person
+    person.request(1.5)
+    assert "Remote key at 1.50 m, then press Enter" in asked[0] and not person.is_taken()
+    keys.write("\n")
+    assert within_limit(person.is_taken)
+    person.release()
+    assert not person.is_taken() and len(asked) == 1
+
+
+def test_enter_that_comes_after_the_car_has_unlocked_does_not_take_the_next_handle(stdin):
+    asked, enter, keys = stdin
+    person = HandleQuestion(asked.append, enter).person
+    person.request(1.5)
+    person.release()
+    keys.write("\n")
+    time.sleep(0.05)
+    person.request(2.0)
+    assert not person.is_taken()
+    keys.write("\n")
+    assert within_limit(person.is_taken)
+
+
+def test_robot_that_is_held_while_the_handle_is_asked_for_needs_an_answer_of_its_own(stdin):
+    asked, enter, keys = stdin
+    person, release = HandleQuestion(asked.append, enter).person, Release(asked.append, enter)
+    person.request(1.5)
+    release(7)
+    keys.write("\n")
+    assert within_limit(person.is_taken) and release(7) == 0
+    keys.write("\n")
+    assert released(release, 7) == 7

@@ -7,12 +7,15 @@ import threading
 import time
 from typing import Any
 
+import can
+
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import CarEvent, CarLink, LockFacts, LockState, Refused
+from mtr_operator.domain.ports import CarEvent, CarLink, HandlePort, LockFacts, LockState, Refused
 from mtr_operator.domain.robot_status import RobotStatus
 
 from .adapter import AdapterSettings, open_adapter
 from .can_frame import CanFrame
+from .handle import BusHandle
 from .lock_watch import LockWatch
 from .profile import CarProfile, load_profile
 from .reader import CanReader, FrameSink
@@ -45,6 +48,7 @@ class CanCarLink(CarLink, FrameSink):
         self._error_frames = self._seen_error_frames = 0
         self._suspect_until_s = -math.inf
         self._stamp_s = -math.inf
+        self._handle: HandlePort | None = None
         self.profile: CarProfile | None = None
         self.frames_received = 0
 
@@ -57,6 +61,8 @@ class CanCarLink(CarLink, FrameSink):
         reader = CanReader(lambda: open_adapter(self._settings), self, self._settings.interface)
         reader.start()
         self._reader = reader
+        output = self.profile.handle_output
+        self._handle = None if output is None else BusHandle(output, self._send)
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
         """See CarLink."""
@@ -88,6 +94,11 @@ class CanCarLink(CarLink, FrameSink):
         return LockFacts() if self.profile is None else self.profile.facts
 
     @property
+    def handle(self) -> HandlePort | None:
+        """See CarLink: what the profile declares."""
+        return self._handle
+
+    @property
     def refused(self) -> Refused:
         """See CarLink."""
         with self._changed:
@@ -103,9 +114,15 @@ class CanCarLink(CarLink, FrameSink):
 
     def close(self) -> None:
         """See CarLink."""
+        if self._handle is not None:
+            self._handle.release()
         reader, self._reader = self._reader, None
         if reader is not None:
             reader.stop()
+
+    def _send(self, message: can.Message) -> threading.Event:
+        """Through the reader at hand; without one nothing is sent any more."""
+        return threading.Event() if self._reader is None else self._reader.send(message)
 
     def frame(self, frame: CanFrame) -> None:
         """See FrameSink."""

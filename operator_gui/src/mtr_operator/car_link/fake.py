@@ -1,7 +1,7 @@
 """Substitute of the Car: a timer on the robot's clock, and a random number against a threshold at each turn.
 
-Once a button was pressed, the presses are the turns and the timer rests: a Car whose locks move between two presses can
-only be measured as invalid.
+Once a button was pressed or the handle taken, those are the turns and the timer rests: a Car whose locks move in
+between can only be measured as invalid.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -10,7 +10,7 @@ import math
 import random
 
 from mtr_operator.domain.errors import InvalidParameter
-from mtr_operator.domain.ports import CarEvent, CarLink, LockState
+from mtr_operator.domain.ports import OUTPUT, CarEvent, CarLink, HandlePort, LockState
 from mtr_operator.domain.robot_status import RobotStatus
 
 _TIME_SIGMA_S = 0.005
@@ -19,6 +19,32 @@ _REACTION_S = 0.1
 # A person tries again where a press failed, so that a test finds some places that work.
 _OBEYED = 0.5
 _OTHER_STATE = {LockState.LOCKED: LockState.UNLOCKED, LockState.UNLOCKED: LockState.LOCKED}
+
+
+class FakeHandle(HandlePort):
+    """An output that is there at once.
+
+    Attributes:
+        is_waiting: it was taken, and the Car has not looked yet.
+    """
+
+    by = OUTPUT
+
+    def __init__(self) -> None:
+        self.is_waiting = False
+        self._is_taken = False
+
+    def request(self, distance_m: float) -> None:
+        """See HandlePort."""
+        self.is_waiting = self._is_taken = True
+
+    def is_taken(self) -> bool:
+        """See HandlePort."""
+        return self._is_taken
+
+    def release(self) -> None:
+        """See HandlePort."""
+        self._is_taken = False
 
 
 class FakeCarLink(CarLink):
@@ -39,6 +65,8 @@ class FakeCarLink(CarLink):
         self._turn_s = math.nan
         self._state = LockState.LOCKED
         self._pressed_s = -math.inf
+        self._observed_s = -math.inf
+        self._handle = FakeHandle()
 
     def connect(self) -> None:
         """See CarLink."""
@@ -50,7 +78,8 @@ class FakeCarLink(CarLink):
             return []
         if math.isnan(self._turn_s):
             self._turn_s = status.stamp_s + self._period_s
-        events = self._answers(status)
+        events = self._answers(status) + self._handle_answers()
+        self._observed_s = status.stamp_s
         while self._turn_s <= status.stamp_s:
             if self._pressed_s == -math.inf and self._chance.random() < self._threshold:
                 events.append(self._change(self._turn_s))
@@ -66,6 +95,16 @@ class FakeCarLink(CarLink):
                     events.append(self._change(min(press.start_s + _REACTION_S, press.end_s)))
         return events
 
+    def _handle_answers(self) -> list[CarEvent]:
+        """A hand that came since the last Status; like a press it ends the timer's turns."""
+        if not self._handle.is_waiting:
+            return []
+        self._handle.is_waiting, asked_s = False, self._observed_s
+        self._pressed_s = max(self._pressed_s, asked_s)
+        if self._state is LockState.UNLOCKED or self._chance.random() >= _OBEYED:
+            return []
+        return [self._change(asked_s + _REACTION_S)]
+
     def _change(self, time_s: float) -> CarEvent:
         self._state = _OTHER_STATE[self._state]
         return CarEvent(time_s, _TIME_SIGMA_S, self._state)
@@ -74,6 +113,11 @@ class FakeCarLink(CarLink):
     def lock_state(self) -> LockState:
         """See CarLink."""
         return self._state if self._is_active else LockState.UNKNOWN
+
+    @property
+    def handle(self) -> HandlePort | None:
+        """See CarLink."""
+        return self._handle
 
     @property
     def problem(self) -> str:

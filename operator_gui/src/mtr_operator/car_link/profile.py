@@ -10,8 +10,10 @@ from typing import Any, Mapping, NamedTuple
 import cantools
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, LockFacts, LockState
+from mtr_operator.domain.ports import HANDLE, KEY_BUTTON, PASSIVE_ENTRY, LockFacts, LockState
 from mtr_operator.storage.plain_yaml import BadYaml, load_yaml
+
+from .handle import HandleOutput, handle_output
 
 PROFILE_FOLDER = pathlib.Path(__file__).parent / "profiles"
 _MIN_CYCLE_S = 0.001
@@ -20,14 +22,16 @@ _MAX_CYCLE_S = 10.0
 _MAX_DATABASE_BYTES = 16 * 1024 * 1024
 _REQUIRED = ("database", "message", "signal", "states", "cycle_time_s")
 _WITNESSES = ("alive_signal", "command_signal", "changed_signal")
-_OPTIONAL = ("description", "sent_on_change", "source_signal", "sources", *_WITNESSES, "min_state_s", "relock_after_s")
+_OPTIONAL = ("description", "sent_on_change", "source_signal", "sources", *_WITNESSES, "min_state_s", "relock_after_s",
+             "handle_request")
+_HANDLE_KEYS = ("message", "signal", "taken", "released")
 # Motors of door locks need some tenths of a second; a state that is over sooner was none.
 _MIN_STATE_S = 0.1
 # A change is shown by two frames more before a glitch of one frame can be told from it.
 _CONFIRMING_CYCLES = 2.0
 _MAX_RELOCK_S = 3600.0
 _STATES = {state.value: state for state in LockState}
-_SOURCES = {source: source for source in (PASSIVE_ENTRY, KEY_BUTTON)}
+_SOURCES = {source: source for source in (PASSIVE_ENTRY, KEY_BUTTON, HANDLE)}
 
 
 class LockReading(NamedTuple):
@@ -57,6 +61,7 @@ class CarProfile:
     is none.
     min_state_s: shortest time between two changes. relock_after_s: time after which the car locks by itself when it was
     unlocked and not opened, None when it does not.
+    handle_output: the message that has an actuator take the handle, None when a person has to.
     """
 
     name: str
@@ -73,6 +78,7 @@ class CarProfile:
     changed_signal: str = ""
     min_state_s: float = _MIN_STATE_S
     relock_after_s: float | None = None
+    handle_output: HandleOutput | None = None
 
     @property
     def facts(self) -> LockFacts:
@@ -116,7 +122,7 @@ def load_profile(name_or_path: str) -> CarProfile:
     states = _table(path, content, "states", _STATES)
     if not {LockState.LOCKED, LockState.UNLOCKED} <= set(states.values()):
         raise ConnectionFailed(f"Car profile {path}: states must name a value for locked and one for unlocked.")
-    message = _message(path, content)
+    message = _message(path, content["database"], content["message"])
     return CarProfile(
         name=path.stem, description=str(content.get("description", "")), message=message,
         signal=_signal(path, content, "signal", message), states=states,
@@ -126,7 +132,8 @@ def load_profile(name_or_path: str) -> CarProfile:
         sources=_table(path, content, "sources", _SOURCES) if "sources" in content else {},
         **{key: _signal(path, content, key, message) for key in _WITNESSES if key in content},
         min_state_s=_duration(path, content, "min_state_s", (0.0, _MAX_CYCLE_S), _MIN_STATE_S),
-        relock_after_s=_duration(path, content, "relock_after_s", (1.0, _MAX_RELOCK_S)))
+        relock_after_s=_duration(path, content, "relock_after_s", (1.0, _MAX_RELOCK_S)),
+        handle_output=_handle_output(path, content) if "handle_request" in content else None)
 
 
 def profile_names() -> tuple[str, ...]:
@@ -197,18 +204,34 @@ def _duration(path: pathlib.Path, content: dict[str, Any], key: str, limits_s: t
     return float(time_s)
 
 
-def _message(path: pathlib.Path, content: dict[str, Any]) -> Any:
-    database_path = path.parent / str(content["database"])
+def _handle_output(path: pathlib.Path, content: dict[str, Any]) -> HandleOutput:
+    table = content["handle_request"]
+    if not isinstance(table, dict) or set(table) != set(_HANDLE_KEYS):
+        raise ConnectionFailed(f"Car profile {path}: handle_request must be a table of {', '.join(_HANDLE_KEYS)}.")
+    for key in ("taken", "released"):
+        if not isinstance(table[key], int) or isinstance(table[key], bool):
+            raise ConnectionFailed(f"Car profile {path}: handle_request has {key}: {table[key]!r}; allowed is a whole "
+                                   "number.")
+    if table["taken"] == table["released"]:
+        raise ConnectionFailed(f"Car profile {path}: taken and released of handle_request are both {table['taken']}; "
+                               "give two values.")
+    message = _message(path, content["database"], table["message"])
+    signal = _signal(path, {**content, "signal": table["signal"]}, "signal", message)
+    return handle_output(message, signal, table["taken"], table["released"])
+
+
+def _message(path: pathlib.Path, database_name: Any, message_name: Any) -> Any:
+    database_path = path.parent / str(database_name)
     try:
         if database_path.stat().st_size > _MAX_DATABASE_BYTES:
             raise ConnectionFailed(f"CAN database {database_path} is larger than {_MAX_DATABASE_BYTES // 1024} KiB; "
                                    "leave the messages that the profile does not name out of it.")
         database = cantools.database.load_file(str(database_path), strict=False)
         if not isinstance(database, cantools.database.can.Database):
-            raise KeyError(content["message"])
-        return database.get_message_by_name(str(content["message"]))
+            raise KeyError(message_name)
+        return database.get_message_by_name(str(message_name))
     except KeyError:
-        raise ConnectionFailed(f"CAN database {database_path} has no message {content['message']}.") from None
+        raise ConnectionFailed(f"CAN database {database_path} has no message {message_name}.") from None
     except (OSError, UnicodeDecodeError, cantools.database.errors.Error) as error:
         raise ConnectionFailed(f"CAN database {database_path} cannot be read: {_one_line(error)}.") from None
     # The library's readers of some five formats raise whatever a damaged file leads them to.

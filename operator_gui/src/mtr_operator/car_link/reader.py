@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import contextlib
+import queue
 import threading
 import time
 from abc import ABC, abstractmethod
@@ -50,6 +52,7 @@ class CanReader:
         self._interface = interface
         self._bus: can.BusABC | None = None
         self._stopping = threading.Event()
+        self._outgoing: queue.SimpleQueue[tuple[can.Message, threading.Event]] = queue.SimpleQueue()
         self._thread: threading.Thread | None = None
         self._flags_s = 0.0
         self._flags = 0
@@ -70,6 +73,12 @@ class CanReader:
             shut_down(self._bus)
             self._bus = None
 
+    def send(self, message: can.Message) -> threading.Event:
+        """Have a frame sent by the thread; the event is set when it has left, and never when the adapter fails."""
+        left = threading.Event()
+        self._outgoing.put((message, left))
+        return left
+
     def _run(self) -> None:
         while not self._stopping.is_set():
             bus = self._bus
@@ -83,8 +92,20 @@ class CanReader:
                 self._sink.fault(f"The CAN adapter has failed: {' '.join(str(error).split())}.")
                 shut_down(bus)
                 self._bus = None
+        # What is let go with the last order shall not stay taken; the adapter may have gone.
+        with contextlib.suppress(Exception):
+            self._send_all()
+
+    def _send_all(self) -> None:
+        """What waits; nothing of it when there is no adapter, for it would come too late."""
+        while not self._outgoing.empty():
+            message, left = self._outgoing.get()
+            if self._bus is not None:
+                self._bus.send(message)
+                left.set()
 
     def _read(self, bus: can.BusABC) -> None:
+        self._send_all()
         message = bus.recv(_POLL_S)
         now = time.monotonic()
         if message is not None and message.is_error_frame:
@@ -106,6 +127,7 @@ class CanReader:
             self._sink.fault(_sentence(flags))
 
     def _reopen(self) -> None:
+        self._send_all()
         if self._stopping.wait(_REOPEN_PERIOD_S):
             return
         try:

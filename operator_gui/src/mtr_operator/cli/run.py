@@ -32,6 +32,8 @@ from mtr_operator.storage.parameter_file import load_parameters
 from mtr_operator.storage.store import Store
 
 from .display import Display
+from .enter import Enter
+from .handle import HandleQuestion
 from .interrupt import Interrupt
 from .links import car_link, robot_link
 from .release import Release
@@ -96,7 +98,9 @@ class CommandLineRun:
                 link.connect()
                 if interrupt.requested:
                     raise Cancelled("Interrupted; the robot was not moved.")
-            loop = ControlLoop(robot, car, display, interrupt.is_requested, Release(display.say))
+            enter = Enter()
+            loop = ControlLoop(robot, car, display, interrupt.is_requested, Release(display.say, enter))
+            loop.person = HandleQuestion(display.say, enter).person
             rejected_before = loop.status.rejected_messages
             self._progress.session[ROBOT_SOFTWARE] = loop.status.software_version
             prospect = self._scenario.prospect(self._parameters, car.facts, self._progress.results)

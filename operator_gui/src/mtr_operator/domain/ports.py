@@ -25,18 +25,21 @@ class LockState(enum.Enum):
     UNLOCKED = "unlocked"
 
 
-# What made the Car lock or unlock: the key's vicinity, or one of its buttons.
+# What made the Car lock or unlock: the key's vicinity, one of its buttons, or a hand at a handle with the key near.
 PASSIVE_ENTRY = "passive_entry"
 KEY_BUTTON = "key_button"
+HANDLE = "handle"
+# Who takes the handle when the test wants it.
+OUTPUT, OPERATOR = "output", "operator"
 
 
 @dataclass(frozen=True)
 class CarEvent:
     """The Car's locks changed.
 
-    time_s: robot's clock; time_sigma_s: 1 sigma of that time. source: PASSIVE_ENTRY or KEY_BUTTON, empty when the
-    Car's bus does not say it. doubt: why it is not to be believed, or what else on the bus is not; empty when it is.
-    evidence: the frames around it, one text each.
+    time_s: robot's clock; time_sigma_s: 1 sigma of that time. source: PASSIVE_ENTRY, KEY_BUTTON or HANDLE, empty when
+    the Car's bus does not say it. doubt: why it is not to be believed, or what else on the bus is not; empty when it
+    is. evidence: the frames around it, one text each.
     """
 
     time_s: float
@@ -122,6 +125,28 @@ class RobotLink(ABC):
         """Say goodbye (the robot stops) and disconnect; safe to call twice."""
 
 
+class HandlePort(ABC):
+    """Takes the Car's handle when the test wants it: an output that is switched, or a person who is asked.
+
+    Attributes:
+        by: OUTPUT or OPERATOR.
+    """
+
+    by: str
+
+    @abstractmethod
+    def request(self, distance_m: float) -> None:
+        """Have the handle taken, with the key at a distance that a person is told. Does not wait."""
+
+    @abstractmethod
+    def is_taken(self) -> bool:
+        """True when it has been taken since request()."""
+
+    @abstractmethod
+    def release(self) -> None:
+        """The handle may be let go, and nobody need take it any more; safe to call twice."""
+
+
 class CarLink(ABC):
     """Connection to the Car's CAN bus (or its substitute)."""
 
@@ -146,6 +171,11 @@ class CarLink(ABC):
     def facts(self) -> LockFacts:
         """What is known of this car beforehand."""
         return LockFacts()
+
+    @property
+    def handle(self) -> HandlePort | None:
+        """The output that takes this car's handle; None when it has none, and a person has to do it."""
+        return None
 
     @property
     def refused(self) -> Refused:

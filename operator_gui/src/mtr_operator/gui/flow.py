@@ -141,6 +141,11 @@ class Flow(QObject):
         if self.model.robot is not None:
             self._links.release_hold(self.model.robot.status.hold_id)
 
+    def answer_handle(self) -> None:
+        """The Operator has taken the Car's handle."""
+        if self.model.handle is not None:
+            self._links.answer_handle(self.model.handle.number)
+
     def save_progress(self) -> None:
         """Write the progress now; saved or folder_wanted follows."""
         self._links.save(self.model.current_test)

@@ -35,6 +35,12 @@ def parameter_title(name: str, declared: Declaration) -> str:
         "settle_time_s": translate("Parameter", "Standstill before a press"),
         "attempts": translate("Parameter", "Attempts"),
         "interval_m": translate("Parameter", "Interval wanted, half width"),
+        "border_distance_m": translate("Parameter", "Nominal border"),
+        "border_requests": translate("Parameter", "Requests at the border"),
+        "handle_timeout_s": translate("Parameter", "Time for the Operator"),
+        "heights": translate("Parameter", "Heights"),
+        "highest_key_height_m": translate("Parameter", "Highest device height"),
+        "half_wavelength_m": translate("Parameter", "Half a wavelength"),
         "attempts_limit": translate("Parameter", "Presses at most"),
         "confirming_presses": translate("Parameter", "Presses that confirm"),
         "key_frequency_hz": translate("Parameter", "Key's radio frequency"),
@@ -64,15 +70,18 @@ def flag_title(name: str) -> str:
 
 def choice_title(name: str) -> str:
     """Label of the choice of a parameter that is a word."""
-    titles = {"method": translate("Parameter", "Method")}
+    titles = {"method": translate("Parameter", "Method"), "side": translate("Parameter", "Side of the Car"),
+              "relock": translate("Parameter", "Locking the Car again")}
     return titles.get(name) or name.replace("_", " ").capitalize()
 
 
 def choice_word(word: str) -> str:
     """One of the words to choose from."""
     words = {"scan": translate("Parameter", "from far to near (scan)"),
-             "adaptive": translate("Parameter", "search with intervals (adaptive)")}
-    return words.get(word) or word.replace("_", " ")
+             "adaptive": translate("Parameter", "search with intervals (adaptive)"),
+             "all": translate("Parameter", "all around"), "button": translate("Parameter", "by the key's button"),
+             "itself": translate("Parameter", "the Car by itself")}
+    return words.get(word) or domain_word(word.replace("_", " "))
 
 
 def yes_or_no(value: bool) -> str:

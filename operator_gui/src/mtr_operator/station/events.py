@@ -11,6 +11,8 @@ from mtr_operator.domain.requests import Waypoint
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import CarDimensions, RobotStatus
 
+from .handle_prompt import HandlePrompt
+
 
 @dataclass(frozen=True)
 class RobotSnapshot:
@@ -102,5 +104,12 @@ class ProgressSaved:
     text: str
 
 
+@dataclass(frozen=True)
+class HandleWanted:
+    """A person has to take the Car's handle; prompt: None when nobody need do so any more."""
+
+    prompt: HandlePrompt | None
+
+
 StationEvent = Union[LinksOpened, LinkRefused, CarLinkOpened, RobotSilent, LinesPlanned, ActionBegun, LineMeasured,
-                     RunEnded, ProgressSaved]
+                     RunEnded, ProgressSaved, HandleWanted]

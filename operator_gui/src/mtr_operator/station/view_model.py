@@ -13,7 +13,18 @@ from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import CarDimensions, Notification
 
 from .estimate import USUAL_CAR, USUAL_FACTS, TimeLeft, plan_of
-from .events import ActionBegun, LineMeasured, LinesPlanned, Outcome, RobotSilent, RobotSnapshot, RunEnded, StationEvent
+from .events import (
+    ActionBegun,
+    HandleWanted,
+    LineMeasured,
+    LinesPlanned,
+    Outcome,
+    RobotSilent,
+    RobotSnapshot,
+    RunEnded,
+    StationEvent,
+)
+from .handle_prompt import HandlePrompt
 from .mailbox import Batch
 from .readiness import Phase, Readiness, readiness_of
 from .test import Test
@@ -35,6 +46,7 @@ class ViewModel:
         done, total: lines; total is 0 before it is known.
         action: what the robot does now. trouble: why the test was interrupted; empty when the Operator did it.
         outcome: how measuring ended last, None while it has not.
+        handle: what the Operator is asked to do at the Car's handle, None when nothing.
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic):
@@ -51,6 +63,7 @@ class ViewModel:
         self.done = self.total = 0
         self.action = self.trouble = ""
         self.outcome: Outcome | None = None
+        self.handle: HandlePrompt | None = None
 
     @property
     def current_test(self) -> Test:
@@ -145,6 +158,8 @@ class ViewModel:
         elif isinstance(event, RunEnded):
             self.results, self.outcome, self.trouble = event.results, event.outcome, event.text
             self.phase = Phase.FINISHED if event.outcome is Outcome.COMPLETE else Phase.PAUSED
+        elif isinstance(event, HandleWanted):
+            self.handle = event.prompt
         elif isinstance(event, RobotSilent):
             self._received_s = min(self._received_s, self._clock() - event.silent_s)
 

@@ -2,7 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from ..errors import ConnectionFailed, LinkLost
+import contextlib
+from dataclasses import dataclass
+from typing import Iterator
+
+from ..errors import ConnectionFailed, LinkLost, RobotFailed
 from ..ports import CarEvent, LockFacts, LockState
 from ..robot_status import CarDimensions
 from .control_loop import ControlLoop
@@ -10,6 +14,19 @@ from .control_loop import ControlLoop
 # Robot time that the bus may take to be understood before the robot moves, and to recover during a test.
 _START_LIMIT_S = 10.0
 _RECOVERY_LIMIT_S = 30.0
+
+
+_NOBODY = ("Nobody takes the Car's handle: its profile declares no handle_request, and there is no Operator to ask; "
+           "add one to the profile, or start the test where a person can answer.")
+
+
+@dataclass(frozen=True)
+class HandleTaken:
+    """Robot times between which the handle was taken. by: see HandlePort."""
+
+    asked_s: float
+    taken_s: float
+    by: str
 
 
 class Car:
@@ -33,6 +50,26 @@ class Car:
             if event.lock_state is state and event.time_s > since_s:
                 return event
         return None
+
+    @contextlib.contextmanager
+    def handle_taken(self, distance_m: float, patience_s: float) -> Iterator[HandleTaken]:
+        """Context in which the handle is taken; RobotFailed when nobody takes it within patience_s of robot time.
+
+        A Car that unlocks while a person is asked has been asked by the handle: nobody has to say so.
+        """
+        handle, asked_s = self._loop.handle, self._loop.now_s
+        if handle is None:
+            raise RobotFailed(_NOBODY)
+        handle.request(distance_m)
+        try:
+            while not handle.is_taken() and self.change_to(LockState.UNLOCKED, asked_s) is None:
+                if self._loop.now_s >= asked_s + patience_s:
+                    raise RobotFailed(f"Nobody has taken the Car's handle within {patience_s:g} s; continue the test "
+                                      "when somebody is there to do it, or increase handle_timeout_s.")
+                self._loop.step()
+            yield HandleTaken(asked_s, self._loop.now_s, handle.by)
+        finally:
+            handle.release()
 
     @property
     def relocks(self) -> bool:

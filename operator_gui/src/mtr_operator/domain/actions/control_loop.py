@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import Any, Callable, Iterator
 
 from ..errors import LinkLost, RobotFailed
-from ..ports import CarEvent, CarLink, RobotLink
+from ..ports import CarEvent, CarLink, HandlePort, RobotLink
 from ..requests import DesiredState
 from ..results.frame_history import FrameHistory
 from ..results.journal import EVENT, Journal, plain_fields
@@ -51,6 +51,7 @@ class ControlLoop:
         frames: the Car coordinate systems that the robot has had in this run.
         journal: where events, presses and measurements are kept before the robot is ordered on.
         refusals: what is refused meanwhile.
+        person: who takes the Car's handle where no output does; None when nobody is there.
     """
 
     def __init__(self, robot_link: RobotLink, car_link: CarLink, observer: RunObserver | None = None,
@@ -63,6 +64,7 @@ class ControlLoop:
         self.frames = FrameHistory()
         self.journal = Journal()
         self.refusals = Refusals()
+        self.person: HandlePort | None = None
         self.observer = observer or RunObserver()
         self._robot_link = robot_link
         self._car_link = car_link
@@ -87,6 +89,11 @@ class ControlLoop:
     def car_link(self) -> CarLink:
         """Locks of the Car as of the newest Status."""
         return self._car_link
+
+    @property
+    def handle(self) -> HandlePort | None:
+        """What takes the Car's handle: an output before a person; None when neither is there."""
+        return self._car_link.handle or self.person
 
     def change(self, **changes: Any) -> None:
         """Change the desired state; it leaves with the next answer."""

@@ -65,6 +65,15 @@ class LineWatch:
         """See LockHistory."""
         self._history.hold()
 
+    def allow_lock(self) -> None:
+        """See LockHistory."""
+        self._history.allow_lock()
+
+    @property
+    def is_locked(self) -> bool:
+        """True when the changes so far leave the Car locked: no change of it is still to be told."""
+        return self._history.state is LockState.LOCKED
+
     def expect(self, expected: Expected) -> None:
         """See LockHistory."""
         self._history.expect(expected)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..ports import KEY_BUTTON, PASSIVE_ENTRY, CarEvent, LockFacts, LockState
+from ..ports import HANDLE, KEY_BUTTON, PASSIVE_ENTRY, CarEvent, LockFacts, LockState
 from .trouble import LineInvalid
 
 # An event is taken for later than an instant when it may be, within 3 sigma of the two clocks.
@@ -22,7 +22,7 @@ _DOUBTED_BEFORE_S = 1.0
 class Expected:
     """A change that the test provokes.
 
-    cause: PASSIVE_ENTRY or KEY_BUTTON. what: the same for a person, "the press at 5.00 m". after_s, until_s: window of
+    cause: as in CarEvent. what: the same for a person, "the press at 5.00 m". after_s, until_s: window of
     robot time, without the uncertainty of the event. cause_sigma_s: 1 sigma of after_s.
     """
 
@@ -41,25 +41,33 @@ class LockHistory:
 
     Attributes:
         answer: the change that was expected last, None while it has not come.
+        state: after the changes so far.
     """
 
     def __init__(self, state: LockState, facts: LockFacts, unlocked_s: float | None = None):
         self.answer: CarEvent | None = None
-        self._state = state
+        self.state = state
         self._facts = facts
         self._unlocked_s = unlocked_s
         self._expected: Expected | None = None
         self._is_open = False
         self._is_held = False
+        self._may_lock = False
         self._held: list[CarEvent] = []
 
     def hold(self) -> None:
         """From now on changes are kept until it is known when the test provoked one; see expect."""
-        self._is_held, self._is_open, self.answer = True, False, None
+        self._is_held, self._is_open, self._may_lock, self.answer = True, False, False, None
+
+    def allow_lock(self) -> None:
+        """Until the next hold or expectation the Car may lock, by the test, by its timer or as the key goes away: it
+        is wanted locked, and how it came to be says nothing."""
+        self._expected, self._is_open, self._may_lock = None, False, True
 
     def expect(self, expected: Expected) -> None:
         """One change is expected from now on; LineInvalid when one that was held back does not fit."""
         self._expected, self._is_open, self._is_held, self.answer = expected, True, False, None
+        self._may_lock = False
         held, self._held = self._held, []
         for event in held:
             self.take(event)
@@ -86,7 +94,7 @@ class LockHistory:
         if expected is not None and expected.state is event.lock_state and self.answer is None:
             self._check_answer(event, expected)
             self.answer = event
-        elif not self._relocks(event):
+        elif not self._relocks(event) and not (self._may_lock and event.lock_state is LockState.LOCKED):
             raise _invalid(event, f"The Car was {event.lock_state.value} without anything in the test to make it; "
                                   "leave its keys and doors alone during the test.")
         self._remember(event)
@@ -94,7 +102,7 @@ class LockHistory:
     def _check_state(self, event: CarEvent) -> None:
         if event.lock_state is LockState.UNKNOWN:
             raise _invalid(event, "The Car does not say whether it is locked.")
-        if event.lock_state is self._state:
+        if event.lock_state is self.state:
             raise _invalid(event, f"The Car was {event.lock_state.value} twice, without the opposite in between.")
 
     def _check_answer(self, event: CarEvent, expected: Expected) -> None:
@@ -121,6 +129,9 @@ class LockHistory:
         if event.source == PASSIVE_ENTRY:
             raise _invalid(event, f"The Car was {was} by the vicinity of a key, not by {expected.what}; switch passive "
                                   "entry off, or increase minimum_distance_m.")
+        if event.source == HANDLE:
+            raise _invalid(event, f"The Car was {was} by its handle, not by {expected.what}; leave its handles alone "
+                                  "during the test.")
         raise _invalid(event, f"The Car was {was} by something that its profile does not list, not by "
                               f"{expected.what}; leave its doors and switches alone during the test.")
 
@@ -133,7 +144,7 @@ class LockHistory:
         return off_s <= _RELOCK_S + _RELOCK_PART * timer_s + _SIGMAS * event.time_sigma_s
 
     def _remember(self, event: CarEvent) -> None:
-        self._state = event.lock_state
+        self.state = event.lock_state
         self._unlocked_s = event.time_s if event.lock_state is LockState.UNLOCKED else None
 
 

@@ -12,7 +12,7 @@ LATERAL_DOC = "how far the Remote key was beside the line, positive to the left 
 HEADING_DOC = "how far the robot was turned from the line, counterclockwise,"
 HEIGHT_DOC = "height of the Remote key above ground"
 SPEED_DOC = "speed of the robot, negative in reverse,"
-CAUSE_DOC = "passive_entry, key_button, or unknown if its bus does not say"
+CAUSE_DOC = "passive_entry, key_button, handle, or unknown if its bus does not say"
 UNKNOWN_CAUSE = "unknown"
 
 

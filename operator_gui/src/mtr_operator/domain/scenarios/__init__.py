@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..scenario import AnyScenario
-from . import autolock, key_press, zone_map
+from . import autolock, handle_request, key_press, zone_map
 
 SCENARIOS: dict[str, AnyScenario] = {module.SCENARIO.name: module.SCENARIO
-                                    for module in (autolock, key_press, zone_map)}
+                                    for module in (autolock, key_press, zone_map, handle_request)}

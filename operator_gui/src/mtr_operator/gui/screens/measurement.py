@@ -12,6 +12,7 @@ from mtr_operator.station.readiness import Phase, can_resume
 from mtr_operator.station.view_model import ViewModel
 
 from ..bridge import FRAME_MS
+from ..i18n import number
 from ..pictures.measurement_picture import MeasurementPicture
 from ..pictures.picture_panel import PicturePanel
 from ..sentences import translated
@@ -27,12 +28,14 @@ class MeasurementScreen(QWidget):
     """Attributes: panel: the picture. facts: progress and state in words. stop, resume, save, leave: buttons.
 
     held: why the robot stands until the Operator has it go on. go_on: the button for that.
-    Signals: stop_wanted, resume_wanted, release_wanted, save_wanted, leave_wanted.
+    handle: what the Operator is to do at the Car's handle. taken: the button that says it is done.
+    Signals: stop_wanted, resume_wanted, release_wanted, handle_taken, save_wanted, leave_wanted.
     """
 
     stop_wanted = pyqtSignal()
     resume_wanted = pyqtSignal()
     release_wanted = pyqtSignal()
+    handle_taken = pyqtSignal()
     save_wanted = pyqtSignal()
     leave_wanted = pyqtSignal()
 
@@ -43,17 +46,11 @@ class MeasurementScreen(QWidget):
         self.panel = PicturePanel(appearance)
         self.picture = MeasurementPicture(model, self.panel)
         self.facts = MeasurementFacts()
-        self.trouble = QLabel()
-        self.trouble.setWordWrap(True)
-        self.trouble.setProperty("role", "banner")
-        self.held = QLabel()
-        self.held.setWordWrap(True)
-        self.held.setProperty("role", "banner")
-        self.note = QLabel()
-        self.note.setWordWrap(True)
-        self.note.setProperty("role", "soft")
+        self.trouble, self.held, self.handle = (self._label("banner") for _ in range(3))
+        self.note = self._label("soft")
         self.stop = self._button(self.tr("Stop"), "danger", self.stop_wanted)
         self.go_on = self._button(self.tr("Have the robot go on"), "primary", self.release_wanted)
+        self.taken = self._button(self.tr("Handle taken"), "primary", self.handle_taken)
         self.resume = self._button(self.tr("Resume"), "primary", self.resume_wanted)
         self.save = self._button(self.tr("Save progress"), "", self.save_wanted)
         self.leave = self._button(self.tr("Back to the beginning"), "", self.leave_wanted)
@@ -61,6 +58,13 @@ class MeasurementScreen(QWidget):
         self._frames.setInterval(FRAME_MS)
         self._frames.timeout.connect(lambda: self.picture.glide(time.monotonic()))
         self._lay_out()
+
+    @staticmethod
+    def _label(role: str) -> QLabel:
+        label = QLabel()
+        label.setWordWrap(True)
+        label.setProperty("role", role)
+        return label
 
     @staticmethod
     def _button(text: str, role: str, signal: pyqtBoundSignal) -> QPushButton:
@@ -72,11 +76,11 @@ class MeasurementScreen(QWidget):
     def _lay_out(self) -> None:
         side = QVBoxLayout()
         side.setSpacing(M)
-        side.addWidget(self.trouble)
-        side.addWidget(self.held)
+        for label in (self.trouble, self.held, self.handle):
+            side.addWidget(label)
         side.addWidget(self.facts, 1)
         side.addWidget(self.note)
-        for button in (self.stop, self.go_on, self.resume, self.save, self.leave):
+        for button in (self.stop, self.go_on, self.taken, self.resume, self.save, self.leave):
             side.addWidget(button)
         holder = QWidget()
         holder.setFixedWidth(_SIDE_WIDTH)
@@ -98,6 +102,7 @@ class MeasurementScreen(QWidget):
         self.trouble.setVisible(bool(model.trouble) and model.phase is Phase.PAUSED)
         self.trouble.setText(translated(model.trouble))
         self._show_hold()
+        self._show_handle()
         self.stop.setVisible(model.phase in (Phase.MEASURING, Phase.STOPPING))
         self.stop.setEnabled(model.phase is Phase.MEASURING)
         self.resume.setVisible(model.phase is Phase.PAUSED)
@@ -111,6 +116,19 @@ class MeasurementScreen(QWidget):
         self.held.setText(translated(reason))
         self.held.setVisible(is_held and bool(reason))
         self.go_on.setVisible(is_held)
+
+    def _show_handle(self) -> None:
+        """It has the focus, so that a person who comes back from the Car presses one key."""
+        prompt = self._model.handle if self._model.phase is Phase.MEASURING else None
+        if prompt is not None:
+            sentence = self.tr("Take the Car's handle now, with the Remote key at {distance} m, and then say so here. "
+                               "When the Car unlocks, nothing more is to be done.")
+            self.handle.setText(sentence.format(distance=number(prompt.distance_m, 2)))
+        is_new = prompt is not None and self.taken.isHidden()
+        self.handle.setVisible(prompt is not None)
+        self.taken.setVisible(prompt is not None)
+        if is_new:
+            self.taken.setFocus()
 
     def say(self, sentence: str) -> None:
         """Show a sentence above the buttons."""

@@ -61,4 +61,30 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("ParameterDoc", "Presses in a zone after which it ends anyway."),
     QT_TRANSLATE_NOOP("ParameterDoc", "Half a wavelength of the Remote key's radio: 0.35 m at 434 MHz, 0.17 m at "
                                       "868 MHz."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Nearest place at which the handle is taken."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "First piece of the approach, to correct the heading; the farthest request is "
+                                      "at its end."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Nominal border of the zone, where the first requests of each axis are made."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Requests at the nominal border on each axis before the border is searched; "
+                                      "0: only the search."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Half the width of the 95 % interval of the border at which an axis ends."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Requests after which an axis ends although its interval is wider."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Highest of the heights at which the border is measured, if there are several."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Heights at which the border is measured."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Standstill before each request."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "How long after the handle was taken the Car may take to unlock; outside "
+                                      "otherwise."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "How long the Operator may take to come to the handle before the test is "
+                                      "interrupted."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "How long the Car may take to lock by itself, as the key goes away or by its "
+                                      "timer."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Requests so far apart meet another field; half a wavelength of the Remote "
+                                      "key's radio: 0.35 m at 434 MHz, 0.17 m at 868 MHz."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Standstill after which the Remote key is moved before the handle is taken, "
+                                      "so that it does not sleep."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Side or corner of the Car whose border is measured: that of the handle that "
+                                      "is taken."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "How the Car is locked again after each unlock. button: the robot presses the "
+                                      "key's lock button. itself: the robot drives away and waits, for a key whose "
+                                      "button it cannot press."),
 )

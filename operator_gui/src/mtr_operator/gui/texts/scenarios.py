@@ -10,4 +10,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Scenario", "Zone map"),
     QT_TRANSLATE_NOOP("Scenario", "Press a button where it tells most, in every zone around the Car, and draw the "
                                   "map of where it works."),
+    QT_TRANSLATE_NOOP("Scenario", "Handle request"),
+    QT_TRANSLATE_NOOP("Scenario", "Have the handle taken with the key at places on every axis, and find where the Car "
+                                  "takes the key for outside."),
 )

@@ -296,32 +296,32 @@
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="121"/>
+        <location filename="../windows/main_window.py" line="122"/>
         <source>Continue test</source>
         <translation>Pokračovat v testu</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="130"/>
+        <location filename="../windows/main_window.py" line="131"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="132"/>
+        <location filename="../windows/main_window.py" line="133"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="147"/>
+        <location filename="../windows/main_window.py" line="148"/>
         <source>A test is running. Stop the robot and close? What is measured is kept; the next start offers to go on.</source>
         <translation>Test běží. Zastavit robot a zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="149"/>
+        <location filename="../windows/main_window.py" line="150"/>
         <source>Stop and close</source>
         <translation>Zastavit a zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="149"/>
+        <location filename="../windows/main_window.py" line="150"/>
         <source>Go on measuring</source>
         <translation>Měřit dál</translation>
     </message>
@@ -407,29 +407,39 @@
 <context>
     <name>MeasurementScreen</name>
     <message>
-        <location filename="../screens/measurement.py" line="55"/>
+        <location filename="../screens/measurement.py" line="51"/>
         <source>Stop</source>
         <translation>Zastavit</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="57"/>
+        <location filename="../screens/measurement.py" line="54"/>
         <source>Resume</source>
         <translation>Pokračovat</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="58"/>
+        <location filename="../screens/measurement.py" line="55"/>
         <source>Save progress</source>
         <translation>Uložit průběh</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="59"/>
+        <location filename="../screens/measurement.py" line="56"/>
         <source>Back to the beginning</source>
         <translation>Zpět na začátek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="56"/>
+        <location filename="../screens/measurement.py" line="52"/>
         <source>Have the robot go on</source>
         <translation>Nechat robot pokračovat</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="53"/>
+        <source>Handle taken</source>
+        <translation>Klika uchopena</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="124"/>
+        <source>Take the Car&apos;s handle now, with the Remote key at {distance} m, and then say so here. When the Car unlocks, nothing more is to be done.</source>
+        <translation>Uchopte nyní kliku auta, klíč je ve vzdálenosti {distance} m, a pak to zde potvrďte. Když se auto odemkne, není třeba nic dalšího.</translation>
     </message>
 </context>
 <context>
@@ -528,37 +538,37 @@
         <translation>Počet pokusů</translation>
     </message>
     <message>
-        <location filename="../names.py" line="61"/>
+        <location filename="../names.py" line="67"/>
         <source>Check the Car&apos;s position before the test</source>
         <translation>Před testem ověřit polohu auta</translation>
     </message>
     <message>
-        <location filename="../names.py" line="80"/>
+        <location filename="../names.py" line="89"/>
         <source>yes</source>
         <translation>ano</translation>
     </message>
     <message>
-        <location filename="../names.py" line="80"/>
+        <location filename="../names.py" line="89"/>
         <source>no</source>
         <translation>ne</translation>
     </message>
     <message>
-        <location filename="../names.py" line="42"/>
+        <location filename="../names.py" line="48"/>
         <source>Distance beside the line</source>
         <translation>Odchylka od osy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="43"/>
+        <location filename="../names.py" line="49"/>
         <source>Turn from the line</source>
         <translation>Natočení od osy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="44"/>
+        <location filename="../names.py" line="50"/>
         <source>Difference in height</source>
         <translation>Odchylka výšky</translation>
     </message>
     <message>
-        <location filename="../names.py" line="45"/>
+        <location filename="../names.py" line="51"/>
         <source>Difference in speed</source>
         <translation>Odchylka rychlosti</translation>
     </message>
@@ -588,39 +598,94 @@
         <translation>Požadovaný interval, polovina šířky</translation>
     </message>
     <message>
-        <location filename="../names.py" line="38"/>
+        <location filename="../names.py" line="44"/>
         <source>Presses at most</source>
         <translation>Nejvýše stisků</translation>
     </message>
     <message>
-        <location filename="../names.py" line="40"/>
+        <location filename="../names.py" line="46"/>
         <source>Key&apos;s radio frequency</source>
         <translation>Rádiová frekvence klíče</translation>
     </message>
     <message>
-        <location filename="../names.py" line="41"/>
+        <location filename="../names.py" line="47"/>
         <source>Key&apos;s rest at most</source>
         <translation>Klid klíče nejvýše</translation>
     </message>
     <message>
-        <location filename="../names.py" line="67"/>
+        <location filename="../names.py" line="73"/>
         <source>Method</source>
         <translation>Metoda</translation>
     </message>
     <message>
-        <location filename="../names.py" line="73"/>
+        <location filename="../names.py" line="80"/>
         <source>from far to near (scan)</source>
         <translation>z dálky k autu (scan)</translation>
     </message>
     <message>
-        <location filename="../names.py" line="74"/>
+        <location filename="../names.py" line="81"/>
         <source>search with intervals (adaptive)</source>
         <translation>hledání s intervaly (adaptive)</translation>
     </message>
     <message>
-        <location filename="../names.py" line="39"/>
+        <location filename="../names.py" line="45"/>
         <source>Presses that confirm</source>
         <translation>Potvrzujících stisků</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="38"/>
+        <source>Nominal border</source>
+        <translation>Jmenovitá hranice</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="39"/>
+        <source>Requests at the border</source>
+        <translation>Žádosti na hranici</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="40"/>
+        <source>Time for the Operator</source>
+        <translation>Doba pro obsluhu</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="41"/>
+        <source>Heights</source>
+        <translation>Počet výšek</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="42"/>
+        <source>Highest device height</source>
+        <translation>Největší výška zařízení</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="43"/>
+        <source>Half a wavelength</source>
+        <translation>Polovina vlnové délky</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="73"/>
+        <source>Side of the Car</source>
+        <translation>Strana auta</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="74"/>
+        <source>Locking the Car again</source>
+        <translation>Opětovné zamčení auta</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="82"/>
+        <source>all around</source>
+        <translation>kolem celého auta</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="82"/>
+        <source>by the key&apos;s button</source>
+        <translation>tlačítkem klíče</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="83"/>
+        <source>the Car by itself</source>
+        <translation>auto samo</translation>
     </message>
 </context>
 <context>
@@ -839,6 +904,86 @@
         <location filename="../texts/parameter_docs.py" line="5"/>
         <source>Presses at the place of one that worked; unless one of them works too, another key or a late answer may have been taken for it, and the place counts as failed. 0: none, as the thesis does.</source>
         <translation>Stisky na místě toho, který zafungoval; nezafunguje-li žádný z nich, mohl být za něj zaměněn jiný klíč nebo opožděná odpověď a místo platí za neúspěšné. 0: žádné, jako v diplomové práci.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Nearest place at which the handle is taken.</source>
+        <translation>Nejbližší místo, při kterém se uchopí klika.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>First piece of the approach, to correct the heading; the farthest request is at its end.</source>
+        <translation>První úsek přiblížení k vyrovnání směru; na jeho konci je nejvzdálenější žádost.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Nominal border of the zone, where the first requests of each axis are made.</source>
+        <translation>Jmenovitá hranice zóny, kde se na každé ose uskuteční první žádosti.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Requests at the nominal border on each axis before the border is searched; 0: only the search.</source>
+        <translation>Žádosti na jmenovité hranici každé osy, než se hranice hledá; 0: jen hledání.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Half the width of the 95 % interval of the border at which an axis ends.</source>
+        <translation>Polovina šířky 95% intervalu hranice, při které osa končí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Requests after which an axis ends although its interval is wider.</source>
+        <translation>Počet žádostí, po kterém osa končí, i když je její interval širší.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Highest of the heights at which the border is measured, if there are several.</source>
+        <translation>Nejvyšší z výšek, ve kterých se hranice měří, je-li jich více.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Heights at which the border is measured.</source>
+        <translation>Počet výšek, ve kterých se hranice měří.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Standstill before each request.</source>
+        <translation>Doba klidu před každou žádostí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>How long after the handle was taken the Car may take to unlock; outside otherwise.</source>
+        <translation>Jak dlouho po uchopení kliky se auto smí odemykat; jinak je klíč venku.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>How long the Operator may take to come to the handle before the test is interrupted.</source>
+        <translation>Jak dlouho smí obsluze trvat, než přijde ke klice; pak se test přeruší.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>How long the Car may take to lock by itself, as the key goes away or by its timer.</source>
+        <translation>Jak dlouho smí autu trvat, než se samo zamkne odchodem klíče nebo časovačem.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Requests so far apart meet another field; half a wavelength of the Remote key&apos;s radio: 0.35 m at 434 MHz, 0.17 m at 868 MHz.</source>
+        <translation>Žádosti takto vzdálené od sebe potkávají jiné pole; polovina vlnové délky rádia klíče: 0,35 m na 434 MHz, 0,17 m na 868 MHz.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Standstill after which the Remote key is moved before the handle is taken, so that it does not sleep.</source>
+        <translation>Doba klidu, po které se klíčem před uchopením kliky pohne, aby neusnul.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>Side or corner of the Car whose border is measured: that of the handle that is taken.</source>
+        <translation>Strana nebo roh auta, jehož hranice se měří: ta s klikou, která se uchopí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="5"/>
+        <source>How the Car is locked again after each unlock. button: the robot presses the key&apos;s lock button. itself: the robot drives away and waits, for a key whose button it cannot press.</source>
+        <translation>Jak se auto po každém odemčení znovu zamkne. button: robot stiskne na klíči tlačítko zamčení. itself: robot odjede a počká, pro klíč, jehož tlačítko stisknout nemůže.</translation>
     </message>
 </context>
 <context>
@@ -1129,6 +1274,16 @@
         <location filename="../texts/scenarios.py" line="5"/>
         <source>Press a button where it tells most, in every zone around the Car, and draw the map of where it works.</source>
         <translation>Tiskne tlačítko tam, kde to řekne nejvíce, v každé zóně kolem vozidla, a kreslí mapu míst, kde funguje.</translation>
+    </message>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Handle request</source>
+        <translation>Žádost klikou</translation>
+    </message>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Have the handle taken with the key at places on every axis, and find where the Car takes the key for outside.</source>
+        <translation>Nechat uchopit kliku s klíčem na místech každé osy a najít, odkud auto považuje klíč za vzdálený.</translation>
     </message>
 </context>
 <context>
@@ -2363,6 +2518,111 @@
         <source>zone {} ({})</source>
         <translation>zóna {} ({})</translation>
     </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>handle request at {} m</source>
+        <translation>žádost klikou ve vzdálenosti {} m</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>the handle request at {} m</source>
+        <translation>žádost klikou ve vzdálenosti {} m</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>have the Car locked again</source>
+        <translation>opětovné zamčení auta</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>{} requests on each axis reach an interval of {} m where the Car&apos;s range ends within {} m; interval_m asks for {} m: allow {} requests (attempts_limit), or ask for {} m.</source>
+        <translation>{} žádostí na každé ose dosáhne intervalu {} m tam, kde dosah auta končí během {} m; interval_m žádá {} m: povolte {} žádostí (attempts_limit), nebo žádejte {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>{} requests on each axis reach an interval of {} m where the Car&apos;s range ends within {} m; interval_m asks for {} m: ask for {} m.</source>
+        <translation>{} žádostí na každé ose dosáhne intervalu {} m tam, kde dosah auta končí během {} m; interval_m žádá {} m: žádejte {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Nobody takes the Car&apos;s handle: its profile declares no handle_request, and there is no Operator to ask; add one to the profile, or start the test where a person can answer.</source>
+        <translation>Kliku auta nikdo neuchopí: jeho profil neuvádí handle_request a není zde obsluha, které by se šlo zeptat; doplňte jej do profilu, nebo test spusťte tam, kde může někdo odpovědět.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Nobody has taken the Car&apos;s handle within {} s; continue the test when somebody is there to do it, or increase handle_timeout_s.</source>
+        <translation>Kliku auta do {} s nikdo neuchopil; pokračujte v testu, až bude někdo na místě, nebo zvětšete handle_timeout_s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>The handle was taken {} times only after the key had stood for more than {} s, when it may sleep; take it sooner, or increase key_rest_limit_s if the key stays awake.</source>
+        <translation>Klika byla {}krát uchopena, až když klíč stál déle než {} s a mohl spát; uchopte ji dříve, nebo zvětšete key_rest_limit_s, pokud klíč neusíná.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>The Car was not locked again, not even {} s after the key had gone away; lock it, and see whether its key&apos;s lock button and its own lock work.</source>
+        <translation>Auto se znovu nezamklo ani {} s po odjezdu klíče; zamkněte je a zjistěte, zda funguje tlačítko zamčení na klíči a vlastní zamykání auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>The Car was {} by its handle, not by {}; leave its handles alone during the test.</source>
+        <translation>Stav auta („{}“) způsobila jeho klika, ne {}; během testu na kliky nesahejte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>No handle request unlocked the Car, and none of {} at {} m either: the key sleeps, its battery is empty, the handle was not taken, or the zone ends nearer; then decrease minimum_distance_m.</source>
+        <translation>Žádná žádost klikou auto neodemkla, ani žádná z {} na {} m: klíč spí, má vybitou baterii, klika nebyla uchopena, nebo zóna končí blíž; pak zmenšete minimum_distance_m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>No handle request has unlocked the Car on {} axes one after the other; see whether the key sleeps, whether its battery is empty, whether it is the Car&apos;s key and whether the handle of this side is taken, then continue the test, or begin one of another side or with a smaller minimum_distance_m.</source>
+        <translation>Na {} osách za sebou žádná žádost klikou auto neodemkla; zjistěte, zda klíč nespí, zda nemá vybitou baterii, zda je to klíč tohoto auta a zda se uchopuje klika této strany, pak v testu pokračujte, nebo začněte test jiné strany či s menším minimum_distance_m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Parameter minimum_distance_m leaves {} m up to the first request at {} m; the search needs {} m.</source>
+        <translation>Parametr minimum_distance_m nechává {} m do první žádosti na {} m; hledání potřebuje {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Parameter minimum_distance_m is {} m; allowed is clearance_m, {} m, and more.</source>
+        <translation>Parametr minimum_distance_m je {} m; povoleno je clearance_m, {} m, a více.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Parameter border_distance_m is {} m; allowed is {} to {} m, where requests are made.</source>
+        <translation>Parametr border_distance_m je {} m; povoleno je {} až {} m, kde se žádosti uskutečňují.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Parameter border_requests is {}; allowed is at most attempts_limit, {}.</source>
+        <translation>Parametr border_requests je {}; povoleno je nejvýše attempts_limit, {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Parameter highest_key_height_m is {} m; it has to be above key_height_m, {} m.</source>
+        <translation>Parametr highest_key_height_m je {} m; musí být větší než key_height_m, {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Car profile {}: handle_request must be a table of {}.</source>
+        <translation>Profil auta {}: handle_request musí být tabulka s položkami {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Car profile {}: handle_request has {}: {}; allowed is a whole number.</source>
+        <translation>Profil auta {}: handle_request má {}: {}; povoleno je celé číslo.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Car profile {}: taken and released of handle_request are both {}; give two values.</source>
+        <translation>Profil auta {}: taken i released v handle_request jsou {}; uveďte dvě různé hodnoty.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Signal {} of message {} cannot carry the value {}.</source>
+        <translation>Signál {} zprávy {} nemůže nést hodnotu {}.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -3011,6 +3271,26 @@
         <location filename="../texts/words.py" line="5"/>
         <source>Half of the presses work</source>
         <translation>Funguje polovina stisků</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>handle</source>
+        <translation>klika</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Border: half of the requests inside</source>
+        <translation>hranice: polovina žádostí uvnitř</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Inside</source>
+        <translation>uvnitř</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Outside</source>
+        <translation>venku</translation>
     </message>
 </context>
 </TS>

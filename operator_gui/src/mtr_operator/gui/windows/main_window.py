@@ -91,6 +91,7 @@ class MainWindow(QMainWindow):
         self.measurement.stop_wanted.connect(flow.stop)
         self.measurement.resume_wanted.connect(flow.resume)
         self.measurement.release_wanted.connect(flow.release_hold)
+        self.measurement.handle_taken.connect(flow.answer_handle)
         self.measurement.save_wanted.connect(flow.save_progress)
         self.measurement.leave_wanted.connect(flow.to_welcome)
         self.protocol.closed.connect(flow.to_welcome)

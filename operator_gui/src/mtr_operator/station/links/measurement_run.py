@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import logging
+from dataclasses import dataclass
 from typing import Callable
 
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OperatorError, OutputError
-from mtr_operator.domain.ports import CarLink
+from mtr_operator.domain.ports import CarLink, HandlePort
 from mtr_operator.domain.results.session_record import ROBOT_SOFTWARE
 from mtr_operator.domain.runner import Runner
 from mtr_operator.storage.store import Store
@@ -21,16 +22,30 @@ from .reporter import Reporter
 from .watched_link import WatchedRobotLink
 
 
+@dataclass(frozen=True)
+class Answers:
+    """What the Operator says during a test.
+
+    resumed_hold: see ControlLoop. person: who takes the Car's handle, None when nobody is there.
+    """
+
+    resumed_hold: Callable[[int], int] = lambda _: 0
+    person: HandlePort | None = None
+
+
+NO_ANSWERS = Answers()
+
+
 class MeasurementRun:
     """Measures what is left of a test with the runner of the command line."""
 
     def __init__(self, test: Test, new_robot: Callable[[], WatchedRobotLink], car: CarLink, mailbox: Mailbox,
-                 resumed_hold: Callable[[int], int] = lambda _: 0):
+                 answers: Answers = NO_ANSWERS):
         self._test = test
         self._new_robot = new_robot
         self._car = car
         self._mailbox = mailbox
-        self._resumed_hold = resumed_hold
+        self._answers = answers
 
     def run(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> RunEnded:
         """Measure; never raises, for what is measured has to be reported in any case."""
@@ -67,6 +82,7 @@ class MeasurementRun:
         with contextlib.closing(self._new_robot()) as robot:
             robot.connect()
             reporter = Reporter(self._mailbox, robot, self._car, test.progress, after_status)
-            loop = ControlLoop(robot, self._car, reporter, is_cancelled, self._resumed_hold)
+            loop = ControlLoop(robot, self._car, reporter, is_cancelled, self._answers.resumed_hold)
+            loop.person = self._answers.person
             test.progress.session[ROBOT_SOFTWARE] = loop.status.software_version
             Runner(test.scenario, test.parameters, loop, test.progress, lambda _: test.save(), journal=store).run()

@@ -13,11 +13,12 @@ from mtr_operator.domain.errors import InvalidParameter, OperatorError
 from mtr_operator.domain.ports import CarLink
 
 from ..connection import CanChoice, Connection, LinkOpener
-from ..events import CarLinkOpened, LinkRefused, LinksOpened, ProgressSaved, RobotSilent
+from ..events import CarLinkOpened, HandleWanted, LinkRefused, LinksOpened, ProgressSaved, RobotSilent
+from ..handle_prompt import AskedPerson
 from ..mailbox import Mailbox
 from ..test import Test
 from .idle_loop import CalibrationRequest, CarRequest, IdleLoop
-from .measurement_run import MeasurementRun
+from .measurement_run import Answers, MeasurementRun
 from .watched_link import WatchedRobotLink
 
 # Wall time between two attempts to open the robot's link again.
@@ -39,6 +40,7 @@ class Worker:
         self._closing = threading.Event()
         self._stopping = threading.Event()
         self._released_hold = 0
+        self._person = AskedPerson(lambda prompt: self._mailbox.put(HandleWanted(prompt)))
         self._thread = threading.Thread(target=self._run, name="links", daemon=True)
         self._robot: WatchedRobotLink | None = None
         self._car: CarLink = AbsentCarLink()
@@ -68,6 +70,10 @@ class Worker:
     def release_hold(self, hold_id: int) -> None:
         """Have the robot go on that is held under this id."""
         self._released_hold = hold_id
+
+    def answer_handle(self, number: int) -> None:
+        """The Car's handle was taken, for the prompt of this number."""
+        self._person.answer(number)
 
     def save(self, test: Test) -> None:
         """Write a test's progress; Saved comes into the mailbox."""
@@ -178,7 +184,8 @@ class Worker:
 
     def _measure(self, test: Test) -> None:
         self._close_robot()
-        run = MeasurementRun(test, self._new_robot, self._car, self._mailbox, self._released)
+        run = MeasurementRun(test, self._new_robot, self._car, self._mailbox,
+                             Answers(self._released, self._person))
         self._mailbox.put(run.run(self._stopping.is_set, self._run_short_requests))
 
     def _released(self, _hold_id: int) -> int:

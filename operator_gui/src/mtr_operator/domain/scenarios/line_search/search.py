@@ -12,16 +12,14 @@ from ...estimation.press.likelihood import Press
 from ...estimation.press.plan import SearchPlan
 from ...estimation.press.radial_estimate import Reach, answers_nowhere, estimate
 from ...estimation.press.radial_search import RadialSearch
-from ...requests import Direction
 from ...results.line_result import LineStatus
 from .attempt import AttemptMade, AttemptsMade
 from .campaign import LineCampaign, Searched, with_estimate
+from .moves import drive, wake_key
 from .trial import Trial
 
 # So many lines without any answer, one after the other, and the test waits for a person.
 MAX_SILENT_LINES = 3
-# The robot stops within some millimetres; a shorter way would be a manoeuvre and no move.
-_MIN_WAY_M = 0.05
 # Of a line that is measured further: attempts each time, part of the interval so far that is wanted next, its least,
 # and how many times the attempts allowed it gets in all.
 _FURTHER_ATTEMPTS, _FURTHER_PART, _MIN_INTERVAL_M, _FURTHER_TIMES = 8, 0.5, 0.05, 3
@@ -84,7 +82,7 @@ def can_go_on(trial: Trial[Searched], robot: Robot) -> bool:
 def _measured(trial: Trial[Searched], plan: SearchPlan, robot: Robot, so_far: Searched | None = None) -> Searched:
     campaign = LineCampaign(plan)
     line = _Line(trial, plan, campaign.search(trial.number), trial.first_places_m if so_far is None else ())
-    robot.say(f"{trial.title}: go to the start")
+    robot.say(trial.start)
     try:
         trial.begin(robot)
         robot.go_to(trial.ray, trial.parameters.maximum_distance_m)
@@ -127,29 +125,13 @@ def _search(line: _Line[Searched], robot: Robot) -> None:
         search.place_m = robot.key_distance(trial.ray, robot.now_s, 0.0).distance_m
         place_m = line.next_place_m()
         while place_m is not None:
-            robot.say(f"{trial.action} at {place_m:.2f} m")
-            _drive(trial, search.place_m, place_m, robot)
+            robot.say(trial.action_at(place_m))
+            drive(trial.ray, search.place_m, place_m, robot)
             robot.wait(parameters.settle_time_s)
             if robot.rest_s > parameters.key_rest_limit_s:
-                _wake_key(line, place_m, robot)
+                wake_key(trial.ray, place_m, parameters, robot)
             line.take(trial.attempt(watch, robot, _word(trial, len(line.made) + 1)))
             place_m = line.next_place_m()
-
-
-def _drive(trial: Trial[Searched], from_m: float, to_m: float, robot: Robot) -> None:
-    """Along the line, facing the Car: forwards to it, backwards from it."""
-    if abs(to_m - from_m) >= _MIN_WAY_M:
-        robot.go_to(trial.ray, to_m, Direction.FORWARD if to_m < from_m else Direction.BACKWARD)
-        robot.wait_until_reached()
-
-
-def _wake_key(line: _Line[Searched], place_m: float, robot: Robot) -> None:
-    robot.say("move the key so that it does not sleep")
-    plan = line.plan
-    beside_m = place_m + (1.0 if place_m < plan.maximum_m else -1.0) * plan.half_wavelength_m
-    _drive(line.trial, place_m, beside_m, robot)
-    _drive(line.trial, beside_m, place_m, robot)
-    robot.wait(line.trial.parameters.settle_time_s)
 
 
 def _word(trial: Trial[Searched], number: int) -> str:

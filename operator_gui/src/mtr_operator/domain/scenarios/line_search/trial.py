@@ -47,24 +47,27 @@ class Trial(ABC, Generic[Searched]):
     """One line.
 
     Attributes:
-        number: of the line. title: of it for a person, "radial 3 (45°)".
+        number: of the line. start: what the robot does first, "radial 3 (45°): go to the start".
         ray: where the key is carried.
         tolerances, parameters: the scenario's.
-        word: of the distance. action: what is done at a place, "press".
+        word: of the distance.
         first_places_m: where is tried before the search begins.
     """
 
     number: int
-    title: str
+    start: str
     ray: Ray
     tolerances: Tolerances
     parameters: SearchParameters
     word: str
-    action: str
     first_places_m: tuple[float, ...] = ()
 
     def begin(self, robot: Robot) -> None:
         """Whatever goes before the way to the line; nothing by default."""
+
+    @abstractmethod
+    def action_at(self, distance_m: float) -> str:
+        """What is done at a place, for a person: "press at 5.00 m"."""
 
     @abstractmethod
     def attempt(self, watch: LineWatch, robot: Robot, word: str) -> AttemptMade:

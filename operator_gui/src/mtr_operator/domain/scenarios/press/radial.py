@@ -27,14 +27,17 @@ class RadialTrial(Trial[KeyPressResult]):
     """A radial on which a button is pressed."""
 
     word = PRESS
-    action = "press"
 
     def __init__(self, line: Radial, parameters: KeyPressParameters):
         self.number, self.ray = line.number, line.ray
-        self.title = f"radial {line.number} ({line.clockwise_deg:g}\N{DEGREE SIGN})"
+        self.start = f"radial {line.number} ({line.clockwise_deg:g}\N{DEGREE SIGN}): go to the start"
         self.tolerances = self.parameters = parameters
         self._line = line
         self._key_press = parameters
+
+    def action_at(self, distance_m: float) -> str:
+        """See Trial."""
+        return f"press at {distance_m:.2f} m"
 
     def attempt(self, watch: LineWatch, robot: Robot, word: str) -> AttemptMade:
         """See Trial."""

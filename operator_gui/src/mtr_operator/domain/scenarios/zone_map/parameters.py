@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from ...errors import InvalidParameter
+from ...geometry.heights import check_heights, heights_between
 from ...parameters import CENTIMETRES, DEGREE, KILOMETRES_PER_HOUR, parameter
 from ...scenario import ScenarioParameters
 
@@ -48,17 +49,12 @@ class ZoneMapParameters(ScenarioParameters):
         if low < self.clearance_m:
             raise InvalidParameter(f"Parameter minimum_distance_m is {low:g} m; allowed is clearance_m, "
                                    f"{self.clearance_m:g} m, and more.")
-        if self.heights > 1 and self.highest_key_height_m <= self.key_height_m:
-            raise InvalidParameter(f"Parameter highest_key_height_m is {self.highest_key_height_m:g} m; it has to be "
-                                   f"above key_height_m, {self.key_height_m:g} m.")
+        check_heights(self.key_height_m, self.highest_key_height_m, self.heights)
 
     @property
     def heights_m(self) -> list[float]:
         """From low to high."""
-        if self.heights == 1:
-            return [self.key_height_m]
-        step_m = (self.highest_key_height_m - self.key_height_m) / (self.heights - 1)
-        return [self.key_height_m + index * step_m for index in range(self.heights)]
+        return heights_between(self.key_height_m, self.highest_key_height_m, self.heights)
 
     @property
     def distances_m(self) -> list[float]:

@@ -1,0 +1,40 @@
+"""Enter on the command line as the answer to a question, without stopping the runner."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import collections
+import sys
+import threading
+from typing import Callable, TextIO
+
+
+class Enter:
+    """One reader for all questions: a line answers the one that was asked first, and one without a question nothing."""
+
+    def __init__(self, stream: TextIO | None = None):
+        self._stream = stream or sys.stdin
+        self._lock = threading.Lock()
+        self._questions: collections.deque[Callable[[], None]] = collections.deque()
+        self._thread: threading.Thread | None = None
+
+    def ask(self, answered: Callable[[], None]) -> None:
+        """Call this, in the reader's thread, when Enter was pressed."""
+        with self._lock:
+            self._questions.append(answered)
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._read, name="enter", daemon=True)
+            self._thread.start()
+
+    def withdraw(self, answered: Callable[[], None]) -> None:
+        """Nobody need answer this question any more; safe when it was answered."""
+        with self._lock:
+            if answered in self._questions:
+                self._questions.remove(answered)
+
+    def _read(self) -> None:
+        # At the end of the input nobody can answer any more.
+        while self._stream.readline():
+            with self._lock:
+                answered = self._questions.popleft() if self._questions else None
+            if answered is not None:
+                answered()

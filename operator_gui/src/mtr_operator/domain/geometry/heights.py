@@ -1,0 +1,20 @@
+"""Heights of the Remote key at which a scenario measures."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from ..errors import InvalidParameter
+
+
+def heights_between(lowest_m: float, highest_m: float, count: int) -> list[float]:
+    """Evenly from low to high; one alone is the lowest."""
+    if count == 1:
+        return [lowest_m]
+    step_m = (highest_m - lowest_m) / (count - 1)
+    return [lowest_m + index * step_m for index in range(count)]
+
+
+def check_heights(lowest_m: float, highest_m: float, count: int) -> None:
+    """Raise InvalidParameter for several heights that are none."""
+    if count > 1 and highest_m <= lowest_m:
+        raise InvalidParameter(f"Parameter highest_key_height_m is {highest_m:g} m; it has to be above key_height_m, "
+                               f"{lowest_m:g} m.")

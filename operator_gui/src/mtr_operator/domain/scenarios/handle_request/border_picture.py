@@ -1,0 +1,41 @@
+"""What the protocol of Handle request shows: the border with its interval, and every decision."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Sequence
+
+from ...estimation.press.radial_estimate import Reach
+from ...geometry.pose import Point
+from ...results.line_result import LineStatus
+from ...results.picture import Picture, PointRole, PointSet, Stretch, bars_along, intervals_along
+from ...robot_status import CarDimensions
+from .axis_trial import axes_of
+from .parameters import HandleRequestParameters
+from .result import HandleRequestResult
+
+
+def picture_of(parameters: HandleRequestParameters, car: CarDimensions,
+               results: Sequence[HandleRequestResult]) -> Picture:
+    """Of all heights, one upon the other."""
+    rays = {axis.number: axis.ray for axis in axes_of(parameters, car)}
+    measured = [(rays[result.axis], result) for result in results]
+    near_m, far_m = parameters.minimum_distance_m, parameters.maximum_distance_m
+    stretches = tuple(Stretch(ray.point(near_m), ray.point(far_m), str(result.axis)) for ray, result in measured)
+
+    def points(places: str) -> tuple[Point, ...]:
+        return tuple(ray.point(place_m) for ray, result in measured for place_m in getattr(result, places))
+
+    def beyond(reach: Reach, place_m: float) -> tuple[Point, ...]:
+        return tuple(ray.point(place_m) for ray, result in measured if result.reach == reach.value)
+
+    half = [(ray, result.distances[0]) for ray, result in measured]
+    border = tuple(ray.point(distance.distance_m) for ray, distance in half if distance.distance_m is not None)
+    invalid = tuple(ray.point(far_m) for ray, result in measured if result.status is LineStatus.INVALID)
+    return Picture(stretches, (
+        PointSet("Border: half of the requests inside", PointRole.FIRST, border, bars=bars_along(half),
+                 intervals=intervals_along(half)),
+        PointSet("Inside", PointRole.SECOND, points("worked_at_m")),
+        PointSet("Outside", PointRole.FAILED, points("failed_at_m")),
+        PointSet("Border farther than here", PointRole.FIRST_FAILED, beyond(Reach.FARTHER, parameters.farthest_m)),
+        PointSet("Border nearer than here", PointRole.SECOND_FAILED, beyond(Reach.NEARER, near_m)),
+        PointSet("Invalid", PointRole.INVALID, invalid)))

@@ -1,0 +1,78 @@
+"""What Handle request records of one axis."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...results.carried import CAUSE_DOC, HEADING_DOC, LATERAL_DOC
+from ...results.document import Floats, OptionalFloat, Texts
+from ...results.line_result import LineStatus, column, stored
+from ..line_search.result import BEYOND, FIT_DOC, HIGH_OF, LOW_OF, OF_D50, OF_D95, UNCONFIRMED_DOC, SearchedResult
+
+HANDLE_WORD = "handle"
+_OF_D50, _OF_D95 = OF_D50.format("requests"), OF_D95.format("requests")
+
+
+@dataclass(frozen=True)
+class HandleRequestResult(SearchedResult):
+    """Distances are those of the Remote key from the Car's side or corner, along the axis. inside: the Car unlocked;
+    outside: it did not."""
+
+    WORD = HANDLE_WORD
+
+    axis: int = column("number of the axis, clockwise from the front side's left end, then the next height")
+    side: str = column("side or corner of the Car")
+    key_height_m: float = column("height of the Remote key above ground", "m")
+    status: LineStatus = column("ok, not_reached or invalid")
+    requests: int = column("handle requests on this axis")
+    inside: int = column("requests at which the Car unlocked, those not counted in the border included")
+    outside: int = column("requests at which it did not")
+    border_m: OptionalFloat = column("nominal border, empty if no requests were wanted there", "m", default=None)
+    inside_at_border: int = column("requests at the nominal border at which the Car unlocked", default=0)
+    outside_at_border: int = column("requests at the nominal border at which it did not", default=0)
+    requested_by: str = column("who took the handle: output or operator", default="")
+    distance_m: OptionalFloat = column("Remote key from the Car's side or corner at the farthest request inside", "m",
+                                       default=None)
+    uncertainty_m: OptionalFloat = column("1 sigma of the distance", "m", default=None)
+    robot_time_s: OptionalFloat = column("robot's clock at that request", "s", 3, None)
+    lateral_offset_m: OptionalFloat = column(f"{LATERAL_DOC} at that request", "m", default=None)
+    heading_offset_deg: OptionalFloat = column(f"{HEADING_DOC} at that request", "deg", 2, None)
+    cause: str = column(f"what unlocked the Car: {CAUSE_DOC}", default="")
+    reach: str = column("where the border lies: measured; nearer than the nearest place; farther than the farthest "
+                        "one; no_answer: nobody knows", default="")
+    d50_m: OptionalFloat = column(_OF_D50, "m", default=None)
+    d50_sigma_m: OptionalFloat = column(f"1 sigma of the {_OF_D50}", "m", default=None)
+    d50_low_m: OptionalFloat = column(f"{LOW_OF} {_OF_D50}{BEYOND}", "m", default=None)
+    d50_high_m: OptionalFloat = column(f"{HIGH_OF} {_OF_D50}{BEYOND}", "m", default=None)
+    d95_m: OptionalFloat = column(_OF_D95, "m", default=None)
+    d95_low_m: OptionalFloat = column(f"{LOW_OF} {_OF_D95}{BEYOND}", "m", default=None)
+    d95_high_m: OptionalFloat = column(f"{HIGH_OF} {_OF_D95}{BEYOND}", "m", default=None)
+    nearest_failure_m: OptionalFloat = column("nearest request outside", "m", default=None)
+    holes_m: str = column("places that were outside again and again although farther ones were inside", default="")
+    lapse: OptionalFloat = column("share of requests that fail at any distance", default=None)
+    fit_quality: OptionalFloat = column(FIT_DOC.format("axes"), default=None)
+    unconfirmed_m: str = column(UNCONFIRMED_DOC.format("requests"), "m", default="")
+    reason: str = stored("")
+    worked_at_m: Floats = stored(())
+    failed_at_m: Floats = stored(())
+    place_sigma_m: OptionalFloat = stored(None)
+    evidence: Texts = stored(())
+
+    @property
+    def number(self) -> int:
+        """See LineResult."""
+        return self.axis
+
+    @property
+    def place(self) -> str:
+        """See LineResult."""
+        return self.side.replace("_", " ")
+
+    @property
+    def is_possible(self) -> bool:
+        """See LineResult."""
+        inside, outside = len(self.worked_at_m) + len(self.unconfirmed_m.split()), len(self.failed_at_m)
+        counts = (inside, outside, inside + outside)
+        at_border = (self.inside_at_border, self.outside_at_border)
+        return (super().is_possible and counts == (self.inside, self.outside, self.requests)
+                and all(0 <= part <= whole for part, whole in zip(at_border, counts)))
