@@ -21,6 +21,8 @@ AUTOLOCK_COLUMNS = ("axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unl
                     "unlock_reaction_low_s,unlock_reaction_high_s,lock_passes,lock_pass_distances_m,"
                     "lock_pass_speeds_mps,lock_static_m,lock_static_sigma_m,lock_static_low_m,"
                     "lock_static_high_m,lock_reaction_s,lock_reaction_low_s,lock_reaction_high_s,"
+                    "unlock_static_common_sigma_m,unlock_static_shared_sigma_m,"
+                    "lock_static_common_sigma_m,lock_static_shared_sigma_m,"
                     "unlock_own_sigma_m,unlock_common_sigma_m,unlock_expanded_m,"
                     "lock_own_sigma_m,lock_common_sigma_m,lock_expanded_m,verdict,verdict_reason")
 KEY_PRESS_COLUMNS = ("radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"

@@ -66,6 +66,9 @@ def test_two_passes_find_the_static_boundary_that_one_misses_by_its_reaction_tim
         assert result.lock_static_low_m < 2.5 < result.lock_static_high_m
         assert result.unlock_reaction_low_s < REACTION_S < result.unlock_reaction_high_s
         assert result.unlock_static_sigma_m > 0.03
+        assert 0.0 <= result.unlock_static_shared_sigma_m <= result.unlock_static_common_sigma_m
+        assert 0.0 < result.lock_static_common_sigma_m < result.lock_static_sigma_m
+        assert result.distances[0].common_sigma_m == result.unlock_static_common_sigma_m
         unlock, _ = result.distances
         assert unlock.distance_m == result.unlock_static_m
         assert (unlock.low_m, unlock.high_m) == (result.unlock_static_low_m, result.unlock_static_high_m)

@@ -91,6 +91,16 @@ def test_a_yaw_counts_when_the_robot_stands_aslant():
     assert yaw.contribution_m == pytest.approx(0.25 * math.sin(math.radians(5.0)) * math.radians(0.5) / math.sqrt(3.0))
 
 
+def test_what_is_open_of_the_cars_timing_correlates_lines_by_its_part_of_their_variance():
+    measurements = [Measurement(0.0, own_m, (0.0, 0.0), timing_m, "unlock") for own_m, timing_m in
+                    ((0.03, 0.04), (0.04, 0.03))]
+    budgets = [DistanceBudget(line, "unlock", 1.0, terms_of(each, FACING_FRONT, calibration_from({**DOCUMENT, "terms": {
+        name: {**TERM, "uncertainty": 0.0} for name in DOCUMENT["terms"]}})))
+               for line, each in enumerate(measurements, start=1)]
+    assert [budget.common_sigma_m for budget in budgets] == pytest.approx([0.04, 0.03])
+    assert correlations(budgets)[0][1] == pytest.approx(0.04 * 0.03 / 0.05 ** 2)
+
+
 def test_the_car_s_length_counts_along_it_and_its_width_across():
     def sizes(direction):
         found = terms_of(Measurement(0.0, 0.0, (0.02, 0.04)), Carriage(direction, 1.0), calibration_from(DOCUMENT))

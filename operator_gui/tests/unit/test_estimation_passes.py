@@ -2,12 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from mtr_operator.domain.estimation.interval import Interval, difference_holds
 from mtr_operator.domain.estimation.passes.boundary import BoundaryCampaign, Pass
+from mtr_operator.domain.estimation.passes.parts import parts_of
 from mtr_operator.domain.estimation.passes.reaction import STEP_M, depths, reaction_table
 from mtr_operator.domain.estimation.passes.speeds import intercept_sigma, pass_sigma, proposed_speed
 from mtr_operator.domain.estimation.passes.steps import Steps
@@ -33,6 +37,7 @@ def test_table_of_depths_agrees_with_passes_simulated_in_time(speed_mps, timing)
     table = reaction_table(speed_mps, CYCLE_S, 0.002)[TIMINGS.index(timing)]
     weights, rng = (table - table.min()) / np.sum(table - table.min()), np.random.default_rng(1)
     drawn = np.array([-passed(rng, 0.0, speed_mps, timing, delay_s=0.0).distance_m for _ in range(1500)])
+    drawn -= speed_mps * timing.polled_s
     mean = weights @ depths()
     assert table.sum() * STEP_M == pytest.approx(1.0, abs=0.01)
     assert mean == pytest.approx(drawn.mean(), abs=4.0 * drawn.std() / math.sqrt(1500.0) + 0.001)
@@ -53,14 +58,55 @@ def test_two_speeds_find_the_static_boundary_and_the_reaction_time(outward):
     assert np.median([each.reaction_s.value_m for each in found]) == pytest.approx(0.49, abs=0.1)
 
 
-def test_car_that_locks_by_a_timer_is_told_from_one_that_is_slow():
-    rng, timing, campaign = np.random.default_rng(4), CarTiming(0.3, 2, 0.03), BoundaryCampaign(CYCLE_S)
-    for axis in range(12):
-        campaign.keep(axis, [passed(rng, 1.5, speed, timing, delay_s=5.0, outward=True) for speed in (0.1, 0.4)])
-    found = [campaign.boundary(axis) for axis in range(12)]
-    assert sum(each.static.holds(1.5) for each in found) >= 11
-    assert all(each.static.half_width_m < 0.3 for each in found)
-    assert np.median([each.reaction_s.value_m for each in found]) == pytest.approx(5.45, abs=0.15)
+@pytest.mark.parametrize("timing, delay_s", [(CarTiming(0.3, 2, 0.03), 5.0), (CarTiming(0.7, 2, 0.05), 2.4)])
+def test_car_that_locks_by_a_timer_is_told_from_one_that_is_slow(timing, delay_s):
+    rng, held = np.random.default_rng(4), 0
+    for _ in range(4):
+        found = boundaries(rng, timing, [1.5] * 12, delay_s=delay_s)
+        held += sum(each.static.holds(1.5) for each in found)
+        assert all(each.static.half_width_m < 0.3 for each in found)
+        reaction_s = np.median([each.reaction_s.value_m for each in found])
+        assert reaction_s == pytest.approx(timing.polled_s + delay_s, abs=0.2)
+    assert held >= 43
+
+
+def boundaries(rng, timing, true_m, speeds_mps=(0.1, 0.4), delay_s=0.04):
+    """What a campaign of passes outward says of each axis."""
+    campaign = BoundaryCampaign(CYCLE_S)
+    for axis, boundary_m in enumerate(true_m):
+        campaign.keep(axis, [passed(rng, boundary_m, speed, timing, delay_s=delay_s, outward=True)
+                             for speed in speeds_mps])
+    return [campaign.boundary(axis) for axis in range(len(true_m))]
+
+
+def test_campaigns_on_one_car_differ_as_the_interval_of_their_difference_says():
+    rng, timing = np.random.default_rng(7), CarTiming(0.36, 2, 0.02)
+    true_m = rng.uniform(1.0, 2.0, 16)
+    campaigns = [boundaries(rng, timing, true_m, speeds) for speeds in 3 * ((0.1, 0.4), (0.15, 0.5))]
+    agree = [difference_holds(first.static, second.static) for one, other in itertools.combinations(campaigns, 2)
+             for first, second in zip(one, other)]
+    assert 0.91 < np.mean(agree) < 0.985
+
+
+def test_what_axes_cannot_tell_of_the_car_is_shared_by_its_campaigns_and_what_they_scatter_is_not():
+    places_m = np.array([0.0, 1.0, 2.0])
+    # Two timings, equally likely, one with the boundary at 0 and one at 2.
+    weights = np.array([[[1.0, 0.0, 0.0]], [[0.0, 0.0, 1.0]]])
+    silent = np.zeros((2, 1))
+    assert parts_of(places_m, weights, [silent, silent]) == pytest.approx((1.0, 1.0))
+    against = [np.array([[0.3], [0.0]]), np.array([[0.0], [0.3]])]
+    common_m, shared_m = parts_of(places_m, weights, against)
+    assert common_m == pytest.approx(1.0)
+    # Each axis moves the mean by 0.15; two of them, and one degree of freedom less.
+    assert shared_m == pytest.approx(math.sqrt(1.0 - 4.0 * 0.15 ** 2))
+    assert parts_of(places_m, weights, [silent])[1] == 0.0
+
+
+def test_shared_part_cancels_in_a_difference():
+    first, second = Interval(1.0, 0.9, 1.1, 0.05), Interval(1.12, 1.0, 1.2, 0.05)
+    assert difference_holds(first, second)
+    assert not difference_holds(replace(first, shared_m=0.04), replace(second, shared_m=0.04))
+    assert difference_holds(replace(first, shared_m=0.05), second)
 
 
 def test_noise_of_a_single_axis_is_not_taken_for_a_timer():

@@ -30,6 +30,8 @@ HEADERS = {
                 "unlock_reaction_low_s,unlock_reaction_high_s,lock_passes,lock_pass_distances_m,"
                 "lock_pass_speeds_mps,lock_static_m,lock_static_sigma_m,lock_static_low_m,lock_static_high_m,"
                 "lock_reaction_s,lock_reaction_low_s,lock_reaction_high_s,"
+                "unlock_static_common_sigma_m,unlock_static_shared_sigma_m,"
+                "lock_static_common_sigma_m,lock_static_shared_sigma_m,"
                 "unlock_own_sigma_m,unlock_common_sigma_m,unlock_expanded_m,"
                 "lock_own_sigma_m,lock_common_sigma_m,lock_expanded_m,verdict,verdict_reason",
     "key_press": "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
@@ -78,8 +80,8 @@ def test_values_are_written_with_points_and_missing_ones_are_empty():
     scenario = SCENARIOS["autolock"]
     _, rows = lines_of(results_csv(scenario, progress_of(scenario, [axis(1), axis(2, "not_reached", "invalid")])))
     assert rows[1] == "1,left,0.0000,0.9000,0.000000,1.000000,ok,1.2346,0.0300,12.346,ok,2.0000,,14.000," \
-        "-0.0123,,,,passive_entry,,,,,,0,,,,,,,,,,0,,,,,,,,,,,,,,,,not_set,"
-    passes = "0" + 10 * "," + "0" + 16 * "," + "not_set,"
+        "-0.0123,,,,passive_entry,,,,,,0,,,,,,,,,,0,,,,,,,,,,,,,,,,,,,,not_set,"
+    passes = "0" + 10 * "," + "0" + 20 * "," + "not_set,"
     assert rows[2] == "2,left,0.0000,0.9000,0.000000,1.000000,not_reached,,,,invalid,,," + 11 * "," + passes
 
 

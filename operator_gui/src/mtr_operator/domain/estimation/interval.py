@@ -21,12 +21,17 @@ SIGMAS_OF_LEVEL = 1.959964
 
 @dataclass(frozen=True)
 class Interval:
-    """Median and 95 % interval of a distance, in m; sigma_m is one standard deviation."""
+    """Median and 95 % interval of a distance, in m; sigma_m is one standard deviation.
+
+    shared_m: the part of sigma_m, in squares, that measurements of the same Car have alike, again and again: what they
+    cannot tell of it.
+    """
 
     value_m: float
     low_m: float
     high_m: float
     sigma_m: float
+    shared_m: float = 0.0
 
     @property
     def half_width_m(self) -> float:
@@ -38,14 +43,14 @@ class Interval:
         reach_m = SIGMAS_OF_LEVEL * sigma_m
         return Interval(self.value_m, self.value_m - math.hypot(self.value_m - self.low_m, reach_m),
                         self.value_m + math.hypot(self.high_m - self.value_m, reach_m),
-                        math.hypot(self.sigma_m, sigma_m))
+                        math.hypot(self.sigma_m, sigma_m), self.shared_m)
 
     def holds(self, value_m: float) -> bool:
         """True when a value lies within; never for NaN."""
         return self.low_m <= value_m <= self.high_m
 
 
-UNKNOWN = Interval(math.nan, math.nan, math.nan, math.nan)
+UNKNOWN = Interval(*5 * (math.nan,))
 
 
 def interval_of(edges_m: FloatArray, weights: FloatArray, level: float = LEVEL) -> Interval:
@@ -64,5 +69,10 @@ def interval_of(edges_m: FloatArray, weights: FloatArray, level: float = LEVEL) 
 
 
 def difference_holds(first: Interval, second: Interval) -> bool:
-    """True when two independent values agree: zero lies within the 95 % interval of their difference."""
-    return abs(first.value_m - second.value_m) <= SIGMAS_OF_LEVEL * math.hypot(first.sigma_m, second.sigma_m)
+    """True when two values of one Car agree: zero lies within the 95 % interval of their difference.
+
+    What both share goes with each other and leaves its difference; the rest of both is independent.
+    """
+    alone = (math.sqrt(max(each.sigma_m ** 2 - each.shared_m ** 2, 0.0)) for each in (first, second))
+    sigma_m = math.hypot(*alone, first.shared_m - second.shared_m)
+    return abs(first.value_m - second.value_m) <= SIGMAS_OF_LEVEL * sigma_m

@@ -41,6 +41,7 @@ class MeasuredDistance:
 
     word: what it is called beside the line, "unlock". low_m, high_m: ends of the 95 % interval of the boundary that the
     distance stands for; None where the method gives none, one of them alone where the boundary lies beyond the other.
+    common_sigma_m: 1 sigma of what the attempts of all lines leave open alike.
     """
 
     word: str
@@ -49,6 +50,7 @@ class MeasuredDistance:
     uncertainty_m: OptionalFloat
     low_m: OptionalFloat = None
     high_m: OptionalFloat = None
+    common_sigma_m: OptionalFloat = None
 
 
 def has_intervals(results: Sequence[LineResult]) -> bool:

@@ -6,7 +6,6 @@ import math
 from dataclasses import replace
 from typing import Any, Iterator, Sequence
 
-from ..estimation.interval import SIGMAS_OF_LEVEL, Interval
 from ..estimation.passes.boundary import NO_BOUNDARY, Boundary, BoundaryCampaign, Pass
 from ..estimation.passes.delay import has_two_speeds
 from ..estimation.passes.steps import Steps
@@ -37,7 +36,7 @@ def _boundaries(results: Sequence[AutolockResult], word: str, parameters: Autolo
     for result in wanted:
         boundary = campaign.boundary(result.axis) if tells_reaction else NO_BOUNDARY
         yield {f"{word}_passes": len(result.passes(word)),
-               **_columns(word, _widened(boundary, _common_sigma(result, word)))}
+               **_columns(word, replace(boundary, static=boundary.static.widened(_place_sigma(result, word))))}
 
 
 def _passes(result: AutolockResult, word: str, parameters: AutolockParameters) -> Iterator[Pass]:
@@ -52,7 +51,7 @@ def _tell_reaction(passes: Sequence[Pass]) -> bool:
     return any(each.steps for each in passes) or has_two_speeds([each.speed_mps for each in passes])
 
 
-def _common_sigma(result: AutolockResult, word: str) -> float:
+def _place_sigma(result: AutolockResult, word: str) -> float:
     """1 sigma in m of the first pass that all passes share: its own without the part of the bus' cycle."""
     sigma_m, speed_mps = getattr(result, f"{word}_uncertainty_m"), getattr(result, f"{word}_speed_mps")
     if sigma_m is None or speed_mps is None:
@@ -61,18 +60,11 @@ def _common_sigma(result: AutolockResult, word: str) -> float:
     return math.sqrt(max(sigma_m ** 2 - told_m ** 2, 0.0))
 
 
-def _widened(boundary: Boundary, sigma_m: float) -> Boundary:
-    """With an error that all passes share; each half of the interval grows as that of a normal distribution would."""
-    static, more_m = boundary.static, SIGMAS_OF_LEVEL * sigma_m
-    return Boundary(Interval(static.value_m, static.value_m - math.hypot(static.value_m - static.low_m, more_m),
-                             static.value_m + math.hypot(static.high_m - static.value_m, more_m),
-                             math.hypot(static.sigma_m, sigma_m)), boundary.reaction_s)
-
-
 def _columns(word: str, boundary: Boundary) -> dict[str, Any]:
     static, reaction = boundary.static, boundary.reaction_s
     values = {"static_m": static.value_m, "static_low_m": static.low_m, "static_high_m": static.high_m,
               "static_sigma_m": static.sigma_m, "reaction_s": reaction.value_m, "reaction_low_s": reaction.low_m,
-              "reaction_high_s": reaction.high_m}
+              "reaction_high_s": reaction.high_m, "static_common_sigma_m": boundary.common_m,
+              "static_shared_sigma_m": static.shared_m}
     return {f"{word}_{name}": round(value, _DIGITS) if math.isfinite(value) else None
             for name, value in values.items()}

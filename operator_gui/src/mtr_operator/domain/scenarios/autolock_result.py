@@ -33,9 +33,12 @@ def _static(what: str, unit: str = "m") -> Any:
 
 
 STATIC_DOC = "static boundary: where a standing Remote key is noticed every other time, by all passes, when the Car"
+_COMMON_DOC = "1 sigma of what all axes of the test have alike, the Car's timing, in"
+_SHARED_DOC = "1 sigma of what further tests of the same Car would have alike, too, in"
 _OF_PASSES = tuple(f"{word}_{name}" for word in (UNLOCK, LOCK) for name in (
     "passes", "pass_distances_m", "pass_speeds_mps", "static_m", "static_sigma_m", "static_low_m", "static_high_m",
-    "reaction_s", "reaction_low_s", "reaction_high_s"))
+    "reaction_s", "reaction_low_s", "reaction_high_s")) + tuple(
+    f"{word}_static_{part}_sigma_m" for word in (UNLOCK, LOCK) for part in ("common", "shared"))
 
 
 @dataclass(frozen=True)
@@ -96,6 +99,10 @@ class AutolockResult(LineResult):
     lock_reaction_s: OptionalFloat = _static("the Car's mean reaction time until it was locked", "s")
     lock_reaction_low_s: OptionalFloat = _static("lower end of the 95 % interval of lock_reaction_s", "s")
     lock_reaction_high_s: OptionalFloat = _static("upper end of the 95 % interval of lock_reaction_s", "s")
+    unlock_static_common_sigma_m: OptionalFloat = _static(f"{_COMMON_DOC} unlock_static_m")
+    unlock_static_shared_sigma_m: OptionalFloat = _static(f"{_SHARED_DOC} unlock_static_m")
+    lock_static_common_sigma_m: OptionalFloat = _static(f"{_COMMON_DOC} lock_static_m")
+    lock_static_shared_sigma_m: OptionalFloat = _static(f"{_SHARED_DOC} lock_static_m")
     told_every_s: OptionalFloat = stored(None)
     evidence: Texts = stored(())
 
@@ -124,9 +131,9 @@ class AutolockResult(LineResult):
         return tuple(zip(getattr(self, f"{word}_pass_distances_m"), getattr(self, f"{word}_pass_speeds_mps")))
 
     def _distance(self, word: str, status: LineStatus) -> MeasuredDistance:
-        static_m, sigma_m, low_m, high_m = (getattr(self, f"{word}_static_{name}")
-                                            for name in ("m", "sigma_m", "low_m", "high_m"))
+        static_m, *of_passes = (getattr(self, f"{word}_static_{name}")
+                                for name in ("m", "sigma_m", "low_m", "high_m", "common_sigma_m"))
         if static_m is not None and status is LineStatus.OK:
-            return MeasuredDistance(word, status, static_m, sigma_m, low_m, high_m)
+            return MeasuredDistance(word, status, static_m, *of_passes)
         return MeasuredDistance(word, status, getattr(self, f"{word}_distance_m"),
                                 getattr(self, f"{word}_uncertainty_m"))

@@ -57,7 +57,10 @@ class Assessor:
         return Assessment(budgets, judgement)
 
     def _budget(self, result: LineResult, distance: MeasuredDistance) -> DistanceBudget:
-        measurement = Measurement(_place_sigma(result, distance), _attempts_sigma(distance), self._outline(result))
+        attempts_m = _attempts_sigma(distance)
+        timing_m = min(distance.common_sigma_m or 0.0, attempts_m)
+        measurement = Measurement(_place_sigma(result, distance), math.sqrt(attempts_m ** 2 - timing_m ** 2),
+                                  self._outline(result), timing_m, distance.word)
         return DistanceBudget(result.number, distance.word, distance.distance_m or 0.0,
                               terms_of(measurement, self._carriage(result, distance.word), self._record))
 

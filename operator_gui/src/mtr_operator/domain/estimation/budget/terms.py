@@ -57,11 +57,14 @@ class Measurement:
 
     place_m: key's place and instant. attempts_m: what the attempts leave open.
     outline_m: of the Car's length and width, by half of which the line's origin may be off; (0, 0) from the centre.
+    timing_m: what the attempts of all lines leave open alike for distances of this word: the Car's timing.
     """
 
     place_m: float
     attempts_m: float
     outline_m: tuple[float, float]
+    timing_m: float = 0.0
+    word: str = ""
 
 
 def terms_of(measurement: Measurement, carriage: Carriage, record: CalibrationRecord) -> tuple[Term, ...]:
@@ -71,11 +74,19 @@ def terms_of(measurement: Measurement, carriage: Carriage, record: CalibrationRe
            _measured("attempts", measurement.attempts_m, 1.0, PRESSES, is_common=False),
            _measured("length of the Car", measurement.outline_m[0], half_x, CAR_MAP, is_common=True),
            _measured("width of the Car", measurement.outline_m[1], half_y, CAR_MAP, is_common=True))
-    return tuple(term for term in own if term.sigma > 0.0) + _of_record(carriage, record)
+    return tuple(term for term in own if term.sigma > 0.0) + _of_timing(measurement) + _of_record(carriage, record)
 
 
 def _measured(name: str, sigma_m: float, sensitivity: float, source: str, is_common: bool) -> Term:
     return Term(name, 0.0, sigma_m, "m", Distribution.NORMAL, math.inf, sensitivity, sigma_m, source, is_common)
+
+
+def _of_timing(measurement: Measurement) -> tuple[Term, ...]:
+    """One error of all lines, in its own sigmas: how far it moves a line depends on the speeds of the line's passes."""
+    if measurement.timing_m == 0.0:
+        return ()
+    return (Term(f"timing of the Car, {measurement.word}", 0.0, 1.0, "sigma", Distribution.NORMAL, math.inf,
+                 measurement.timing_m, 1.0, PRESSES, is_common=True),)
 
 
 def _of_record(carriage: Carriage, record: CalibrationRecord) -> tuple[Term, ...]:

@@ -8,27 +8,37 @@ Key press.
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 from typing import Sequence
 
 import numpy as np
 
 from ..interval import UNKNOWN, FloatArray, Interval, interval_of
-from .delay import base_delay
+from .delay import reaction_times
 from .likelihood import Circumstances, Pass, evidence_of, likelihood_of
-from .timing import DELAYS_S, MAX_REACTION_S, PRIOR, TIMINGS
+from .parts import parts_of
+from .timing import prior_of
 
 __all__ = ["NO_BOUNDARY", "Boundary", "BoundaryCampaign", "Pass"]
 
+# Timings less likely than the best by so much in the logarithm say nothing of the boundary.
+_UNLIKELY = -14.0
+
+
 @dataclass(frozen=True)
 class Boundary:
-    """What passes say of an axis."""
+    """What passes say of an axis.
+
+    common_m: the part of static.sigma_m, in squares, that all axes have alike: the Car's timing.
+    """
 
     static: Interval
     reaction_s: Interval
+    common_m: float
 
 
-NO_BOUNDARY = Boundary(UNKNOWN, UNKNOWN)
+NO_BOUNDARY = Boundary(UNKNOWN, UNKNOWN, math.nan)
 
 
 class BoundaryCampaign:
@@ -47,26 +57,33 @@ class BoundaryCampaign:
         """With what the other axes say of the Car; NO_BOUNDARY for an axis without passes."""
         if not self._passes.get(axis):
             return NO_BOUNDARY
-        base_s = base_delay([[(each.along_m, each.speed_mps) for each in passes if each.steps is None]
-                             for passes in self._passes.values()])
-        given = Circumstances(self._cycle_s, self._sigma_m, base_s)
-        others = [evidence_of(passes, given) for number, passes in self._passes.items() if passes and number != axis]
-        prior = np.log(PRIOR)[:, None] + sum(others)
-        boundary_m, log = likelihood_of(self._passes[axis], given)
-        total = log + prior[..., None]
+        given = self._given()
+        with np.errstate(divide="ignore"):
+            prior = np.log(prior_of(np.array(given.reactions_s)))
+        evidence = [evidence_of(passes, given) for passes in self._passes.values() if passes]
+        timing = prior + sum(evidence)
+        likely = np.nonzero(np.max(timing, axis=1) > np.max(timing) + _UNLIKELY)[0]
+        others = timing - evidence_of(self._passes[axis], given)
+        boundary_m, log = likelihood_of(self._passes[axis], given, tuple(int(row) for row in likely))
+        total = log + others[likely, :, None]
         weights = np.exp(total - np.max(total))
-        half_m = (boundary_m[1] - boundary_m[0]) / 2.0
-        places_m, counts = boundary_m, np.sum(weights, axis=(0, 1))
+        common_m, shared_m = parts_of(boundary_m, weights, [each[likely] for each in evidence])
+        return Boundary(replace(self._static(axis, boundary_m, np.sum(weights, axis=(0, 1))), shared_m=shared_m),
+                        _reaction(given.reactions_s, np.sum(weights, axis=(0, 2))), common_m)
+
+    def _given(self) -> Circumstances:
+        reactions_s = reaction_times([[(each.along_m, each.speed_mps) for each in passes if each.steps is None]
+                                      for passes in self._passes.values()])
+        return Circumstances(self._cycle_s, self._sigma_m, reactions_s)
+
+    def _static(self, axis: int, places_m: FloatArray, counts: FloatArray) -> Interval:
+        half_m = (places_m[1] - places_m[0]) / 2.0
         if not self._passes[axis][0].outward:
-            places_m, counts = -boundary_m[::-1], counts[::-1]
-        return Boundary(interval_of(np.append(places_m - half_m, places_m[-1] + half_m), counts),
-                        _reaction(np.sum(weights, axis=2), base_s))
+            places_m, counts = -places_m[::-1], counts[::-1]
+        return interval_of(np.append(places_m - half_m, places_m[-1] + half_m), counts)
 
 
-def _reaction(weights: FloatArray, base_s: float) -> Interval:
-    """Mean reaction time of each hypothesis, weighted; axes of the weights [timing, delay]."""
-    times_s = np.array([[timing.poll_s * (timing.debounce - 0.5) + base_s + delay_s for delay_s in DELAYS_S]
-                        for timing in TIMINGS])
-    edges_s = np.arange(0.0, base_s + MAX_REACTION_S + 0.4, 0.01)
-    counts, _ = np.histogram(times_s, edges_s, weights=weights)
-    return interval_of(edges_s, counts.astype(float))
+def _reaction(reactions_s: Sequence[float], weights: FloatArray) -> Interval:
+    """Mean reaction time, each standing for half a step around it."""
+    half_s = (reactions_s[1] - reactions_s[0]) / 2.0
+    return interval_of(np.append(np.array(reactions_s) - half_s, reactions_s[-1] + half_s), weights)

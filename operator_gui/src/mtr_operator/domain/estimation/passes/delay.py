@@ -1,20 +1,28 @@
-"""A delay that polls and motors do not explain: some Cars lock seconds after the key has gone, by a timer."""
+"""Which reaction times are worth a look: those about the slopes of the axes, however late the Car is.
+
+Some Cars lock seconds after the key has gone, by a timer; polls and motors alone take up to a second or two.
+"""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import math
 import statistics
 from typing import Iterator, Sequence
+
+import numpy as np
 
 from .timing import MAX_REACTION_S
 
 # Speeds nearer to each other than this say next to nothing of the reaction time.
 MIN_SPEED_RATIO = 1.3
-# So much of a reaction may be polls and debounce; a timer is only taken for what goes beyond, in steps.
-_POLLED_S = MAX_REACTION_S - 1.3
-_STEP_S = 0.4
-# A single axis' slope is as noisy as the Car; its hypotheses reach up to MAX_REACTION_S anyway.
+# With fewer axes their slopes do not tell how far one of them is off.
 _MIN_AXES = 3
+# Reaction times from the median of the slopes, in deviations of one of them, and steps to a deviation. More to the
+# lower side: noise has slow passes react early, and that makes slopes too large.
+_BELOW, _ABOVE, _STEPS = 3.0, 2.0, 5
+_DEVIATION_S = (0.03, 0.6)
+# Of a normal distribution, by the median of absolute deviations.
+_SIGMAS_OF_MAD = 1.4826
+_STEP_S = 0.08
 
 
 def has_two_speeds(speeds_mps: Sequence[float]) -> bool:
@@ -22,12 +30,20 @@ def has_two_speeds(speeds_mps: Sequence[float]) -> bool:
     return len(speeds_mps) > 1 and max(speeds_mps) >= MIN_SPEED_RATIO * min(speeds_mps) > 0.0
 
 
-def base_delay(axes: Sequence[Sequence[tuple[float, float]]]) -> float:
-    """Delay in s that comes on top on all axes; each has the places along the way, in m, and speeds of its passes."""
+def reaction_times(axes: Sequence[Sequence[tuple[float, float]]]) -> tuple[float, ...]:
+    """Hypotheses in s, evenly spaced; each axis has the places along the way, in m, and speeds of its passes."""
     slopes_s = list(_slopes(axes))
     if len(slopes_s) < _MIN_AXES:
-        return 0.0
-    return _STEP_S * max(0, math.floor((statistics.median(slopes_s) - _POLLED_S) / _STEP_S))
+        return _evenly(0.0, MAX_REACTION_S, _STEP_S)
+    median_s = statistics.median(slopes_s)
+    spread_s = _SIGMAS_OF_MAD * statistics.median(abs(slope_s - median_s) for slope_s in slopes_s)
+    deviation_s = float(np.clip(spread_s, *_DEVIATION_S))
+    first_s = max(0.0, median_s - _BELOW * deviation_s)
+    return _evenly(first_s, max(median_s, 0.0) + _ABOVE * deviation_s, deviation_s / _STEPS)
+
+
+def _evenly(first_s: float, last_s: float, step_s: float) -> tuple[float, ...]:
+    return tuple(float(value) for value in np.arange(first_s, last_s + step_s / 2.0, step_s))
 
 
 def _slopes(axes: Sequence[Sequence[tuple[float, float]]]) -> Iterator[float]:

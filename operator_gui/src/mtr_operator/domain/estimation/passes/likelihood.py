@@ -12,12 +12,13 @@ from scipy.special import logsumexp
 from ..interval import FloatArray
 from .reaction import MIN_DEPTH_M, STEP_M, depths, reaction_table
 from .steps import Steps, steps_table
-from .timing import DELAYS_S, MAX_REACTION_S
+from .timing import MAX_POLLED_S, TIMINGS
 
 # Places at which the boundary may be.
 _BINS = 400
 # Tables are made for speeds that differ by this; depths in between are scaled, as most of them goes with the speed.
 _SPEED_RATIO = 1.06
+ALL_TIMINGS = tuple(range(len(TIMINGS)))
 
 
 @dataclass(frozen=True)
@@ -42,46 +43,49 @@ class Pass:
 class Circumstances:
     """What all passes have in common.
 
-    cycle_s: of the message that tells the state. sigma_m: of the key's place. base_s: delay on top of all hypotheses.
+    cycle_s: of the message that tells the state. sigma_m: of the key's place. reactions_s: mean reaction times, evenly
+    spaced, that are hypotheses beside the timings.
     """
 
     cycle_s: float
     sigma_m: float
-    base_s: float
+    reactions_s: tuple[float, ...]
 
 
-def likelihood_of(passes: tuple[Pass, ...], given: Circumstances) -> tuple[FloatArray, FloatArray]:
-    """Places along the way, and the logarithm of what the passes make of each; axes [timing, delay, boundary]."""
+def likelihood_of(passes: tuple[Pass, ...], given: Circumstances,
+                  timings: tuple[int, ...] = ALL_TIMINGS) -> tuple[FloatArray, FloatArray]:
+    """Places along the way, and the logarithm of what the passes make of each; axes [timing, reaction, boundary]."""
     first_m, last_m = (pick(end) for pick, end in zip((max, min), zip(*(_ends(each, given) for each in passes))))
     boundary_m = np.linspace(first_m, max(last_m, first_m + _BINS * STEP_M), _BINS)
-    return boundary_m, np.asarray(sum(_log(each, each.along_m - boundary_m, given) for each in passes))
+    rows = np.array(timings)
+    return boundary_m, np.asarray(sum(_log(each, each.along_m - boundary_m, given, rows) for each in passes))
 
 
 @functools.lru_cache(maxsize=1024)
 def evidence_of(passes: tuple[Pass, ...], given: Circumstances) -> FloatArray:
-    """The same with the boundary integrated out; axes [timing, delay]."""
+    """The same with the boundary integrated out; axes [timing, reaction]."""
     boundary_m, log = likelihood_of(passes, given)
     return np.asarray(logsumexp(log, axis=-1) + math.log(boundary_m[1] - boundary_m[0]))
 
 
 def _ends(each: Pass, given: Circumstances) -> tuple[float, float]:
     """Where the boundary of a pass may be, along the way."""
-    way_m = each.speed_mps * (given.base_s + MAX_REACTION_S) if each.steps is None else each.steps.step_m
+    way_m = each.speed_mps * (given.reactions_s[-1] + MAX_POLLED_S) if each.steps is None else each.steps.step_m
     return each.along_m - way_m + MIN_DEPTH_M / 4.0, each.along_m - MIN_DEPTH_M
 
 
-def _log(each: Pass, depth_m: FloatArray, given: Circumstances) -> FloatArray:
-    """Axes [timing, delay, boundary]."""
+def _log(each: Pass, depth_m: FloatArray, given: Circumstances, timings: FloatArray) -> FloatArray:
+    """Axes [timing, reaction, boundary]."""
+    reactions_s = np.array(given.reactions_s)[:, None]
     if each.steps is None:
         number = round(math.log(each.speed_mps) / math.log(_SPEED_RATIO))
         table = _pass_table(number, given.cycle_s, given.sigma_m)
-        late_m = depth_m - each.speed_mps * (given.base_s + np.array(DELAYS_S)[:, None])
-        late_m = late_m * (_SPEED_RATIO ** number / each.speed_mps)
+        late_m = (depth_m - each.speed_mps * reactions_s) * (_SPEED_RATIO ** number / each.speed_mps)
     else:
         table = _steps_table(each.steps, given.sigma_m)
-        late_m = depth_m - np.zeros((len(DELAYS_S), 1))
+        late_m = depth_m - np.zeros_like(reactions_s)
     bins = np.clip(np.round((late_m - depths()[0]) / STEP_M).astype(int), 0, table.shape[1] - 1)
-    return np.asarray(table[:, bins])
+    return np.asarray(table[timings][:, bins])
 
 
 @functools.lru_cache(maxsize=64)

@@ -5,6 +5,9 @@ chain of polls that agree gives the probability of each depth; the instant that 
 cycle, even within +- v * cycle_s / 2, and the place of the key by a normal of sigma_m:
 
     P(depth) = sum over phase, poll k of  P(k-th poll is the debounce-th in a row)  U(v cycle_s) * N(sigma_m)
+
+Depths are told from v times the mean time that the polls take without noise, so that all timings are compared at the
+same reaction time.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -35,7 +38,7 @@ def depths() -> FloatArray:
 
 
 def reaction_table(speed_mps: float, cycle_s: float, sigma_m: float) -> FloatArray:
-    """Density of the depth, in 1/m; axes [timing, depth]."""
+    """Density of the depth beyond that at the mean reaction time, in 1/m; axes [timing, depth]."""
     return np.stack([_told(row, speed_mps * cycle_s, sigma_m) for poll_s, debounce in itertools.product(
         POLLS_S, DEBOUNCES) for row in _polled(speed_mps * poll_s, debounce)])
 
@@ -53,7 +56,7 @@ def _polled(step_m: float, debounce: int) -> list[FloatArray]:
         decided[number] = agreeing[-1] * notice
         missed = np.sum(agreeing, axis=0) * (1.0 - notice)
         agreeing = np.concatenate((missed[None], agreeing[:-1] * notice))
-    depth_m = (first_m + np.arange(polls)[:, None] * step_m).ravel()
+    depth_m = (first_m + np.arange(polls)[:, None] * step_m).ravel() - (debounce - 0.5) * step_m
     # A phase stands for its part of the way between polls.
     return [_spread(depth_m, decided[:, number].ravel() / _PHASES, step_m / _PHASES)
             for number in range(len(NOISES_M))]

@@ -10,14 +10,21 @@ from __future__ import annotations
 import itertools
 from dataclasses import dataclass
 
+import numpy as np
+
+from ..interval import FloatArray
+
 # Polls of real cars come every 100 to 700 ms; faster ones are as good as continuous.
 POLLS_S = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.36, 0.43, 0.5, 0.6, 0.7, 0.85)
 DEBOUNCES = (1, 2, 3)
 # Of 0.1 to 1 dB of noise in time at 60 dB a decade and 1.5 m; inductive fields of low frequency hardly fade.
 NOISES_M, NOISE_PRIOR = (0.005, 0.012, 0.03, 0.07, 0.15, 0.3), (0.25, 0.25, 0.2, 0.15, 0.1, 0.05)
-DELAYS_S = tuple(0.04 * number for number in range(11))
-# Longest reaction that polls, debounce and these delays explain.
-MAX_REACTION_S = max(POLLS_S) * max(DEBOUNCES) + max(DELAYS_S)
+# Motors of locks and their control units take up to some tenths of a second; one Car in twenty has a timer beside them,
+# of any length up to half a minute.
+USUAL_DELAY_S, TIMER_SHARE, LONGEST_TIMER_S = 0.4, 0.05, 30.0
+# Longest wait for polls, and longest reaction without a timer.
+MAX_POLLED_S = max(POLLS_S) * max(DEBOUNCES)
+MAX_REACTION_S = MAX_POLLED_S + USUAL_DELAY_S
 
 
 @dataclass(frozen=True)
@@ -28,7 +35,24 @@ class CarTiming:
     debounce: int
     noise_m: float
 
+    @property
+    def polled_s(self) -> float:
+        """Mean time from the boundary to the poll that decides, without noise."""
+        return self.poll_s * (self.debounce - 0.5)
+
 
 # All hypotheses, and how likely each is before anything is measured, by its noise.
 TIMINGS = tuple(CarTiming(*each) for each in itertools.product(POLLS_S, DEBOUNCES, NOISES_M))
 PRIOR = tuple(NOISE_PRIOR[NOISES_M.index(timing.noise_m)] for timing in TIMINGS)
+
+
+def prior_of(reactions_s: FloatArray) -> FloatArray:
+    """How likely each timing with each mean reaction time is before anything is measured; axes [timing, reaction].
+
+    The delay is what the reaction time is beyond the polls; a timer's logarithm is even.
+    """
+    delays_s = reactions_s - np.array([timing.polled_s for timing in TIMINGS])[:, None]
+    usual = (1.0 - TIMER_SHARE) / USUAL_DELAY_S * ((delays_s >= 0.0) & (delays_s <= USUAL_DELAY_S))
+    is_timer = (delays_s > USUAL_DELAY_S) & (delays_s <= LONGEST_TIMER_S)
+    timer = TIMER_SHARE / np.log(LONGEST_TIMER_S / USUAL_DELAY_S) / np.maximum(delays_s, USUAL_DELAY_S)
+    return np.asarray(np.array(PRIOR)[:, None] * (usual + timer * is_timer))
