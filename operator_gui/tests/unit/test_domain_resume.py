@@ -1,13 +1,17 @@
 """A line that was interrupted in its retreat is finished with its point, or measured anew; no point is lost (C1)."""
 # SPDX-License-Identifier: Apache-2.0
+import math
 from dataclasses import replace
 
 import pytest
 
+from mtr_operator.domain.actions.car import Car
 from mtr_operator.domain.actions.control_loop import ControlLoop
+from mtr_operator.domain.actions.distance import Distance
 from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import RobotFailed
+from mtr_operator.domain.requests import Direction
 from mtr_operator.domain.results.journal import LINE, LINE_BEGUN, LINE_RESUMED, POINT, SUPERSEDED
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import CarCheck, CarFrame, CheckState
@@ -87,6 +91,57 @@ def test_line_goes_on_with_the_retreat_and_its_point_counts_once(laptop, killed)
     assert result.unlock_robot_time_s == pytest.approx(laptop.points(INTERRUPTED)[0]["distance"]["robot_time_s"])
     assert not any(text.startswith(f"axis {INTERRUPTED} ") for text in said)
     assert len(laptop.progress.results) == 8 and not laptop.progress.retried
+
+
+@pytest.mark.parametrize("rolled_m", [0.4, -0.4])
+def test_robot_that_rolled_on_brings_the_key_back_to_where_the_car_unlocked(laptop, world, robot_link, rolled_m):
+    point, = laptop.points(INTERRUPTED)
+    world.x -= rolled_m * math.cos(world.heading)
+    world.y -= rolled_m * math.sin(world.heading)
+    begun = len(robot_link.answers)
+    laptop.run()
+    waypoints = {desired.waypoint.id: desired.waypoint for _, desired in reversed(robot_link.answers[begun:])
+                 if desired.waypoint is not None}
+    axis = laptop.result(INTERRUPTED).ray
+    first, second = (waypoints[number] for number in (1, 2))
+    if rolled_m > 0.0:
+        assert first.direction is Direction.FORWARD
+        assert axis.distance_of((first.pose.x, first.pose.y)) - 0.25 == pytest.approx(point["distance"]["distance_m"])
+        first = second
+    # What follows, and what a robot that rolled nearer begins with, is the retreat.
+    assert first.direction is Direction.BACKWARD
+    assert axis.distance_of((first.pose.x, first.pose.y)) - 0.25 == pytest.approx(PARAMETERS.straightened_distance_m)
+
+
+class StandingRobot:
+    """Stands somewhere on an axis on which the Car has unlocked."""
+
+    now_s = 10.0
+
+    def __init__(self, distance_m, lateral_m, heading_rad):
+        self._place = Distance(distance_m, 0.03, 10.0, lateral_m, heading_rad)
+
+    def kept(self, word):
+        return self._place if word == "unlock" else None
+
+    def trouble(self):
+        return ""
+
+    def key_distance(self, _ray, _time_s, _time_sigma_s):
+        return self._place
+
+
+# From 1 m nearer than the approach goes, by which a robot without its application may roll on, to the retreat's end.
+@pytest.mark.parametrize(("place", "can_go_on"), [
+    ((1.5, 0.0, 0.0), True),
+    ((-0.5, 0.0, 0.0), True), ((-0.51, 0.0, 0.0), False),
+    ((3.5, 0.0, 0.0), True), ((3.51, 0.0, 0.0), False),
+    ((1.5, 0.1, 0.0), True), ((1.5, 0.101, 0.0), False), ((1.5, -0.1, 0.0), True), ((1.5, -0.101, 0.0), False),
+    ((1.5, 0.0, math.radians(5.0)), True), ((1.5, 0.0, math.radians(-5.1)), False)])
+def test_line_goes_on_from_any_place_of_its_axis_within_the_tolerances(world, car_link, place, can_go_on):
+    world.locked = False
+    line = SCENARIO.lines(PARAMETERS, world.car)[0]
+    assert SCENARIO.can_go_on(line, PARAMETERS, StandingRobot(*place), Car(ControlLoop(None, car_link))) is can_go_on
 
 
 def lock_the_car(world):

@@ -1,0 +1,113 @@
+"""What passes of an axis tell of its static boundary: which passes count, and the errors that all of them share."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import replace
+
+import pytest
+
+from mtr_operator.domain.ports import PASSIVE_ENTRY, LockFacts
+from mtr_operator.domain.results.line_result import LineStatus
+from mtr_operator.domain.scenarios.autolock import SCENARIO
+from mtr_operator.domain.scenarios.autolock_boundary import with_boundaries
+from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
+from mtr_operator.domain.scenarios.autolock_result import AutolockResult
+from mtr_operator.domain.scenarios.autolock_speeds import pass_speeds
+
+TWO = AutolockParameters(measurements_distance_m=10.0, passes=2, measuring_speeds_mps=(0.4, 0.1))
+SHARED_M = 0.03
+
+
+def axis(distances_m, speeds_mps, sigma_m=None, told_every_s=0.0):
+    """Result of an axis with these passes in both directions, not yet read."""
+    return AutolockResult(
+        1, "front", 2.25, 0.0, 1.0, 0.0, LineStatus.OK, distances_m[0], sigma_m, 10.0,
+        LineStatus.OK, 2.5, sigma_m, 20.0, "", unlock_speed_mps=speeds_mps[0], lock_speed_mps=-speeds_mps[0], unlock_pass_distances_m=distances_m,
+        unlock_pass_speeds_mps=speeds_mps, lock_pass_distances_m=(2.7, 2.55), lock_pass_speeds_mps=(0.4, 0.1),
+        told_every_s=told_every_s)
+
+
+def read(result, parameters=TWO):
+    """The same with its static boundaries."""
+    return with_boundaries([result], parameters, [result])[0]
+
+
+@pytest.mark.parametrize("told_every_s", [None, 0.0, 0.2, 0.8])
+def test_error_that_all_passes_share_widens_the_boundary_without_the_part_of_each_ones_message(told_every_s):
+    passes = axis((1.3, 1.45), (0.4, 0.1), told_every_s=told_every_s)
+    # The instant of a message lies anywhere in its cycle; the passes have that part each for itself.
+    own_m = 0.4 * (told_every_s or 0.0) / math.sqrt(12.0)
+    sigma_m = math.hypot(SHARED_M, own_m)
+    alone, whole = read(passes), read(replace(passes, unlock_uncertainty_m=sigma_m, lock_uncertainty_m=sigma_m))
+    for word in ("unlock", "lock"):
+        narrow_m, wide_m = (getattr(each, f"{word}_static_sigma_m") for each in (alone, whole))
+        assert math.sqrt(wide_m ** 2 - narrow_m ** 2) == pytest.approx(SHARED_M, abs=2e-4)
+        assert getattr(whole, f"{word}_static_m") == getattr(alone, f"{word}_static_m")
+
+
+def test_pass_that_is_less_certain_by_its_message_than_told_shares_nothing():
+    certain = axis((1.3, 1.45), (0.4, 0.1), 0.01, told_every_s=0.8)
+    assert read(certain).unlock_static_sigma_m == read(
+        replace(certain, unlock_uncertainty_m=None)).unlock_static_sigma_m
+
+
+def test_car_of_which_no_cycle_is_recorded_is_read_as_one_that_tells_at_once():
+    unknown, at_once, slow = (read(axis((1.3, 1.45), (0.4, 0.1), told_every_s=cycle_s)) for cycle_s in (None, 0.0, 0.8))
+    assert unknown.distances == at_once.distances
+    assert at_once.unlock_static_low_m < 1.5 < at_once.unlock_static_high_m
+    assert at_once.unlock_static_sigma_m < slow.unlock_static_sigma_m
+
+
+def test_robot_that_does_not_say_how_well_it_knows_its_place_leaves_the_passes_own_interval(run_scenario, spoil):
+    said = run_scenario(SCENARIO, TWO)[0]
+    spoil(lambda status: True, position_sigma_m=math.nan)
+    unsaid = run_scenario(SCENARIO, TWO)[0]
+    assert unsaid.unlock_uncertainty_m is unsaid.lock_uncertainty_m is None
+    for low, high in (("unlock_static_low_m", "unlock_static_high_m"), ("lock_static_low_m", "lock_static_high_m")):
+        assert 0.0 < getattr(unsaid, high) - getattr(unsaid, low) < getattr(said, high) - getattr(said, low)
+
+
+def test_reaction_to_a_key_that_has_come_to_a_stand_tells_nothing_of_its_speed(run_scenario, world):
+    at_once = world.turn_locks
+
+    def later(locked, time_s, source):
+        if source == "late":
+            at_once(locked, time_s, PASSIVE_ENTRY)
+        else:
+            world.foreign.append((time_s + 0.5, locked, "late"))
+    world.turn_locks = later
+    # The approach ends 0.1 m behind the boundary: the fast one before the Car has reacted, the slow one after.
+    result = run_scenario(SCENARIO, replace(TWO, minimum_distance_m=1.4))[0]
+    assert result.unlock_pass_distances_m == pytest.approx((1.4, 1.45), abs=0.02)
+    assert result.unlock_pass_speeds_mps == pytest.approx((0.0, 0.1))
+    assert (result.unlock_passes, result.unlock_static_m) == (2, None)
+    assert result.lock_static_m is not None
+
+
+def test_reaction_to_a_key_that_hardly_moves_is_not_taken_for_one_to_a_key_that_stood_between_steps():
+    stepped = replace(TWO, passes=1, measuring_speeds_mps=None, last_step_m=0.05)
+    with_hardly, with_none = axis((1.3, 1.2, 1.45), (0.4, 0.01, 0.0)), axis((1.3, 1.45), (0.4, 0.0))
+    assert read(with_hardly, stepped).distances == read(with_none, stepped).distances
+    assert read(axis((1.3, 1.2), (0.4, 0.01)), stepped).unlock_static_m is None
+
+
+def test_speeds_of_passes_are_recorded_to_micrometres_per_second(run_scenario):
+    result = run_scenario(SCENARIO, replace(TWO, measuring_speeds_mps=(0.4123456789, 0.1)))[0]
+    assert result.unlock_pass_speeds_mps == result.lock_pass_speeds_mps == (0.412346, 0.1)
+
+
+# Speeds and prospect
+
+
+def test_single_pass_has_the_speed_that_is_given():
+    assert pass_speeds(AutolockParameters(maximum_speed_mps=0.7), 0.2) == (0.7,)
+    assert pass_speeds(AutolockParameters(measuring_speed_mps=0.3), 0.2) == (0.3,)
+    assert pass_speeds(AutolockParameters(measuring_speeds_mps=(0.3,)), 0.2) == (0.3,)
+
+
+def test_axes_that_are_measured_say_how_wide_the_intervals_of_the_others_will_be():
+    wide = replace(axis((1.3,), (0.4,)), unlock_static_m=1.5, unlock_static_low_m=1.3, unlock_static_high_m=1.7,
+                   lock_static_m=2.5, lock_static_low_m=2.45, lock_static_high_m=2.55)
+    prospect = SCENARIO.prospect(TWO, LockFacts(told_every_s=0.2), [wide])
+    assert prospect.interval_m == pytest.approx((0.05, 0.2))
+    nowhere = replace(wide, unlock_static_m=None, unlock_static_low_m=None, unlock_static_high_m=None)
+    assert SCENARIO.prospect(TWO, LockFacts(told_every_s=0.2), [nowhere]).interval_m == pytest.approx((0.05, 0.05))
