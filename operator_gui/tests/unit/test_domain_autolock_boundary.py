@@ -21,9 +21,9 @@ def axis(distances_m, speeds_mps, sigma_m=None, told_every_s=0.0):
     """Result of an axis with these passes in both directions, not yet read."""
     return AutolockResult(
         1, "front", 2.25, 0.0, 1.0, 0.0, LineStatus.OK, distances_m[0], sigma_m, 10.0,
-        LineStatus.OK, 2.5, sigma_m, 20.0, "", unlock_speed_mps=speeds_mps[0], lock_speed_mps=-speeds_mps[0], unlock_pass_distances_m=distances_m,
-        unlock_pass_speeds_mps=speeds_mps, lock_pass_distances_m=(2.7, 2.55), lock_pass_speeds_mps=(0.4, 0.1),
-        told_every_s=told_every_s)
+        LineStatus.OK, 2.5, sigma_m, 20.0, "", unlock_speed_mps=speeds_mps[0], lock_speed_mps=-speeds_mps[0],
+        unlock_pass_distances_m=distances_m, unlock_pass_speeds_mps=speeds_mps,
+        lock_pass_distances_m=(2.7, 2.55), lock_pass_speeds_mps=(0.4, 0.1), told_every_s=told_every_s)
 
 
 def read(result, parameters=TWO):
