@@ -19,6 +19,12 @@ def ask_progress_file(parent: QWidget, title: str, start: pathlib.Path) -> pathl
     return pathlib.Path(chosen) if chosen else None
 
 
+def ask_yaml_file(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.Path | None:
+    """A file of limits or of a calibration record that the Operator chooses; None when he does not."""
+    chosen, _ = QFileDialog.getOpenFileName(parent, title, str(start), "YAML (*.yaml *.yml)")
+    return pathlib.Path(chosen) if chosen else None
+
+
 def show_message(parent: QWidget, title: str, sentence: str) -> None:
     """Show a sentence until the Operator has read it."""
     QMessageBox(QMessageBox.Icon.Warning, title, sentence, QMessageBox.StandardButton.Ok, parent).exec_()

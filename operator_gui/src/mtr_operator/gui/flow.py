@@ -10,6 +10,7 @@ from PyQt5.QtCore import QObject, pyqtSignal
 
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
+from mtr_operator.domain.verdict.suitability import check_before_start
 from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
 from mtr_operator.station.events import (
     CarLinkOpened,
@@ -27,10 +28,12 @@ from mtr_operator.station.links.worker import Worker
 from mtr_operator.station.readiness import Phase
 from mtr_operator.station.settings_file import SettingsStore
 from mtr_operator.station.test import Test, new_test, note_continued, open_test
+from mtr_operator.storage.given_files import Given, GivenPaths
 
 from .bridge import Bridge
 
 CLOSE_LIMIT_S = 8.0
+NO_PATHS = GivenPaths()
 
 
 class Step(enum.Enum):
@@ -115,11 +118,19 @@ class Flow(QObject):
 
     # Test
 
-    def start(self, scenario: AnyScenario, parameters: ScenarioParameters) -> None:
-        """Begin a test."""
+    def start(self, scenario: AnyScenario, parameters: ScenarioParameters, paths: GivenPaths = NO_PATHS) -> None:
+        """Begin a test; failed follows when a file that is given does not suit it any more."""
+        try:
+            given = Given(*paths)
+            if given.limits is not None:
+                check_before_start(given.limits, scenario, parameters)
+        except OperatorError as error:
+            self.failed.emit(str(error))
+            return
         settings = self.store.settings.with_parameters(scenario.name, parameters.to_mapping())
+        settings = settings.with_given(scenario.name, paths)
         self.store.change(settings)
-        self.model.take_up(new_test(scenario, parameters, settings.progress_folder, self.connection))
+        self.model.take_up(new_test(scenario, parameters, settings.progress_folder, self.connection, given))
         self.resume()
         self.show(Step.MEASUREMENT)
 

@@ -11,13 +11,10 @@ from mtr_operator.domain.verdict.verdict import Verdict
 
 from .table import line_name
 
-_COUNTED = (Verdict.PASS, Verdict.INCONCLUSIVE, Verdict.FAIL, Verdict.ABORTED)
-
 
 def verdict_counts(judgement: TestJudgement) -> str:
     """Such as "3 pass, 1 fail": how many of the lines that a limit names came to which verdict."""
-    verdicts = [judgement.of_line(number) for number in dict.fromkeys(each.line for each in judgement.judgements)]
-    return ", ".join(f"{verdicts.count(verdict)} {verdict.word}" for verdict in _COUNTED if verdict in verdicts)
+    return ", ".join(f"{count} {verdict.word}" for verdict, count in judgement.counts().items())
 
 
 def verdict_lines(scenario: AnyScenario, results: Sequence[LineResult],

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from mtr_operator.domain.results.document import read_record
+from mtr_operator.storage.given_files import GivenPaths
 
 from .connection import CanChoice, Connection, RobotChoice
 
@@ -34,6 +35,7 @@ class Settings:
         connection: of the last success. hosts: robots of earlier successes, newest first.
         result_folder, progress_folder: where files go.
         parameters: last used ones by scenario, as in a parameter file.
+        limits: last used limits files by scenario. calibration: record of the robot, None for that of the design.
         unfinished: progress file of a test that has not come to its end.
     """
 
@@ -45,6 +47,8 @@ class Settings:
     progress_folder: pathlib.Path = pathlib.Path("~/mtr-operator/progress").expanduser()
     parameters: dict[str, dict[str, Any]] = field(default_factory=dict)
     unfinished: pathlib.Path | None = None
+    limits: dict[str, pathlib.Path] = field(default_factory=dict)
+    calibration: pathlib.Path | None = None
 
     def with_connection(self, connection: Connection) -> Settings:
         """Settings after a success with this connection."""
@@ -56,12 +60,24 @@ class Settings:
         """Settings that remember a scenario's parameters."""
         return dataclasses.replace(self, parameters={**self.parameters, scenario: parameters})
 
+    def given(self, scenario: str) -> GivenPaths:
+        """Files that a scenario was given last."""
+        return GivenPaths(self.limits.get(scenario), self.calibration)
+
+    def with_given(self, scenario: str, paths: GivenPaths) -> Settings:
+        """Settings that remember what a scenario was given."""
+        others = {name: path for name, path in self.limits.items() if name != scenario}
+        limits = others if paths.limits is None else {**others, scenario: paths.limits}
+        return dataclasses.replace(self, limits=limits, calibration=paths.calibration)
+
     def to_document(self) -> dict[str, Any]:
         """Plain values for a file."""
         return {
             "format": FORMAT, "version": VERSION, **dataclasses.asdict(self), "hosts": list(self.hosts),
             "result_folder": str(self.result_folder), "progress_folder": str(self.progress_folder),
-            "unfinished": None if self.unfinished is None else str(self.unfinished)}
+            "unfinished": None if self.unfinished is None else str(self.unfinished),
+            "limits": {name: str(path) for name, path in self.limits.items()},
+            "calibration": None if self.calibration is None else str(self.calibration)}
 
 
 def settings_from_document(document: Any) -> Settings:
@@ -78,7 +94,10 @@ def settings_from_document(document: Any) -> Settings:
             _one_of(THEMES, document["theme"]), _one_of(LANGUAGES, document["language"]),
             _path(document["result_folder"]), _path(document["progress_folder"]),
             {str(name): _remembered(values) for name, values in document["parameters"].items()},
-            None if document["unfinished"] is None else _path(document["unfinished"]))
+            _path_or_none(document["unfinished"]),
+            # An earlier version kept neither.
+            {str(name): _path(path) for name, path in document.get("limits", {}).items()},
+            _path_or_none(document.get("calibration")))
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError):
         raise NotSettings("They are damaged.") from None
 
@@ -87,6 +106,10 @@ def _path(text: Any) -> pathlib.Path:
     if not isinstance(text, str) or "\0" in text:
         raise TypeError("path")
     return pathlib.Path(text)
+
+
+def _path_or_none(text: Any) -> pathlib.Path | None:
+    return None if text is None else _path(text)
 
 
 def _remembered(values: Any) -> dict[str, Any]:

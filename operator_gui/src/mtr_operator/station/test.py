@@ -15,6 +15,7 @@ from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.atomic import output_folder
+from mtr_operator.storage.given_files import Given
 from mtr_operator.storage.journal_file import journal_path
 from mtr_operator.storage.progress_file import FILE_NAME, holds_no_other, open_progress
 from mtr_operator.storage.recovery import progress_path
@@ -84,12 +85,14 @@ class Test:
 
 
 def new_test(scenario: AnyScenario, parameters: ScenarioParameters, folder: pathlib.Path,
-             connection: Connection) -> Test:
-    """A test that has measured nothing yet."""
+             connection: Connection, given: Given | None = None) -> Test:
+    """A test that has measured nothing yet; without anything given it has no limits and the design's calibration."""
     started = now()
     session = session_record(started, connection.robot.host, profile_name(connection.can))
     path = _free(folder / f"{scenario.name}_{started.strftime(_MOMENT)}.json")
-    return Test(scenario, parameters, Progress(scenario.name, parameters.to_mapping(), session), path)
+    progress = Progress(scenario.name, parameters.to_mapping(), session)
+    (given or Given()).give(progress)
+    return Test(scenario, parameters, progress, path)
 
 
 def report_folder(folder: pathlib.Path, test: Test) -> pathlib.Path:

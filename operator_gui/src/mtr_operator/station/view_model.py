@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import dataclasses
 import math
 import time
 from typing import Callable
@@ -11,6 +12,8 @@ from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.prospect import Prospect
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import CarDimensions, Notification
+from mtr_operator.domain.verdict.judgement import TestJudgement
+from mtr_operator.report.assessed import assess
 
 from .estimate import USUAL_CAR, USUAL_FACTS, TimeLeft, plan_of
 from .events import (
@@ -46,6 +49,7 @@ class ViewModel:
         done, total: lines; total is 0 before it is known.
         action: what the robot does now. trouble: why the test was interrupted; empty when the Operator did it.
         outcome: how measuring ended last, None while it has not.
+        judgement: of the lines measured so far, None without limits.
         handle: what the Operator is asked to do at the Car's handle, None when nothing.
     """
 
@@ -63,6 +67,7 @@ class ViewModel:
         self.done = self.total = 0
         self.action = self.trouble = ""
         self.outcome: Outcome | None = None
+        self.judgement: TestJudgement | None = None
         self.handle: HandlePrompt | None = None
 
     @property
@@ -119,6 +124,7 @@ class ViewModel:
         self.action = self.trouble = ""
         self.outcome = self.newest = None
         self.trail = []
+        self._judge()
 
     def begin(self) -> None:
         """The test at hand is started or continued now."""
@@ -127,7 +133,7 @@ class ViewModel:
 
     def lay_aside(self) -> None:
         """No test is at hand any more."""
-        self.test, self.phase, self.results = None, Phase.IDLE, ()
+        self.test, self.phase, self.results, self.judgement = None, Phase.IDLE, (), None
         self.done = self.total = 0
 
     def apply(self, batch: Batch) -> None:
@@ -155,13 +161,27 @@ class ViewModel:
             self.results, self.newest = event.results, event.newest
             self.done, self.total = event.done, event.total
             self._time_left.advance(event.done, self._clock())
+            self._judge()
         elif isinstance(event, RunEnded):
             self.results, self.outcome, self.trouble = event.results, event.outcome, event.text
             self.phase = Phase.FINISHED if event.outcome is Outcome.COMPLETE else Phase.PAUSED
+            self._judge()
         elif isinstance(event, HandleWanted):
             self.handle = event.prompt
         elif isinstance(event, RobotSilent):
             self._received_s = min(self._received_s, self._clock() - event.silent_s)
+
+    def _judge(self) -> None:
+        """The progress belongs to the links' thread while the test runs; its limits do not change, its results do."""
+        test, car = self.test, self._car
+        self.judgement = None
+        if test is None or car is None or test.progress.limits is None:
+            return
+        progress = dataclasses.replace(test.progress, car=car, results=list(self.results))
+        judgement = assess(test.scenario, test.parameters, progress).judgement
+        if judgement is not None:
+            measured = {result.number for result in self.results}
+            self.judgement = TestJudgement(tuple(each for each in judgement.judgements if each.line in measured))
 
     def _expect(self) -> None:
         test = self.test

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pathlib
-from typing import Any, Callable, TypeVar
+from typing import Any, Callable, NamedTuple, TypeVar
 
 from mtr_operator.domain.errors import InvalidCalibration, InvalidLimits
 from mtr_operator.domain.estimation.budget.calibration import CalibrationRecord
@@ -33,13 +33,20 @@ def calibration_of(progress: Progress) -> CalibrationRecord:
     return load_calibration() if progress.calibration is None else progress.calibration
 
 
+class GivenPaths(NamedTuple):
+    """Files that the Operator gives for a test; None where nothing is given."""
+
+    limits: pathlib.Path | None = None
+    calibration: pathlib.Path | None = None
+
+
 class Given:
     """What the Operator gives for a test; the paths are None where nothing is given.
 
     InvalidLimits or InvalidCalibration says what is wrong with a file.
     """
 
-    def __init__(self, limits: pathlib.Path | None, calibration: pathlib.Path | None):
+    def __init__(self, limits: pathlib.Path | None = None, calibration: pathlib.Path | None = None):
         self.limits = None if limits is None else load_limits(limits)
         self.calibration = None if calibration is None else load_calibration(calibration)
 

@@ -68,6 +68,10 @@ class TestJudgement:
         """Of the test: the worst."""
         return worst(judgement.verdict for judgement in self.judgements)
 
+    def names(self, number: int) -> bool:
+        """True for a line that a limit is about."""
+        return any(judgement.line == number for judgement in self.judgements)
+
     def of_line(self, number: int) -> Verdict:
         """Of a line: the worst; NOT_SET when no limit names it."""
         return worst(judgement.verdict for judgement in self.judgements if judgement.line == number)
@@ -77,6 +81,11 @@ class TestJudgement:
         verdict = self.of_line(number)
         return next((judgement.reason for judgement in self.judgements
                      if judgement.line == number and judgement.verdict is verdict), "")
+
+    def counts(self) -> dict[Verdict, int]:
+        """How many of the lines that a limit names came to which verdict, from good to bad; none that is 0."""
+        verdicts = [self.of_line(number) for number in dict.fromkeys(each.line for each in self.judgements)]
+        return {verdict: verdicts.count(verdict) for verdict in Verdict if verdict in verdicts}
 
     def undecided(self) -> list[int]:
         """Numbers of the lines that more measurements may decide; none that fails anyway."""

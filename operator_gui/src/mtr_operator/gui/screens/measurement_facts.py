@@ -8,6 +8,7 @@ from PyQt5.QtWidgets import QFormLayout, QFrame, QLabel, QProgressBar, QVBoxLayo
 
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.results.line_result import LineStatus, MeasuredDistance
+from mtr_operator.domain.verdict.judgement import TestJudgement
 from mtr_operator.station.events import RobotSnapshot
 from mtr_operator.station.readiness import Phase
 from mtr_operator.station.view_model import ViewModel
@@ -17,6 +18,7 @@ from ..names import domain_word, scenario_title
 from ..prospect_text import prospect_text
 from ..sentences import translated
 from ..theme.scale import M, S
+from ..verdict_text import verdict_text
 
 _CM_PER_M, _KMH_PER_MPS = 100.0, 3.6
 _UNKNOWN = "\N{EN DASH}"
@@ -36,15 +38,18 @@ class MeasurementFacts(QFrame):
                             (self.action, "")):
             label.setProperty("role", role)
             label.setWordWrap(True)
-        self.values = {name: QLabel() for name in ("car", "locks", "key", "speed", "position", "newest")}
+        self.values = {name: QLabel() for name in ("car", "locks", "key", "speed", "position", "newest", "verdict")}
         names = {"car": self.tr("Car"), "locks": self.tr("Locks"), "key": self.tr("Key height"),
-                 "speed": self.tr("Speed"), "position": self.tr("Position"), "newest": self.tr("Last result")}
+                 "speed": self.tr("Speed"), "position": self.tr("Position"), "newest": self.tr("Last result"),
+                 "verdict": self.tr("Verdict so far")}
+        self._verdict_heading = QLabel()
         rows = QFormLayout()
         rows.setHorizontalSpacing(M)
         rows.setVerticalSpacing(S)
         for name, label in self.values.items():
             label.setWordWrap(True)
-            heading = QLabel(names[name])
+            heading = self._verdict_heading if name == "verdict" else QLabel()
+            heading.setText(names[name])
             heading.setProperty("role", "soft")
             rows.addRow(heading, label)
         layout = QVBoxLayout(self)
@@ -67,11 +72,18 @@ class MeasurementFacts(QFrame):
         self.left.setVisible(bool(self.left.text()))
         self.action.setText(self._action_text(model))
         self.values["newest"].setText(newest_text(model))
+        self._show_verdict(model.judgement)
         car = model.mapped_car
         self.values["car"].setText(_UNKNOWN if car is None else
                                    f"{number(car.length, 2)} m \N{MULTIPLICATION SIGN} {number(car.width, 2)} m")
         if model.robot is not None:
             self._show_robot(model.robot)
+
+    def _show_verdict(self, judgement: TestJudgement | None) -> None:
+        verdict = self.values["verdict"]
+        verdict.setText("" if judgement is None else verdict_text(judgement))
+        for label in (verdict, self._verdict_heading):
+            label.setVisible(judgement is not None)
 
     def _show_robot(self, robot: RobotSnapshot) -> None:
         status = robot.status
@@ -104,7 +116,10 @@ def newest_text(model: ViewModel) -> str:
         return _UNKNOWN
     result = model.newest
     distances = [f"{domain_word(distance.word)} {_distance_text(distance)}" for distance in result.distances]
-    return f"{result.number} ({domain_word(result.place)}): {', '.join(distances)}"
+    text = f"{result.number} ({domain_word(result.place)}): {', '.join(distances)}"
+    if model.judgement is None or not model.judgement.names(result.number):
+        return text
+    return f"{text} \N{EN DASH} {domain_word(model.judgement.of_line(result.number).word)}"
 
 
 def _distance_text(distance: MeasuredDistance) -> str:

@@ -17,13 +17,15 @@ from mtr_operator.station.test import report_folder
 
 from ..dialogs import ask_folder
 from ..flow import Flow
-from ..names import domain_word, scenario_title
+from ..names import scenario_title
 from ..pictures.picture_panel import PicturePanel
 from ..pictures.protocol_picture import Protocol, ProtocolPicture
 from ..report_writer import CSV, PDF, PNG, SVG, ReportWriter
 from ..sentences import translated
 from ..theme.appearance import Appearance
 from ..theme.scale import L, M, S
+from ..verdict_text import verdict_text
+from .budget_model import BudgetModel
 from .results_model import PLACE_COLUMN, ResultsModel
 
 _SIDE_WIDTH = 600
@@ -31,7 +33,8 @@ _CLICK_PX = 18.0
 
 
 class ProtocolScreen(QWidget):
-    """Attributes: protocol: what is shown. panel: the picture. table: the results. notice: what was saved.
+    """Attributes: protocol: what is shown. panel: the picture. table: the results. budget: of the row chosen.
+    notice: what was saved.
 
     save, save_pdf, save_svg, show_folder, done: buttons.
 
@@ -54,7 +57,11 @@ class ProtocolScreen(QWidget):
         self.title.setProperty("role", "heading")
         self.date.setProperty("role", "soft")
         self.notice.setWordWrap(True)
-        self.table = self._make_table()
+        self.table = self._make_table(self.tr("Results; choose a row to see its points"))
+        self.budget = self._make_table(self.tr("What the uncertainty of the chosen row is made of"))
+        self.budget.setSelectionMode(QTableView.NoSelection)
+        self.budget.horizontalHeader().setStretchLastSection(True)
+        self.budget.hide()
         self.save = self._button(self.tr("Save"), "primary", lambda: self._write((CSV, PNG)))
         self.save.setToolTip(self.tr("Save as CSV and PNG"))
         self.save_pdf = self._button(self.tr("Save PDF"), "", lambda: self._write((PDF,)))
@@ -74,9 +81,10 @@ class ProtocolScreen(QWidget):
         """What is shown."""
         return self._picture.protocol
 
-    def _make_table(self) -> QTableView:
+    @staticmethod
+    def _make_table(name: str) -> QTableView:
         table = QTableView()
-        table.setAccessibleName(self.tr("Results; choose a row to see its points"))
+        table.setAccessibleName(name)
         table.setSelectionBehavior(QTableView.SelectRows)
         table.setSelectionMode(QTableView.SingleSelection)
         table.setAlternatingRowColors(True)
@@ -105,7 +113,8 @@ class ProtocolScreen(QWidget):
         side.setSpacing(M)
         side.addWidget(self.title)
         side.addWidget(self.date)
-        side.addWidget(self.table, 1)
+        side.addWidget(self.table, 3)
+        side.addWidget(self.budget, 2)
         side.addWidget(self.notice)
         side.addLayout(first)
         side.addLayout(second)
@@ -134,6 +143,7 @@ class ProtocolScreen(QWidget):
         self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
         self.panel.legend.show_sets(protocol.picture.point_sets)
         self.panel.view.show_layers(self._shown.layers)
+        self._show_budget(-1)
         self._show_notice(self._summary())
         self.show_folder.setEnabled(False)
         self.save.setFocus()
@@ -141,7 +151,7 @@ class ProtocolScreen(QWidget):
     def _summary(self) -> str:
         judgement = self.protocol.assessment.judgement
         verdict = "" if judgement is None else self.tr("Verdict: {verdict}.").format(
-            verdict=domain_word(judgement.verdict.word)) + " "
+            verdict=verdict_text(judgement)) + " "
         return verdict + self._counts()
 
     def _counts(self) -> str:
@@ -156,6 +166,14 @@ class ProtocolScreen(QWidget):
         points = self.protocol.picture_of(row).point_sets if row >= 0 else ()
         self._picture.points.chosen = tuple(point for each in points for point in each.known)
         self.panel.view.refresh()
+        self._show_budget(row)
+
+    def _show_budget(self, row: int) -> None:
+        protocol = self.protocol
+        line = protocol.progress.results[row].number if row >= 0 else None
+        budget = BudgetModel(protocol.assessment, line, self.budget)
+        self.budget.setModel(budget)
+        self.budget.setVisible(budget.rowCount() > 0)
 
     def _choose_point(self, x: float, y: float) -> None:
         """Select the row of the point that was clicked."""

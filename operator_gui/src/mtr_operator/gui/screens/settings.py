@@ -10,6 +10,7 @@ from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.station.estimate import USUAL_CAR, Plan, plan_of
 from mtr_operator.station.view_model import ViewModel
 
+from ..forms.given_form import GivenForm
 from ..forms.parameter_form import ParameterForm
 from ..header.reasons import reason_text
 from ..i18n import duration
@@ -25,14 +26,14 @@ from ..theme.scale import L, M, S
 
 
 class SettingsScreen(QWidget):
-    """Attributes: form: the parameters. picture: preview. start: the button. notice: sentence on duration and battery.
+    """Attributes: form: the parameters. given: files that go with them. picture: preview. start: the button.
 
-    caution: what the parameters cannot give.
+    notice: sentence on duration and battery. caution: what the parameters cannot give.
 
-    Signals: started(parameters), back.
+    Signals: started(parameters, paths of the files given), back.
     """
 
-    started = pyqtSignal(object)
+    started = pyqtSignal(object, object)
     back = pyqtSignal()
 
     def __init__(self, scenario: AnyScenario, model: ViewModel, appearance: Appearance, parent: QWidget | None = None):
@@ -45,6 +46,7 @@ class SettingsScreen(QWidget):
         # Without a valid plan the view stays as it was.
         self._lines = LinesLayer()
         self.form = ParameterForm(scenario.parameters_type)
+        self.given = GivenForm(scenario)
         self.picture = PicturePanel(appearance)
         self.notice = QLabel()
         self.notice.setWordWrap(True)
@@ -59,6 +61,7 @@ class SettingsScreen(QWidget):
         self._hindrance.setProperty("role", "error")
         self._lay_out()
         self.form.changed.connect(self._preview)
+        self.given.changed.connect(self._preview)
         self._preview()
 
     def _lay_out(self) -> None:
@@ -80,6 +83,7 @@ class SettingsScreen(QWidget):
         left.setSpacing(M)
         left.addWidget(title)
         left.addWidget(scroll, 1)
+        left.addWidget(self.given)
         left.addLayout(buttons)
         right = QVBoxLayout()
         right.setSpacing(S)
@@ -114,8 +118,9 @@ class SettingsScreen(QWidget):
                 self.form.show_fault(parameter_sentence(error, self._scenario.parameters_type))
         self.picture.view.show_layers([GridLayer(), self._lines, CarLayer(car, mapped is not None), ScaleLayer()])
         self.notice.setText(self._forecast(mapped is not None))
-        self.caution.setText(" ".join(in_window_words(sentence, self._scenario.parameters_type)
-                                      for sentence in (self._plan.cautions if self._plan else ())))
+        cautions = [in_window_words(sentence, self._scenario.parameters_type)
+                    for sentence in (self._plan.cautions if self._plan else ())]
+        self.caution.setText(" ".join(filter(None, (*cautions, self.given.caution))))
         self.caution.setVisible(bool(self.caution.text()))
         self._judge()
 
@@ -141,7 +146,8 @@ class SettingsScreen(QWidget):
         hindrance = "" if readiness.can_start else " ".join(reason_text(reason) for reason in readiness.reasons
                                                            if reason.is_blocking)
         self._hindrance.setText(hindrance)
-        self.start.setEnabled(self._plan is not None and readiness.can_start)
+        is_given_well = self.given.judge(None if self._plan is None else self.form.parameters)
+        self.start.setEnabled(self._plan is not None and is_given_well and readiness.can_start)
 
     def _start(self) -> None:
-        self.started.emit(self.form.parameters)
+        self.started.emit(self.form.parameters, self.given.paths)

@@ -15,6 +15,44 @@
     </message>
 </context>
 <context>
+    <name>BudgetModel</name>
+    <message>
+        <location filename="../screens/budget_model.py" line="27"/>
+        <source>Distance</source>
+        <translation>Vzdálenost</translation>
+    </message>
+    <message>
+        <location filename="../screens/budget_model.py" line="27"/>
+        <source>Part of its uncertainty</source>
+        <translation>Složka nejistoty</translation>
+    </message>
+    <message>
+        <location filename="../screens/budget_model.py" line="27"/>
+        <source>In common</source>
+        <translation>Společná</translation>
+    </message>
+    <message>
+        <location filename="../screens/budget_model.py" line="27"/>
+        <source>From</source>
+        <translation>Zdroj</translation>
+    </message>
+    <message>
+        <location filename="../screens/budget_model.py" line="34"/>
+        <source>yes</source>
+        <translation>ano</translation>
+    </message>
+    <message>
+        <location filename="../screens/budget_model.py" line="34"/>
+        <source>no</source>
+        <translation>ne</translation>
+    </message>
+    <message>
+        <location filename="../screens/budget_model.py" line="37"/>
+        <source>expanded uncertainty, 95 %</source>
+        <translation>rozšířená nejistota, 95 %</translation>
+    </message>
+</context>
+<context>
     <name>CalibrationWindow</name>
     <message>
         <location filename="../windows/calibration_window.py" line="36"/>
@@ -248,6 +286,62 @@
     </message>
 </context>
 <context>
+    <name>FileField</name>
+    <message>
+        <location filename="../forms/file_field.py" line="31"/>
+        <source>Choose</source>
+        <translation>Vybrat</translation>
+    </message>
+    <message>
+        <location filename="../forms/file_field.py" line="32"/>
+        <source>Choose a file: {what}</source>
+        <translation>Vybrat soubor: {what}</translation>
+    </message>
+    <message>
+        <location filename="../forms/file_field.py" line="34"/>
+        <source>Without</source>
+        <translation>Bez souboru</translation>
+    </message>
+    <message>
+        <location filename="../forms/file_field.py" line="35"/>
+        <source>Without a file: {what}</source>
+        <translation>Bez souboru: {what}</translation>
+    </message>
+</context>
+<context>
+    <name>GivenForm</name>
+    <message>
+        <location filename="../forms/given_form.py" line="36"/>
+        <source>Limits file</source>
+        <translation>Soubor mezí</translation>
+    </message>
+    <message>
+        <location filename="../forms/given_form.py" line="36"/>
+        <source>none: no verdict</source>
+        <translation>žádný: bez verdiktu</translation>
+    </message>
+    <message>
+        <location filename="../forms/given_form.py" line="36"/>
+        <source>What the distances have to be; the lines are judged by it.</source>
+        <translation>Jaké vzdálenosti mají být; podle toho se linie posoudí.</translation>
+    </message>
+    <message>
+        <location filename="../forms/given_form.py" line="38"/>
+        <source>Calibration record</source>
+        <translation>Kalibrační záznam</translation>
+    </message>
+    <message>
+        <location filename="../forms/given_form.py" line="38"/>
+        <source>that of the design</source>
+        <translation>konstrukční</translation>
+    </message>
+    <message>
+        <location filename="../forms/given_form.py" line="38"/>
+        <source>What is known of this robot; the uncertainties follow from it.</source>
+        <translation>Co je o tomto robotu známo; plynou z toho nejistoty.</translation>
+    </message>
+</context>
+<context>
     <name>HeaderBar</name>
     <message>
         <location filename="../header/header_bar.py" line="27"/>
@@ -296,32 +390,32 @@
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="122"/>
+        <location filename="../windows/main_window.py" line="125"/>
         <source>Continue test</source>
         <translation>Pokračovat v testu</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="131"/>
+        <location filename="../windows/main_window.py" line="134"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="133"/>
+        <location filename="../windows/main_window.py" line="136"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="148"/>
+        <location filename="../windows/main_window.py" line="151"/>
         <source>A test is running. Stop the robot and close? What is measured is kept; the next start offers to go on.</source>
         <translation>Test běží. Zastavit robot a zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="150"/>
+        <location filename="../windows/main_window.py" line="153"/>
         <source>Stop and close</source>
         <translation>Zastavit a zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="150"/>
+        <location filename="../windows/main_window.py" line="153"/>
         <source>Go on measuring</source>
         <translation>Měřit dál</translation>
     </message>
@@ -329,79 +423,84 @@
 <context>
     <name>MeasurementFacts</name>
     <message>
-        <location filename="../screens/measurement_facts.py" line="34"/>
+        <location filename="../screens/measurement_facts.py" line="36"/>
         <source>Progress of the test</source>
         <translation>Průběh testu</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="40"/>
+        <location filename="../screens/measurement_facts.py" line="42"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="40"/>
+        <location filename="../screens/measurement_facts.py" line="42"/>
         <source>Locks</source>
         <translation>Zámky</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="40"/>
+        <location filename="../screens/measurement_facts.py" line="42"/>
         <source>Key height</source>
         <translation>Výška klíče</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="41"/>
+        <location filename="../screens/measurement_facts.py" line="43"/>
         <source>Speed</source>
         <translation>Rychlost</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="41"/>
+        <location filename="../screens/measurement_facts.py" line="43"/>
         <source>Position</source>
         <translation>Poloha</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="41"/>
+        <location filename="../screens/measurement_facts.py" line="43"/>
         <source>Last result</source>
         <translation>Poslední výsledek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="65"/>
+        <location filename="../screens/measurement_facts.py" line="70"/>
         <source>{done} of {total} lines measured</source>
         <translation>změřeno {done} z {total} přímek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="78"/>
+        <location filename="../screens/measurement_facts.py" line="90"/>
         <source>locked</source>
         <translation>zamčeno</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="78"/>
+        <location filename="../screens/measurement_facts.py" line="90"/>
         <source>unlocked</source>
         <translation>odemčeno</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="79"/>
+        <location filename="../screens/measurement_facts.py" line="91"/>
         <source>unknown</source>
         <translation>neznámý stav</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="83"/>
+        <location filename="../screens/measurement_facts.py" line="95"/>
         <source>not known</source>
         <translation>není známa</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="89"/>
+        <location filename="../screens/measurement_facts.py" line="101"/>
         <source>about {time} left</source>
         <translation>zbývá asi {time}</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="95"/>
+        <location filename="../screens/measurement_facts.py" line="107"/>
         <source>The robot is being stopped.</source>
         <translation>Robot se zastavuje.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="97"/>
+        <location filename="../screens/measurement_facts.py" line="109"/>
         <source>Paused. The line at hand is measured anew after Resume.</source>
         <translation>Pozastaveno. Rozpracovaná přímka se po pokračování změří znovu.</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="44"/>
+        <source>Verdict so far</source>
+        <translation>Zatím verdikt</translation>
     </message>
 </context>
 <context>
@@ -1140,74 +1239,79 @@
 <context>
     <name>ProtocolScreen</name>
     <message>
-        <location filename="../screens/protocol.py" line="79"/>
+        <location filename="../screens/protocol.py" line="60"/>
         <source>Results; choose a row to see its points</source>
         <translation>Výsledky; vyberte řádek a uvidíte jeho body</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="58"/>
+        <location filename="../screens/protocol.py" line="65"/>
         <source>Save</source>
         <translation>Uložit</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="59"/>
+        <location filename="../screens/protocol.py" line="66"/>
         <source>Save as CSV and PNG</source>
         <translation>Uložit jako CSV a PNG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="60"/>
+        <location filename="../screens/protocol.py" line="67"/>
         <source>Save PDF</source>
         <translation>Uložit PDF</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="61"/>
+        <location filename="../screens/protocol.py" line="68"/>
         <source>Save SVG</source>
         <translation>Uložit SVG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="62"/>
+        <location filename="../screens/protocol.py" line="69"/>
         <source>Show folder</source>
         <translation>Ukázat složku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="63"/>
+        <location filename="../screens/protocol.py" line="70"/>
         <source>New test</source>
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="130"/>
+        <location filename="../screens/protocol.py" line="139"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="151"/>
+        <location filename="../screens/protocol.py" line="161"/>
         <source>{count} lines, {invalid} of them invalid. Not saved as CSV and PNG yet.</source>
         <translation>Počet přímek: {count}, z toho neplatných: {invalid}. Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="153"/>
+        <location filename="../screens/protocol.py" line="163"/>
         <source>{count} lines. Not saved as CSV and PNG yet.</source>
         <translation>Počet přímek: {count}. Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="187"/>
+        <location filename="../screens/protocol.py" line="205"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="192"/>
+        <location filename="../screens/protocol.py" line="210"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="196"/>
+        <location filename="../screens/protocol.py" line="214"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="143"/>
+        <location filename="../screens/protocol.py" line="153"/>
         <source>Verdict: {verdict}.</source>
         <translation>Verdikt: {verdict}.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="61"/>
+        <source>What the uncertainty of the chosen row is made of</source>
+        <translation>Z čeho se skládá nejistota vybraného řádku</translation>
     </message>
 </context>
 <context>
@@ -2623,36 +2727,101 @@
         <source>Signal {} of message {} cannot carry the value {}.</source>
         <translation>Signál {} zprávy {} nemůže nést hodnotu {}.</translation>
     </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{} at least {} m for {} % of the attempts</source>
+        <translation>{} alespoň {} m pro {} % pokusů</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{} at most {} m for {} % of the attempts</source>
+        <translation>{} nejvýše {} m pro {} % pokusů</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>Wanted is {}; at {} m attempts failed again and again.</source>
+        <translation>Požaduje se {}; na {} m pokusy opakovaně selhaly.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>Wanted is {}; it {}.</source>
+        <translation>Požaduje se {}; hodnota {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>Wanted is {}; it {}, which holds the limit.</source>
+        <translation>Požaduje se {}; hodnota {}, takže mez leží v intervalu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>is below {} m</source>
+        <translation>je pod {} m</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>is above {} m</source>
+        <translation>je nad {} m</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>lies between {} and {} m</source>
+        <translation>leží mezi {} a {} m</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The line was not measured.</source>
+        <translation>Linie nebyla změřena.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The line does not tell this distance.</source>
+        <translation>Linie tuto vzdálenost neuvádí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The measurement does not say how sure it is.</source>
+        <translation>Měření neuvádí, jak je jisté.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The key worked nowhere in this test; it may have been asleep.</source>
+        <translation>Klíč v tomto testu nefungoval nikde; mohl spát.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>calibration record of {}: {}</source>
+        <translation>kalibrační záznam z {}: {}</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
     <message>
-        <location filename="../screens/settings.py" line="54"/>
+        <location filename="../screens/settings.py" line="56"/>
         <source>Start</source>
         <translation>Spustit</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="72"/>
+        <location filename="../screens/settings.py" line="75"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="126"/>
+        <location filename="../screens/settings.py" line="131"/>
         <source>{count} lines ({word}), about {time}.</source>
         <translation>Počet přímek ({word}): {count}, asi {time}.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="130"/>
+        <location filename="../screens/settings.py" line="135"/>
         <source>The Car is not measured yet; its size is a guess.</source>
         <translation>Auto ještě není změřeno; jeho rozměry jsou odhad.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="135"/>
+        <location filename="../screens/settings.py" line="140"/>
         <source>The battery, at {percent} %, suffices.</source>
         <translation>Baterie ({percent} %) stačí.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="136"/>
+        <location filename="../screens/settings.py" line="141"/>
         <source>The battery, at {percent} %, may not suffice: the test takes about {need} %.</source>
         <translation>Baterie ({percent} %) nemusí stačit: test spotřebuje asi {need} %.</translation>
     </message>
@@ -3291,6 +3460,66 @@
         <location filename="../texts/words.py" line="5"/>
         <source>Outside</source>
         <translation>venku</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>not set</source>
+        <translation>neposouzeno</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>place and instant of the key</source>
+        <translation>místo a okamžik klíče</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>attempts</source>
+        <translation>pokusy</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>length of the Car</source>
+        <translation>délka auta</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>width of the Car</source>
+        <translation>šířka auta</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>mast_lean_deg</source>
+        <translation>náklon stožáru</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>floor_slope_deg</source>
+        <translation>sklon podlahy</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>key_lever_m</source>
+        <translation>poloha klíče na robotu</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>lidar_yaw_deg</source>
+        <translation>natočení lidaru</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>robot&apos;s Status and the Car&apos;s bus</source>
+        <translation>stav robotu a sběrnice auta</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>robot&apos;s map of the Car</source>
+        <translation>mapa auta v robotu</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>attempts of the test</source>
+        <translation>pokusy testu</translation>
     </message>
 </context>
 </TS>

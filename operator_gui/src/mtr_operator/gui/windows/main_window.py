@@ -87,7 +87,8 @@ class MainWindow(QMainWindow):
         self.types.chosen.connect(self._show_settings)
         for name, screen in self.settings.items():
             screen.back.connect(lambda: flow.show(Step.TYPE))
-            screen.started.connect(lambda parameters, name=name: flow.start(SCENARIOS[name], parameters))
+            screen.started.connect(
+                lambda parameters, paths, name=name: flow.start(SCENARIOS[name], parameters, paths))
         self.measurement.stop_wanted.connect(flow.stop)
         self.measurement.resume_wanted.connect(flow.resume)
         self.measurement.release_wanted.connect(flow.release_hold)
@@ -114,7 +115,9 @@ class MainWindow(QMainWindow):
 
     def _show_settings(self, name: str) -> None:
         screen = self.settings[name]
-        screen.form.show_mapping(self._flow.store.settings.parameters.get(name, {}))
+        settings = self._flow.store.settings
+        screen.form.show_mapping(settings.parameters.get(name, {}))
+        screen.given.show_paths(settings.given(name))
         self._screens.setCurrentWidget(screen)
         screen.show_model()
 

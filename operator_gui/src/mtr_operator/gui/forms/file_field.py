@@ -1,0 +1,70 @@
+"""A file that the Operator may give: its path, a button to choose it and one to do without."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import pathlib
+
+from PyQt5.QtCore import Qt, pyqtSignal
+from PyQt5.QtWidgets import QHBoxLayout, QPushButton, QWidget
+
+from ..dialogs import ask_yaml_file
+from ..theme.scale import S
+from .field import Field
+
+
+class FileField(QWidget):
+    """Attributes: field: the path, or what is used without a file. choose, remove: buttons.
+
+    Signals: changed: another file, or none.
+    """
+
+    changed = pyqtSignal()
+
+    def __init__(self, title: str, without: str, hint: str, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._title = title
+        self._path: pathlib.Path | None = None
+        self.field = Field(title)
+        self.setToolTip(hint)
+        self.field.edit.setReadOnly(True)
+        self.field.edit.setPlaceholderText(without)
+        self.choose = QPushButton(self.tr("Choose"))
+        self.choose.setAccessibleName(self.tr("Choose a file: {what}").format(what=title))
+        self.choose.clicked.connect(self._choose)
+        self.remove = QPushButton(self.tr("Without"))
+        self.remove.setAccessibleName(self.tr("Without a file: {what}").format(what=title))
+        self.remove.clicked.connect(lambda: self._change(None))
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(S)
+        layout.addWidget(self.field, 1)
+        for button in (self.choose, self.remove):
+            layout.addWidget(button, 0, Qt.AlignmentFlag.AlignVCenter)
+        self.show_path(None)
+        self.show_fault("")
+
+    @property
+    def path(self) -> pathlib.Path | None:
+        """The chosen file, None for none."""
+        return self._path
+
+    def show_path(self, path: pathlib.Path | None) -> None:
+        """Show a file, without a signal."""
+        self._path = path
+        self.field.edit.setText("" if path is None else str(path))
+        self.remove.setEnabled(path is not None)
+
+    def show_fault(self, sentence: str) -> None:
+        """Say what is wrong with the file; empty when nothing is."""
+        self.field.show_fault(sentence)
+        self.field.note.setVisible(bool(sentence))
+
+    def _choose(self) -> None:
+        start = pathlib.Path.home() if self._path is None else self._path.parent
+        path = ask_yaml_file(self, self._title, start)
+        if path is not None:
+            self._change(path)
+
+    def _change(self, path: pathlib.Path | None) -> None:
+        self.show_path(path)
+        self.changed.emit()
