@@ -70,6 +70,35 @@ def test_car_that_locks_by_a_timer_is_told_from_one_that_is_slow(timing, delay_s
     assert held >= 43
 
 
+def test_timer_that_starts_again_is_told_by_the_last_departure():
+    rng, timing, speed_mps = np.random.default_rng(8), CarTiming(0.3, 1, 0.15), 0.1
+    first_m, last_m = (mean_depth(reaction_table(speed_mps, 0.0, 0.002, each)[TIMINGS.index(timing)])
+                       for each in (False, True))
+    drawn = np.array([last_departure(rng, speed_mps, timing) for _ in range(1500)]) - speed_mps * timing.polled_s
+    error_m = 4.0 * drawn.std() / math.sqrt(1500.0)
+    assert last_m == pytest.approx(drawn.mean(), abs=error_m)
+    assert last_m - first_m > 2.0 * error_m
+
+
+def mean_depth(table):
+    weights = (table - table.min()) / np.sum(table - table.min())
+    return weights @ depths()
+
+
+def last_departure(rng, speed_mps, timing):
+    """Depth at the poll that is the last to change the Car's mind, as many in a row as it wants."""
+    step_m = speed_mps * timing.poll_s
+    depths_m = np.arange(-4.0 * timing.noise_m - rng.uniform(0.0, step_m), 4.0 * timing.noise_m + 3.0 * step_m, step_m)
+    gone, is_near, departed_m = depths_m > timing.noise_m * rng.standard_normal(len(depths_m)), True, math.nan
+    agreeing = 0
+    for depth_m, is_gone in zip(depths_m, gone):
+        agreeing = agreeing + 1 if is_gone == is_near else 0
+        if agreeing == timing.debounce:
+            is_near, agreeing = not is_near, 0
+            departed_m = departed_m if is_near else depth_m
+    return departed_m
+
+
 def boundaries(rng, timing, true_m, speeds_mps=(0.1, 0.4), delay_s=0.04):
     """What a campaign of passes outward says of each axis."""
     campaign = BoundaryCampaign(CYCLE_S)

@@ -12,7 +12,7 @@ from scipy.special import logsumexp
 from ..interval import FloatArray
 from .reaction import MIN_DEPTH_M, STEP_M, depths, reaction_table
 from .steps import Steps, steps_table
-from .timing import MAX_POLLED_S, TIMINGS
+from .timing import MAX_POLLED_S, TIMINGS, has_timer
 
 # Places at which the boundary may be.
 _BINS = 400
@@ -79,18 +79,23 @@ def _log(each: Pass, depth_m: FloatArray, given: Circumstances, timings: FloatAr
     reactions_s = np.array(given.reactions_s)[:, None]
     if each.steps is None:
         number = round(math.log(each.speed_mps) / math.log(_SPEED_RATIO))
-        table = _pass_table(number, given.cycle_s, given.sigma_m)
         late_m = (depth_m - each.speed_mps * reactions_s) * (_SPEED_RATIO ** number / each.speed_mps)
-    else:
-        table = _steps_table(each.steps, given.sigma_m)
-        late_m = depth_m - np.zeros_like(reactions_s)
-    bins = np.clip(np.round((late_m - depths()[0]) / STEP_M).astype(int), 0, table.shape[1] - 1)
-    return np.asarray(table[timings][:, bins])
+        found = _pass_table(number, given.cycle_s, given.sigma_m, False)[timings][:, _bins(late_m)]
+        is_timer = has_timer(np.array(given.reactions_s))[timings]
+        if np.any(is_timer):
+            again = _pass_table(number, given.cycle_s, given.sigma_m, True)[timings][:, _bins(late_m)]
+            found = np.where(is_timer[:, :, None], again, found)
+        return np.asarray(found)
+    return np.asarray(_steps_table(each.steps, given.sigma_m)[timings][:, _bins(depth_m - np.zeros_like(reactions_s))])
+
+
+def _bins(depth_m: FloatArray) -> FloatArray:
+    return np.asarray(np.clip(np.round((depth_m - depths()[0]) / STEP_M).astype(int), 0, len(depths()) - 1))
 
 
 @functools.lru_cache(maxsize=64)
-def _pass_table(number: int, cycle_s: float, sigma_m: float) -> FloatArray:
-    return np.log(reaction_table(_SPEED_RATIO ** number, cycle_s, sigma_m)).astype(np.float32)
+def _pass_table(number: int, cycle_s: float, sigma_m: float, is_timer: bool) -> FloatArray:
+    return np.log(reaction_table(_SPEED_RATIO ** number, cycle_s, sigma_m, is_timer)).astype(np.float32)
 
 
 @functools.lru_cache(maxsize=8)

@@ -8,6 +8,11 @@ cycle, even within +- v * cycle_s / 2, and the place of the key by a normal of s
 
 Depths are told from v times the mean time that the polls take without noise, so that all timings are compared at the
 same reaction time.
+
+A timer starts when enough polls agree that the key has gone, and again when they have found it in between: what counts
+is the last departure,
+
+    P(k-th poll is the last departure) = P(it is a departure)  P(no `debounce` polls in a row find the key after it).
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -37,29 +42,56 @@ def depths() -> FloatArray:
     return np.arange(MIN_DEPTH_M, MAX_DEPTH_M, STEP_M) + STEP_M / 2.0
 
 
-def reaction_table(speed_mps: float, cycle_s: float, sigma_m: float) -> FloatArray:
+def reaction_table(speed_mps: float, cycle_s: float, sigma_m: float, has_timer: bool = False) -> FloatArray:
     """Density of the depth beyond that at the mean reaction time, in 1/m; axes [timing, depth]."""
     return np.stack([_told(row, speed_mps * cycle_s, sigma_m) for poll_s, debounce in itertools.product(
-        POLLS_S, DEBOUNCES) for row in _polled(speed_mps * poll_s, debounce)])
+        POLLS_S, DEBOUNCES) for row in _polled(speed_mps * poll_s, debounce, has_timer)])
 
 
-def _polled(step_m: float, debounce: int) -> list[FloatArray]:
+def _polled(step_m: float, debounce: int, has_timer: bool) -> list[FloatArray]:
     """Probability of each bin of depth at the poll that decides, for each noise; step_m is the way between polls."""
     noises_m = np.array(NOISES_M)[:, None]
     polls = math.ceil(2.0 * _CERTAIN_SIGMAS * max(NOISES_M) / step_m) + debounce + 1
     first_m = -_CERTAIN_SIGMAS * max(NOISES_M) + (np.arange(_PHASES) + 0.5) / _PHASES * step_m
-    agreeing = np.zeros((debounce, len(NOISES_M), _PHASES))
-    agreeing[0] = 1.0
-    decided = np.zeros((polls, len(NOISES_M), _PHASES))
-    for number in range(polls):
-        notice = ndtr((first_m + number * step_m) / noises_m)
-        decided[number] = agreeing[-1] * notice
-        missed = np.sum(agreeing, axis=0) * (1.0 - notice)
-        agreeing = np.concatenate((missed[None], agreeing[:-1] * notice))
+    notices = np.stack([ndtr((first_m + number * step_m) / noises_m) for number in range(polls)])
+    decided = _last(notices, debounce) if has_timer else _first(notices, debounce)
     depth_m = (first_m + np.arange(polls)[:, None] * step_m).ravel() - (debounce - 0.5) * step_m
     # A phase stands for its part of the way between polls.
     return [_spread(depth_m, decided[:, number].ravel() / _PHASES, step_m / _PHASES)
             for number in range(len(NOISES_M))]
+
+
+def _first(notices: FloatArray, debounce: int) -> FloatArray:
+    """Probability that so many polls agree for the first time, poll by poll, as are the probabilities of one."""
+    agreeing = np.zeros((debounce, *notices.shape[1:]))
+    agreeing[0] = 1.0
+    decided = np.zeros_like(notices)
+    for number, notice in enumerate(notices):
+        decided[number] = agreeing[-1] * notice
+        agreeing = _agree(agreeing, notice, 0.0)
+    return decided
+
+
+def _last(notices: FloatArray, debounce: int) -> FloatArray:
+    """Probability that so many polls agree for the last time, before as many say otherwise."""
+    near, gone = np.zeros((2, debounce, *notices.shape[1:]))
+    near[0] = 1.0
+    departures = np.zeros_like(notices)
+    for number, notice in enumerate(notices):
+        departures[number], returns = near[-1] * notice, gone[-1] * (1.0 - notice)
+        near, gone = _agree(near, notice, returns), _agree(gone, 1.0 - notice, departures[number])
+    stays = np.ones((debounce, *notices.shape[1:]))
+    for number in range(len(notices) - 1, -1, -1):
+        departures[number] *= stays[0]
+        later = np.concatenate((stays[1:], np.zeros((1, *notices.shape[1:]))))
+        stays = notices[number] * stays[0] + (1.0 - notices[number]) * later
+    return departures
+
+
+def _agree(agreeing: FloatArray, notice: FloatArray, arrives: FloatArray | float) -> FloatArray:
+    """Probability of each number of polls in a row that agree, one poll later; arrives: begin to count there."""
+    missed = np.sum(agreeing, axis=0) * (1.0 - notice) + arrives
+    return np.concatenate((missed[None], agreeing[:-1] * notice))
 
 
 def _spread(depth_m: FloatArray, weights: FloatArray, width_m: float) -> FloatArray:

@@ -11,6 +11,7 @@ import itertools
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from ..interval import FloatArray
 
@@ -22,6 +23,8 @@ NOISES_M, NOISE_PRIOR = (0.005, 0.012, 0.03, 0.07, 0.15, 0.3), (0.25, 0.25, 0.2,
 # Motors of locks and their control units take up to some tenths of a second; one Car in twenty has a timer beside them,
 # of any length up to half a minute.
 USUAL_DELAY_S, TIMER_SHARE, LONGEST_TIMER_S = 0.4, 0.05, 30.0
+# What a longer timer does while polls still disagree, it does again.
+_RESTARTED_FROM_S = 1.0
 # Longest wait for polls, and longest reaction without a timer.
 MAX_POLLED_S = max(POLLS_S) * max(DEBOUNCES)
 MAX_REACTION_S = MAX_POLLED_S + USUAL_DELAY_S
@@ -51,8 +54,17 @@ def prior_of(reactions_s: FloatArray) -> FloatArray:
 
     The delay is what the reaction time is beyond the polls; a timer's logarithm is even.
     """
-    delays_s = reactions_s - np.array([timing.polled_s for timing in TIMINGS])[:, None]
+    delays_s = _delays(reactions_s)
     usual = (1.0 - TIMER_SHARE) / USUAL_DELAY_S * ((delays_s >= 0.0) & (delays_s <= USUAL_DELAY_S))
     is_timer = (delays_s > USUAL_DELAY_S) & (delays_s <= LONGEST_TIMER_S)
     timer = TIMER_SHARE / np.log(LONGEST_TIMER_S / USUAL_DELAY_S) / np.maximum(delays_s, USUAL_DELAY_S)
     return np.asarray(np.array(PRIOR)[:, None] * (usual + timer * is_timer))
+
+
+def has_timer(reactions_s: FloatArray) -> npt.NDArray[np.bool_]:
+    """True where a delay is so long that it starts again when the key is found in between; axes as of prior_of."""
+    return np.asarray(_delays(reactions_s) > _RESTARTED_FROM_S)
+
+
+def _delays(reactions_s: FloatArray) -> FloatArray:
+    return np.asarray(reactions_s - np.array([timing.polled_s for timing in TIMINGS])[:, None])
