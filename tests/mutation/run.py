@@ -21,6 +21,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 TOOLS = trial.TOP / "out" / "mutants" / "tools"
 MIN_SHARE = 0.85
 SEED = 1
+# A mutant whose tests take so many times as long as those without one, and this at least, loops for ever.
+PATIENCE, MIN_PATIENCE_S = 4.0, 60.0
 ANY = "*"
 
 
@@ -67,11 +69,13 @@ def judged(group: Group, operators: List[str], options: argparse.Namespace) -> b
     counted = [each for each in mutants if not {(each.module, each.before, each.after),
                                                 (ANY, each.before, each.after)} & known]
     with multiprocessing.get_context("fork").Pool(options.jobs, trial.prepare, [source]) as pool:
-        untouched = (source / group.modules[0]).read_text(encoding="utf-8")
-        if pool.apply(trial.is_noticed, [group.modules[0], untouched, group.tests]):
+        untouched, tried = (source / group.modules[0]).read_text(encoding="utf-8"), time.monotonic()
+        if pool.apply(trial.is_noticed, [group.modules[0], untouched, group.tests, trial.LIMIT_S]):
             print(f"{group.name}: its tests fail without a mutant.")
             return False
-        noticed = pool.starmap(trial.is_noticed, [(each.module, each.code, group.tests) for each in counted], 4)
+        limit_s = max(PATIENCE * (time.monotonic() - tried), MIN_PATIENCE_S)
+        noticed = pool.starmap(trial.is_noticed, [(each.module, each.code, group.tests, limit_s) for each in counted],
+                               4)
     for module in group.modules:
         report(module, [(each, found) for each, found in zip(counted, noticed) if each.module == module])
     share = sum(noticed) / max(len(counted), 1)
