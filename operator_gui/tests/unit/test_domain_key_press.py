@@ -170,3 +170,16 @@ def test_confirmed_place_is_the_first_press_that_worked(run_scenario, world):
     result = run_scenario(SCENARIO, CONFIRMED)[0]
     assert (result.status.value, result.distance_m, result.attempts) == ("ok", pytest.approx(5.0), 4)
     assert result.robot_time_s == pytest.approx(world.presses[2].start_s)
+
+
+def test_instant_of_a_press_is_known_and_adds_nothing_to_the_uncertainty_of_a_key_that_creeps(run_scenario, spoil):
+    spoil(lambda status: True, speed_mps=0.05)
+    result = run_scenario(SCENARIO, PARAMETERS)[0]
+    assert (result.status.value, result.uncertainty_m) == ("ok", pytest.approx(0.03))
+
+
+def test_robot_that_moves_while_the_button_is_pressed_makes_the_radial_invalid(run_scenario, spoil):
+    spoil(lambda status: True, speed_mps=0.2)
+    result = run_scenario(SCENARIO, PARAMETERS)[0]
+    assert result.status.value == "invalid"
+    assert result.reason == "The robot was too fast for a measurement: 0.20 m/s; allowed is 0.10 m/s."

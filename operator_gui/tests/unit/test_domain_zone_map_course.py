@@ -197,8 +197,14 @@ def test_places_are_recorded_to_tenths_of_a_millimetre_where_the_key_was(run_sce
     sent = [zone.places[index].ray.point(zone.places[index].distance_m) for index in places_of(robot_link, zone)]
     expected = sorted((round(x, 4), round(y, 4)) for x, y in sent)
     assert sorted([*result.worked, *result.failed]) == expected
-    recorded = (result.distance_m, result.coverage, result.coverage_low, result.coverage_high)
-    assert all(value == round(value, 6) for value in recorded)
+
+
+def test_coverage_is_recorded_to_a_millionth(run_scenario, monkeypatch):
+    found, coverage = [], ZoneSearch.coverage
+    monkeypatch.setattr(ZoneSearch, "coverage", lambda search: (found.append(coverage(search)), found[-1])[1])
+    result = run_scenario(SCENARIO, PARAMETERS)[-1]
+    assert (result.coverage, result.coverage_low, result.coverage_high) == tuple(
+        round(part, 6) for part in (found[-1].value_m, found[-1].low_m, found[-1].high_m))
 
 
 def test_car_that_obeys_nowhere_is_not_reached_and_one_that_obeys_everywhere_has_no_end(run_scenario, world):
@@ -230,6 +236,11 @@ def test_radial_leaves_the_car_where_it_first_meets_a_side():
     assert ahead == pytest.approx((3.25, 0.0), abs=1e-9)
     ten = math.radians(10.0)
     assert oblique == pytest.approx((2.25 + math.cos(ten), -2.25 * math.tan(ten) - math.sin(ten)))
+
+
+def test_nearest_place_may_leave_exactly_the_clearance():
+    front = zones_around(replace(PARAMETERS, clearance_m=0.5), CAR)[0]
+    assert [place.distance_m for place in front.places] == PARAMETERS.distances_m
 
 
 def test_place_stands_for_a_piece_of_the_ring_around_the_cars_centre():
