@@ -313,7 +313,7 @@ def test_radial_is_measured_further_with_all_its_presses(run_scenario, soften, w
 def test_radial_is_not_measured_further_for_ever(run_scenario):
     first, *_ = run_scenario(SCENARIO, PARAMETERS)
     line, *_ = SCENARIO.lines(PARAMETERS, CAR)
-    spent = replace(first, worked_at_m=first.worked_at_m * 10)
+    spent = replace(first, worked_at_m=first.worked_at_m * 20)
     assert SCENARIO.measure_further(line, PARAMETERS, None, None, spent) is None
     assert SCENARIO.judged_shares(PARAMETERS) == (5, 50, 95)
     scan = replace(PARAMETERS, method="scan")

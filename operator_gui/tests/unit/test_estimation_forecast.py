@@ -6,6 +6,7 @@ import pytest
 
 from mtr_operator.domain.estimation.press.forecast import forecast
 from mtr_operator.domain.estimation.press.plan import RobotTimes, SearchPlan
+from mtr_operator.domain.estimation.press.radial_search import MIN_PRESSES
 
 PLAN = SearchPlan(3.0, 20.0, interval_m=0.3)
 
@@ -25,15 +26,8 @@ def test_forecast_of_a_wide_transition_says_the_interval_that_24_presses_reach(w
     assert found.interval_m == pytest.approx(half_width_m, rel=0.2)
 
 
-def test_fading_sets_a_floor_that_no_number_of_presses_breaks():
-    plan = SearchPlan(3.0, 20.0, interval_m=0.3, attempts_limit=500)
-    assert forecast(plan, 1.0).is_reached
-    faded = forecast(plan, 1.0, has_fading=True)
-    assert not faded.is_reached and faded.interval_m == pytest.approx(0.54, abs=0.02)
-
-
 def test_narrow_transition_takes_the_bisection_only():
-    assert forecast(PLAN, 0.1).presses <= 9
+    assert forecast(PLAN, 0.1).presses == MIN_PRESSES
 
 
 def test_slower_robot_takes_longer_for_the_same_presses():

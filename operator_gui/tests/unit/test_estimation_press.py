@@ -217,12 +217,6 @@ def test_slow_robot_does_not_press_where_it_happens_to_be_though_little_is_told_
     assert len(shares) > 10 and np.median(shares) > 0.6
 
 
-def test_narrow_transition_leaves_fading_likely_as_no_press_can_rule_it_out():
-    posterior = measured(PLAN, lambda place_m, _: place_m <= 6.4).posterior()
-    assert posterior.fading > 0.7
-    assert posterior.d50().half_width_m > PLAN.half_wavelength_m / 2.0
-
-
 def test_radial_unlike_the_others_is_not_argued_away():
     grid = PLAN.hypotheses()
     campaign = Campaign(grid)

@@ -71,13 +71,13 @@ def test_another_keys_button_changes_no_distance_and_is_told(run_scenario, world
     def interfere(desired):
         before = len(world.presses)
         take(desired)
-        # From the second radial on it is known where the border may lie.
-        if len(world.presses) > max(before, 12) and math.hypot(*world.key()) > 5.6 and not foreign:
+        # After some radials it is known where the border may lie.
+        if len(world.presses) > max(before, 30) and math.hypot(*world.key()) > 5.5 and not foreign:
             foreign.append(math.hypot(*world.key()))
             world.foreign.append((world.presses[-1].start_s + 0.4, not world.locked, KEY_BUTTON))
 
     world.take = interfere
-    results = run_scenario(SCENARIO, PARAMETERS)
+    results = run_scenario(SCENARIO, replace(PARAMETERS, angle_between_radials_rad=math.radians(30.0)))
     assert foreign and all(result.d50_low_m <= 5.2 <= result.d50_high_m for result in results)
     told = [result for result in results if result.unconfirmed_m]
     assert len(told) == 1 and float(told[0].unconfirmed_m) == pytest.approx(foreign[0], abs=0.01)

@@ -76,3 +76,10 @@ def difference_holds(first: Interval, second: Interval) -> bool:
     alone = (math.sqrt(max(each.sigma_m ** 2 - each.shared_m ** 2, 0.0)) for each in (first, second))
     sigma_m = math.hypot(*alone, first.shared_m - second.shared_m)
     return abs(first.value_m - second.value_m) <= SIGMAS_OF_LEVEL * sigma_m
+
+
+def interval_of_draws(values_m: FloatArray, level: float = LEVEL) -> Interval:
+    """Of values that are equally likely."""
+    tail = (1.0 - level) / 2.0
+    low, value, high = np.quantile(values_m, [tail, 0.5, 1.0 - tail])
+    return Interval(float(value), float(low), float(high), float(np.std(values_m)))

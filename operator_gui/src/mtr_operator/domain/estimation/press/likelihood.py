@@ -82,13 +82,6 @@ class PressLikelihood:
         place = self._places.get(self.place_of(distance_m))
         return 0 if place is None else place.presses
 
-    def all_beside(self, distances_m: FloatArray) -> npt.NDArray[np.int_]:
-        """Presses so far that share the fading with each of many distances."""
-        numbers, counts = self.places_of(distances_m), np.zeros(len(distances_m), int)
-        for number, place in self._places.items():
-            counts[numbers == number] = place.presses
-        return counts
-
     def add(self, press: Press) -> None:
         """Take a press."""
         number = self.place_of(press.distance_m)

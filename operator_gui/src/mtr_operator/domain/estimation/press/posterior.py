@@ -6,7 +6,7 @@ import numpy as np
 
 from ..interval import FloatArray, Interval, interval_of
 from .hypotheses import Hypotheses
-from .transition import D95_PER_SCALE, WIDTH_PER_SCALE, SingleArray, falling_single
+from .transition import SingleArray, falling_single
 
 # Below the best place of its shape a likelihood counts as this, in logarithms: single precision ends at -87.
 _MIN_LOG = -80.0
@@ -47,20 +47,8 @@ class RadialPosterior:
         return np.asarray(self._weights[..., None] * self._likelihood * self._place_prior)
 
     def d50(self) -> Interval:
-        """Distance at which half of the presses work."""
+        """Distance at which half of the presses work on the mean curve: over lines that fade otherwise."""
         return self._d50
-
-    def d95(self) -> Interval:
-        """Distance at which 95 % of the presses work, lapses apart."""
-        grid = self.hypotheses
-        offsets_m = D95_PER_SCALE * grid.width_m / WIDTH_PER_SCALE
-        steps = np.round(offsets_m / grid.step_m).astype(int)
-        count = len(grid.d50_m)
-        moved = np.zeros(count + int(steps[-1]))
-        for row, step in zip(self.by_width, steps):
-            moved[steps[-1] - step:steps[-1] - step + count] += row
-        first_m = grid.edges_m[0] - grid.step_m * steps[-1]
-        return interval_of(first_m + grid.step_m * np.arange(len(moved) + 1), moved)
 
     def places(self) -> FloatArray:
         """Probability of each d50."""
@@ -81,8 +69,3 @@ class RadialPosterior:
     def lapse(self) -> float:
         """Mean share of presses that fail at any distance."""
         return float(np.sum(self.shapes, axis=(0, 2)) @ self.hypotheses.lapse)
-
-    @property
-    def fading(self) -> float:
-        """Probability that presses at one place share their fading."""
-        return float(np.sum(self.shapes, axis=(1, 2))[self.hypotheses.shared > 0.0].sum())

@@ -44,6 +44,7 @@ class RadialEstimate:
     """Of one radial; distances in m.
 
     Attributes:
+        d50, d95: of this very line, see line_boundary.
         farthest_success_m, nearest_failure_m: of the presses made; None without one.
         holes_m: places inside that failed again and again although farther ones worked.
         lapse: share of presses that fail at any distance.
@@ -66,8 +67,9 @@ def estimate(plan: SearchPlan, search: RadialSearch) -> RadialEstimate:
     posterior, presses = search.revisit(), search.presses
     worked = [press.distance_m for press in presses if press.worked]
     failed = [press.distance_m for press in presses if not press.worked]
-    d50 = posterior.d50()
-    return RadialEstimate(_reach(plan, d50, presses), d50, posterior.d95(), max(worked, default=None),
+    boundary = search.boundary()
+    d50 = boundary.d50()
+    return RadialEstimate(_reach(plan, d50, presses), d50, boundary.d95(), max(worked, default=None),
                           min(failed, default=None), len(presses), _holes(search), posterior.lapse,
                           _quality(posterior, presses))
 

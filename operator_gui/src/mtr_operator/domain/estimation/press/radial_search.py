@@ -1,9 +1,9 @@
 """One radial measured by Bayesian search: the next press is the one that is expected to tell most per second.
 
-It ends when the 95 % interval of d50 is as narrow as wanted, or after the presses allowed. Three things go before: a
-press that failed where it should have worked is repeated at its place, so that a hole is told from a lapse; one that
-worked where it should not counts only if it does so again, so that another key's button is no range; and where nothing
-worked at all the nearest place is tried several times, so that a key that sleeps is no range of zero.
+It ends when the 95 % interval of the line's own d50 is as narrow as wanted, or after the presses allowed. Three things
+go before: a press that failed where it should have worked is repeated there, so that a hole is told from a lapse; one
+that worked where it should not counts only if it does so again, so that another key's button is no range; and where
+nothing worked at all the nearest place is tried several times, so that a key that sleeps is no range of zero.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -17,12 +17,13 @@ from .campaign import Campaign
 from .hypotheses import Hypotheses
 from .information import PressInformation
 from .likelihood import Press, PressLikelihood
+from .line_boundary import LineBoundary, Places
 from .plan import SearchPlan
 from .posterior import RadialPosterior
 from .transition import SingleArray
 
 # A press has to tell this share of what the best place would: one that costs nothing, as the key is there, is no use.
-MIN_SHARE = 0.6
+MIN_SHARE = 0.7
 # Of what is still possible for d50: places that are tried when an interval below half a wavelength is wanted.
 _QUANTILES = np.linspace(0.1, 0.9, 9)
 # A press that fails although it should work with this probability is repeated, until there are so many at its place.
@@ -31,6 +32,12 @@ PRESSES_IN_DOUBT = 3
 # A press that works although it should with this probability at most is repeated likewise. What leaves it out when it
 # does not work again is a bias of that size in the far tail of the curve; believing another key's button is metres.
 UNLIKELY_TO_WORK = 0.05
+# Fewer presses look sharp by luck where the width is not known from other radials yet.
+MIN_PRESSES = 9
+# The line's own interval is drawn, which takes some hundredths of a second: whenever the mean curve's is no wider than
+# this times what is wanted, and at the end.
+_WORTH_DRAWING = 3.0
+_DRAWS, _FINAL_DRAWS = 200, 1000
 
 
 class RadialSearch:
@@ -48,6 +55,7 @@ class RadialSearch:
         self._radial = radial
         self._likelihood = PressLikelihood(hypotheses, plan.half_wavelength_m, plan.minimum_m)
         self._posterior: RadialPosterior | None = None
+        self._boundary: LineBoundary | None = None
         self._doubted_m: float | None = None
         self._awaiting: Press | None = None
         self._repeats_failed = 0
@@ -70,13 +78,29 @@ class RadialSearch:
 
     def revisit(self) -> RadialPosterior:
         """The posterior anew, when other radials have been measured since."""
-        self._posterior = None
+        self._posterior = self._boundary = None
         return self.posterior()
 
     @property
     def unconfirmed(self) -> list[Press]:
         """Presses that worked against all expectation and not again, or not yet: they do not count."""
         return self._unconfirmed if self._awaiting is None else [*self._unconfirmed, self._awaiting]
+
+    def boundary(self) -> LineBoundary:
+        """See line_boundary: the line's own d50 and d95."""
+        return self._boundary_of(_FINAL_DRAWS)
+
+    def _boundary_so_far(self) -> LineBoundary:
+        if self._boundary is None:
+            self._boundary = self._boundary_of(_DRAWS)
+        return self._boundary
+
+    def _boundary_of(self, draws: int) -> LineBoundary:
+        pressed: dict[int, list[Press]] = {}
+        for press in self.presses:
+            pressed.setdefault(self.place_of(press.distance_m), []).append(press)
+        places = Places(pressed, self._plan.minimum_m, self._plan.half_wavelength_m)
+        return LineBoundary(self.posterior(), places, draws)
 
     def add(self, press: Press) -> None:
         """Take what a press did."""
@@ -122,9 +146,12 @@ class RadialSearch:
         """True when the interval is reached, or no press is left."""
         if len(self.presses) + len(self.unconfirmed) >= self._plan.attempts_limit:
             return True
-        if not (self.presses or self.unconfirmed) or self._place_in_doubt() is not None:
+        if len(self.presses) < MIN_PRESSES or self._place_in_doubt() is not None:
             return False
-        return self.posterior().d50().half_width_m <= self._plan.interval_m
+        wanted_m = self._plan.interval_m
+        if self.posterior().d50().half_width_m > _WORTH_DRAWING * wanted_m:
+            return False
+        return self._boundary_so_far().d50().half_width_m <= wanted_m
 
     def next_place_m(self) -> float:
         """Where the next press tells most per second of robot time."""
@@ -133,9 +160,10 @@ class RadialSearch:
             return doubted_m
         posterior = self.posterior()
         places_m = self._candidates(posterior)
-        works, information = PressInformation(posterior).at(places_m)
-        beside = self._likelihood.all_beside(places_m)
-        own = information * (1.0 - posterior.fading + posterior.fading / (1.0 + beside) ** 2)
+        if posterior.d50().half_width_m <= _WORTH_DRAWING * max(self._plan.interval_m, self._plan.half_wavelength_m):
+            works, own = self._boundary_so_far().information(places_m)
+        else:
+            works, own = PressInformation(posterior).at(places_m)
         seconds = self._plan.times.expected_s(np.abs(places_m - self.place_m), works)
         informative = own >= MIN_SHARE * np.max(own)
         return float(places_m[np.argmax(informative * own / seconds)])

@@ -35,7 +35,7 @@ class SearchLimits:
 
 
 def prospect(plan: SearchPlan, widths: UsualWidths, results: Sequence[SearchedResult]) -> Prospect:
-    """From a steady radio to one that fades; with the width that the lines so far show, if there are some."""
+    """From a sharp end of the range to a soft one; with the width that the lines so far show, if there are some."""
     sharp, soft = _forecasts(plan, widths, results)
     return Prospect((sharp.presses, soft.presses), (sharp.interval_m, soft.interval_m),
                     (sharp.robot_time_s, soft.robot_time_s))
@@ -58,4 +58,4 @@ def _forecasts(plan: SearchPlan, widths: UsualWidths, results: Sequence[Searched
     widths_m = [(result.d50_m - result.d95_m) * WIDTH_PER_SCALE / D95_PER_SCALE for result in results
                 if result.d50_m is not None and result.d95_m is not None]
     sharp_m, soft_m = (widths.sharp_m, widths.soft_m) if not widths_m else 2 * (statistics.median(widths_m),)
-    return forecast(plan, sharp_m), forecast(plan, soft_m, has_fading=True)
+    return forecast(plan, sharp_m), forecast(plan, soft_m)

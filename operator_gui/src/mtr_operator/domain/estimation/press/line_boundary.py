@@ -1,0 +1,162 @@
+"""Where, on this very line, half of the presses and 95 % of them work: fading that stays in its place included.
+
+A line's own p(d) neither falls steadily nor crosses a level once. Its range at a level is that of the falling curve
+that is nearest to it (antitonic regression), which lies where the sum of what exceeds the level is largest:
+
+    d_level = argmax over D of  integral from 0 to D of  (p(x) - level) dx.
+
+Of each hypothesis (d50 and width of the mean curve, lapse, part of the fading that stays) the line's own curve is
+drawn: fading is normal, known where presses were made as far as they tell it, unknown elsewhere, and half a wavelength
+apart independent. The draws' places of the levels are what is possible. Sources: Barlow et al., Statistical Inference
+under Order Restrictions, 1972; the model of the fading is that of likelihood.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Mapping, Sequence
+
+import numpy as np
+from scipy.special import entr, logit
+
+from ..interval import FloatArray, Interval, interval_of_draws
+from .likelihood import Press
+from .posterior import RadialPosterior
+from .transition import SIGMA_PER_SCALE, WIDTH_PER_SCALE, SingleArray, falling_single
+
+HALF, SURE = 0.5, 0.95
+# Nodes of the fading at one place, in its own sigmas, and half their distance.
+_NODES = np.linspace(-3.2, 3.2, 33, dtype=np.float32)
+_HALF_NODE = float(_NODES[1] - _NODES[0]) / 2.0
+# Of the information on d95 against that on d50: it is d50 that ends a radial.
+SURE_PART = 1.0
+# Parts of equally many draws, by their distance, in which a press's outcome is looked at.
+_PARTS = 20
+_SEED = 1
+_TINY = 1e-9
+
+
+@dataclass(frozen=True)
+class Places:
+    """Places that share no fading, by number; the middle of number 0 lies at first_m, the next one apart_m farther."""
+
+    pressed: Mapping[int, Sequence[Press]]
+    first_m: float
+    apart_m: float
+
+
+@dataclass(frozen=True)
+class _Draws:
+    """Hypotheses; one of each in a row."""
+
+    d50_m: FloatArray
+    width_m: FloatArray
+    lapse: FloatArray
+    shared: FloatArray
+
+    @property
+    def fading_m(self) -> FloatArray:
+        """Sigma of the boundary's displacement by the fading that stays."""
+        return np.asarray(np.sqrt(self.shared) * SIGMA_PER_SCALE * self.width_m / WIDTH_PER_SCALE)
+
+    @property
+    def own_width_m(self) -> FloatArray:
+        """Width of the transition at one place."""
+        return np.asarray(np.sqrt(1.0 - self.shared) * self.width_m)
+
+
+class LineBoundary:
+    """Draws of the line's own curve after the presses made; as many as count."""
+
+    def __init__(self, posterior: RadialPosterior, places: Places, count: int):
+        chance = np.random.default_rng(_SEED)
+        draws = _drawn(posterior, count, chance)
+        grid = posterior.hypotheses
+        self._distances_m = np.arange(grid.edges_m[0], grid.edges_m[-1], grid.step_m)
+        displaced_m = _displacements(draws, places, self._distances_m, chance)
+        beyond_m = draws.d50_m[:, None] + displaced_m - self._distances_m
+        self._logits: SingleArray = (beyond_m * WIDTH_PER_SCALE / draws.own_width_m[:, None]).astype(np.float32)
+        self._works: SingleArray = np.float32(0.5) + np.float32(0.5) * np.tanh(np.float32(0.5) * self._logits)
+        self._sure_of_button = (1.0 - draws.lapse).astype(np.float32)[:, None]
+        self._d50_m, self._d95_m = self._crossing(HALF), self._crossing(SURE)
+
+    def d50(self) -> Interval:
+        """Of the distance at which half of the presses work, lapses apart."""
+        return interval_of_draws(self._d50_m)
+
+    def d95(self) -> Interval:
+        """Of the distance at which 95 % of them work."""
+        return interval_of_draws(self._d95_m)
+
+    def information(self, places_m: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Probability that a press works, and what it would tell of d50 and d95 in nats, at each place."""
+        columns = np.minimum(np.searchsorted(self._distances_m, places_m), len(self._distances_m) - 1)
+        works = self._sure_of_button * self._works[:, columns]
+        mean = np.mean(works, axis=0, dtype=np.float64)
+        told = sum(part * (_entropy(mean) - _mean_entropy_within(works, distance_m))
+                   for part, distance_m in ((1.0, self._d50_m), (SURE_PART, self._d95_m)))
+        return mean, np.maximum(told, 0.0)
+
+    def _crossing(self, level: float) -> FloatArray:
+        """Of each draw the distance at which its falling curve passes the level, at an end when it does not."""
+        logits, distances_m = self._logits, self._distances_m
+        last = np.argmax(np.cumsum(self._works - np.float32(level), axis=1, dtype=np.float64), axis=1)
+        rows, following = np.arange(len(logits)), np.minimum(last + 1, logits.shape[1] - 1)
+        # Between two distances the logit is a straight line, however steep the curve is.
+        here, after = logits[rows, last].astype(float), logits[rows, following].astype(float)
+        part = np.clip((here - logit(level)) / np.maximum(here - after, _TINY), 0.0, 1.0)
+        return np.asarray(distances_m[last] + part * (distances_m[following] - distances_m[last]))
+
+
+def _mean_entropy_within(works: SingleArray, distance_m: FloatArray) -> FloatArray:
+    """Entropy of a press's outcome when it is known in which part of its draws the distance lies."""
+    order = np.argsort(distance_m, kind="stable")
+    parts = np.array_split(works[order], _PARTS)
+    means = np.stack([np.mean(part, axis=0, dtype=np.float64) for part in parts])
+    shares = np.array([len(part) for part in parts]) / len(order)
+    return np.asarray(shares @ _entropy(means))
+
+
+def _entropy(probability: FloatArray) -> FloatArray:
+    result: FloatArray = entr(probability) + entr(1.0 - probability)
+    return result
+
+
+def _drawn(posterior: RadialPosterior, count: int, chance: np.random.Generator) -> _Draws:
+    """Systematic draws, evenly over the distance: of a thousand hypotheses each comes as often as is likely."""
+    grid = posterior.hypotheses
+    by_place = np.moveaxis(posterior.probability, -1, 0)
+    below = np.cumsum(by_place.ravel())
+    chosen = np.searchsorted(below, (np.arange(count) + 0.5) / count * below[-1])
+    place, shared, lapse, width = np.unravel_index(np.minimum(chosen, below.size - 1), by_place.shape)
+    within_m = grid.step_m * (chance.random(count) - 0.5)
+    return _Draws(grid.d50_m[place] + within_m, grid.width_m[width], grid.lapse[lapse], grid.shared[shared])
+
+
+def _displacements(draws: _Draws, places: Places, distances_m: FloatArray, chance: np.random.Generator) -> SingleArray:
+    """Of each draw's boundary by the fading, at each distance; between the middles of places a mixture of theirs."""
+    where = (distances_m - places.first_m) / places.apart_m
+    first = int(np.floor(where[0]))
+    fading = chance.standard_normal((len(draws.d50_m), int(np.floor(where[-1])) - first + 2)).astype(np.float32)
+    for number, presses in places.pressed.items():
+        if 0 <= number - first < fading.shape[1]:
+            fading[:, number - first] = _known_fading(draws, presses, chance)
+    before = np.floor(where).astype(int) - first
+    part = (where - np.floor(where)).astype(np.float32)
+    mixed = (1.0 - part) * fading[:, before] + part * fading[:, before + 1]
+    mixed /= np.sqrt((1.0 - part) ** 2 + part ** 2)
+    mixed *= draws.fading_m.astype(np.float32)[:, None]
+    return np.asarray(mixed)
+
+
+def _known_fading(draws: _Draws, presses: Sequence[Press], chance: np.random.Generator) -> SingleArray:
+    """Of one place, in sigmas, as the presses there leave it possible."""
+    likely = np.exp(-0.5 * _NODES.astype(np.float64) ** 2)[None, :]
+    moved_m = draws.d50_m[:, None] + draws.fading_m[:, None] * _NODES
+    for press in presses:
+        works = (1.0 - draws.lapse[:, None]) * falling_single(press.distance_m, moved_m, draws.own_width_m[:, None])
+        likely = likely * (works if press.worked else 1.0 - works)
+    below = np.cumsum(likely, axis=1)
+    wanted = chance.random(len(likely))[:, None] * below[:, -1:]
+    node = np.minimum(np.sum(below < wanted, axis=1), len(_NODES) - 1)
+    return np.asarray(_NODES[node] + _HALF_NODE * (2.0 * chance.random(len(node)) - 1.0), np.float32)
