@@ -29,9 +29,18 @@ def test_presses_at_one_place_agree_under_fading():
     pairs = []
     for seed in range(400):
         radial = Radial(Radio(2.0, 0.88, 0.0), np.random.default_rng([seed, 0]), np.random.default_rng([seed, 1]))
-        pairs.append(radial.press(radial.d50_m) == radial.press(radial.d50_m))
+        pairs.append(radial.press(radial.mean_d50_m) == radial.press(radial.mean_d50_m))
     # Of a bivariate normal of correlation 0.88: 1/2 + asin(0.88) / pi.
     assert np.mean(pairs) == pytest.approx(0.5 + math.asin(0.88) / math.pi, abs=0.07)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.88])
+def test_truth_of_a_narrow_radial_is_where_its_own_presses_end(share):
+    for seed in range(20):
+        radial = Radial(Radio(0.1, share, 0.0), np.random.default_rng([seed, 0]), np.random.default_rng([seed, 1]))
+        assert all(radial.press(radial.d50_m - 0.2) for _ in range(5))
+        assert not any(radial.press(radial.d50_m + 0.2) for _ in range(5))
+        assert 0.0 < radial.d50_m - radial.d95_m < 0.1
 
 
 def test_key_is_noticed_later_by_the_reaction_time():

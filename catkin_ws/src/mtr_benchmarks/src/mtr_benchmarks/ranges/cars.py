@@ -6,17 +6,24 @@ correlation is sinc(2 pi r / wavelength); a press works when
 
     Phi(sqrt(share) * field(d) + sqrt(1 - share) * noise) < p(d),
 
-which leaves p(d) as it is on the average over places.
+which leaves p(d) as it is on the average over places. The truth of a radial is its own probability of a reaction at
+every place, with its own fading, as in truth.csv of the simulation: of the falling curve that is nearest to it.
 """
 # SPDX-License-Identifier: Apache-2.0
+import functools
 import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import expit, ndtr
+from scipy.special import expit, ndtr, ndtri
+
+from mtr_core.arrays import FloatArray
+from mtr_simulation.truth.monotone import falls_below
 
 WIDTH_PER_SCALE = 2.0 * math.log(9.0)
-D95_PER_SCALE = math.log(19.0)
+# Where the truth of a radial is looked for, and how finely: beyond so many widths no press works.
+_STEP_M, _WIDTHS_BEYOND = 0.03, 2.5
+_SURE = 1e-12
 HALF_WAVELENGTH_M = 0.35
 _WAVES = 48
 
@@ -34,28 +41,55 @@ FADING_SHARE, LAPSE = 0.88, 0.02
 
 
 class Radial:
-    """One radial; its place and fading come from `place`, the noise of each press from `noise`."""
+    """One radial; its place and fading come from `place`, the noise of each press from `noise`.
+
+    Attributes:
+        mean_d50_m: where half of the presses work, on the average over radials that fade otherwise.
+    """
 
     def __init__(self, radio: Radio, place: np.random.Generator, noise: np.random.Generator):
         self._radio = radio
         self._noise = noise
-        self.d50_m = float(place.uniform(8.0, 14.0))
+        self.mean_d50_m = float(place.uniform(8.0, 14.0))
         self._waves = math.pi / HALF_WAVELENGTH_M * place.uniform(-1.0, 1.0, _WAVES)
         self._phases = place.uniform(0.0, 2.0 * math.pi, _WAVES)
 
-    @property
+    @functools.cached_property
+    def d50_m(self) -> float:
+        """Where half of the presses work, lapses apart."""
+        return self._distance_at(0.5)
+
+    @functools.cached_property
     def d95_m(self) -> float:
-        """Where 95 % of the presses work, lapses apart."""
-        return self.d50_m - D95_PER_SCALE / WIDTH_PER_SCALE * self._radio.width_m
+        """Where 95 % of them work; NaN where that is nowhere."""
+        return self._distance_at(0.95)
 
     def press(self, distance_m: float) -> bool:
         """True when it works."""
         radio = self._radio
-        field = math.sqrt(2.0 / _WAVES) * float(np.sum(np.cos(self._waves * distance_m + self._phases)))
         moment = float(self._noise.standard_normal())
-        latent = math.sqrt(radio.share) * field + math.sqrt(1.0 - radio.share) * moment
-        works = float(expit((self.d50_m - distance_m) * WIDTH_PER_SCALE / radio.width_m))
+        latent = math.sqrt(radio.share) * float(self._field(np.array([distance_m]))[0]) + math.sqrt(
+            1.0 - radio.share) * moment
+        works = float(self._mean(np.array([distance_m]))[0])
         return bool(ndtr(latent) < works) and float(self._noise.random()) >= radio.lapse
+
+    def _distance_at(self, level: float) -> float:
+        farthest_m = self.mean_d50_m + _WIDTHS_BEYOND * self._radio.width_m + 1.0
+        distances_m = np.arange(_STEP_M, farthest_m, _STEP_M)
+        return falls_below(distances_m, self._works(distances_m), level)
+
+    def _works(self, distances_m: FloatArray) -> FloatArray:
+        share, mean = self._radio.share, np.clip(self._mean(distances_m), _SURE, 1.0 - _SURE)
+        result: FloatArray = ndtr((ndtri(mean) - math.sqrt(share) * self._field(distances_m)) / math.sqrt(1.0 - share))
+        return result
+
+    def _mean(self, distances_m: FloatArray) -> FloatArray:
+        result: FloatArray = expit((self.mean_d50_m - distances_m) * WIDTH_PER_SCALE / self._radio.width_m)
+        return result
+
+    def _field(self, distances_m: FloatArray) -> FloatArray:
+        waves = np.cos(np.multiply.outer(distances_m, self._waves) + self._phases)
+        return np.asarray(math.sqrt(2.0 / _WAVES) * np.sum(waves, axis=-1))
 
 
 class Polling(NamedTuple):

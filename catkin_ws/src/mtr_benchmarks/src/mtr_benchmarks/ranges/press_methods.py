@@ -68,9 +68,10 @@ def adaptive(draw: Draw, times_s: Optional[List[float]] = None) -> List[LineFoun
                for number, (radial, search) in enumerate(zip(radials, searches))]
     found = []
     for radial, search, (time_s, way_m) in zip(radials, searches, efforts):
-        posterior = search.revisit()
-        found.append(LineFound(radial.d50_m, posterior.d50(), len(search.presses), time_s, way_m, radial.d95_m,
-                               posterior.d95()))
+        search.revisit()
+        boundary = search.boundary()
+        found.append(LineFound(radial.d50_m, boundary.d50(), len(search.presses), time_s, way_m, radial.d95_m,
+                               boundary.d95()))
     return found
 
 
