@@ -1,6 +1,7 @@
 """How a search along a line goes: its moves, its end, what is asked of a line measured further, what it may take."""
 # SPDX-License-Identifier: Apache-2.0
 import math
+import re
 from dataclasses import replace
 
 import pytest
@@ -221,3 +222,8 @@ def test_widest_interval_that_may_be_asked_for_is_the_most_that_a_caution_asks_f
     assert 0.05 < float(caution.rsplit("ask for ", 1)[1].split()[0]) <= 5.0
     assert caution.startswith("6 presses on each radial reach an interval of ")
     assert "where the Car's range ends within 1 m; interval_m asks for 0.05 m: " in caution
+
+
+def test_caution_names_the_presses_that_would_do_with_their_parameter():
+    caution, = SCENARIO.cautions(replace(PARAMETERS, attempts_limit=10, interval_m=0.2), LockFacts())
+    assert re.search(r": allow \d+ presses \(attempts_limit\), or ask for 0\.\d\d m\.$", caution)
