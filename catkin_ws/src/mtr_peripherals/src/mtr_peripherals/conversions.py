@@ -46,7 +46,7 @@ def inputs_from(desired: Optional[DesiredState], mode: Optional[RobotMode]) -> I
     if desired is None:
         return Inputs(mode=mode.mode) if mode else Inputs()
     wanted = desired_state_from(desired)
-    return Inputs(wanted, mode.mode, bool(mode.goal.id)) if mode else Inputs(wanted)
+    return Inputs(wanted, mode.mode, bool(mode.goal.id), bool(mode.hold_id)) if mode else Inputs(wanted)
 
 
 def firmware_report(state: FirmwareState, stamp_ns: int, times: FirmwareTimes) -> FirmwareReport:

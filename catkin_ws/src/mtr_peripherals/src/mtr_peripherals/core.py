@@ -28,6 +28,7 @@ class Inputs:
     Attributes:
         mode: state of the robot.
         has_goal: the robot is on its way somewhere.
+        is_held: the robot stands until the Operator has it go on; somebody may be at the mast.
         manual_lift_mps: rate that the manual controller wants, upwards; 0: it wants nothing.
         backs_unseen: the robot drives backwards, where no LiDAR looks.
         calibrates: a person's calibrate_lift repeats its request.
@@ -37,6 +38,7 @@ class Inputs:
     desired: DesiredState = DesiredState()
     mode: int = State.STARTING
     has_goal: bool = False
+    is_held: bool = False
     manual_lift_mps: float = 0.0
     backs_unseen: bool = False
     calibrates: bool = False
@@ -127,7 +129,7 @@ class Peripherals:
         if inputs.manual_lift_mps and report is not None:
             ahead_m = report.lift_height_m + MANUAL_LEAD_S * inputs.manual_lift_mps
             return self._key_lift.within_travel_m(ahead_m), NO_PROBLEM
-        if not inputs.desired.link_alive or inputs.desired.stop:
+        if not inputs.desired.link_alive or inputs.desired.stop or inputs.is_held:
             return math.nan, NO_PROBLEM
         try:
             return self._key_lift.height_m(inputs.desired.key_height_m), NO_PROBLEM

@@ -47,6 +47,11 @@ def test_lock_of_an_emergency_stop_is_a_word_with_its_reason(engaged):
     assert emergency_word(MotionLock(owner="remote", engaged=True), 5).reason.text, "a lock without a reason is one"
 
 
+@pytest.mark.parametrize("hold_id, is_held", [(0, False), (7, True)])
+def test_hold_of_the_robot_is_one_of_its_lift(hold_id, is_held):
+    assert inputs_from(DesiredState(session_id=2), RobotMode(mode=4, hold_id=hold_id)).is_held is is_held
+
+
 def test_inputs_take_session_height_and_press():
     desired = DesiredState(session_id=7, link_alive=True, key_height_m=1.0, press=ButtonPress(8, [1], 0.5, 0.25))
     found = inputs_from(desired, RobotMode(mode=4, goal=Waypoint(id=1)))

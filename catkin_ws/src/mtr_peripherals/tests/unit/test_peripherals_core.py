@@ -195,6 +195,13 @@ def test_lift_follows_the_live_order_and_holds_while_the_operator_stops_the_robo
         assert math.isnan(run(core, desired(key_height_m=1.0, **changes), firmware, 1).lift_height_m)
 
 
+def test_lift_of_a_robot_that_is_held_stands_for_the_application_and_moves_by_hand(core):  # F5
+    held, firmware = replace(desired(key_height_m=1.0), is_held=True), FakeFirmware()
+    assert math.isnan(run(core, held, firmware, 1).lift_height_m)
+    assert not math.isnan(run(core, replace(held, manual_lift_mps=0.1), firmware, 1).lift_height_m)
+    assert run(core, replace(held, is_held=False), firmware, 1).lift_height_m == pytest.approx(0.65)
+
+
 ENGAGED = problems.EMERGENCY_ENGAGED(owner="controller_input")
 
 

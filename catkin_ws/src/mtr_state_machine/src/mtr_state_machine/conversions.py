@@ -32,7 +32,8 @@ def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], 
         check=check_report(check or CarCheck()),
         map_revision=arrived[Part.LOCALIZATION].map_revision if Part.LOCALIZATION in arrived else 0,
         motion=goal_report_from(arrived.get(Part.MOTION_PLANNER)),
-        age_s=age_s, complaint=complaint, drive=drive(arrived.get(Part.DRIVE_CONTROL, DriveStatus())), now_s=now_s)
+        age_s=age_s, complaint=complaint, drive=drive(arrived.get(Part.DRIVE_CONTROL, DriveStatus())),
+        firmware_resets=arrived[Part.PERIPHERALS].firmware_resets if Part.PERIPHERALS in arrived else 0, now_s=now_s)
 
 
 def car(message: CarEstimate) -> Car:

@@ -1,4 +1,4 @@
-"""Holds: after a fault, an obstacle or manual driving the robot stands until the Operator has it go on."""
+"""Holds: after a fault, an obstacle, manual driving or a restart of its board the robot stands until the Operator has it go on."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import Goal
@@ -23,7 +23,7 @@ class Hold:
         self._is_wanted = is_wanted
         self._newest_id = self.id = 0
         self.reason = NO_PROBLEM
-        self._seen_drives = self._seen_blockages = -1
+        self._seen_drives = self._seen_blockages = self._seen_resets = -1
 
     def update(self, seen: Observation, goal: Goal) -> None:
         """Begin with what an observation shows, and end by the Operator's word."""
@@ -32,13 +32,17 @@ class Hold:
         drive = seen.drive
         was_blocked = 0 <= self._seen_blockages < drive.blockages
         was_driven = 0 <= self._seen_drives < drive.manual_drives
+        was_reset = 0 <= self._seen_resets < seen.firmware_resets
         self._seen_blockages, self._seen_drives = drive.blockages, drive.manual_drives
+        self._seen_resets = seen.firmware_resets
         if was_driven or (drive.is_manual and self.reason != problems.HELD_MANUAL()):
             self.begin(problems.HELD_MANUAL(), seen)
         elif seen.motion.is_about(goal) and seen.motion.result is Result.BLOCKED:
             self.begin(problems.HELD_BLOCKED_BECAUSE(cause=seen.motion.message), seen)
         elif was_blocked and goal.waypoint.id:
             self.begin(problems.HELD_BLOCKED(), seen)
+        elif was_reset:
+            self.begin(problems.HELD_BOARD(), seen)
 
     def begin(self, reason: Problem, seen: Observation) -> None:
         """Hold the robot from now on, when an order could move it."""

@@ -60,6 +60,7 @@ class Observation:
         map_revision: map that the robot's pose is in.
         age_s: age of each part's newest message; a part that is missing has not reported yet.
         complaint: of a part that reports but is not well, e.g. a localization that is lost.
+        firmware_resets: of the board of lift and servos, since its node's start.
     """
 
     desired: DesiredState = DesiredState()
@@ -70,6 +71,7 @@ class Observation:
     age_s: Dict[Part, float] = field(default_factory=dict)
     complaint: Dict[Part, Problem] = field(default_factory=dict)
     drive: Drive = Drive()
+    firmware_resets: int = 0
     now_s: float = 0.0
 
     def part_problem(self, part: Part, silent_after_s: float) -> Problem:

@@ -24,6 +24,11 @@ def stamped(message):
     return message
 
 
+def test_restarts_of_the_board_are_seen():
+    state = stamped(PeripheralsState(alive=True, firmware_resets=2))
+    assert observation({Part.PERIPHERALS: state}, None, AGES_S, 10.02).firmware_resets == 2
+
+
 def test_messages_become_an_observation():
     seen = observation({
         Part.DISPATCHER: stamped(DesiredState(session_id=3, link_alive=True, waypoint=waypoint_message(OPERATORS),
@@ -34,7 +39,7 @@ def test_messages_become_an_observation():
         Part.LOCALIZATION: stamped(LocalizedPose(valid=True, map_revision=3)),
         Part.PERIPHERALS: None}, CarCheck(id=6, state=CarCheck.FAILED, message="Moved."), AGES_S, 10.02)
     assert (seen.check.id, seen.check.state, seen.check.message.text) == (6, Check.FAILED, "Moved.")
-    assert (seen.map_revision, seen.desired.check_car_id) == (3, 6)
+    assert (seen.map_revision, seen.desired.check_car_id, seen.firmware_resets) == (3, 6, 0)
     assert (seen.desired.session_id, seen.desired.link_alive, seen.desired.stop) == (3, True, False)
     assert seen.desired.waypoint == OPERATORS and seen.desired.map_car_id == 7
     assert seen.car.state is CarState.COLLECTING and seen.car.next_waypoint == LOCATORS

@@ -78,10 +78,15 @@ def blocked_for_a_moment(robot):
     robot.step(drive=replace(robot.seen.drive, blockages=robot.seen.drive.blockages + 1))
 
 
+def board_restarted(robot):
+    robot.step(firmware_resets=robot.seen.firmware_resets + 1)
+
+
 CAUSES = {"fault": (fault, "state_machine.held_fault"), "manual": (manual, "state_machine.held_manual"),
           "manual-between-ticks": (manual_for_a_moment, "state_machine.held_manual"),
           "blocked": (Robot.block, "state_machine.held_blocked_because"),
-          "blocked-between-ticks": (blocked_for_a_moment, "state_machine.held_blocked")}
+          "blocked-between-ticks": (blocked_for_a_moment, "state_machine.held_blocked"),
+          "board": (board_restarted, "state_machine.held_board")}
 every_cause = pytest.mark.parametrize("cause, code", CAUSES.values(), ids=CAUSES)
 
 
