@@ -204,11 +204,6 @@ def test_prospect_before_the_first_radial_is_from_a_sharp_to_a_soft_end_of_the_r
         (sharp.line_s[0], soft.line_s[1]))
 
 
-def test_radio_that_fades_takes_more_presses_than_a_steady_one_of_the_same_width():
-    found = prospect(PARAMETERS.search_plan, UsualWidths(1.0, 1.0, 1.0), ())
-    assert found.attempts[0] < found.attempts[1] and found.interval_m[0] < found.interval_m[1]
-
-
 def test_scan_has_no_prospect_and_no_cautions_and_its_radials_say_nothing_of_each_other():
     scan = replace(PARAMETERS, method="scan", attempts_limit=6)
     assert SCENARIO.prospect(scan, LockFacts(), ()) is None and SCENARIO.cautions(scan, LockFacts()) == ()
