@@ -1,4 +1,4 @@
-"""Holds: after a fault, an obstacle, manual driving or a restart of its board the robot stands until the Operator has it go on."""
+"""Holds: after a fault, an obstacle, manual driving or a restart of its board the robot stands until told to go on."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import Goal
