@@ -90,9 +90,11 @@ def test_reaction_to_a_key_that_hardly_moves_is_not_taken_for_one_to_a_key_that_
     assert read(axis((1.3, 1.2), (0.4, 0.01)), stepped).unlock_static_m is None
 
 
-def test_speeds_of_passes_are_recorded_to_micrometres_per_second(run_scenario):
+def test_passes_are_recorded_as_the_first_ones_distance_and_to_micrometres_per_second(run_scenario):
     result = run_scenario(SCENARIO, replace(TWO, measuring_speeds_mps=(0.4123456789, 0.1)))[0]
     assert result.unlock_pass_speeds_mps == result.lock_pass_speeds_mps == (0.412346, 0.1)
+    assert result.unlock_pass_distances_m[0] == result.unlock_distance_m == round(result.unlock_distance_m, 6)
+    assert result.lock_pass_distances_m[0] == result.lock_distance_m == round(result.lock_distance_m, 6)
 
 
 # Speeds and prospect

@@ -10,6 +10,7 @@ from mtr_operator.domain.estimation.interval import UNKNOWN, Interval
 from mtr_operator.domain.estimation.press.radial_estimate import RadialEstimate, Reach
 from mtr_operator.domain.geometry.radials import radials_around
 from mtr_operator.domain.results.line_result import LineStatus
+from mtr_operator.domain.scenarios.handle_request.result import HandleRequestResult
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 from mtr_operator.domain.scenarios.key_press_result import SCAN, KeyPressResult
 from mtr_operator.domain.scenarios.line_search.attempt import AttemptMade, AttemptsMade
@@ -174,6 +175,13 @@ def test_share_without_an_interval_and_any_but_the_boundary_of_a_scan_are_not_kn
     scanned = replace(ESTIMATED, method=SCAN)
     assert scanned.distances_at(95) == scanned.distances_at(5) == ()
     assert at(scanned, 50) == (4.9, None, None)
+
+
+def test_axis_of_handle_requests_is_always_searched_and_has_its_share_of_95_percent():
+    axis = HandleRequestResult(1, "left", 1.0, LineStatus.OK, 4, 2, 2, d50_m=1.5, d95_m=1.3, d95_low_m=1.2,
+                               d95_high_m=1.4)
+    sure, = axis.distances_at(95)
+    assert (sure.word, sure.distance_m, sure.low_m, sure.high_m) == ("handle", 1.3, 1.2, 1.4)
 
 
 def test_holes_nearer_than_a_limit_are_those_before_it():
