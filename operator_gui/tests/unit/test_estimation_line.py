@@ -15,6 +15,7 @@ from mtr_operator.domain.estimation.press.likelihood import Press, PressLikeliho
 from mtr_operator.domain.estimation.press.line_boundary import LineBoundary, Places
 from mtr_operator.domain.estimation.press.plan import SearchPlan
 from mtr_operator.domain.estimation.press.posterior import RadialPosterior
+from mtr_operator.domain.estimation.press.radial_search import RadialSearch
 from mtr_operator.domain.estimation.press.transition import D95_PER_SCALE, SIGMA_PER_SCALE, WIDTH_PER_SCALE
 
 PLAN = SearchPlan(3.0, 10.0, interval_m=0.3)
@@ -97,3 +98,22 @@ def test_intervals_hold_the_lines_own_distances(shared):
                             for place_m in places_m], grid)
         held += [line.d50().holds(truth_m[0]), line.d95().holds(truth_m[1])]
     assert min(held) > 130
+
+
+def test_place_just_beyond_the_boundary_that_failed_once_is_pressed_again_before_a_radial_ends():
+    """One press in fifty is lost anywhere: there it would be a wrong end."""
+    grid = PLAN.hypotheses()
+    campaign = Campaign(grid)
+    for radial in range(5):
+        other = RadialSearch(PLAN, grid, campaign, radial, PLAN.maximum_m)
+        while not other.is_finished():
+            place_m = other.next_place_m()
+            other.add(Press(place_m, place_m < 6.2 + 0.15 * radial))
+    search = RadialSearch(PLAN, grid, campaign, 9, PLAN.maximum_m)
+    for place_m in (9.3, 8.25, 7.2, 5.8, 6.15, 6.5, 6.5, 6.5, 6.15, 6.85):
+        assert not search.is_finished()
+        search.add(Press(place_m, place_m < 6.7))
+    assert search.boundary().d50().half_width_m <= PLAN.interval_m
+    assert not search.is_finished() and search.next_place_m() == 6.85
+    search.add(Press(6.85, False))
+    assert search.is_finished()

@@ -148,16 +148,16 @@ class RadialSearch:
             return True
         if len(self.presses) < MIN_PRESSES or self._place_in_doubt() is not None:
             return False
-        wanted_m = self._plan.interval_m
-        if self.posterior().d50().half_width_m > _WORTH_DRAWING * wanted_m:
-            return False
-        return self._boundary_so_far().d50().half_width_m <= wanted_m
+        return self._is_narrow() and self._place_to_prove() is None
 
     def next_place_m(self) -> float:
         """Where the next press tells most per second of robot time."""
         doubted_m = self._place_in_doubt()
         if doubted_m is not None:
             return doubted_m
+        proved_m = self._place_to_prove() if self._is_narrow() else None
+        if proved_m is not None:
+            return proved_m
         posterior = self.posterior()
         places_m = self._candidates(posterior)
         if posterior.d50().half_width_m <= _WORTH_DRAWING * max(self._plan.interval_m, self._plan.half_wavelength_m):
@@ -171,6 +171,18 @@ class RadialSearch:
     def _given(self, log_likelihood: SingleArray) -> RadialPosterior:
         return RadialPosterior(self._hypotheses, log_likelihood, self._campaign.log_shape_prior(self._radial),
                                self._campaign.log_place_prior(self._radial))
+
+    def _is_narrow(self) -> bool:
+        wanted_m = self._plan.interval_m
+        return (self.posterior().d50().half_width_m <= _WORTH_DRAWING * wanted_m
+                and self._boundary_so_far().d50().half_width_m <= wanted_m)
+
+    def _place_to_prove(self) -> float | None:
+        """The nearest place beyond the boundary, as long as it has failed but once: a lapse would be a wrong end."""
+        d50_m = self._boundary_so_far().d50().value_m
+        beyond_m = [press.distance_m for press in self.presses if not press.worked and press.distance_m > d50_m]
+        nearest_m = min(beyond_m, default=None)
+        return nearest_m if nearest_m is not None and self._likelihood.presses_beside(nearest_m) == 1 else None
 
     def _place_in_doubt(self) -> float | None:
         if self._awaiting is not None:
