@@ -69,7 +69,9 @@ def test_sharp_border_is_found_within_the_interval_wanted_on_every_radial(run_sc
     for result in results:
         assert result.d50_low_m <= 5.2 <= result.d50_high_m and result.d50_low_m < result.d50_m < result.d50_high_m
         assert result.d50_high_m - result.d50_low_m <= 0.7
-        assert result.d95_m < result.d50_m and result.d95_low_m <= result.d95_m <= result.d95_high_m
+        # That one of them may be soft leaves the first radial without a lower end within the places.
+        assert result.d95_low_m is None or 3.0 <= result.d95_low_m <= result.d95_m
+        assert result.d95_m < result.d50_m and result.d95_m <= result.d95_high_m
         assert result.distance_m <= 5.2 < result.failed_distance_m and result.nearest_failure_m > 5.2
         assert (result.method, result.reach, result.holes_m) == ("adaptive", "measured", "")
         assert result.attempts == len(result.worked_at_m) + len(result.failed_at_m) <= 24

@@ -63,8 +63,8 @@ def test_success_that_waits_for_its_repetition_does_not_count_at_the_presses_all
     assert estimate(PLAN, search).farthest_success_m == 5.0
 
 
-def test_another_keys_button_changes_no_distance_and_is_told(run_scenario, world):
-    """Somebody presses it within the time in which the Car may answer to a press that is far too far away."""
+def test_another_keys_button_beside_the_border_leaves_intervals_that_hold(run_scenario, world):
+    """Somebody presses it within the time in which the Car may answer to a press that is too far away."""
     world.unlock_m, world.lock_m = -1.0, -1.0
     take, foreign = world.take, []
 
@@ -79,7 +79,6 @@ def test_another_keys_button_changes_no_distance_and_is_told(run_scenario, world
     world.take = interfere
     results = run_scenario(SCENARIO, replace(PARAMETERS, angle_between_radials_rad=math.radians(30.0)))
     assert foreign and all(result.d50_low_m <= 5.2 <= result.d50_high_m for result in results)
-    told = [result for result in results if result.unconfirmed_m]
-    assert len(told) == 1 and float(told[0].unconfirmed_m) == pytest.approx(foreign[0], abs=0.01)
-    assert told[0].distance_m < 5.21
-    assert told[0].attempts == len(told[0].worked_at_m) + len(told[0].failed_at_m) + 1
+    assert sum(foreign[0] in result.worked_at_m or bool(result.unconfirmed_m) for result in results) <= 1
+    assert all(result.attempts == len(result.worked_at_m) + len(result.failed_at_m) + len(result.unconfirmed_m.split())
+               for result in results)

@@ -26,7 +26,7 @@ SPREAD = 0.1
 # Of the difference between the d50 of radials, by the range.
 NEAR = 0.05
 # Probability that a radial's width, and its place, have nothing in common with the others.
-UNLIKE_WIDTH, UNLIKE_PLACE = 0.03, 0.2
+UNLIKE_WIDTH, UNLIKE_PLACE = 0.01, 0.2
 _TINY = float(np.finfo(float).tiny)
 
 
