@@ -51,6 +51,8 @@ class Listener:
 
     def __init__(self, topic: str, message_type: Any, slot: Slot):
         self._samples = Samples(slot, lag_ns=0)
+        # A node that itself waits for a silent producer speaks only after that.
+        self._samples.patience_s = PATIENCE_WALL_S
         self._subscriber = rospy.Subscriber(topic, message_type, self._take, queue_size=50, tcp_nodelay=True)
 
     def at(self, tick_ns: int) -> Any:
