@@ -34,6 +34,8 @@ PRESSES_IN_DOUBT = 3
 UNLIKELY_TO_WORK = 0.05
 # Fewer presses look sharp by luck where the width is not known from other radials yet.
 MIN_PRESSES = 9
+# A smaller share of lapses is not looked for; before anything is measured more is taken for likely.
+_LAPSES_RARELY = 0.005
 # The line's own interval is drawn, which takes some hundredths of a second: whenever the mean curve's is no wider than
 # this times what is wanted, and at the end.
 _WORTH_DRAWING = 3.0
@@ -179,6 +181,8 @@ class RadialSearch:
 
     def _place_to_prove(self) -> float | None:
         """The nearest place beyond the boundary, as long as it has failed but once: a lapse would be a wrong end."""
+        if self.posterior().lapse < _LAPSES_RARELY:
+            return None
         d50_m = self._boundary_so_far().d50().value_m
         beyond_m = [press.distance_m for press in self.presses if not press.worked and press.distance_m > d50_m]
         nearest_m = min(beyond_m, default=None)
