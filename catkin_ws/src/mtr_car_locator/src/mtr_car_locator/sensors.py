@@ -67,6 +67,8 @@ class ScanSource:
             self._usable_from_ns = tick_ns + CONNECTING_NS
             self._queues = [StampedQueue(topic, numpy_msg(LaserScan), schedule.LIDAR, SCAN_LAG_NS)
                             for topic in self._mounts]
+        # A clock that was set back must not leave the scans unused until it has come to that time again.
+        self._usable_from_ns = min(self._usable_from_ns, tick_ns + CONNECTING_NS)
         return [scan_from(message, mount) for queue, mount in zip(self._queues, self._mounts.values())
                 for message in queue.take(tick_ns) if message.header.stamp.to_nsec() >= self._usable_from_ns]
 

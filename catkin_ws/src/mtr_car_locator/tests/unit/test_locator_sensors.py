@@ -60,6 +60,14 @@ def test_scans_are_heard_only_while_they_are_wanted_and_none_of_the_first_200_ms
     assert source.take(1100 * MILLISECOND_NS, False) == [] and not FakeQueue.opened
 
 
+def test_scans_count_again_soon_after_the_clock_was_set_back(topics):
+    source = sensors.ScanSource(shipped_geometry().lidars())
+    source.take(3600_000 * MILLISECOND_NS, True)
+    assert source.take(1000 * MILLISECOND_NS, True) == []
+    topics["/front/scan"] = [stamped(LaserScan(), 1150), stamped(LaserScan(), 1250)]
+    assert [scan.start_s for scan in source.take(1400 * MILLISECOND_NS, True)] == pytest.approx([1.25])
+
+
 def test_poses_that_are_not_valid_are_left_out(topics):
     source = sensors.PoseSource(CarLocator(PARAMETERS))
     topics["/localization/pose"] = [stamped(LocalizedPose(valid=True, map_revision=3), 1000),

@@ -1,5 +1,6 @@
 """A topic of which every message counts, read in order at the ticks of a node."""
 # SPDX-License-Identifier: Apache-2.0
+import threading
 import time
 from collections import deque
 from typing import Any, Deque, List, Optional
@@ -30,6 +31,7 @@ class StampedQueue:
         self._lag_ns = lag_ns
         self._samples: Samples[Any] = Samples(slot, lag_ns, waits=is_simulated())
         self._queue: Deque[Any] = deque(maxlen=KEPT)
+        self._changing = threading.Lock()
         self._opened_ns: Optional[int] = None
         self._subscriber = rospy.Subscriber(topic, message_type, self._take_in, queue_size=50, tcp_nodelay=True)
         if is_simulated():
@@ -42,8 +44,9 @@ class StampedQueue:
         if tick_ns - self._opened_ns >= SETTLING_NS and self._subscriber.get_num_connections():
             self._samples.at(tick_ns)
         taken = []
-        while self._queue and self._queue[0].header.stamp.to_nsec() <= tick_ns - self._lag_ns:
-            taken.append(self._queue.popleft())
+        with self._changing:
+            while self._queue and self._queue[0].header.stamp.to_nsec() <= tick_ns - self._lag_ns:
+                taken.append(self._queue.popleft())
         return taken
 
     def close(self) -> None:
@@ -58,6 +61,10 @@ class StampedQueue:
 
     def _take_in(self, message: Any) -> None:
         # The queue first: whoever waits for the sample finds the message there.
-        self._queue.append(message)
+        with self._changing:
+            # A clock that was set back: what was stamped before would wait until it has come to that time again.
+            if self._queue and message.header.stamp < self._queue[-1].header.stamp:
+                self._queue.clear()
+            self._queue.append(message)
         self._samples.add(message.header.stamp.to_nsec(), message)
         self._samples.wait_until_wanted()

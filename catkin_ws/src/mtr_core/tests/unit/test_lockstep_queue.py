@@ -1,0 +1,47 @@
+"""A topic of which every message counts, without a ROS master."""
+# SPDX-License-Identifier: Apache-2.0
+import genpy
+import pytest
+from std_msgs.msg import Header
+
+from mtr_core.lockstep import stamped_queue
+from mtr_core.schedule import MILLISECOND_NS, SENSORS
+
+LAG_NS = 100 * MILLISECOND_NS
+
+
+class Stamped:
+    """A message with a header."""
+
+    def __init__(self, time_ms):
+        self.header = Header(stamp=genpy.Time.from_sec(time_ms / 1000.0))
+
+
+@pytest.fixture
+def queue(monkeypatch):
+    monkeypatch.setattr(stamped_queue, "is_simulated", lambda: False)
+    monkeypatch.setattr(stamped_queue.rospy, "Subscriber", lambda *_, **__: None)
+    return stamped_queue.StampedQueue("/topic", Stamped, SENSORS, LAG_NS)
+
+
+def taken(queue, tick_ms):
+    return [message.header.stamp.to_nsec() // MILLISECOND_NS for message in queue.take(tick_ms * MILLISECOND_NS)]
+
+
+@pytest.fixture
+def waiting(queue):
+    for time_ms in (5000, 5040, 5080):
+        queue._take_in(Stamped(time_ms))
+    return queue
+
+
+def test_messages_are_handed_over_once_and_in_order_when_they_are_due(waiting):
+    assert [taken(waiting, tick_ms) for tick_ms in (5099, 5140, 5140, 5200)] == [[], [5000, 5040], [], [5080]]
+
+
+@pytest.mark.parametrize("back_ms", [1000, 4900])
+def test_messages_after_the_clock_was_set_back_do_not_wait_for_those_of_before(waiting, back_ms):
+    """Clock steps back: what was stamped by the clock of before is forgotten."""
+    now_ms = 5120 - back_ms
+    waiting._take_in(Stamped(now_ms))
+    assert taken(waiting, now_ms + 100) == [now_ms]
