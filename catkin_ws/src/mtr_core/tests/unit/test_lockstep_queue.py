@@ -1,7 +1,7 @@
 """A topic of which every message counts, without a ROS master."""
 # SPDX-License-Identifier: Apache-2.0
-import genpy
 import pytest
+import rospy
 from std_msgs.msg import Header
 
 from mtr_core.lockstep import stamped_queue
@@ -14,7 +14,7 @@ class Stamped:
     """A message with a header."""
 
     def __init__(self, time_ms):
-        self.header = Header(stamp=genpy.Time.from_sec(time_ms / 1000.0))
+        self.header = Header(stamp=rospy.Time.from_sec(time_ms / 1000.0))
 
 
 @pytest.fixture
