@@ -52,8 +52,19 @@ Result Replay::run() {
 
 void Replay::take(const ImuSample& sample) {
   ++result_.imu_samples;
-  const std::vector<Estimate> late = localizer_.add_imu(sample);
-  result_.trajectory.insert(result_.trajectory.end(), late.begin(), late.end());
+  track([&] { return localizer_.add_imu(sample); });
+}
+
+void Replay::track(const std::function<std::vector<Estimate>()>& answer) {
+  const CpuTimer timer;
+  const std::vector<Estimate> estimates = answer();
+  const double elapsed_s = timer.elapsed_s();
+  result_.tracking_s += elapsed_s;
+  result_.max_ms = std::max(result_.max_ms, 1e3 * elapsed_s);
+  for (const Estimate& estimate : estimates) {
+    note(estimate.message.text, estimate.stamp_ns);
+    result_.trajectory.push_back(estimate);
+  }
 }
 
 void Replay::take(const GnssFix& fix) { localizer_.add_fix(fix); }
@@ -73,15 +84,7 @@ void Replay::take(WheelSample sample) {
   if (!reader_.has_orders()) {
     give_order(sample.stamp_ns);
   }
-  const CpuTimer timer;
-  const std::vector<Estimate> estimates = localizer_.add_wheels(sample);
-  const double elapsed_s = timer.elapsed_s();
-  result_.tracking_s += elapsed_s;
-  result_.max_ms = std::max(result_.max_ms, 1e3 * elapsed_s);
-  for (const Estimate& estimate : estimates) {
-    note(estimate.message.text, estimate.stamp_ns);
-    result_.trajectory.push_back(estimate);
-  }
+  track([&] { return localizer_.add_wheels(sample); });
   if (auto map = localizer_.take_map()) {
     note(map->map.message.text, map->stamp_ns);
     if (map->map.valid || !has_map_) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,7 +29,7 @@ struct Result {
   int sweeps = 0;
   int sweeps_refused = 0;
   int sweeps_used = 0;
-  /// CPU time of tracking, and the longest between wheel odometry and its pose.
+  /// CPU time of tracking, and the longest of one answer to wheel odometry or gyro.
   double tracking_s = 0.0;
   double max_ms = 0.0;
   /// CPU time of the adjustment.
@@ -50,6 +51,8 @@ class Replay {
   void take(const GnssFix& fix);
   void take(Sweep sweep);
   void take(WheelSample sample);
+  /// Takes poses: wheel odometry's that came in time, or a gyro sample's that odometry had to wait for.
+  void track(const std::function<std::vector<Estimate>()>& answer);
   void give_order(std::int64_t now_ns);
   void finish_map();
   void note(const std::string& message, std::int64_t stamp_ns);

@@ -120,7 +120,7 @@ void Node::subscribe_to_time(ros::NodeHandle& node) {
 
 void Node::receive_imu(ImuSample sample) {
   sample.stamp_ns = time_of(sample.stamp_ns, ages_.imu_ns);
-  publish(source_->add_imu(sample));
+  publish_measured([&] { return source_->add_imu(sample); });
 }
 
 void Node::publish(std::vector<Estimate> estimates) {
@@ -165,11 +165,15 @@ void Node::answer(const WheelSample& wheels) {
   if (orders_.getNumPublishers() > 0) {
     orders_received_.at(wheels.stamp_ns);
   }
+  publish_measured([&] { return source_->add_wheels(wheels); });
+}
+
+void Node::publish_measured(const std::function<std::vector<Estimate>()>& answer) {
   const int scans_before = source_->scans_used();
   const WorkLoad::Timer timer;
-  const std::vector<Estimate> estimates = source_->add_wheels(wheels);
+  std::vector<Estimate> estimates = answer();
   load_.add(timer.elapsed_ms(), source_->scans_used() - scans_before);
-  publish(estimates);
+  publish(std::move(estimates));
 }
 
 }  // namespace mtr_localization

@@ -59,6 +59,8 @@ class Node {
   void answer(const WheelSample& wheels);
   void answer_waiting();
   void publish(std::vector<Estimate> estimates);
+  /// Publishes what came of the wheels or the gyro, whichever was the later; its work counts as load.
+  void publish_measured(const std::function<std::vector<Estimate>()>& answer);
 
   /// Of the message of each producer that came last, see mtr_core::StampClock::time_of.
   struct Ages {
