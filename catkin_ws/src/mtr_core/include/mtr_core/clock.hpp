@@ -24,6 +24,15 @@ inline constexpr double kShutdownCheckS = 0.2;
 /// True when /use_sim_time is set, so that time comes from /clock. Valid after the first ros::NodeHandle exists.
 inline bool is_simulated() { return ros::Time::isSimTime(); }
 
+/// Beside /use_sim_time; without it simulated time is taken as it comes, as another simulator's.
+inline constexpr const char* kLockstepParameter = "/lockstep";
+
+/// True when the simulated clock waits for the nodes' holds, and they for each other. The parameter is read once.
+inline bool is_lockstep() {
+  static const bool is_wanted = ros::param::param(kLockstepParameter, false);
+  return is_wanted && is_simulated();
+}
+
 /// Stamp of a message in nanoseconds.
 inline std::int64_t to_ns(const ros::Time& time) { return static_cast<std::int64_t>(time.toNSec()); }
 
@@ -78,9 +87,9 @@ inline bool run_callbacks(double max_wall_s) {
   return ros::ok() && !must_leave();
 }
 
-/// Waiting of inputs in lock-step; none on the robot's own clock. Tests that silence many producers set less patience.
+/// Waiting of inputs in lock-step; none elsewhere. Tests that silence many producers set less patience.
 inline std::optional<Waiting> lockstep_waiting() {
-  if (!is_simulated()) {
+  if (!is_lockstep()) {
     return std::nullopt;
   }
   return Waiting{run_callbacks, wall_seconds, ros::param::param("/lockstep_patience_s", kProducerLostAfterWallS)};
@@ -102,10 +111,13 @@ class Clock {
   Clock(const Clock&) = delete;
   Clock& operator=(const Clock&) = delete;
 
-  /// The present on both clocks; not before the start of the simulated one.
+  /// The present on both clocks; in lock-step not before the start of the simulated one.
   Instant now() const {
-    const std::int64_t simulated_ns = std::max(simulated_ns_, kSimulationStartNs);
-    return is_simulated() ? Instant{simulated_ns, simulated_ns} : Instant{boot_time_ns(), to_ns(ros::Time::now())};
+    if (!is_simulated()) {
+      return {boot_time_ns(), to_ns(ros::Time::now())};
+    }
+    const std::int64_t simulated_ns = is_lockstep() ? std::max(simulated_ns_, kSimulationStartNs) : simulated_ns_;
+    return {simulated_ns, simulated_ns};
   }
 
   /// Runs callbacks until the given time of the steady clock, so that a ROS clock that is set cannot prolong the wait;

@@ -1,5 +1,5 @@
 /// @file
-/// The rate of a periodic node: a simulated clock does not pass a tick before its work is done.
+/// The rate of a periodic node: in lock-step the clock does not pass a tick before its work is done.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,13 +17,13 @@ namespace mtr_core {
 
 /// Wakes at the ticks of a slot of the schedule; the node's callbacks run while it sleeps.
 ///
-/// In simulation each sleep first publishes a hold: frame_id is the node, stamp its next tick, seq the number of
+/// In lock-step each sleep first publishes a hold: frame_id is the node, stamp its next tick, seq the number of
 /// messages that it has sent to the simulator so far. The simulator does not advance past the stamp and waits until
-/// the messages have arrived. On the robot's own clock nothing is published.
+/// the messages have arrived. Elsewhere nothing is published.
 class Ticker {
  public:
   Ticker(ros::NodeHandle& node, Slot slot) : slot_(slot), clock_(node) {
-    if (is_simulated()) {
+    if (is_lockstep()) {
       holds_ = node.advertise<std_msgs::Header>(names::kSimHold, 20, true);
     }
   }
@@ -41,7 +41,7 @@ class Ticker {
         return std::nullopt;
       }
     } while (is_missed(slot_, tick_ns, clock_.now().time_ns));
-    return is_simulated() ? Instant{tick_ns, tick_ns} : clock_.now();
+    return is_lockstep() ? Instant{tick_ns, tick_ns} : clock_.now();
   }
 
   /// The present on both clocks.

@@ -1,10 +1,13 @@
-"""The steady clock of the nodes on the robot's own time."""
+"""Which time the nodes go by: the robot's own, another simulator's, or one that waits for them."""
 # SPDX-License-Identifier: Apache-2.0
 import time
+
+import pytest
 
 from mtr_core.lockstep import clock
 
 SUSPENDED_NS = 3600 * 1_000_000_000
+NOW_NS = 12_345_678_900
 
 
 def test_time_for_which_the_machine_was_suspended_counts_as_age(monkeypatch):  # A1, A10
@@ -15,3 +18,31 @@ def test_time_for_which_the_machine_was_suspended_counts_as_age(monkeypatch):  #
                         lambda which: read(which) + (SUSPENDED_NS if which == time.CLOCK_BOOTTIME else 0))
     assert clock.steady_ns() - before[0] >= SUSPENDED_NS
     assert clock.steady_at(0) - before[1] >= SUSPENDED_NS
+
+
+@pytest.fixture
+def parameters(monkeypatch):
+    known = {}
+    monkeypatch.setattr(clock.rospy, "get_param", known.get)
+    monkeypatch.setattr(clock, "is_simulated", lambda: True)
+    monkeypatch.setattr(clock, "now_ns", lambda: NOW_NS)
+    clock._is_lockstep_wanted.cache_clear()
+    yield known
+    clock._is_lockstep_wanted.cache_clear()
+
+
+def test_simulated_time_alone_is_no_lockstep_and_a_tick_that_is_worked_late_is_late(parameters):
+    assert not clock.is_lockstep()
+    assert clock.steady_ns() == clock.steady_at(NOW_NS - 1) == NOW_NS
+
+
+def test_in_lockstep_a_tick_is_a_tick_however_late_it_is_worked(parameters):
+    parameters[clock.LOCKSTEP_PARAMETER] = True
+    assert clock.is_lockstep()
+    assert clock.steady_at(NOW_NS - 1) == NOW_NS - 1
+
+
+def test_a_robots_own_clock_is_never_in_lockstep(parameters, monkeypatch):
+    parameters[clock.LOCKSTEP_PARAMETER] = True
+    monkeypatch.setattr(clock, "is_simulated", lambda: False)
+    assert not clock.is_lockstep()

@@ -31,6 +31,8 @@ class Clocks:
     def is_simulated(self):
         return False
 
+    is_lockstep = is_simulated
+
     def steady_at(self, _tick_ns):
         return self.steady
 

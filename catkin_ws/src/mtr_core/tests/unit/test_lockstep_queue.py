@@ -19,7 +19,7 @@ class Stamped:
 
 @pytest.fixture
 def queue(monkeypatch):
-    monkeypatch.setattr(stamped_queue, "is_simulated", lambda: False)
+    monkeypatch.setattr(stamped_queue, "is_lockstep", lambda: False)
     monkeypatch.setattr(stamped_queue.rospy, "Subscriber", lambda *_, **__: None)
     return stamped_queue.StampedQueue("/topic", Stamped, SENSORS, LAG_NS)
 

@@ -1,9 +1,10 @@
 """The ticker on the robot's own clock, when that is set or the process was stopped. A1, A10"""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
+import rospy
 
 from mtr_core.lockstep import ticker as ticker_module
-from mtr_core.lockstep.ticker import Ticker
+from mtr_core.lockstep.ticker import NO_CLOCK, NOT_HELD, Ticker
 from mtr_core.schedule import MILLISECOND_NS, slot
 
 SECOND_NS = 1000 * MILLISECOND_NS
@@ -21,10 +22,12 @@ class SetClock:
     def is_simulated(self):
         return False
 
+    is_lockstep = is_simulated
+
     def now_ns(self):
         return self.time_ns
 
-    def wait_until(self, time_ns):
+    def wait_until(self, time_ns, _meanwhile):
         assert len(self.waited_ns) < MAX_SLEEPS
         self.waited_ns.append(time_ns - self.time_ns)
         self.time_ns = time_ns + (self._happens_ns.pop(0) if self._happens_ns else 0)
@@ -61,3 +64,47 @@ def test_after_a_step_back_nobody_waits_for_the_time_of_before(clock, step_s):
         tick_ns = ticker.sleep()
         assert abs(now.time_ns - tick_ns) < 100 * MILLISECOND_NS
     assert max(now.waited_ns) <= 100 * MILLISECOND_NS
+
+
+class SimulatedClock(SetClock):
+    """Another simulator's; while a node waits for a tick an hour of wall time passes."""
+
+    def __init__(self, begins_ns, lockstep):
+        super().__init__()
+        self.time_ns = begins_ns
+        self.is_lockstep = lambda: lockstep
+        self.wall_s = 0.0
+
+    def is_simulated(self):
+        return True
+
+    def stamp_of(self, time_ns):
+        return rospy.Time(0, time_ns % SECOND_NS)
+
+    def wait_until(self, time_ns, meanwhile):
+        self.wall_s += 3600.0
+        meanwhile()
+        super().wait_until(time_ns, meanwhile)
+
+
+class Holds:
+    """A topic with so many listeners."""
+
+    def __init__(self, listeners):
+        self.get_num_connections = lambda: listeners
+        self.publish = lambda message: None
+
+
+@pytest.mark.parametrize("begins_ns, lockstep, listeners, told", [
+    (0, False, 0, [NO_CLOCK]), (0, True, 1, [NO_CLOCK]), (SECOND_NS, True, 0, [NOT_HELD]), (SECOND_NS, True, 1, []),
+    (SECOND_NS, False, 0, [])])
+def test_simulated_time_that_cannot_go_on_is_told_once(monkeypatch, begins_ns, lockstep, listeners, told):
+    simulated = SimulatedClock(begins_ns, lockstep)
+    monkeypatch.setattr(ticker_module, "clock", simulated)
+    monkeypatch.setattr(ticker_module, "direct_publisher", lambda *arguments, **options: Holds(listeners))
+    monkeypatch.setattr(ticker_module.rospy, "get_name", lambda: "/node")
+    sentences = []
+    ticker = Ticker(slot(100), sentences.append, lambda: simulated.wall_s)
+    for _ in range(3):
+        ticker.sleep()
+    assert sentences == told

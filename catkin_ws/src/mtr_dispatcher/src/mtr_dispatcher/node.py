@@ -76,14 +76,14 @@ class DispatcherNode:
 
     def spin(self) -> None:
         """Run until shutdown."""
-        turn = self._simulated_turn if clock.is_simulated() else self._real_turn
+        turn = self._lockstep_turn if clock.is_lockstep() else self._real_turn
         try:
             while not rospy.is_shutdown():
                 turn()
         finally:
             self._server.close()
 
-    def _simulated_turn(self) -> None:
+    def _lockstep_turn(self) -> None:
         tick = self._ticker.sleep()
         if self._parameters.lockstep_operator:
             self._publish_status(tick)

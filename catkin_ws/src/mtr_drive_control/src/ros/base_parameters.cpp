@@ -66,7 +66,7 @@ BaseLimits checked_base(const std::string& controller, const Parameters& paramet
 }
 
 void check_base(const std::string& controller, const Parameters& parameters) {
-  if (!mtr_core::is_simulated() || ros::param::has(controller)) {
+  if (!mtr_core::is_lockstep() || ros::param::has(controller)) {
     checked_base(controller, parameters);
   }
 }

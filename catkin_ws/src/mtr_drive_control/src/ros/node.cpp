@@ -120,7 +120,7 @@ void Node::listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>
 void Node::take(const std::string& owner, const Lock& lock) {
   // Callbacks run while the node waits for its next tick. A stop does not wait: its first step is taken now, and the
   // next one a little early. In lock-step a tick is a tick.
-  if (locks_.take(owner, lock) && !mtr_core::is_simulated()) {
+  if (locks_.take(owner, lock) && !mtr_core::is_lockstep()) {
     tick(ticker_.now());
   }
 }

@@ -56,7 +56,7 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
 }
 
 std::unique_ptr<PoseSource> Node::pose_source_of(NodeParameters parameters) const {
-  parameters.localization.lockstep = mtr_core::is_simulated();
+  parameters.localization.lockstep = mtr_core::is_lockstep();
   if (parameters.pose_source == "external") {
     return std::make_unique<ExternalPose>(parameters.localization, parameters.external,
                                           [this] { return map_from_odom_in(transforms_); });
@@ -132,7 +132,7 @@ void Node::publish(std::vector<Estimate> estimates) {
 
 void Node::receive_sweep(Sweep sweep) {
   sweep.stamp_ns = time_of(sweep.stamp_ns, sweep.lidar == Lidar::kFront ? ages_.front_ns : ages_.rear_ns);
-  if (!mtr_core::is_simulated()) {
+  if (!mtr_core::is_lockstep()) {
     // A node that was woken late has received both at once: the wheels came first.
     answer_waiting();
   }

@@ -67,8 +67,8 @@ class PeripheralsNode:
         self._parameters = parameters
         self._core = Peripherals(parameters, KeyLift(described_robot().key()))
         start_us, lag_ns = (EMULATED_CLOCK_START_US, EMULATED_LAG_NS) if parameters.emulated_firmware else (0, 0)
-        self._times = SharedClock(start_us) if clock.is_simulated() else FirmwareClock()
-        self._reports: Samples[FirmwareReport] = Samples(schedule.FIRMWARE, lag_ns, clock.is_simulated())
+        self._times = SharedClock(start_us) if clock.is_lockstep() else FirmwareClock()
+        self._reports: Samples[FirmwareReport] = Samples(schedule.FIRMWARE, lag_ns, clock.is_lockstep())
         self._robot_clock, self._before = RobotClock(), clock.reading()
         self._battery: Latest[BatteryState] = Latest()
         self._manual_lift: Latest[LiftCommand] = Latest()

@@ -44,7 +44,7 @@ class StateMachineNode:
         self._check = TickInput(names.CAR_CHECK, CarCheck, schedule.CAR_LOCATOR)
         self._mode = publisher(names.ROBOT_MODE, RobotMode)
         self._lock = publisher(names.MOTION_LOCK, MotionLock)
-        self._ticker = Ticker(schedule.STATE_MACHINE)
+        self._ticker = Ticker(schedule.STATE_MACHINE, lambda text: rospy.logerr("%s", text))
 
     def spin(self) -> None:
         """Run until shutdown."""

@@ -37,6 +37,11 @@ class OperatorLink:
         with self._lock:
             self._command = link.Command(session_id=self._command.session_id, id=self._command.id + 1, **content)
 
+    def send(self, **content: Any) -> None:
+        """What the Operator wants now, without waiting for the next Status."""
+        self.order(**content)
+        self._answer(self.status)
+
     def close(self) -> None:
         """Say no more."""
         self._stopped.set()
@@ -48,11 +53,11 @@ class OperatorLink:
         while not self._stopped.is_set():
             if self._statuses.poll(POLL_MS):
                 self._answer(link.Status.FromString(self._statuses.recv()))
+                self._on_status()
 
     def _answer(self, status: link.Status) -> None:
         with self._lock:
             self._command.seen_status_id, self._command.seen_robot_time_s = status.id, status.sent_time_s
-            data = self._command.SerializeToString()
-        self.status = status
-        self._commands.send(data)
-        self._on_status()
+            self.status = status
+            # A socket serves one thread at a time.
+            self._commands.send(self._command.SerializeToString())

@@ -11,7 +11,7 @@ from typing import List, Optional
 
 from ..harness.report import BenchmarkReport, finish
 from . import clock_steps, stalls
-from .live_robot import LiveRobot
+from .live_robot import MACHINE_CLOCK, SIMULATED_CLOCK, LiveRobot
 from .set_clock import SettableClock
 
 SHORT_STALLS_S = (1.0,)
@@ -25,12 +25,16 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--short", action="store_true", help="one stop of each node and four steps of the clock")
     parser.add_argument("--nodes", nargs="*", default=stalls.NODES, help="nodes to stop")
     parser.add_argument("--steps", nargs="*", type=float, help="steps of the clock, s")
+    parser.add_argument("--simulated-clock", action="store_true",
+                        help="time is the simulator's, which waits for nobody; it cannot be set")
     options = parser.parse_args(arguments)
+    if options.simulated_clock and options.steps != []:
+        parser.error("The simulated clock cannot be set; add --steps without steps.")
     durations_s = SHORT_STALLS_S if options.short else stalls.DURATIONS_S
     steps_s = options.steps if options.steps is not None else SHORT_STEPS_S if options.short else clock_steps.STEPS_S
     folder = options.out / "liveness"
     clock = SettableClock(folder)
-    with LiveRobot(folder, clock.variables) as robot:
+    with LiveRobot(folder, clock.variables, SIMULATED_CLOCK if options.simulated_clock else MACHINE_CLOCK) as robot:
         robot.start()
         stopped = stalls.stalls(robot, durations_s, options.nodes)
         stepped = clock_steps.clock_steps(robot, clock, steps_s)

@@ -1,4 +1,4 @@
-"""The simulated robot with all nodes on the machine's clock, driven by a scripted Operator and watched."""
+"""The simulated robot with all nodes in real time, driven by a scripted Operator and watched."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import os
@@ -30,6 +30,9 @@ LEGS = ((3.2, -2.2, 0.0), (-3.2, -2.2, 0.0))
 NOT_READY = (link.MODE_UNSPECIFIED, link.MODE_STARTING)
 START_LIMIT_S = 120.0
 MOVES_MPS = 0.3
+MACHINE_CLOCK = {"machine_clock": "true"}
+# The simulator's clock, which goes on whatever the nodes do.
+SIMULATED_CLOCK = {"lockstep": "false"}
 
 
 class LiveError(Exception):
@@ -45,16 +48,18 @@ class LiveRobot:
         status_times_s: arrivals of Statuses.
     """
 
-    def __init__(self, folder: pathlib.Path, variables: Optional[Dict[str, str]] = None):
-        """variables: of the nodes' environment."""
+    def __init__(self, folder: pathlib.Path, variables: Optional[Dict[str, str]] = None,
+                 clock: Dict[str, str] = MACHINE_CLOCK):
+        """variables: of the nodes' environment. clock: arguments of the launch file that choose it."""
         self.commands: List[Motion] = []
         self.wheels: List[Motion] = []
         self.status_times_s: List[float] = []
         self._joy = Joy(axes=[0.0] * AXES, buttons=[0] * BUTTONS)
         self._stack = Stack(StackOptions(folder, real_time_factor=1.0, lockstep_operator=False, variables=variables,
-                                         arguments={"machine_clock": "true", "controller": "true",
-                                                    "base_guard": "true", "scenario": "lot"}))
-        self._legs = 0
+                                         arguments={**clock, "controller": "true", "base_guard": "true",
+                                                    "scenario": "lot"}))
+        self._legs = self._map_car_id = 0
+        self._has_leg = False
 
     def __enter__(self) -> "LiveRobot":
         self._stack.__enter__()
@@ -80,11 +85,31 @@ class LiveRobot:
         return self._operator.status
 
     def start(self) -> None:
-        """Release the emergency stop and have the Car mapped; returns when the robot goes round it."""
+        """Release the emergency stop and have the Car mapped; returns when the robot is about to go round it."""
         self.wait_until(lambda: self._joystick.get_num_connections() and self.wheels, "a robot that speaks")
         self.wait_until(lambda: self.status.mode not in NOT_READY, "a robot that is ready")
         self.release()
-        self._operator.order(map_car_id=1)
+        self.map_car()
+
+    def map_car(self) -> None:
+        """Have the Car mapped, again if it was; the robot is about to go round it."""
+        self._map_car_id += 1
+        self._has_leg = False
+        self._operator.order(map_car_id=self._map_car_id)
+
+    @property
+    def knows_car(self) -> bool:
+        """True when the Car has been mapped as ordered last."""
+        status = self.status
+        return (status.map_car_id == self._map_car_id and status.mode == link.MODE_FOLLOWING_WAYPOINT
+                and bool(status.car.mapped))
+
+    def stop(self) -> float:
+        """Order a stop; the monotonic time at which it left. The next leg ends it."""
+        ordered_s = time.monotonic()
+        self._operator.send(map_car_id=self._map_car_id, stop=True)
+        self._has_leg = False
+        return ordered_s
 
     def release(self) -> None:
         """Hold the buttons that release the emergency stop."""
@@ -98,12 +123,13 @@ class LiveRobot:
     def keep_driving(self) -> None:
         """Order the next leg when there is none under way; to be called again and again."""
         status = self.status
-        if status.mode == link.MODE_FOLLOWING_WAYPOINT and status.car.mapped and (
-                not self._legs or (status.waypoint_id == self._legs and status.waypoint_result in (
+        if self.knows_car and (
+                not self._has_leg or (status.waypoint_id == self._legs and status.waypoint_result in (
                     link.WAYPOINT_RESULT_REACHED, link.WAYPOINT_RESULT_REFUSED))):
             x, y, heading = LEGS[self._legs % len(LEGS)]
             self._legs += 1
-            self._operator.order(map_car_id=1, max_speed_mps=1.0,
+            self._has_leg = True
+            self._operator.order(map_car_id=self._map_car_id, max_speed_mps=1.0,
                                  waypoint=link.Waypoint(id=self._legs, x=x, y=y, heading=heading))
 
     def wait_for_motion(self, limit_s: float) -> None:

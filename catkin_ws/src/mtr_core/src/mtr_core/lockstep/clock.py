@@ -1,6 +1,8 @@
 """Time of the ROS clock in integer nanoseconds, the steady clock beside it, and waiting without lost wake-ups."""
 # SPDX-License-Identifier: Apache-2.0
+import functools
 import time
+from typing import Callable
 
 import rospy
 from rospy.rostime import get_rostime_cond
@@ -13,11 +15,23 @@ SHUTDOWN_CHECK_S = 0.2
 # Two clocks read this far apart do not tell whether one of them was set in between; so many readings are tried.
 READING_APART_NS = 2 * MILLISECOND_NS
 READINGS = 5
+# Beside /use_sim_time; without it simulated time is taken as it comes, as another simulator's.
+LOCKSTEP_PARAMETER = "/lockstep"
 
 
 def is_simulated() -> bool:
     """True when /use_sim_time is set, so that time comes from /clock."""
     return not rospy.rostime.is_wallclock()
+
+
+def is_lockstep() -> bool:
+    """True when the simulated clock waits for the nodes' holds, and they for each other: LOCKSTEP_PARAMETER."""
+    return is_simulated() and _is_lockstep_wanted()
+
+
+@functools.lru_cache(maxsize=None)
+def _is_lockstep_wanted() -> bool:
+    return bool(rospy.get_param(LOCKSTEP_PARAMETER, False))
 
 
 def now_ns() -> int:
@@ -31,8 +45,8 @@ def steady_ns() -> int:
 
 
 def steady_at(tick_ns: int) -> int:
-    """The steady clock's time at a tick at hand; in simulation the tick itself, however late the machine is."""
-    return tick_ns if is_simulated() else _boot_time_ns()
+    """The steady clock's time at a tick at hand; in lock-step the tick itself, however late the machine is."""
+    return tick_ns if is_lockstep() else steady_ns()
 
 
 def reading() -> Instant:
@@ -52,8 +66,9 @@ def stamp_of(time_ns: int) -> rospy.Time:
     return rospy.Time(time_ns // 1_000_000_000, time_ns % 1_000_000_000)
 
 
-def wait_until(time_ns: int) -> None:
-    """Return at the given ROS time; rospy.ROSInterruptException on shutdown.
+def wait_until(time_ns: int, meanwhile: Callable[[], None] = lambda: None) -> None:
+    """Return at the given ROS time; rospy.ROSInterruptException on shutdown. meanwhile: called while simulated time
+    stands still, every now and then.
 
     rospy.sleep checks the time outside its condition variable, so a clock that stands still at a barrier can cost it
     a wake-up; here the check is under the lock.
@@ -65,6 +80,7 @@ def wait_until(time_ns: int) -> None:
         with condition:
             while now_ns() < time_ns and not rospy.is_shutdown():
                 condition.wait(SHUTDOWN_CHECK_S)
+                meanwhile()
     if rospy.is_shutdown():
         raise rospy.ROSInterruptException("shutdown")
 

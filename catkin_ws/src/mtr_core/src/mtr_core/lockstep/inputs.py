@@ -25,12 +25,12 @@ class Arrived(NamedTuple):
 class TickInput:
     """Subscription to a periodic topic with a header; `at(tick)` gives the message to use at a tick.
 
-    In simulation it waits for the message that is due at that tick, so that the outcome does not depend on the speed
-    of the machine. On the robot's own clock it is the newest message.
+    In lock-step it waits for the message that is due at that tick, so that the outcome does not depend on the speed
+    of the machine. Elsewhere it is the newest message.
     """
 
     def __init__(self, topic: str, message_type: Any, slot: Slot, lag_ns: int = CLOCK_STEP.period_ns):
-        self._samples: Samples[Arrived] = Samples(slot, lag_ns, waits=clock.is_simulated())
+        self._samples: Samples[Arrived] = Samples(slot, lag_ns, waits=clock.is_lockstep())
         self._samples.patience_s = rospy.get_param(PATIENCE_PARAMETER, PRODUCER_LOST_AFTER_WALL_S)
         self._before: Optional[Instant] = None
         self._used: Optional[Arrived] = None

@@ -1,11 +1,11 @@
-"""Publishers of the nodes: in simulation the caller itself sends."""
+"""Publishers of the nodes: in lock-step the caller itself sends."""
 # SPDX-License-Identifier: Apache-2.0
 import warnings
 from typing import Any
 
 import rospy
 
-from .clock import is_simulated
+from .clock import is_lockstep
 
 QUEUE = 10
 
@@ -14,10 +14,10 @@ def publisher(topic: str, message_type: Any) -> rospy.Publisher:
     """Publisher of a periodic node.
 
     With a queue rospy has a thread for each subscriber, and waking it costs several times what sending does. In
-    simulation there is none: a subscriber that hangs blocks the caller only when its buffers are full, which takes
+    lock-step there is none: a subscriber that hangs blocks the caller only when its buffers are full, which takes
     some 20,000 messages.
     """
-    if is_simulated():
+    if is_lockstep():
         return direct_publisher(topic, message_type)
     return rospy.Publisher(topic, message_type, queue_size=QUEUE, tcp_nodelay=True)
 

@@ -9,7 +9,7 @@ import rospy
 
 from mtr_core.schedule import MILLISECOND_NS, Slot
 
-from .clock import is_simulated
+from .clock import is_lockstep
 from .samples import Samples
 
 # A publisher that has not answered by then (wall time) is not waited for any longer.
@@ -23,18 +23,18 @@ KEPT = 100
 class StampedQueue:
     """Subscription that keeps messages with a header until they are taken.
 
-    In simulation the constructor waits for the connection, and `take` for the message that is due, so that the
+    In lock-step the constructor waits for the connection, and `take` for the message that is due, so that the
     outcome does not depend on the speed of the machine. A message is due lag_ns after its stamp.
     """
 
     def __init__(self, topic: str, message_type: Any, slot: Slot, lag_ns: int):
         self._lag_ns = lag_ns
-        self._samples: Samples[Any] = Samples(slot, lag_ns, waits=is_simulated())
+        self._samples: Samples[Any] = Samples(slot, lag_ns, waits=is_lockstep())
         self._queue: Deque[Any] = deque(maxlen=KEPT)
         self._changing = threading.Lock()
         self._opened_ns: Optional[int] = None
         self._subscriber = rospy.Subscriber(topic, message_type, self._take_in, queue_size=50, tcp_nodelay=True)
-        if is_simulated():
+        if is_lockstep():
             self._connect(topic)
 
     def take(self, tick_ns: int) -> List[Any]:

@@ -1,5 +1,8 @@
-"""The rate of a periodic node: a simulated clock does not pass a tick before its work is done."""
+"""The rate of a periodic node: in lock-step the clock does not pass a tick before its work is done."""
 # SPDX-License-Identifier: Apache-2.0
+import time
+from typing import Callable, Optional
+
 import rospy
 from std_msgs.msg import Header
 
@@ -9,24 +12,35 @@ from mtr_core.schedule import SIMULATION_START_NS, Slot
 from . import clock
 from .publishers import direct_publisher
 
+# A simulator that is not there by then (wall time) is missed.
+MISSED_AFTER_WALL_S = 15.0
+NO_CLOCK = ("Simulated time does not begin: /use_sim_time is set and nobody publishes /clock. Start the simulator, or "
+            "set /use_sim_time to false on a robot.")
+NOT_HELD = (f"Nobody waits for the nodes: /lockstep is set, and the simulator does not listen to {names.SIM_HOLD}. Set "
+            "/lockstep to false for a simulator that goes on by itself.")
+
 
 class Ticker:
     """Wakes at the ticks of a slot of the schedule.
 
-    In simulation each sleep first publishes a hold: frame_id is the node, stamp its next tick, seq the number of
+    In lock-step each sleep first publishes a hold: frame_id is the node, stamp its next tick, seq the number of
     messages that it has sent to the simulator so far. The simulator does not advance past the stamp and waits until
-    the messages have arrived. On the robot's own clock nothing is published.
+    the messages have arrived. Elsewhere nothing is published.
 
     Attributes:
         messages_sent: messages sent to the simulator since the start; the owner increments it.
     """
 
-    def __init__(self, slot: Slot):
+    def __init__(self, slot: Slot, on_missed_simulator: Optional[Callable[[str], None]] = None,
+                 wall_clock: Callable[[], float] = time.monotonic):
+        """on_missed_simulator: takes the sentence that says what is wrong with simulated time, once."""
         self._slot = slot
+        self._tell_missed, self._wall_clock = on_missed_simulator, wall_clock
+        self._begun_wall_s = wall_clock()
         self.messages_sent = 0
         self._tick_ns = SIMULATION_START_NS
         self._holds = None
-        if clock.is_simulated():
+        if clock.is_lockstep():
             self._holds = direct_publisher(names.SIM_HOLD, Header, latch=True)
 
     def sleep(self) -> int:
@@ -40,9 +54,19 @@ class Ticker:
             now = max(clock.now_ns(), SIMULATION_START_NS) if self._holds else clock.now_ns()
             self._tick_ns = self._slot.next_after(now)
             self.renew()
-            clock.wait_until(self._tick_ns)
+            clock.wait_until(self._tick_ns, self._look_for_simulator)
+            self._look_for_simulator()
             if abs(clock.now_ns() - self._tick_ns) < self._slot.period_ns:
                 return self._tick_ns
+
+    def _look_for_simulator(self) -> None:
+        if self._tell_missed is None or self._wall_clock() - self._begun_wall_s < MISSED_AFTER_WALL_S:
+            return
+        if clock.is_simulated() and not clock.now_ns():
+            self._tell_missed(NO_CLOCK)
+        elif self._holds and not self._holds.get_num_connections():
+            self._tell_missed(NOT_HELD)
+        self._tell_missed = None
 
     def renew(self) -> None:
         """Say the present hold again: a sign of life of a node that has reason to let simulated time stand still."""
