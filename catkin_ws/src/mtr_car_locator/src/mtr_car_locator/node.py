@@ -1,5 +1,6 @@
 """The car locator as a ROS node: poses, scans and maps in; the Car, and orders to localization's mapper, out."""
 # SPDX-License-Identifier: Apache-2.0
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Optional, Tuple
 
@@ -9,8 +10,9 @@ from visualization_msgs.msg import MarkerArray
 
 from mtr_core import names, schedule
 from mtr_core.conversions import goal_report_from
+from mtr_core.executors import InlineExecutor
 from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
-from mtr_core.lockstep.clock import stamp_of
+from mtr_core.lockstep.clock import is_lockstep, stamp_of
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 from mtr_description.robot_description import described_robot
@@ -30,6 +32,7 @@ from .locator import CarLocator
 from .parameters import LocatorParameters
 from .rectangle import Rectangle
 from .sensors import MapSource, PoseSource, ScanSource
+from .steps import LocatorSteps
 
 
 class CarLocatorNode:
@@ -38,11 +41,13 @@ class CarLocatorNode:
     def __init__(self, parameters: LocatorParameters):
         lidars = described_robot().lidars(parameters.rear_lidar)
         self._parameters = parameters
-        self._locator = CarLocator(parameters)
+        # In lock-step time waits for the fit.
+        executor = InlineExecutor() if is_lockstep() else ThreadPoolExecutor(1)
+        self._steps = LocatorSteps(CarLocator(parameters), executor)
         self._ticker = Ticker(schedule.CAR_LOCATOR)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
         self._drive = TickInput(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER)
-        self._poses, self._scans, self._maps = PoseSource(self._locator), ScanSource(lidars), MapSource()
+        self._poses, self._scans, self._maps = PoseSource(), ScanSource(lidars), MapSource()
         self._shown: Optional[Tuple[CarState, Rectangle, Tuple[Pose2, ...]]] = None
         self._said = ("", 0)
         self._estimates = publisher(names.CAR_ESTIMATE, CarEstimate)
@@ -57,12 +62,12 @@ class CarLocatorNode:
             self.tick(self._ticker.sleep())
 
     def tick(self, tick_ns: int) -> None:
-        """One step of the locator."""
-        self._poses.feed(tick_ns)
+        """What is known of the Car now."""
+        poses = self._poses.take(tick_ns)
         inputs = Inputs(tick_ns * 1e-9, task_from(self._mode.at(tick_ns)), goal_report_from(self._drive.at(tick_ns)))
-        scans = self._scans.take(tick_ns, self._locator.wants_scans(inputs))
+        scans = self._scans.take(tick_ns, self._steps.wants_scans(inputs, poses))
         surfaces = self._maps.at(tick_ns, self._poses.map_revision)
-        self._publish(self._locator.step(replace(inputs, scans=scans, surfaces=surfaces)), tick_ns)
+        self._publish(self._steps.estimate(replace(inputs, scans=scans, surfaces=surfaces)), tick_ns)
 
     def _publish(self, estimate: Estimate, tick_ns: int) -> None:
         stamp = stamp_of(tick_ns)

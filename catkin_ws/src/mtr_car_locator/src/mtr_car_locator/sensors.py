@@ -10,14 +10,14 @@ from sensor_msgs.msg import LaserScan
 
 from mtr_core import names, schedule
 from mtr_core.lockstep import StampedQueue
-from mtr_core.lockstep.clock import is_simulated
+from mtr_core.lockstep.clock import is_lockstep
 from mtr_core.schedule import MILLISECOND_NS
 from mtr_description.mounts import LidarMounts
 from mtr_msgs.msg import LocalizedPose
 from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 
 from .conversions import robot_pose_from, scan_from, scan_mounts, surface_map_from
-from .locator import CarLocator
+from .poses import RobotPose
 from .scan import Scan
 from .survey.surface_map import SurfaceMap
 
@@ -31,23 +31,22 @@ MAP_WAIT_WALL_S = 2.0
 
 
 class PoseSource:
-    """Feeds the robot's poses to the locator.
+    """The robot's poses.
 
     Attributes:
         map_revision: map that the newest pose is in.
     """
 
-    def __init__(self, locator: CarLocator):
-        self._locator = locator
+    def __init__(self) -> None:
         self._queue = StampedQueue(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, 0)
         self.map_revision = 0
 
-    def feed(self, tick_ns: int) -> None:
-        """Hand over the poses up to the tick."""
-        for message in self._queue.take(tick_ns):
-            if message.valid:
-                self.map_revision = message.map_revision
-                self._locator.add_pose(robot_pose_from(message))
+    def take(self, tick_ns: int) -> List[RobotPose]:
+        """The valid poses up to the tick, each once."""
+        valid = [message for message in self._queue.take(tick_ns) if message.valid]
+        if valid:
+            self.map_revision = valid[-1].map_revision
+        return [robot_pose_from(message) for message in valid]
 
 
 class ScanSource:
@@ -88,8 +87,8 @@ class MapSource:
         self._subscriber = rospy.Subscriber(names.SURFACE_MAP, SurfaceMapMessage, self._take, queue_size=2)
 
     def at(self, tick_ns: int, pose_revision: int) -> Optional[SurfaceMap]:
-        """The map at a tick; in simulation it waits for the one that the poses are in."""
-        deadline = time.monotonic() + (MAP_WAIT_WALL_S if is_simulated() else 0.0)
+        """The map at a tick; in lock-step it waits for the one that the poses are in."""
+        deadline = time.monotonic() + (MAP_WAIT_WALL_S if is_lockstep() else 0.0)
         with self._changed:
             while self._revision() < pose_revision and time.monotonic() < deadline:
                 self._changed.wait(deadline - time.monotonic())

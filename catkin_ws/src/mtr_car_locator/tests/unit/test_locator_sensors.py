@@ -7,13 +7,10 @@ import pytest
 from sensor_msgs.msg import LaserScan
 
 from mtr_car_locator import sensors
-from mtr_car_locator.locator import CarLocator
-from mtr_car_locator.parameters import LocatorParameters
 from mtr_description.shipped import shipped_geometry
 from mtr_msgs.msg import LocalizedPose, SurfaceMap
 
 MILLISECOND_NS = 1_000_000
-PARAMETERS = LocatorParameters()
 
 
 class FakeQueue:
@@ -69,15 +66,15 @@ def test_scans_count_again_soon_after_the_clock_was_set_back(topics):
 
 
 def test_poses_that_are_not_valid_are_left_out(topics):
-    source = sensors.PoseSource(CarLocator(PARAMETERS))
+    source = sensors.PoseSource()
     topics["/localization/pose"] = [stamped(LocalizedPose(valid=True, map_revision=3), 1000),
                                     stamped(LocalizedPose(valid=False, map_revision=9), 1020)]
-    source.feed(1060 * MILLISECOND_NS)
+    assert len(source.take(1060 * MILLISECOND_NS)) == 1
     assert source.map_revision == 3
 
 
 def test_map_counts_when_the_pose_is_in_it_or_some_time_after_its_stamp(monkeypatch):
-    monkeypatch.setattr(sensors, "is_simulated", lambda: False)
+    monkeypatch.setattr(sensors, "is_lockstep", lambda: False)
     source = sensors.MapSource()
     assert source.at(1000 * MILLISECOND_NS, 1) is None
     source._take(stamped(SurfaceMap(map_car_id=7, revision=2, valid=True), 1040))
@@ -87,7 +84,7 @@ def test_map_counts_when_the_pose_is_in_it_or_some_time_after_its_stamp(monkeypa
 
 
 def test_simulated_tick_waits_for_the_map_that_the_pose_speaks_of(monkeypatch):
-    monkeypatch.setattr(sensors, "is_simulated", lambda: True)
+    monkeypatch.setattr(sensors, "is_lockstep", lambda: True)
     source = sensors.MapSource()
     sender = threading.Timer(0.05, source._take, [stamped(SurfaceMap(map_car_id=7, revision=1, valid=True), 1040)])
     sender.start()
@@ -96,6 +93,6 @@ def test_simulated_tick_waits_for_the_map_that_the_pose_speaks_of(monkeypatch):
 
 
 def test_simulated_tick_does_not_wait_for_ever(monkeypatch):
-    monkeypatch.setattr(sensors, "is_simulated", lambda: True)
+    monkeypatch.setattr(sensors, "is_lockstep", lambda: True)
     monkeypatch.setattr(sensors, "MAP_WAIT_WALL_S", 0.01)
     assert sensors.MapSource().at(1060 * MILLISECOND_NS, 1) is None

@@ -9,9 +9,10 @@ from std_msgs.msg import Header
 from visualization_msgs.msg import MarkerArray
 
 from mtr_core import names, schedule
+from mtr_core.executors import InlineExecutor
 from mtr_core.liveness import NS
 from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
-from mtr_core.lockstep.clock import is_simulated, stamp_of, steady_at
+from mtr_core.lockstep.clock import is_lockstep, stamp_of, steady_at
 from mtr_description.robot_description import described_robot
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
@@ -31,7 +32,6 @@ from .nav_goal import NavGoals
 from .parameters import MotionParameters
 from .picture import picture_of
 from .planner import MotionPlanner
-from .replanning import InlineExecutor
 
 # The tool "2D Nav Goal" of rviz publishes here.
 NAV_GOAL = "/move_base_simple/goal"
@@ -46,8 +46,8 @@ class MotionPlannerNode:
 
     def __init__(self, parameters: MotionParameters):
         self._parameters = parameters
-        # In simulation time waits for the plan.
-        executor = InlineExecutor() if is_simulated() else ThreadPoolExecutor(PLANS_AT_ONCE)
+        # In lock-step time waits for the plan.
+        executor = InlineExecutor() if is_lockstep() else ThreadPoolExecutor(PLANS_AT_ONCE)
         self._planner = MotionPlanner(parameters, described_robot().footprint(), executor)
         self._ticker = Ticker(schedule.MOTION_PLANNER)
         self._pose = TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0)

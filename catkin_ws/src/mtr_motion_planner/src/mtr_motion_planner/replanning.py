@@ -7,7 +7,7 @@ for it, however long that takes, so that the result does not depend on the machi
 import math
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass
-from typing import Any, Callable, Optional, TypeVar
+from typing import Optional
 
 from .following.follower import Follower
 from .following.tracking import deviation
@@ -23,22 +23,6 @@ LEAD_S = 0.4
 ROUNDING_S, ROUNDING_MPS = 0.001, 0.005
 # A reference that is farther from the plan's start when the plan is due has waited for the robot meanwhile.
 START_M, START_RAD = 0.03, math.radians(3.0)
-
-Value = TypeVar("Value")
-
-
-class InlineExecutor(Executor):
-    """Does its work before it returns."""
-
-    def submit(self, fn: Callable[..., Value], *args: Any, **kwargs: Any) -> "Future[Value]":
-        """The work's result."""
-        done: Future[Value] = Future()
-        try:
-            done.set_result(fn(*args, **kwargs))
-        except Exception as error:
-            done.set_exception(error)
-        return done
-
 
 @dataclass(frozen=True)
 class PendingPlan:

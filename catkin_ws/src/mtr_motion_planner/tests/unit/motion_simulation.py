@@ -6,6 +6,7 @@ from typing import List, Optional
 
 from shapely.geometry import Polygon
 
+from mtr_core.executors import InlineExecutor
 from mtr_core.requests import NO_GOAL, Goal, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
@@ -15,7 +16,6 @@ from mtr_motion_planner.inputs import CollisionStop, DesiredMotion, EstimatedCar
 from mtr_motion_planner.outputs import PlannerOutput
 from mtr_motion_planner.parameters import MotionParameters, Slip
 from mtr_motion_planner.planner import MotionPlanner
-from mtr_motion_planner.replanning import InlineExecutor
 
 PARAMETERS = MotionParameters()
 EXPECTED_SLIP = PARAMETERS.slip

@@ -7,6 +7,7 @@ import pytest
 from motion_simulation import FOOTPRINT
 
 from mtr_core.errors import ConfigurationError
+from mtr_core.executors import InlineExecutor
 from mtr_core.parameters import parameters_from
 from mtr_core.problems import Problem
 from mtr_core.requests import NO_GOAL_ID, Goal, Waypoint
@@ -15,7 +16,6 @@ from mtr_core.states import Result
 from mtr_motion_planner.inputs import DesiredMotion, EstimatedCar, Inputs, RobotState
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.planner import MotionPlanner
-from mtr_motion_planner.replanning import InlineExecutor
 
 NAN = math.nan
 CAR = EstimatedCar(1.0, True, Pose2(0, 0, 0), ((2.2, .9), (-2.2, .9), (-2.2, -.9), (2.2, -.9)))

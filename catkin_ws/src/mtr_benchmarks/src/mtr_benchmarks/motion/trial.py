@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import List, Optional, Set, Tuple
 
 from mtr_core import names
+from mtr_core.executors import InlineExecutor
 from mtr_core.requests import Goal, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
@@ -13,7 +14,6 @@ from mtr_motion_planner.inputs import DesiredMotion, EstimatedCar, Inputs, Robot
 from mtr_motion_planner.outputs import PlannerOutput
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.planner import MotionPlanner
-from mtr_motion_planner.replanning import InlineExecutor
 from mtr_simulation.sim import Sim
 from mtr_simulation.site.car_shape import CarShape
 from mtr_simulation.site.scenario import Scenario
