@@ -5,8 +5,8 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations clean \
-	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-stalls bench-truth firmware \
-	flash bare-root docs tidy mutants
+	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-stalls bench-real-time \
+	bench-truth firmware flash bare-root docs tidy mutants
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -133,6 +133,9 @@ bench-range: setup build ## Ranges of both scenarios on Cars that fade, lapse an
 
 bench-stalls: setup build ## Each node stopped and the clock set while the robot drives; figures in out/bench/liveness.json
 	@$(RUN) python -m mtr_benchmarks.liveness --out out/bench
+
+bench-real-time: setup build ## Silences, latencies and load of the robot's nodes on an idle and a busy machine; out/bench/real_time.json
+	@$(RUN) python -m mtr_benchmarks.real_time --out out/bench
 
 bench-truth: setup build ## Lines of both scenarios, one disturbance each, against the truth; figures in out/bench/truth.json
 	@$(RUN) python -m mtr_benchmarks.truth --seed $(SEED) --out out/bench

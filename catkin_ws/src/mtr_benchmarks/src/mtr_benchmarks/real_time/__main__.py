@@ -1,0 +1,84 @@
+"""Runs the simulated robot on the machine's clock, idle and beside other work; figures go to real_time.json.
+
+Usage: python -m mtr_benchmarks.real_time --out out/bench
+"""
+# SPDX-License-Identifier: Apache-2.0
+import argparse
+import contextlib
+import json
+import pathlib
+import subprocess
+import sys
+from dataclasses import asdict
+from typing import Any, ContextManager, Dict, Iterator, List, Optional, Tuple
+
+from ..harness.report import BenchmarkReport, finish
+from ..liveness.alarms import AlarmWatch
+from ..liveness.live_robot import LiveRobot
+from .arrivals import by_node
+from .judge import Machine, judged
+from .measurement import Stretch, measure
+from .other_work import other_work
+
+DRIVE_S, STOPS = 60.0, 20
+SHORT_DRIVE_S, SHORT_STOPS = 5.0, 3
+PROBE_LIMIT_S = 20.0
+
+
+class Probe:
+    """The process that notes arrivals; see arrivals_probe."""
+
+    def __init__(self) -> None:
+        self._process = subprocess.Popen([sys.executable, "-m", f"{__package__}.arrivals_probe"], text=True,
+                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        assert self._process.stdout is not None
+        self._process.stdout.readline()
+
+    def close(self) -> Dict[str, Any]:
+        """What it noted."""
+        said, _ = self._process.communicate("", timeout=PROBE_LIMIT_S)
+        noted: Dict[str, Any] = json.loads(said)
+        return noted
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    """Measure; the exit status says whether every row is what it must be."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
+    parser.add_argument("--short", action="store_true", help="a short drive and a few stops of each")
+    parser.add_argument("--machines", nargs="*", choices=[each.value for each in Machine],
+                        default=[each.value for each in Machine], help="idle, busy or both")
+    options = parser.parse_args(arguments)
+    folder = options.out / "real_time"
+    drive_s, stops = (SHORT_DRIVE_S, SHORT_STOPS) if options.short else (DRIVE_S, STOPS)
+    found, noted = _measured(folder, drive_s, stops, [Machine(name) for name in options.machines])
+    arrivals = by_node(noted["callers"])
+    rows, figures = judged(found, arrivals, noted["tf_age_s"])
+    remarks = [f"{machine.value}: {alarm}" for machine, stretch in found.items() for alarm in stretch.alarms]
+    figures["stretches"] = {machine.value: asdict(stretch) for machine, stretch in found.items()}
+    return finish(BenchmarkReport(rows, figures, remarks), options.out / "real_time.json")
+
+
+def _measured(folder: pathlib.Path, drive_s: float, stops: int,
+              machines: List[Machine]) -> Tuple[Dict[Machine, Stretch], Dict[str, Any]]:
+    found = {}
+    with LiveRobot(folder) as robot:
+        robot.start()
+        probe, watch = Probe(), AlarmWatch()
+        for machine in machines:
+            with _machine(machine, folder):
+                found[machine] = measure(robot, watch, drive_s, stops)
+        return found, probe.close()
+
+
+def _machine(machine: Machine, folder: pathlib.Path) -> ContextManager[None]:
+    return other_work(folder) if machine is Machine.BUSY else _nothing_else()
+
+
+@contextlib.contextmanager
+def _nothing_else() -> Iterator[None]:
+    yield
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,68 @@
+"""When the nodes spoke: how long each was silent, beyond the period that it promises."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import Dict, List, Mapping, NamedTuple, Sequence, Tuple
+
+import numpy as np
+
+from mtr_core import names, schedule
+from mtr_core.schedule import Slot
+
+NS = 1e-9
+
+
+class Voice(NamedTuple):
+    """A topic on which a node speaks at its ticks, and their slot."""
+
+    topic: str
+    slot: Slot
+
+
+VOICES: Mapping[str, Voice] = {
+    "drive_control": Voice(names.DRIVE_STATUS, schedule.DRIVE_CONTROL),
+    "localization": Voice(names.LOCALIZED_POSE, schedule.LOCALIZATION),
+    "motion_planner": Voice(names.MOTION_STATUS, schedule.MOTION_PLANNER),
+    "car_locator": Voice(names.CAR_ESTIMATE, schedule.CAR_LOCATOR),
+    "state_machine": Voice(names.ROBOT_MODE, schedule.STATE_MACHINE),
+    "peripherals": Voice(names.PERIPHERALS_STATE, schedule.PERIPHERALS),
+    "dispatcher": Voice(names.DESIRED_STATE, schedule.DISPATCHER),
+    "controller_input": Voice(names.MOTION_LOCK, schedule.CONTROLLER_INPUT),
+}
+
+
+class Silence(NamedTuple):
+    """Gaps between a node's messages, in s.
+
+    Attributes:
+        late: by how much of its period the longest gap was longer than the period.
+    """
+
+    period_s: float
+    messages: int
+    median_s: float
+    p99_s: float
+    longest_s: float
+    late: float
+
+
+def silence(times_s: Sequence[float], begin_s: float, end_s: float, period_s: float) -> Silence:
+    """Of arrivals on a steady clock in a stretch of it; one that ends or begins in silence counts that."""
+    within = [time_s for time_s in times_s if begin_s <= time_s <= end_s]
+    gaps_s = np.diff([begin_s, *within, end_s])
+    longest_s = float(np.max(gaps_s))
+    return Silence(period_s, len(within), float(np.median(gaps_s)), float(np.quantile(gaps_s, 0.99)), longest_s,
+                   longest_s / period_s - 1.0)
+
+
+def silences(arrivals: Mapping[str, Sequence[float]], begin_s: float, end_s: float) -> Dict[str, Silence]:
+    """Of all nodes."""
+    return {node: silence(arrivals[node], begin_s, end_s, voice.slot.period_ns * NS) for node, voice in VOICES.items()}
+
+
+def worst(found: Mapping[str, Silence]) -> Tuple[str, Silence]:
+    """The node that was late by most of its period."""
+    return max(found.items(), key=lambda item: item[1].late)
+
+
+def by_node(callers: Mapping[str, Mapping[str, List[float]]]) -> Dict[str, List[float]]:
+    """Arrivals by topic and caller as arrivals by node."""
+    return {node: callers.get(voice.topic, {}).get(f"/{node}", []) for node, voice in VOICES.items()}

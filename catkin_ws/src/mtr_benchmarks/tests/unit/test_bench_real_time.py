@@ -1,0 +1,80 @@
+"""Silences and rows of the robot in real time, without a robot."""
+# SPDX-License-Identifier: Apache-2.0
+import pytest
+
+from mtr_benchmarks.real_time.arrivals import VOICES, by_node, silence, silences, worst
+from mtr_benchmarks.real_time.judge import Machine, judged
+from mtr_benchmarks.real_time.measurement import Stop, Stretch, echoes_s
+from mtr_benchmarks.real_time.other_work import other_work
+
+BEGIN_S, END_S = 100.0, 110.0
+
+
+def spoken(period_s, pause_s=0.0):
+    """Arrivals at a rate, with one pause of so much more in the middle."""
+    count = round((END_S - BEGIN_S) / period_s) + 1
+    return [BEGIN_S + index * period_s for index in range(count)
+            if not BEGIN_S + 5.0 < BEGIN_S + index * period_s < BEGIN_S + 5.0 + pause_s + 0.5 * period_s]
+
+
+def test_a_node_that_speaks_at_its_rate_is_not_late():
+    found = silence(spoken(0.1), BEGIN_S, END_S, 0.1)
+    assert found.late == pytest.approx(0.0, abs=1e-6) and found.median_s == pytest.approx(0.1)
+
+
+def test_the_longest_pause_counts_and_the_usual_one_is_told():
+    found = silence(spoken(0.1, 0.3), BEGIN_S, END_S, 0.1)
+    assert found.longest_s == pytest.approx(0.4) and found.late == pytest.approx(3.0)
+    assert found.median_s == pytest.approx(0.1) and found.p99_s < found.longest_s
+
+
+@pytest.mark.parametrize("times_s", [[], [BEGIN_S + 1.0], [BEGIN_S - 1.0, END_S + 1.0]])
+def test_silence_at_begin_or_end_or_all_the_time_counts(times_s):
+    assert silence(times_s, BEGIN_S, END_S, 0.1).longest_s >= 9.0
+
+
+def arrivals(**pauses_s):
+    return {node: spoken(voice.slot.period_ns * 1e-9, pauses_s.get(node, 0.0)) for node, voice in VOICES.items()}
+
+
+def test_the_worst_node_is_the_one_that_was_late_by_most_of_its_period():
+    found = silences(arrivals(car_locator=0.2, drive_control=0.1), BEGIN_S, END_S)
+    assert worst(found)[0] == "drive_control"
+
+
+def test_a_topic_of_several_speakers_is_sorted_by_them():
+    topic = VOICES["controller_input"].topic
+    assert by_node({topic: {"/controller_input": [1.0], "/dispatcher": [2.0]}})["controller_input"] == [1.0]
+
+
+def stretch(alarms=(), brakes_s=0.01, cpu=0.02):
+    return Stretch(BEGIN_S, END_S, tuple(alarms), [Stop(brakes_s, 0.5, 0.6)], dict.fromkeys(VOICES, cpu), [0.001])
+
+
+TF = [(BEGIN_S + 1.0, 0.004), (BEGIN_S + 2.0, 0.006), (END_S + 1.0, 9.0)]
+
+
+def test_a_good_robot_meets_every_row():
+    rows, figures = judged({machine: stretch() for machine in Machine}, arrivals(), TF)
+    assert len(rows) == 9 and all(row.is_met for row in rows)
+    assert figures["scan_to_tf_s"]["idle"]["max"] == pytest.approx(0.006)
+    assert set(figures["silences"]["busy"]) == set(VOICES)
+
+
+@pytest.mark.parametrize("machine, measured, spoke, missed", [
+    (Machine.IDLE, stretch(), arrivals(car_locator=0.2), "longest silence"),
+    (Machine.BUSY, stretch(), arrivals(car_locator=0.6), "longest silence"),
+    (Machine.IDLE, stretch(alarms=["state machine: FAULT"]), arrivals(), "alarms"),
+    (Machine.IDLE, stretch(brakes_s=0.2), arrivals(), "stop"),
+    (Machine.IDLE, stretch(brakes_s=float("inf")), arrivals(), "stop"),
+    (Machine.IDLE, stretch(cpu=0.05), arrivals(), "processor time")])
+def test_what_is_not_as_it_must_be_is_one_row(machine, measured, spoke, missed):
+    rows, _ = judged({machine: measured}, spoke, TF)
+    assert [row.requirement.name for row in rows if not row.is_met] == [
+        row.requirement.name for row in rows if missed in row.requirement.name]
+
+
+def test_echoes_and_other_work_leave_nothing(tmp_path):
+    with other_work(tmp_path, computing=1):
+        assert all(0.0 < echo_s < 10.0 for echo_s in echoes_s(3))
+    assert not list(tmp_path.iterdir())
