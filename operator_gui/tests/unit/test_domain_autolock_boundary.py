@@ -78,9 +78,26 @@ def test_reaction_to_a_key_that_has_come_to_a_stand_tells_nothing_of_its_speed(r
     # The approach ends 0.1 m behind the boundary: the fast one before the Car has reacted, the slow one after.
     result = run_scenario(SCENARIO, replace(TWO, minimum_distance_m=1.4))[0]
     assert result.unlock_pass_distances_m == pytest.approx((1.4, 1.45), abs=0.02)
-    assert result.unlock_pass_speeds_mps == pytest.approx((0.0, 0.1))
+    assert result.unlock_pass_speeds_mps == pytest.approx((0.0, 0.1), abs=1e-5)
     assert (result.unlock_passes, result.unlock_static_m) == (2, None)
     assert result.lock_static_m is not None
+
+
+def test_reaction_to_a_key_that_stands_at_the_end_of_its_way_is_not_taken_for_one_between_steps(run_scenario, world):
+    at_once = world.turn_locks
+
+    def later(locked, time_s, source):
+        if source == "late":
+            at_once(locked, time_s, PASSIVE_ENTRY)
+        else:
+            world.foreign.append((time_s + 1.0, locked, "late"))
+    world.turn_locks = later
+    # The retreat ends 0.1 m behind the boundary, and the Car locks 1 s after the key has left it: the key stands.
+    stepped = replace(TWO, passes=1, measuring_speeds_mps=None, last_step_m=0.05, straightening_distance_m=1.4,
+                      measuring_speed_mps=0.4)
+    result = run_scenario(SCENARIO, stepped)[0]
+    assert result.lock_distance_m is not None and result.lock_speed_mps == pytest.approx(0.0, abs=1e-3)
+    assert result.lock_static_m is None
 
 
 def test_reaction_to_a_key_that_hardly_moves_is_not_taken_for_one_to_a_key_that_stood_between_steps():

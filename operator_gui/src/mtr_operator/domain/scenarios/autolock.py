@@ -28,6 +28,8 @@ from .autolock_resume import can_go_on
 from .autolock_speeds import FURTHER_M, TURNING_S, USUAL_CYCLE_S, pass_prospect, pass_speeds, speed_cautions
 
 # A line that nobody can decide ends some time.
+# Of a pass that is not in steps: the least that its column tells from 0.
+_LEAST_SPEED_MPS = 1e-6
 _MAX_PASSES = 16
 
 
@@ -179,10 +181,10 @@ def _columns(word: str, measured: Measured) -> dict[str, Any]:
 
 
 def _pass_columns(word: str, passes: Sequence[tuple[Measured, float | None]]) -> dict[str, Any]:
-    """Of a pass in steps the speed is 0: the key stood."""
+    """Of a pass in steps the speed is 0: the key stood. Of another one it is not, though the key may have stood too."""
     known = [(each.distance, step_m) for each, step_m in passes if each.distance is not None]
     return {f"{word}_pass_distances_m": tuple(round(distance.distance_m, 6) for distance, _ in known),
-            f"{word}_pass_speeds_mps": tuple(0.0 if step_m else round(abs(distance.speed_mps), 6)
+            f"{word}_pass_speeds_mps": tuple(0.0 if step_m else max(round(abs(distance.speed_mps), 6), _LEAST_SPEED_MPS)
                                              for distance, step_m in known)}
 
 
