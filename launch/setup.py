@@ -4,4 +4,6 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-setup(**generate_distutils_setup(packages=["mtr_bringup"], package_dir={"": "src"}))
+PACKAGES = ["mtr_bringup", "mtr_bringup.preflight", "mtr_bringup.preflight.motion"]
+
+setup(**generate_distutils_setup(packages=PACKAGES, package_dir={"": "src"}))

@@ -52,6 +52,17 @@ def test_robot_core_imports_no_ros(path):
     assert not imports(path) & (ROS | ROS_MESSAGES | ROS_OF_CORE)
 
 
+def preflight_files() -> Iterator[pathlib.Path]:
+    """Checks of the preflight, in a package of the border, without its two files that listen to the robot."""
+    files = (TOP / "launch" / "src" / "mtr_bringup" / "preflight").rglob("*.py")
+    yield from (path for path in sorted(files) if path.name not in ("command_line.py", "listening.py"))
+
+
+@pytest.mark.parametrize("path", list(preflight_files()), ids=ids)
+def test_checks_of_the_preflight_import_no_ros(path):
+    assert not imports(path) & (ROS | ROS_MESSAGES | ROS_OF_CORE)
+
+
 @pytest.mark.parametrize("path", list(robot_files()), ids=ids)
 def test_robot_imports_nothing_of_the_operator(path):
     assert not imports(path) & (QT | {"mtr_operator"})

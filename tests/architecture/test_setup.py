@@ -14,7 +14,7 @@ from project import TOP, imports, is_standard, package_folders, package_name, tr
 FROM_THE_START = {"git", "make", "sudo", "apt", "bash", "coreutils", "dpkg", "findutils", "grep", "mawk", "mount",
                   "passwd", "sed", "util-linux"}
 # What root, and who does not call `make bare-root`, can do without; the scripts say when it is missing.
-BY_HAND = {"debootstrap", "sudo"}
+BY_HAND = {"chrony", "debootstrap", "sudo"}
 
 # Lists of packages that single make targets install; `make setup` does not.
 OF_TARGETS = ("debian-bench-packages.txt", "debian-docs-packages.txt", "debian-range-packages.txt")

@@ -1,0 +1,123 @@
+"""Listens to the running robot: what is on its topics, who publishes them, and its parameters."""
+# SPDX-License-Identifier: Apache-2.0
+import time
+from typing import Any, Callable, Dict, Set, Tuple, Type
+
+import numpy as np
+import rospy
+from nav_msgs.msg import Odometry
+from rospy.numpy_msg import numpy_msg
+from sensor_msgs.msg import BatteryState, Imu, Joy, LaserScan
+from tf2_msgs.msg import TFMessage
+
+from mtr_core import names
+from mtr_msgs.msg import FirmwareState
+
+from .expected import CONTROLLER_OWNER, Setup
+from .motion.recording import ImuSample, Recording, ScanSample, Sweep, WheelSample, scan_sample
+from .records import RobotRecord, ScanContent, TopicRecord
+
+TYPES: Dict[str, Type[Any]] = {
+    names.FRONT_SCAN: numpy_msg(LaserScan), names.REAR_SCAN: numpy_msg(LaserScan), names.WHEEL_ODOMETRY: Odometry,
+    names.IMU_DATA: Imu, names.BATTERY: BatteryState, names.FIRMWARE_STATE: FirmwareState, names.JOY: Joy}
+
+
+def setup_of_robot() -> Setup:
+    """What the robot was started with, by the parameters of drive control and of ROS."""
+    drive: Dict[str, Any] = rospy.get_param("/drive_control", {})
+    default = Setup()
+    return Setup(
+        bool(drive.get("rear_lidar", default.rear_lidar)), CONTROLLER_OWNER in drive.get("lock_owners", []),
+        bool(drive.get("base_guard", default.base_guard)),
+        str(drive.get("base_controller", default.base_controller)),
+        bool(rospy.get_param("/use_sim_time", False)) or names.SIM_TRUTH in publishers())
+
+
+def publishers() -> Dict[str, Tuple[str, ...]]:
+    """Topic -> nodes that publish it, by the master."""
+    _, _, state = rospy.get_master().getSystemState()
+    return {topic: tuple(sorted(nodes)) for topic, nodes in state[0]}
+
+
+class Listener:
+    """Subscribes at once; what comes is kept until it is asked for.
+
+    Attributes:
+        recording: what came of the sensors that are compared in motion.
+    """
+
+    def __init__(self) -> None:
+        self.recording = Recording()
+        self._topics: Dict[str, TopicRecord] = {}
+        self._transforms: Dict[Tuple[str, str], Set[str]] = {}
+        self._clock: Callable[[], float] = rospy.get_time if rospy.get_param("/use_sim_time", False) else time.monotonic
+        self._begun_s = self._clock()
+        self._keepers: Dict[str, Callable[[Any], None]] = {
+            names.FRONT_SCAN: self._keep_front, names.REAR_SCAN: self._keep_rear,
+            names.WHEEL_ODOMETRY: self._keep_wheels, names.IMU_DATA: self._keep_imu}
+        for topic, kind in TYPES.items():
+            self._topics[topic] = TopicRecord()
+            rospy.Subscriber(topic, kind, self._take, callback_args=topic)
+        for topic in ("/tf", "/tf_static"):
+            rospy.Subscriber(topic, TFMessage, self._take_transforms)
+
+    def record(self, base_parameters: str) -> RobotRecord:
+        """Everything that came until now, with what the master knows."""
+        types = dict(rospy.get_master().getTopicTypes()[2])
+        for topic, nodes in publishers().items():
+            heard = self._topics.setdefault(topic, TopicRecord())
+            heard.publishers, heard.type = nodes, types.get(topic, "")
+        base = rospy.get_param(base_parameters, None)
+        failures = rospy.get_param(names.START_FAILURES, {})
+        transforms = {pair: set(nodes) for pair, nodes in list(self._transforms.items())}
+        return RobotRecord(dict(self._topics), transforms, self._clock() - self._begun_s,
+                           base if isinstance(base, dict) else None,
+                           {str(node): str(why) for node, why in failures.items()})
+
+    def _take(self, message: Any, topic: str) -> None:
+        heard = self._topics[topic]
+        heard.arrivals_s.append(self._clock())
+        header = getattr(message, "header", None)
+        if header is not None:
+            heard.ages_s.append((rospy.Time.now() - header.stamp).to_sec())
+            heard.frames[header.frame_id.lstrip("/")] += 1
+        keep = self._keepers.get(topic)
+        if keep:
+            keep(message)
+
+    def _take_transforms(self, message: Any) -> None:
+        node = message._connection_header["callerid"]
+        for each in message.transforms:
+            pair = (each.header.frame_id.lstrip("/"), each.child_frame_id.lstrip("/"))
+            self._transforms.setdefault(pair, set()).add(node)
+
+    def _keep_front(self, message: Any) -> None:
+        self._topics[names.FRONT_SCAN].scans.append(content_of(message))
+        self.recording.front.append(sample_of(message))
+
+    def _keep_rear(self, message: Any) -> None:
+        self._topics[names.REAR_SCAN].scans.append(content_of(message))
+        self.recording.rear.append(sample_of(message))
+
+    def _keep_wheels(self, message: Any) -> None:
+        twist = message.twist.twist
+        self.recording.wheels.append(WheelSample(message.header.stamp.to_sec(), twist.linear.x, twist.angular.z))
+
+    def _keep_imu(self, message: Any) -> None:
+        rate, force = message.angular_velocity, message.linear_acceleration
+        self.recording.imu.append(ImuSample(message.header.stamp.to_sec(), (rate.x, rate.y, rate.z),
+                                            (force.x, force.y, force.z)))
+
+
+def content_of(message: Any) -> ScanContent:
+    """Beams of a scan message, hits and what is no number."""
+    ranges = np.asarray(message.ranges)
+    with np.errstate(invalid="ignore"):
+        hits = np.isfinite(ranges) & (ranges >= message.range_min) & (ranges <= message.range_max)
+    return ScanContent(len(ranges), int(np.count_nonzero(hits)), int(np.count_nonzero(np.isnan(ranges))))
+
+
+def sample_of(message: Any) -> ScanSample:
+    """Hits of a scan message."""
+    return scan_sample(Sweep(message.header.stamp.to_sec(), message.angle_min, message.angle_increment,
+                             message.time_increment, message.range_min, message.range_max, message.ranges))

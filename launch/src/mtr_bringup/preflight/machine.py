@@ -1,0 +1,114 @@
+"""Disk, temperature, memory and Wi-Fi of the robot's computer, as Linux tells them in files."""
+# SPDX-License-Identifier: Apache-2.0
+import contextlib
+import pathlib
+import re
+import shutil
+from dataclasses import dataclass
+from typing import Callable, List, Optional, Tuple
+
+from .finding import Finding, bad, good
+
+DISK, HEAT, MEMORY, WIFI = "machine.disk", "machine.temperature", "machine.memory", "machine.wifi"
+# A day of logs and some bags; ROS stops writing logs, and nodes fail at odd places, when a disk is full.
+MIN_FREE_BYTES, MIN_FREE_SHARE = 1e9, 0.05
+# Intel's and AMD's processors slow down at 95 to 105 C.
+MAX_TEMPERATURE_C = 85.0
+# A chosen reserve: the nodes of the robot need less, and without any the kernel ends the largest process.
+MIN_MEMORY_BYTES = 3e8
+# 802.11 at its lowest rates receives down to about -82 dBm; 7 dB are for the robot's turning about.
+MIN_SIGNAL_DBM = -75.0
+GIGA = 1e9
+
+
+@dataclass(frozen=True)
+class Machine:
+    """Reads this computer.
+
+    Attributes:
+        root: under which proc and sys lie.
+        disk: of whose free space is asked.
+        usage: total, used and free bytes of a path's disk.
+    """
+
+    root: pathlib.Path
+    disk: pathlib.Path
+    usage: Callable[[pathlib.Path], Tuple[int, int, int]] = shutil.disk_usage
+
+    def temperature_c(self) -> Optional[float]:
+        """The hottest zone; None where there are none."""
+        found = []
+        for path in self.root.glob("sys/class/thermal/thermal_zone*/temp"):
+            # A zone may be there and its sensor not.
+            with contextlib.suppress(OSError, ValueError):
+                found.append(1e-3 * float(path.read_text(encoding="ascii")))
+        return max(found, default=None)
+
+    def available_bytes(self) -> Optional[float]:
+        """Memory that programs can still have; None where it is not told."""
+        found = re.search(r"^MemAvailable:\s+(\d+) kB", self._text("proc/meminfo"), re.MULTILINE)
+        return 1024.0 * float(found[1]) if found else None
+
+    def signal_dbm(self) -> Optional[Tuple[str, float]]:
+        """Interface and level of the strongest Wi-Fi connection; None without one."""
+        rows = re.findall(r"^\s*(\w+):\s+\S+\s+\S+\s+(-\d+)\.?\s", self._text("proc/net/wireless"), re.MULTILINE)
+        # -256 stands for no connection.
+        levels = [(name, float(level)) for name, level in rows if float(level) > -200.0]
+        return max(levels, key=lambda each: each[1]) if levels else None
+
+    def _text(self, name: str) -> str:
+        try:
+            return (self.root / name).read_text(encoding="utf-8")
+        except OSError:
+            return ""
+
+
+def machine_findings(machine: Machine) -> List[Finding]:
+    """All four."""
+    return [disk_finding(machine), temperature_finding(machine), memory_finding(machine), wifi_finding(machine)]
+
+
+def disk_finding(machine: Machine) -> Finding:
+    """Free space for logs and bags."""
+    total, _, free = machine.usage(machine.disk)
+    limit = max(MIN_FREE_BYTES, MIN_FREE_SHARE * total)
+    text, value = f"{free / GIGA:.1f} of {total / GIGA:.0f} GB are free on {machine.disk}", free / GIGA
+    if free >= limit:
+        return good(DISK, "disk", f"{text}.", value, limit / GIGA, unit="GB")
+    return bad(DISK, "disk", f"{text}, at least {limit / GIGA:.1f} GB are needed: delete old logs and bags (rosclean "
+               "purge).", value, limit / GIGA, unit="GB")
+
+
+def temperature_finding(machine: Machine) -> Finding:
+    """Of the processor."""
+    hottest = machine.temperature_c()
+    if hottest is None:
+        return good(HEAT, "temperature", "This computer does not tell it.")
+    if hottest <= MAX_TEMPERATURE_C:
+        return good(HEAT, "temperature", f"{hottest:.0f} C.", hottest, MAX_TEMPERATURE_C, unit="C")
+    return bad(HEAT, "temperature", f"{hottest:.0f} C, allowed is {MAX_TEMPERATURE_C:.0f} C: let it cool, and look at "
+               "fan and air holes.", hottest, MAX_TEMPERATURE_C, unit="C")
+
+
+def memory_finding(machine: Machine) -> Finding:
+    """Memory that is left."""
+    available = machine.available_bytes()
+    if available is None:
+        return good(MEMORY, "memory", "This computer does not tell it.")
+    text, value = f"{available / GIGA:.2f} GB are available", available / GIGA
+    if available >= MIN_MEMORY_BYTES:
+        return good(MEMORY, "memory", f"{text}.", value, MIN_MEMORY_BYTES / GIGA, unit="GB")
+    return bad(MEMORY, "memory", f"{text}, at least {MIN_MEMORY_BYTES / GIGA:.1f} GB are needed: end other programs.",
+               value, MIN_MEMORY_BYTES / GIGA, unit="GB")
+
+
+def wifi_finding(machine: Machine) -> Finding:
+    """Level of the Wi-Fi connection; an access point has none of its own."""
+    signal = machine.signal_dbm()
+    if signal is None:
+        return good(WIFI, "Wi-Fi", "No connection to an access point; one's own, or a cable, is not judged.")
+    name, level = signal
+    if level >= MIN_SIGNAL_DBM:
+        return good(WIFI, "Wi-Fi", f"{name} receives {level:.0f} dBm.", level, MIN_SIGNAL_DBM, unit="dBm")
+    return bad(WIFI, "Wi-Fi", f"{name} receives {level:.0f} dBm, at least {MIN_SIGNAL_DBM:.0f} dBm are needed: bring "
+               "the access point nearer, or let the robot be one itself.", level, MIN_SIGNAL_DBM, unit="dBm")

@@ -1,0 +1,91 @@
+"""What the sensors said while the robot was driven, in plain types; times in s of the robot's clock."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass, field
+from typing import List, NamedTuple, Optional, Tuple
+
+import numpy as np
+
+from mtr_core.arrays import FloatArray
+
+Vector = Tuple[float, ...]
+# A wheel that turns slower counts as standing.
+STANDING_MPS, STANDING_RADPS = 0.02, 0.04
+
+
+class ScanSample(NamedTuple):
+    """One sweep: time of its middle, and what it hit, (n, 2) in m in the LiDAR's own frame."""
+
+    time_s: float
+    points_m: FloatArray
+
+
+class WheelSample(NamedTuple):
+    """Velocity of base_link by the wheels."""
+
+    time_s: float
+    linear_mps: float
+    angular_radps: float
+
+    def moves(self) -> bool:
+        """The wheels turn."""
+        return abs(self.linear_mps) > STANDING_MPS or abs(self.angular_radps) > STANDING_RADPS
+
+
+class ImuSample(NamedTuple):
+    """Turning rates about the IMU's axes, and specific force along them; every node takes z as up."""
+
+    time_s: float
+    rate_radps: Vector
+    force_mps2: Vector
+
+
+@dataclass
+class Recording:
+    """All samples in the order in which they came; a robot without rear LiDAR has no rear scans."""
+
+    front: List[ScanSample] = field(default_factory=list)
+    rear: List[ScanSample] = field(default_factory=list)
+    wheels: List[WheelSample] = field(default_factory=list)
+    imu: List[ImuSample] = field(default_factory=list)
+
+    def copy(self) -> "Recording":
+        """As it is now, while more is added to this one."""
+        return Recording(list(self.front), list(self.rear), list(self.wheels), list(self.imu))
+
+    def until(self, time_s: float) -> "Recording":
+        """What had come by this time."""
+        return Recording([sample for sample in self.front if sample.time_s <= time_s],
+                         [sample for sample in self.rear if sample.time_s <= time_s],
+                         [sample for sample in self.wheels if sample.time_s <= time_s],
+                         [sample for sample in self.imu if sample.time_s <= time_s])
+
+    def motion_s(self) -> float:
+        """For so long the wheels have turned."""
+        return sum(after.time_s - before.time_s for before, after in zip(self.wheels, self.wheels[1:]) if after.moves())
+
+    def motion_start_s(self) -> Optional[float]:
+        """Time at which the wheels turn first; None while they have not."""
+        return next((sample.time_s for sample in self.wheels if sample.moves()), None)
+
+
+class Sweep(NamedTuple):
+    """What a message or a simulated scan says: time of the first beam in s, angles in rad, ranges in m."""
+
+    stamp_s: float
+    angle_min_rad: float
+    angle_increment_rad: float
+    time_increment_s: float
+    range_min_m: float
+    range_max_m: float
+    ranges_m: FloatArray
+
+
+def scan_sample(sweep: Sweep) -> ScanSample:
+    """The sweep's hits; beams without one are left out."""
+    ranges = np.asarray(sweep.ranges_m, dtype=np.float64)
+    angles = sweep.angle_min_rad + sweep.angle_increment_rad * np.arange(len(ranges))
+    with np.errstate(invalid="ignore"):
+        hits = np.isfinite(ranges) & (ranges >= sweep.range_min_m) & (ranges <= sweep.range_max_m)
+    middle_s = sweep.stamp_s + 0.5 * sweep.time_increment_s * len(ranges)
+    directions = np.stack([np.cos(angles[hits]), np.sin(angles[hits])], axis=1)
+    return ScanSample(middle_s, ranges[hits, np.newaxis] * directions)

@@ -1,0 +1,58 @@
+"""What was heard of the robot, in plain types; the checks read it."""
+# SPDX-License-Identifier: Apache-2.0
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import Any, Dict, List, NamedTuple, Optional, Set, Tuple
+from typing import Counter as Count
+
+
+class ScanContent(NamedTuple):
+    """Beams of one scan, and how many of them hit something, or are not a number."""
+
+    beams: int
+    hits: int
+    not_numbers: int
+
+
+@dataclass
+class TopicRecord:
+    """What came on a topic.
+
+    Attributes:
+        type: of its messages by the master; empty when it knows none.
+        publishers: names of the nodes that publish it.
+        arrivals_s: of the messages, on a clock that nobody sets; in simulation the simulated one.
+        ages_s: from a message's stamp to its arrival, on the robot's clock.
+        frames: frame of the messages -> how many.
+        scans: what was in them, where they are scans.
+    """
+
+    type: str = ""
+    publishers: Tuple[str, ...] = ()
+    arrivals_s: List[float] = field(default_factory=list)
+    ages_s: List[float] = field(default_factory=list)
+    frames: Count[str] = field(default_factory=Counter)
+    scans: List[ScanContent] = field(default_factory=list)
+
+
+@dataclass
+class RobotRecord:
+    """All that the standing checks need.
+
+    Attributes:
+        topics: by name.
+        transforms: (parent, child) -> nodes that published it.
+        listened_s: for so long.
+        base: parameters of the base's controller; None: there are none.
+        start_failures: node -> why it cannot start.
+    """
+
+    topics: Dict[str, TopicRecord] = field(default_factory=dict)
+    transforms: Dict[Tuple[str, str], Set[str]] = field(default_factory=dict)
+    listened_s: float = 0.0
+    base: Optional[Dict[str, Any]] = None
+    start_failures: Dict[str, str] = field(default_factory=dict)
+
+    def topic(self, name: str) -> TopicRecord:
+        """What came on a topic; an empty record when nothing did."""
+        return self.topics.get(name, TopicRecord())

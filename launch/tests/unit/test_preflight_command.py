@@ -1,0 +1,64 @@
+"""The program: its options, its exit status, its file; without a ROS master."""
+# SPDX-License-Identifier: Apache-2.0
+import json
+import pathlib
+
+import pytest
+
+from mtr_bringup.preflight import command_line
+from mtr_bringup.preflight.expected import Setup
+from mtr_bringup.preflight.finding import bad, exit_code, good
+from mtr_bringup.preflight.records import RobotRecord
+from mtr_bringup.preflight.report import standing_findings, write
+from mtr_description.shipped import shipped_base, shipped_geometry
+
+TOP = pathlib.Path(__file__).resolve().parents[3]
+
+
+def test_without_a_master_there_is_one_sentence_and_status_2(monkeypatch, capsys):
+    monkeypatch.setenv("ROS_MASTER_URI", "http://127.0.0.1:1")
+    assert command_line.main([]) == 2
+    output = capsys.readouterr()
+    assert output.out == "" and output.err == (
+        "There is no ROS master at http://127.0.0.1:1; start the robot first (roslaunch mtr_bringup robot.launch).\n")
+
+
+@pytest.mark.parametrize("seconds", ["1", "61", "nan", "x"])
+def test_seconds_out_of_range_are_refused(seconds, capsys):
+    with pytest.raises(SystemExit) as refused:
+        command_line.parsed(["--seconds", seconds])
+    assert refused.value.code == 2 and "--seconds" in capsys.readouterr().err
+
+
+def test_line_and_exit_status_follow_from_the_findings():
+    fine, wrong = good("a.b", "disk", "Fine."), bad("a.b", "disk", "Full.", 0.1, 1.0, unit="GB")
+    assert [fine.line(), wrong.line()] == ["ok  disk: Fine.", "BAD disk: Full."]
+    assert (exit_code([]), exit_code([fine]), exit_code([fine, wrong])) == (0, 0, 1)
+
+
+def test_file_has_all_findings(tmp_path):
+    write([good("a.b", "disk", "Fine."), bad("c.d", "x", "Wrong.", 2.0, 1.0, unit="m")], tmp_path / "f.json")
+    content = json.loads((tmp_path / "f.json").read_text(encoding="utf-8"))
+    assert content["version"] == 1 and content["ok"] is False
+    assert content["findings"][1] == {"check": "c.d", "subject": "x", "bad": True, "text": "Wrong.", "value": 2.0,
+                                      "limit": 1.0, "unit": "m"}
+
+
+def test_file_that_cannot_be_written_is_a_sentence(tmp_path, capsys):
+    assert command_line.saved([], tmp_path / "f.json") and command_line.saved([], None)
+    assert not command_line.saved([], tmp_path / "none" / "f.json")
+    assert "cannot be written" in capsys.readouterr().err
+
+
+def test_robot_that_does_not_run_is_bad_in_every_topic():
+    findings = standing_findings(RobotRecord(), Setup(), shipped_geometry(), shipped_base())
+    assert sum(finding.is_bad for finding in findings) == 9
+    assert all(finding.text.endswith(".") for finding in findings)
+
+
+def test_program_is_installed_with_its_packages():
+    assert "scripts/preflight" in (TOP / "launch" / "CMakeLists.txt").read_text(encoding="utf-8")
+    setup = (TOP / "launch" / "setup.py").read_text(encoding="utf-8")
+    source = TOP / "launch" / "src"
+    for package in (path.parent for path in (source / "mtr_bringup").rglob("__init__.py")):
+        assert f'"{".".join(package.relative_to(source).parts)}"' in setup

@@ -1,0 +1,62 @@
+"""Disk, temperature, memory and Wi-Fi, from files as Linux writes them."""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+
+import pytest
+
+from mtr_bringup.preflight.machine import (
+    Machine,
+    disk_finding,
+    machine_findings,
+    memory_finding,
+    temperature_finding,
+    wifi_finding,
+)
+
+WIRELESS = """Inter-| sta-|   Quality        |   Discarded packets               | Missed | WE
+ face | tus | link level noise |  nwid  crypt   frag  retry   misc | beacon | 22
+{rows}"""
+
+
+def machine(root, total=100e9, free=50e9):
+    """A computer with these files and this disk."""
+    return Machine(root, pathlib.Path("/home"), lambda path: (int(total), int(total - free), int(free)))
+
+
+def write(root, name, text):
+    (root / name).parent.mkdir(parents=True, exist_ok=True)
+    (root / name).write_text(text, encoding="ascii")
+
+
+@pytest.mark.parametrize("total, free, is_bad", [
+    (100e9, 5.1e9, False), (100e9, 4.9e9, True), (10e9, 1.1e9, False), (10e9, 0.9e9, True), (10e9, 0.0, True)])
+def test_disk_needs_a_gigabyte_and_a_twentieth(tmp_path, total, free, is_bad):
+    assert disk_finding(machine(tmp_path, total, free)).is_bad is is_bad
+
+
+@pytest.mark.parametrize("zones, is_bad", [(("45000", "84900"), False), (("45000", "85100"), True), (("x",), False),
+                                           ((), False)])
+def test_hottest_zone_counts(tmp_path, zones, is_bad):
+    for index, text in enumerate(zones):
+        write(tmp_path, f"sys/class/thermal/thermal_zone{index}/temp", f"{text}\n")
+    assert temperature_finding(machine(tmp_path)).is_bad is is_bad
+
+
+@pytest.mark.parametrize("kilobytes, is_bad", [(400_000, False), (200_000, True)])
+def test_little_memory_is_bad(tmp_path, kilobytes, is_bad):
+    write(tmp_path, "proc/meminfo", f"MemTotal: 8000000 kB\nMemFree: 1 kB\nMemAvailable:  {kilobytes} kB\n")
+    assert memory_finding(machine(tmp_path)).is_bad is is_bad
+
+
+@pytest.mark.parametrize("level, is_bad, text", [
+    ("-56.", False, "wlan0 receives -56 dBm."), ("-76.", True, "wlan0 receives -76 dBm, at least -75 dBm"),
+    ("-256", False, "No connection")])
+def test_weak_wifi_is_bad_and_an_access_point_is_not_judged(tmp_path, level, is_bad, text):
+    write(tmp_path, "proc/net/wireless", WIRELESS.format(
+        rows=f" wlan0: 0000   54.  {level}  -256        0      0      0      0      0        0\n"))
+    finding = wifi_finding(machine(tmp_path))
+    assert finding.is_bad is is_bad and finding.text.startswith(text)
+
+
+def test_computer_that_tells_nothing_is_not_bad(tmp_path):
+    assert not any(finding.is_bad for finding in machine_findings(machine(tmp_path)))
