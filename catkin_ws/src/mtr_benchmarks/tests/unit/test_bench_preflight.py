@@ -1,0 +1,56 @@
+"""The preflight names what is wrong within 5 s of motion: simulated drives on robots that are put together wrongly."""
+# SPDX-License-Identifier: Apache-2.0
+import json
+
+import pytest
+
+from mtr_benchmarks.harness.rows import all_met
+from mtr_benchmarks.preflight.__main__ import main, report
+from mtr_benchmarks.preflight.assemblies import ASSEMBLIES, RIGHT
+from mtr_benchmarks.preflight.drive import drive_of, drives, record
+from mtr_benchmarks.preflight.verdicts import Verdict, counts, says, verdict_on
+from mtr_bringup.preflight.finding import bad, good
+
+# One with perfect LiDARs, one with bad ones and a person who walks about.
+DRIVES = {"lot": (4, False), "lot_person": (5, True)}
+
+
+@pytest.fixture(scope="module", params=DRIVES)
+def recording(request):
+    seed, worst_lidar = DRIVES[request.param]
+    return record(drive_of(request.param, seed, worst_lidar))
+
+
+@pytest.mark.parametrize("name", ASSEMBLIES)
+def test_what_is_wrong_is_named_and_nothing_else(recording, name):
+    verdict = verdict_on(recording, ASSEMBLIES[name])
+    assert verdict.is_right, verdict.said
+
+
+def test_verdict_is_right_when_each_cause_and_nothing_else_is_told():
+    findings = [good("a", "b", "x"), bad("a", "b", "the wheel is loose"), bad("a", "b", "the wheel is flat")]
+    assert says(findings, ("flat", "loose")) and says(findings[:1], ())
+    assert not says(findings, ("loose",)) and not says(findings, ("loose", "flat", "gone"))
+
+
+def test_counts_and_rows_tell_wrong_from_undecided():
+    right, unsure, wrong, passed = (Verdict(True, False, ()), Verdict(False, True, ("more",)),
+                                    Verdict(False, False, ("x",)), Verdict(False, False, ()))
+    assert counts([right, unsure, wrong, passed]) == {"right": 1, "undecided": 1, "wrong": 2}
+    lot, bare = drive_of("lot", 1, False), drive_of("open", 2, False)
+    fine = {name: right for name in ASSEMBLIES}
+    assert all_met(report({lot: fine, bare: {name: unsure for name in ASSEMBLIES}}).rows)
+    assert not all_met(report({lot: {**fine, RIGHT: wrong}}).rows)
+    assert not all_met(report({lot: {**fine, "IMU upside down": passed}}).rows)
+
+
+def test_drives_differ_by_seed_only():
+    first, again, other = drives(1, 3), drives(1, 3), drives(2, 3)
+    assert first == again and first != other and len({drive.legs for drive in first}) == 3
+
+
+def test_program_writes_its_file(tmp_path, capsys):
+    assert main(["--drives", "1", "--out", str(tmp_path)]) == 0
+    content = json.loads((tmp_path / "preflight.json").read_text(encoding="utf-8"))
+    assert content["assemblies"][RIGHT] == {"right": 1, "undecided": 0, "wrong": 0}
+    assert "right verdicts" in capsys.readouterr().out
