@@ -106,7 +106,7 @@ class Person:
 
 def _grab(window: QWidget) -> QPixmap:
     """The part of the screen that the window and its dialog cover."""
-    front = QApplication.activeModalWidget()
+    front = QApplication.activeWindow()
     area = window.frameGeometry() if front is None else window.frameGeometry().united(front.frameGeometry())
     return QApplication.primaryScreen().grabWindow(0, area.x(), area.y(), area.width(), area.height())
 

@@ -3,6 +3,7 @@
 import pytest
 
 from mtr_operator.domain.robot_status import CarCheck, CarDimensions, CheckState, Mode, PressReport
+from mtr_operator.gui.header.stop_button import StopButton
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
 
 
@@ -65,10 +66,9 @@ def test_car_is_mapped_again_on_request_and_stopped(window, operator, opener):
     operator.wait(lambda: opener.sent[-1].map_car_id == 1)
     assert not opener.sent[-1].stop
     opener.spoil_with(mode=Mode.MAPPING_CAR)
-    operator.wait(window.car.stop.isEnabled)
-    assert window.car.notice.text() == "The robot maps the Car."
+    operator.wait(lambda: window.car.notice.text() == "The robot maps the Car.")
     assert not window.car.map.isEnabled()
-    operator.click(window.car.stop)
+    operator.click(window.findChild(StopButton))
     operator.wait(lambda: opener.sent[-1].stop)
     assert opener.sent[-1].map_car_id == 1
 

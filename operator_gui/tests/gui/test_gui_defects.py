@@ -44,7 +44,7 @@ def test_what_is_measured_is_saved_at_a_defect(operator, qtbot, monkeypatch):
     monkeypatch.setattr("mtr_operator.gui.windows.main_window.show_message", lambda *words: said.append(words[-1]))
     screen = operator.begin()
     operator.wait(lambda: operator.model.done >= 1)
-    operator.click(screen.stop)
+    operator.click(operator.window.header.stop)
     operator.wait(screen.resume.isEnabled)
     path = operator.model.test.path
     path.unlink()

@@ -32,8 +32,8 @@ def test_triangle_is_only_there_with_a_notification_and_lists_all(operator, open
     operator.wait(lambda: not triangle.isVisible())
 
 
-def test_triangle_pulses_once_for_each_new_notification(qtbot):
-    triangle = WarningSymbol(Appearance())
+def test_triangle_pulses_once_for_each_new_notification(operator, qtbot):
+    triangle = WarningSymbol(Appearance(), operator.application.stopping)
     qtbot.addWidget(triangle)
     assert (triangle.pulse.duration(), triangle.pulse.startValue(), triangle.pulse.endValue()) == (200, 1.0, 1.2)
     assert (PULSE_MS, PULSE_SCALE) == (200, 1.2)

@@ -62,7 +62,7 @@ def presses(result):
 def test_stop_stands_the_robot_still_and_resume_measures_the_rest(operator, opener):
     screen = operator.begin()
     operator.wait(lambda: operator.model.done >= 1)
-    operator.click(screen.stop)
+    operator.click(operator.window.header.stop)
     operator.wait(lambda: operator.model.phase is Phase.PAUSED)
     assert any(desired.stop for desired in opener.sent)
     assert "Paused" in operator.window.header.status.text()
@@ -77,9 +77,9 @@ def test_stop_stands_the_robot_still_and_resume_measures_the_rest(operator, open
 
 
 def test_stopped_robot_gets_no_order_to_move(operator, opener):
-    screen = operator.begin()
+    operator.begin()
     operator.wait(lambda: operator.model.done >= 1)
-    operator.click(screen.stop)
+    operator.click(operator.window.header.stop)
     operator.wait(lambda: operator.model.phase is Phase.PAUSED)
     del opener.sent[:]
     operator.wait(lambda: len(opener.sent) > 20)
@@ -174,7 +174,7 @@ def test_closing_asks_first_and_the_next_start_offers_to_go_on(operator, start, 
 def test_offer_can_be_dismissed_and_the_file_stays(operator, start, qtbot):
     screen = operator.begin()
     operator.wait(lambda: operator.model.done >= 1)
-    operator.click(screen.stop)
+    operator.click(operator.window.header.stop)
     operator.wait(lambda: operator.model.phase is Phase.PAUSED)
     operator.click(screen.leave)
     assert operator.window.welcome.offer.isVisible()
@@ -234,8 +234,8 @@ def test_truncated_progress_file_is_recovered_from_its_journal_and_said(operator
 
 def test_test_that_measured_nothing_leaves_no_file(operator, opener):
     opener.car_problem = ""
-    screen = operator.begin()
-    operator.click(screen.stop)
+    operator.begin()
+    operator.click(operator.window.header.stop)
     operator.wait(lambda: operator.model.phase is Phase.PAUSED)
     assert not operator.model.results
     assert not list((operator.folder / "progress").glob("*.json"))
@@ -291,7 +291,7 @@ def test_prompt_goes_when_the_car_unlocks_and_when_the_test_is_stopped(operator,
     opener.passive = False
     operator.wait(screen.taken.isVisible)
     assert operator.model.handle.number == 2
-    operator.click(screen.stop)
+    operator.click(operator.window.header.stop)
     operator.wait(lambda: not screen.taken.isVisible() and not screen.handle.isVisible())
     operator.wait(screen.resume.isEnabled)
 

@@ -127,7 +127,7 @@ def test_stop_ends_the_test_and_the_rest_is_measured_later(worker, post, four_li
     worker.start()
     worker.run_test(four_lines)
     post.wait_for(LineMeasured)
-    worker.stop_test()
+    worker.stop()
     assert post.wait_for(RunEnded).outcome is Outcome.STOPPED
     before = stored(four_lines)
     assert any(desired.stop for _, desired in robot_link.answers)
@@ -152,7 +152,7 @@ def test_robot_that_cannot_be_reached_ends_the_test_and_loses_nothing(worker, po
     worker.start()
     worker.run_test(four_lines)
     post.wait_for(LineMeasured)
-    worker.stop_test()
+    worker.stop()
     post.wait_for(RunEnded)
     before = stored(four_lines)
     opener.refusal = ConnectionFailed("No answer from the subscriber port.")

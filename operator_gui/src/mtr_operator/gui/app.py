@@ -18,8 +18,10 @@ from mtr_operator.station.view_model import ViewModel
 from .bridge import Bridge
 from .defects import Defects
 from .flow import Flow
+from .header.stop_button import add_stop
 from .i18n import Language
 from .report_writer import ReportWriter
+from .stopping import Stopping
 from .theme.appearance import Appearance
 from .windows.connection_window import ConnectionWindow
 from .windows.main_window import MainWindow
@@ -28,12 +30,14 @@ NAME = "mtr-operator"
 
 
 class Application:
-    """Attributes: flow, appearance, language; window: the one that is shown."""
+    """Attributes: flow, stopping, appearance, language; window: the one that is shown."""
 
     def __init__(self, settings_path: pathlib.Path | None = None, opener: LinkOpener | None = None):
         self._store = SettingsStore(settings_path) if settings_path else SettingsStore(default_path(), former_path())
         self.bridge = Bridge(ViewModel())
         self.flow = Flow(self.bridge, self._store, opener or LinkOpener())
+        self.stopping = Stopping(self.flow)
+        self.stopping.dialog_opens.connect(lambda dialog: add_stop(dialog, self.stopping))
         self.appearance = Appearance()
         self.language = Language()
         self.defects = Defects()
@@ -43,6 +47,7 @@ class Application:
     def open(self, robot: Mapping[str, Any] | None = None, can: Mapping[str, Any] | None = None) -> None:
         """Load the settings and show the connection window; robot, can: what to fill in instead of the last choice."""
         self.defects.install()
+        self.stopping.install()
         self._store.load()
         settings = self._store.settings
         self.language.use(settings.language)
@@ -56,11 +61,12 @@ class Application:
         if self.window is not None:
             self.window.hide()
         self.flow.close()
+        self.stopping.remove()
         ReportWriter.finish_all()
         self.defects.remove()
 
     def _show_main(self) -> None:
-        self._show(MainWindow(self.flow, self.appearance))
+        self._show(MainWindow(self.flow, self.appearance, self.stopping))
 
     def _show(self, window: QWidget) -> None:
         former, self.window = self.window, window

@@ -1,33 +1,38 @@
-"""Questions and sentences in dialogs of their own."""
+"""Questions and sentences in dialogs of their own; none keeps the Operator from the window, and so from its Stop.
+
+Each waits in an event loop of its own for its answer. The system's file dialogs are not used: they are modal on some
+systems, and know nothing of the keys that stop the robot.
+"""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 import pathlib
 
-from PyQt5.QtWidgets import QFileDialog, QMessageBox, QWidget
+from PyQt5.QtCore import QEventLoop
+from PyQt5.QtWidgets import QDialog, QFileDialog, QMessageBox, QWidget
 
 
 def ask_folder(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.Path | None:
     """A folder that the Operator chooses; None when he does not."""
-    chosen = QFileDialog.getExistingDirectory(parent, title, str(start))
-    return pathlib.Path(chosen) if chosen else None
+    dialog = QFileDialog(parent, title, str(start))
+    dialog.setFileMode(QFileDialog.FileMode.Directory)
+    dialog.setOption(QFileDialog.Option.ShowDirsOnly)
+    return _chosen(dialog)
 
 
 def ask_progress_file(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.Path | None:
     """A progress file, or a journal, that the Operator chooses; None when he does not."""
-    chosen, _ = QFileDialog.getOpenFileName(parent, title, str(start), "JSON (*.json *.journal)")
-    return pathlib.Path(chosen) if chosen else None
+    return _chosen_file(parent, title, start, "JSON (*.json *.journal)")
 
 
 def ask_yaml_file(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.Path | None:
     """A file of limits or of a calibration record that the Operator chooses; None when he does not."""
-    chosen, _ = QFileDialog.getOpenFileName(parent, title, str(start), "YAML (*.yaml *.yml)")
-    return pathlib.Path(chosen) if chosen else None
+    return _chosen_file(parent, title, start, "YAML (*.yaml *.yml)")
 
 
 def show_message(parent: QWidget, title: str, sentence: str) -> None:
     """Show a sentence until the Operator has read it."""
-    QMessageBox(QMessageBox.Icon.Warning, title, sentence, QMessageBox.StandardButton.Ok, parent).exec_()
+    _run(QMessageBox(QMessageBox.Icon.Warning, title, sentence, QMessageBox.StandardButton.Ok, parent))
 
 
 def confirm(parent: QWidget, title: str, question: str, answers: tuple[str, str]) -> bool:
@@ -37,5 +42,28 @@ def confirm(parent: QWidget, title: str, question: str, answers: tuple[str, str]
     no = box.addButton(answers[1], QMessageBox.ButtonRole.RejectRole)
     box.setDefaultButton(no)
     box.setEscapeButton(no)
-    box.exec_()
+    _run(box)
     return box.clickedButton() is yes
+
+
+def _chosen_file(parent: QWidget, title: str, start: pathlib.Path, kinds: str) -> pathlib.Path | None:
+    dialog = QFileDialog(parent, title, str(start), kinds)
+    dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
+    return _chosen(dialog)
+
+
+def _chosen(dialog: QFileDialog) -> pathlib.Path | None:
+    dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
+    return pathlib.Path(dialog.selectedFiles()[0]) if _run(dialog) == QDialog.DialogCode.Accepted else None
+
+
+def _run(dialog: QDialog) -> int:
+    """Show it, and wait for its end; unlike exec_() this leaves all other windows alive."""
+    loop = QEventLoop()
+    dialog.finished.connect(loop.quit)
+    # It goes with its window.
+    dialog.destroyed.connect(loop.quit)
+    dialog.setModal(False)
+    dialog.show()
+    loop.exec_()
+    return dialog.result()

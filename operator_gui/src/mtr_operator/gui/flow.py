@@ -143,9 +143,12 @@ class Flow(QObject):
         self._links.run_test(test)
 
     def stop(self) -> None:
-        """Stop the robot; the line that is being measured is measured anew later."""
-        self.model.phase = Phase.STOPPING
-        self._links.stop_test()
+        """Stop the robot, whatever it does: the stop has left when this returns. The line that is being measured is
+        measured anew later."""
+        if self._worker is not None:
+            self._worker.stop()
+            self.model.order_stop()
+            self.bridge.changed.emit()
 
     def release_hold(self) -> None:
         """Have a robot go on that is held."""
@@ -206,10 +209,15 @@ class Flow(QObject):
 
     def calibrate(self, request: CalibrationRequest) -> None:
         """Have the robot try something."""
+        self.model.order_motion()
         self._links.calibrate(request)
 
     def request_car(self, request: CarRequest) -> None:
         """Have the robot check or map the Car, or stop doing so."""
+        if request is CarRequest.STOP:
+            self.stop()
+            return
+        self.model.order_motion()
         self._links.request_car(request)
 
     @property

@@ -47,7 +47,8 @@ class ZmqRobotLink(RobotLink):
         self.statistics = LinkStatistics()
         self._timeout_s = connect_timeout_s
         self._sockets: LinkSockets | None = None
-        self._lock = threading.Lock()
+        # A stop is sent by another thread than the one that takes Statuses.
+        self._lock = threading.RLock()
         self._inbox = Inbox(self.statistics)
         self._desired: DesiredState | None = None
         self._command_id = 0
@@ -81,20 +82,21 @@ class ZmqRobotLink(RobotLink):
 
     def send(self, desired: DesiredState) -> None:
         """See RobotLink."""
-        if desired != self._desired:
-            self._command_id += 1
-            self._desired = desired
-        self._publish(desired)
-        self._answered = self._seen
+        with self._lock:
+            if desired != self._desired:
+                self._command_id += 1
+                self._desired = desired
+            self._publish(desired)
+            self._answered = self._seen
 
     def close(self) -> None:
         """See RobotLink."""
         sockets = self._sockets
         if sockets is None:
             return
-        self._command_id += 1
-        self._publish(DesiredState(stop=True), end_session=True)
         with self._lock:
+            self._command_id += 1
+            self._publish(DesiredState(stop=True), end_session=True)
             self._sockets = None
             sockets.publisher.close(linger=_GOODBYE_LINGER_MS)
         sockets.subscriber.close(linger=0)
@@ -105,8 +107,9 @@ class ZmqRobotLink(RobotLink):
         if status.session_id == self.session_id:
             self._controls, self._free_count = True, 0
             # So that the next Command, the same content even, is newer than what the robot has taken.
-            if status.command_id > self._command_id:
-                self._command_id = status.command_id + 1
+            with self._lock:
+                if status.command_id > self._command_id:
+                    self._command_id = status.command_id + 1
         elif self._controls and status.session_id == 0:
             self._free_count += 1
             if self._free_count > MAX_FREE_STATUSES:
@@ -130,8 +133,9 @@ class ZmqRobotLink(RobotLink):
                 return
             repeated = self._inbox.put(parts)
             # The robot repeats a Status whose answer it misses; one that the runner still thinks about has none yet.
-            if repeated and self._desired is not None and self._answered is self._seen:
-                self._publish(self._desired)
+            with self._lock:
+                if repeated and self._desired is not None and self._answered is self._seen:
+                    self._publish(self._desired)
 
     def _publish(self, desired: DesiredState, end_session: bool = False) -> None:
         seen = self._seen

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.ports import LockState
-from mtr_operator.domain.robot_status import Mode, RobotStatus
+from mtr_operator.domain.robot_status import Mode, RobotStatus, WaypointResult
 
 from .events import RobotSnapshot
+from .motion import Motion, is_driving
 
 # Wall time without a Status after which the link counts as lost.
 SILENCE_LIMIT_S = 1.5
@@ -28,6 +29,10 @@ class ReadinessWord(enum.Enum):
     MEASURING = "measuring"
     PAUSED = "paused"
     LOST = "communication lost"
+    DRIVING = "driving"
+    MAPPING = "mapping"
+    CHECKING = "checking"
+    BLOCKED = "blocked"
 
 
 class Phase(enum.Enum):
@@ -38,6 +43,10 @@ class Phase(enum.Enum):
     STOPPING = "stopping"
     PAUSED = "paused"
     FINISHED = "finished"
+
+
+# A test is under way.
+RUNNING = (Phase.MEASURING, Phase.STOPPING)
 
 
 class Cause(enum.Enum):
@@ -54,11 +63,14 @@ class Cause(enum.Enum):
     CAN_PROBLEM = "CAN problem"
     LOCKS_UNKNOWN = "locks unknown"
     POSITION_LOST = "position lost"
+    HELD = "held"
+    WAY_BLOCKED = "way blocked"
 
 
-# In these the robot itself says what is the matter.
+HELD_CODE = "held"
 # Red, and no reason not to start: a robot may have no emergency stop, and one that is held is released during the test.
-_NOT_BLOCKING = ("no_emergency_stop", "held")
+_NOT_BLOCKING = ("no_emergency_stop", HELD_CODE)
+# In these the robot itself says what is the matter.
 _MODE_CODES = ("fault", "link_lost", "not_localized")
 
 
@@ -84,18 +96,45 @@ class Readiness:
         return self.word in (ReadinessWord.READY, ReadinessWord.WARNINGS)
 
 
-def readiness_of(robot: RobotSnapshot | None, silent_s: float, phase: Phase) -> Readiness:
-    """Readiness by what came from the robot last, silent_s of wall time ago."""
+def readiness_of(robot: RobotSnapshot | None, silent_s: float, phase: Phase, motion: Motion | None = None) -> Readiness:
+    """Readiness by what came from the robot last, silent_s of wall time ago. motion: None knows of no orders.
+
+    What the robot does goes before whether a test can be started, and what keeps it from that before all.
+    """
     if robot is None or silent_s >= SILENCE_LIMIT_S:
         return Readiness(ReadinessWord.LOST, (Reason(Cause.ROBOT_SILENT, True, f"{silent_s:.0f}"),))
     reasons = sorted([*_robot_reasons(robot.status), *_car_reasons(robot)], key=lambda reason: not reason.is_blocking)
-    if phase in (Phase.MEASURING, Phase.STOPPING):
-        return Readiness(ReadinessWord.MEASURING, tuple(reasons))
+    word = _word_of_motion(robot.status, phase, motion)
+    if word is not None:
+        hindrances = _hindrances(robot.status)
+        told = {reason.detail for reason in hindrances}
+        reasons = [*hindrances, *(reason for reason in reasons if reason.detail not in told)]
+        is_blocked = hindrances or (phase in RUNNING and any(reason.is_blocking for reason in reasons))
+        return Readiness(ReadinessWord.BLOCKED if is_blocked else word, tuple(reasons))
     if phase is Phase.PAUSED:
         return Readiness(ReadinessWord.PAUSED, tuple(reasons))
     if any(reason.is_blocking for reason in reasons):
         return Readiness(ReadinessWord.NOT_READY, tuple(reasons))
     return Readiness(ReadinessWord.WARNINGS if reasons else ReadinessWord.READY, tuple(reasons))
+
+
+def _word_of_motion(status: RobotStatus, phase: Phase, motion: Motion | None) -> ReadinessWord | None:
+    for mode, word in ((Mode.MAPPING_CAR, ReadinessWord.MAPPING), (Mode.CHECKING_CAR, ReadinessWord.CHECKING)):
+        if status.mode is mode and (motion is None or phase in RUNNING or motion.goes_round(mode)):
+            return word
+    if phase in RUNNING:
+        return ReadinessWord.MEASURING
+    return ReadinessWord.DRIVING if is_driving(status) else None
+
+
+def _hindrances(status: RobotStatus) -> list[Reason]:
+    """What keeps the robot from going where it was sent."""
+    if status.hold_id:
+        held = next((each.text for each in status.notifications if each.code == HELD_CODE), "")
+        return [Reason(Cause.HELD, True, held)]
+    if status.waypoint_result is WaypointResult.BLOCKED:
+        return [Reason(Cause.WAY_BLOCKED, True, status.waypoint_message)]
+    return []
 
 
 def can_resume(readiness: Readiness) -> bool:

@@ -29,7 +29,8 @@ from .events import (
 )
 from .handle_prompt import HandlePrompt
 from .mailbox import Batch
-from .readiness import Phase, Readiness, readiness_of
+from .motion import Motion
+from .readiness import RUNNING, Phase, Readiness, readiness_of
 from .test import Test
 
 # The trail is kept at this spacing; one that gets too long loses every other place.
@@ -51,6 +52,7 @@ class ViewModel:
         outcome: how measuring ended last, None while it has not.
         judgement: of the lines measured so far, None without limits.
         handle: what the Operator is asked to do at the Car's handle, None when nothing.
+        motion: what was ordered between two tests.
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic):
@@ -69,6 +71,7 @@ class ViewModel:
         self.outcome: Outcome | None = None
         self.judgement: TestJudgement | None = None
         self.handle: HandlePrompt | None = None
+        self.motion = Motion()
 
     @property
     def current_test(self) -> Test:
@@ -85,7 +88,12 @@ class ViewModel:
     @property
     def readiness(self) -> Readiness:
         """Whether a test can be started now."""
-        return readiness_of(self.robot, self.silent_s, self.phase)
+        return readiness_of(self.robot, self.silent_s, self.phase, self.motion)
+
+    @property
+    def may_move(self) -> bool:
+        """True while the robot may move: a test runs, or something was ordered, or it does move."""
+        return self.phase in RUNNING or self.motion.is_possible(self._clock())
 
     @property
     def notifications(self) -> tuple[Notification, ...]:
@@ -128,8 +136,19 @@ class ViewModel:
 
     def begin(self) -> None:
         """The test at hand is started or continued now."""
+        self.order_motion()
         self.phase, self.trouble, self.outcome = Phase.MEASURING, "", None
         self._expect()
+
+    def order_motion(self) -> None:
+        """The robot is ordered to do something for which it moves."""
+        self.motion.order(self._clock())
+
+    def order_stop(self) -> None:
+        """The robot is ordered to stop."""
+        self.motion.stop()
+        if self.phase is Phase.MEASURING:
+            self.phase = Phase.STOPPING
 
     def lay_aside(self) -> None:
         """No test is at hand any more."""
@@ -140,6 +159,7 @@ class ViewModel:
         """Learn what has happened."""
         if batch.robot is not None:
             self.robot, self._received_s = batch.robot, self._clock()
+            self.motion.learn(batch.robot.status, self._received_s)
         for place in batch.trail if self.test is not None else ():
             self._pass(place)
         for event in batch.events:

@@ -1,48 +1,72 @@
-"""The header bar: steps of the test, status word, notifications, lock, battery, settings."""
+"""The header bar: Stop, steps of the test, status word, notifications, lock, battery, settings."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 from PyQt5.QtCore import Qt, pyqtSignal
-from PyQt5.QtWidgets import QHBoxLayout, QWidget
+from PyQt5.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from mtr_operator.station.view_model import ViewModel
 
+from ..stopping import Stopping
 from ..theme.appearance import Appearance
-from ..theme.scale import M, S
+from ..theme.scale import S
+from .reasons import blocked_text
 from .status_word import StatusWord
 from .step_bar import StepBar
+from .stop_button import StopButton
 from .symbols import BatterySymbol, CogwheelButton, LockSymbol
 from .warning_symbol import WarningSymbol
 
 
 class HeaderBar(QWidget):
-    """Signals: settings_wanted."""
+    """Attributes: stop: on the left, where no window that hangs over the screen's edge hides it. blocked: why the robot
+    does not go on; hidden while it does.
+
+    Signals: settings_wanted.
+    """
 
     settings_wanted = pyqtSignal()
 
-    def __init__(self, appearance: Appearance, parent: QWidget | None = None):
+    def __init__(self, appearance: Appearance, stopping: Stopping, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("header")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.stop = StopButton(stopping)
         self.steps = StepBar([self.tr("Welcome"), self.tr("Measurement type"), self.tr("Measurement"),
                               self.tr("Protocol")], appearance)
-        self.warning = WarningSymbol(appearance)
-        self.status = StatusWord()
+        self.warning = WarningSymbol(appearance, stopping)
+        self.status = StatusWord(stopping)
         self.lock = LockSymbol(appearance)
         self.battery = BatterySymbol(appearance)
         self.settings = CogwheelButton(appearance)
         self.settings.clicked.connect(self.settings_wanted)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(M, S, M, S)
-        layout.setSpacing(M)
-        layout.addWidget(self.steps, 1)
+        self.blocked = QLabel()
+        self.blocked.setWordWrap(True)
+        self.blocked.setProperty("role", "banner")
+        self.blocked.hide()
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        row = QHBoxLayout()
+        row.setSpacing(S)
+        row.addWidget(self.stop)
+        row.addWidget(self.steps, 1)
         for widget in (self.warning, self.status, self.lock, self.battery, self.settings):
-            layout.addWidget(widget)
+            row.addWidget(widget)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(S, S, S, S)
+        layout.setSpacing(S)
+        layout.addLayout(row)
+        layout.addWidget(self.blocked)
 
     def show_model(self, model: ViewModel) -> None:
         """Show the newest of robot and Car."""
-        self.status.show_readiness(model.readiness)
+        readiness = model.readiness
+        self.status.show_readiness(readiness)
         self.warning.show_notifications(model.notifications)
+        blocked = blocked_text(readiness)
+        self.blocked.setText(blocked)
+        self.blocked.setVisible(bool(blocked))
         if model.robot is not None:
             self.battery.show_percent(model.robot.status.battery_percent)
             self.lock.show_closed(model.robot.is_secret)

@@ -5,20 +5,33 @@ from __future__ import annotations
 from PyQt5.QtCore import QPoint, Qt
 from PyQt5.QtWidgets import QFrame, QLabel, QVBoxLayout, QWidget
 
+from ..stopping import Stopping
 from ..theme.scale import M, S
+from .stop_button import StopButton
 
 _WIDTH = 460
 
 
 class Popup(QFrame):
-    """Closed by a click elsewhere or Escape."""
+    """Closed by a click elsewhere or Escape, and while the robot may move by its Stop.
 
-    def __init__(self, parent: QWidget):
+    Attributes: stop: there while the robot may move, for the list takes the clicks of all other windows.
+    """
+
+    def __init__(self, parent: QWidget, stopping: Stopping):
         super().__init__(parent, Qt.WindowType.Popup)
         self.setObjectName("popup")
-        self._layout = QVBoxLayout(self)
-        self._layout.setContentsMargins(M, M, M, M)
+        self.stop = StopButton(stopping, self)
+        self.stop.setVisible(stopping.may_move)
+        self.stop.clicked.connect(self.hide)
+        stopping.changed.connect(self._suit_motion)
+        self._layout = QVBoxLayout()
         self._layout.setSpacing(S)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(M, M, M, M)
+        column.setSpacing(S)
+        column.addLayout(self._layout)
+        column.addWidget(self.stop)
         self.setFixedWidth(_WIDTH)
 
     def fill(self, heading: str, entries: list[tuple[str, str]]) -> None:
@@ -43,6 +56,10 @@ class Popup(QFrame):
     def texts(self) -> list[str]:
         """What is shown."""
         return [self._layout.itemAt(index).widget().text() for index in range(self._layout.count())]
+
+    def _suit_motion(self, may_move: bool) -> None:
+        self.stop.setVisible(may_move)
+        self.adjustSize()
 
     def _add(self, text: str, role: str) -> None:
         label = QLabel(text)

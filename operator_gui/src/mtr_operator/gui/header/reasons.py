@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from mtr_operator.station.readiness import Cause, ReadinessWord, Reason
+from mtr_operator.station.readiness import Cause, Readiness, ReadinessWord, Reason
 
 from ..i18n import translate
 from ..sentences import translated
@@ -17,6 +17,10 @@ def word_text(word: ReadinessWord) -> str:
         ReadinessWord.MEASURING: translate("Status", "Measuring"),
         ReadinessWord.PAUSED: translate("Status", "Paused"),
         ReadinessWord.LOST: translate("Status", "Communication lost"),
+        ReadinessWord.DRIVING: translate("Status", "Driving"),
+        ReadinessWord.MAPPING: translate("Status", "Mapping"),
+        ReadinessWord.CHECKING: translate("Status", "Checking"),
+        ReadinessWord.BLOCKED: translate("Status", "Blocked"),
     }[word]
 
 
@@ -34,8 +38,17 @@ def reason_text(reason: Reason) -> str:
         Cause.NO_CAN: translate("Status", "No CAN adapter is chosen."),
         Cause.CAN_PROBLEM: detail,
         Cause.LOCKS_UNKNOWN: translate("Status", "The Car does not say whether it is locked."),
+        Cause.HELD: detail or translate("Status", "The robot stands until you have it go on."),
+        Cause.WAY_BLOCKED: detail or translate("Status", "Something blocks the robot's way."),
         Cause.POSITION_LOST: detail or translate("Status", "The robot does not know its position."),
     }[reason.cause].replace("{detail}", detail)
+
+
+def blocked_text(readiness: Readiness) -> str:
+    """What blocks the robot, in a sentence; empty when nothing does."""
+    if readiness.word is not ReadinessWord.BLOCKED:
+        return ""
+    return f"{word_text(readiness.word)}: {reason_text(readiness.reasons[0])}"
 
 
 def advice_text(reason: Reason) -> str:
@@ -52,6 +65,9 @@ def advice_text(reason: Reason) -> str:
         Cause.NO_CAN: translate("Status", "Choose one under Settings, CAN adapter."),
         Cause.CAN_PROBLEM: translate("Status", "If the adapter is the wrong one, choose another under Settings."),
         Cause.LOCKS_UNKNOWN: translate("Status", "Wake the Car, e.g. open a door; check the car profile."),
+        Cause.HELD: translate("Status", "Look at the cause; then have the robot go on."),
+        Cause.WAY_BLOCKED: translate("Status", "Clear its way; it goes on by itself, or stands until you have it go "
+                                               "on."),
         Cause.POSITION_LOST: translate("Status", "Let it see the Car; if it stays lost, begin a new test, which maps "
                                                  "the Car again."),
     }.get(reason.cause, "")

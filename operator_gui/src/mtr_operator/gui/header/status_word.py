@@ -6,6 +6,7 @@ from PyQt5.QtWidgets import QPushButton, QWidget
 
 from mtr_operator.station.readiness import Readiness, ReadinessWord
 
+from ..stopping import Stopping
 from .popup import Popup
 from .reasons import advice_text, reason_text, word_text
 
@@ -17,15 +18,19 @@ _SIGNS = {
     ReadinessWord.MEASURING: "\N{BLACK RIGHT-POINTING TRIANGLE}",
     ReadinessWord.PAUSED: "\N{DOUBLE VERTICAL LINE}",
     ReadinessWord.LOST: "\N{MULTIPLICATION X}",
+    ReadinessWord.DRIVING: "\N{BLACK RIGHT-POINTING TRIANGLE}",
+    ReadinessWord.MAPPING: "\N{BLACK RIGHT-POINTING TRIANGLE}",
+    ReadinessWord.CHECKING: "\N{BLACK RIGHT-POINTING TRIANGLE}",
+    ReadinessWord.BLOCKED: "\N{MULTIPLICATION X}",
 }
 
 
 class StatusWord(QPushButton):
     """Attributes: popup: the list of reasons."""
 
-    def __init__(self, parent: QWidget | None = None):
+    def __init__(self, stopping: Stopping, parent: QWidget | None = None):
         super().__init__(parent)
-        self.popup = Popup(self)
+        self.popup = Popup(self, stopping)
         self._readiness: Readiness | None = None
         self.clicked.connect(self._open)
 

@@ -20,6 +20,7 @@ from mtr_operator.domain.robot_status import Notification
 from mtr_operator.station.readiness import ERROR, WARNING
 
 from ..sentences import translated
+from ..stopping import Stopping
 from ..theme.appearance import Appearance
 from .popup import Popup
 
@@ -38,18 +39,19 @@ class WarningSymbol(QAbstractButton):
         popup: the list. pulse: the animation.
     """
 
-    def __init__(self, appearance: Appearance, parent: QWidget | None = None):
+    def __init__(self, appearance: Appearance, stopping: Stopping, parent: QWidget | None = None):
         super().__init__(parent)
         self._appearance = appearance
         self._notifications: tuple[Notification, ...] = ()
         self._scale = 1.0
-        self.popup = Popup(self)
+        self.popup = Popup(self, stopping)
         self.pulse = QPropertyAnimation(self, b"scale", self)
         self.pulse.setDuration(PULSE_MS)
         self.pulse.setStartValue(1.0)
         self.pulse.setEndValue(PULSE_SCALE)
         self.pulse.setEasingCurve(QEasingCurve.Type.Linear)
-        self.pulse.finished.connect(lambda: self._set_scale(1.0))
+        # No lambda: that would outlive the symbol, whose window may be closed while it pulses.
+        self.pulse.finished.connect(self._rest)
         self.setAccessibleName(self.tr("Notifications of the robot"))
         self.setFixedSize(_SIZE, _SIZE)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -107,6 +109,9 @@ class WarningSymbol(QAbstractButton):
     def _fill(self) -> None:
         self.popup.fill(self.tr("The robot says"),
                         [(translated(notification.text), "") for notification in self._notifications])
+
+    def _rest(self) -> None:
+        self._set_scale(1.0)
 
     def _get_scale(self) -> float:
         return self._scale

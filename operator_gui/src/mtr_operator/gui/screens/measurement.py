@@ -1,4 +1,4 @@
-"""The measurement screen: where the robot is, what it does, what is measured, and the way to stop it."""
+"""The measurement screen: where the robot is, what it does and what is measured; Stop is in the header."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -8,36 +8,37 @@ from PyQt5.QtCore import QTimer, pyqtBoundSignal, pyqtSignal
 from PyQt5.QtGui import QHideEvent, QShowEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from mtr_operator.station.readiness import Phase, can_resume
+from mtr_operator.station.readiness import HELD_CODE, Phase, can_resume
 from mtr_operator.station.view_model import ViewModel
 
 from ..bridge import FRAME_MS
+from ..fitting.scroller import Scroller
 from ..i18n import number
 from ..pictures.measurement_picture import MeasurementPicture
 from ..pictures.picture_panel import PicturePanel
 from ..sentences import translated
 from ..theme.appearance import Appearance
-from ..theme.scale import L, M
+from ..theme.scale import L, M, S
 from .measurement_facts import MeasurementFacts
 
 _SIDE_WIDTH = 400
-HELD_CODE = "held"
 
 
 class MeasurementScreen(QWidget):
-    """Attributes: panel: the picture. facts: progress and state in words. stop, resume, save, leave: buttons.
+    """Attributes: panel: the picture. facts: progress and state in words. resume, save, leave: buttons.
 
     held: why the robot stands until the Operator has it go on. go_on: the button for that.
     handle: what the Operator is to do at the Car's handle. taken: the button that says it is done.
-    Signals: stop_wanted, resume_wanted, release_wanted, handle_taken, save_wanted, leave_wanted.
+    Signals: resume_wanted, release_wanted, handle_taken, save_wanted, leave_wanted; answered: nothing is asked any more
+        of the person who had the focus on `taken`.
     """
 
-    stop_wanted = pyqtSignal()
     resume_wanted = pyqtSignal()
     release_wanted = pyqtSignal()
     handle_taken = pyqtSignal()
     save_wanted = pyqtSignal()
     leave_wanted = pyqtSignal()
+    answered = pyqtSignal()
 
     def __init__(self, model: ViewModel, appearance: Appearance, parent: QWidget | None = None):
         super().__init__(parent)
@@ -48,7 +49,6 @@ class MeasurementScreen(QWidget):
         self.facts = MeasurementFacts()
         self.trouble, self.held, self.handle = (self._label("banner") for _ in range(3))
         self.note = self._label("soft")
-        self.stop = self._button(self.tr("Stop"), "danger", self.stop_wanted)
         self.go_on = self._button(self.tr("Have the robot go on"), "primary", self.release_wanted)
         self.taken = self._button(self.tr("Handle taken"), "primary", self.handle_taken)
         self.resume = self._button(self.tr("Resume"), "primary", self.resume_wanted)
@@ -74,13 +74,16 @@ class MeasurementScreen(QWidget):
         return button
 
     def _lay_out(self) -> None:
-        side = QVBoxLayout()
-        side.setSpacing(M)
+        told = QVBoxLayout()
+        told.setSpacing(M)
         for label in (self.trouble, self.held, self.handle):
-            side.addWidget(label)
-        side.addWidget(self.facts, 1)
-        side.addWidget(self.note)
-        for button in (self.stop, self.go_on, self.taken, self.resume, self.save, self.leave):
+            told.addWidget(label)
+        told.addWidget(self.facts, 1)
+        told.addWidget(self.note)
+        side = QVBoxLayout()
+        side.setSpacing(S)
+        side.addWidget(Scroller(told), 1)
+        for button in (self.go_on, self.taken, self.resume, self.save, self.leave):
             side.addWidget(button)
         holder = QWidget()
         holder.setFixedWidth(_SIDE_WIDTH)
@@ -103,8 +106,6 @@ class MeasurementScreen(QWidget):
         self.trouble.setText(translated(model.trouble))
         self._show_hold()
         self._show_handle()
-        self.stop.setVisible(model.phase in (Phase.MEASURING, Phase.STOPPING))
-        self.stop.setEnabled(model.phase is Phase.MEASURING)
         self.resume.setVisible(model.phase is Phase.PAUSED)
         self.resume.setEnabled(can_resume(model.readiness))
         self.leave.setVisible(model.phase is Phase.PAUSED)
@@ -118,17 +119,21 @@ class MeasurementScreen(QWidget):
         self.go_on.setVisible(is_held)
 
     def _show_handle(self) -> None:
-        """It has the focus, so that a person who comes back from the Car presses one key."""
+        """It has the focus, so that a person who comes back from the Car presses Enter."""
         prompt = self._model.handle if self._model.phase is Phase.MEASURING else None
         if prompt is not None:
-            sentence = self.tr("Take the Car's handle now, with the Remote key at {distance} m, and then say so here. "
+            sentence = self.tr("Take the Car's handle now, with the Remote key at {distance} m, and then say so here, "
+                               "by Enter or the button. "
                                "When the Car unlocks, nothing more is to be done.")
             self.handle.setText(sentence.format(distance=number(prompt.distance_m, 2)))
         is_new = prompt is not None and self.taken.isHidden()
+        is_over = prompt is None and self.taken.hasFocus()
         self.handle.setVisible(prompt is not None)
         self.taken.setVisible(prompt is not None)
         if is_new:
             self.taken.setFocus()
+        elif is_over:
+            self.answered.emit()
 
     def say(self, sentence: str) -> None:
         """Show a sentence above the buttons."""
@@ -138,7 +143,6 @@ class MeasurementScreen(QWidget):
         """See QWidget."""
         self._frames.start()
         self.say("")
-        self.stop.setFocus()
         super().showEvent(event)
 
     def hideEvent(self, event: QHideEvent) -> None:

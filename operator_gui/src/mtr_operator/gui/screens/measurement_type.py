@@ -9,6 +9,7 @@ from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidg
 
 from mtr_operator.domain.scenario import AnyScenario
 
+from ..fitting.scroller import Scroller
 from ..names import scenario_doc, scenario_title
 from ..theme.scale import XL, L, M, S
 from .tile import Tile
@@ -41,14 +42,16 @@ class MeasurementTypeScreen(QWidget):
             column.addWidget(tile)
         back = QPushButton(self.tr("Back"))
         back.clicked.connect(self.back)
-        row = QHBoxLayout()
-        row.addWidget(back)
-        row.addStretch(1)
+        below = QHBoxLayout()
+        below.addWidget(back)
+        below.addStretch(1)
         column.addSpacing(M)
-        column.addLayout(row)
+        column.addLayout(below)
         column.addStretch(3)
+        row = QHBoxLayout()
+        row.addStretch(1)
+        row.addLayout(column)
+        row.addStretch(1)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(XL, L, XL, L)
-        layout.addStretch(1)
-        layout.addLayout(column)
-        layout.addStretch(1)
+        layout.addWidget(Scroller(row))

@@ -16,6 +16,7 @@ from mtr_operator.report.protocol_rows import date_text
 from mtr_operator.station.test import report_folder
 
 from ..dialogs import ask_folder
+from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..names import scenario_title
 from ..pictures.picture_panel import PicturePanel
@@ -29,6 +30,7 @@ from .budget_model import BudgetModel
 from .results_model import PLACE_COLUMN, ResultsModel
 
 _SIDE_WIDTH = 600
+_TABLE_HEIGHT, _BUDGET_HEIGHT = 180, 140
 _CLICK_PX = 18.0
 
 
@@ -118,14 +120,15 @@ class ProtocolScreen(QWidget):
         side.addWidget(self.notice)
         side.addLayout(first)
         side.addLayout(second)
-        holder = QWidget()
-        holder.setFixedWidth(_SIDE_WIDTH)
-        holder.setLayout(side)
+        holder = Scroller(side)
+        holder.setMaximumWidth(_SIDE_WIDTH)
+        for table, height in ((self.table, _TABLE_HEIGHT), (self.budget, _BUDGET_HEIGHT)):
+            table.setMinimumHeight(height)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(L)
-        layout.addWidget(self.panel, 1)
-        layout.addWidget(holder)
+        layout.addWidget(self.panel, 2)
+        layout.addWidget(holder, 3)
 
     def show_test(self) -> None:
         """Show the test at hand."""

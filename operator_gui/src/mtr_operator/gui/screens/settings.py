@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from PyQt5.QtCore import Qt, pyqtSignal
-from PyQt5.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QScrollArea, QVBoxLayout, QWidget
+from PyQt5.QtCore import pyqtSignal
+from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.station.estimate import USUAL_CAR, Plan, plan_of
 from mtr_operator.station.view_model import ViewModel
 
+from ..fitting.scroller import Scroller
 from ..forms.given_form import GivenForm
 from ..forms.parameter_form import ParameterForm
 from ..header.reasons import reason_text
@@ -67,11 +68,10 @@ class SettingsScreen(QWidget):
     def _lay_out(self) -> None:
         title = QLabel(scenario_title(self._scenario))
         title.setProperty("role", "heading")
-        scroll = QScrollArea()
-        scroll.setWidgetResizable(True)
-        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        scroll.setFrameShape(QFrame.Shape.NoFrame)
-        scroll.setWidget(self.form)
+        given = QVBoxLayout()
+        given.setSpacing(M)
+        given.addWidget(self.form, 1)
+        given.addWidget(self.given)
         back = QPushButton(self.tr("Back"))
         back.clicked.connect(self.back)
         buttons = QHBoxLayout()
@@ -82,8 +82,7 @@ class SettingsScreen(QWidget):
         left = QVBoxLayout()
         left.setSpacing(M)
         left.addWidget(title)
-        left.addWidget(scroll, 1)
-        left.addWidget(self.given)
+        left.addWidget(Scroller(given), 1)
         left.addLayout(buttons)
         right = QVBoxLayout()
         right.setSpacing(S)

@@ -7,6 +7,7 @@ from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidg
 
 from mtr_operator.station.test import Test
 
+from ..fitting.scroller import Scroller
 from ..names import scenario_title
 from ..theme.scale import XL, L, M, S
 from .tile import Tile
@@ -44,11 +45,13 @@ class WelcomeScreen(QWidget):
             widget.setFixedWidth(_WIDTH)
             column.addWidget(widget)
         column.addStretch(3)
+        row = QHBoxLayout()
+        row.addStretch(1)
+        row.addLayout(column)
+        row.addStretch(1)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(XL, L, XL, L)
-        layout.addStretch(1)
-        layout.addLayout(column)
-        layout.addStretch(1)
+        layout.addWidget(Scroller(row))
 
     def offer_unfinished(self, test: Test | None) -> None:
         """Offer to go on with a test that the last start has not finished; None offers nothing."""

@@ -13,6 +13,7 @@ class Palette:
         window, surface, raised: backgrounds from far to near. line: decoration. border: of fields.
         ink, ink_soft: texts. accent, on_accent: what is chosen, and text on it. tint, on_tint: what is finished.
         ok, warning, danger: meanings, readable as text on window and surface. on_signal: text on these.
+        stop, on_stop: the button that stops the robot while it may move, red in both themes, and text on it.
         body, glass, edge: the Car in pictures. robot, robot_mark, key: the robot in pictures.
         trail, waypoint: its way.
         first, second, failed, invalid: results, told apart by colour-blind readers too (Okabe and Ito).
@@ -33,6 +34,8 @@ class Palette:
     warning: str
     danger: str
     on_signal: str
+    stop: str
+    on_stop: str
     body: str
     glass: str
     edge: str
@@ -51,6 +54,7 @@ LIGHT = Palette(
     window="#eef1f4", surface="#ffffff", raised="#e1e7ed", line="#cdd6de", border="#74818d",
     ink="#14202b", ink_soft="#44525f", accent="#0b57a4", on_accent="#ffffff", tint="#cfe2f5", on_tint="#0a3a6b",
     ok="#17663a", warning="#7d4b00", danger="#ad1f18", on_signal="#ffffff",
+    stop="#c4160f", on_stop="#ffffff",
     body="#dfe3e8", glass="#8fa3b8", edge="#39424e", robot="#f2a900", robot_mark="#14202b", key="#117a43",
     trail="#6f7f8e", waypoint="#0b57a4", first="#0072b2", second="#c24e00", failed="#a61c3c", invalid="#6a3d9a")
 
@@ -58,6 +62,7 @@ DARK = Palette(
     window="#10161c", surface="#1a222b", raised="#28333e", line="#3a4753", border="#8796a4",
     ink="#f1f5f8", ink_soft="#bcc8d2", accent="#7cbcfb", on_accent="#06203a", tint="#1f4468", on_tint="#dcecfc",
     ok="#74d99a", warning="#f6bf5c", danger="#ff9b92", on_signal="#10161c",
+    stop="#d3261d", on_stop="#ffffff",
     body="#3b4754", glass="#66798b", edge="#c3ced8", robot="#f5bd3d", robot_mark="#10161c", key="#5fd391",
     trail="#8796a4", waypoint="#7cbcfb", first="#5cb8ee", second="#f59a5b", failed="#ff8fa6", invalid="#c9a4f0")
 

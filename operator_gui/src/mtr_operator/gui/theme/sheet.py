@@ -39,6 +39,9 @@ QPushButton[role="primary"]:disabled { color: $ink_soft; background: $window; bo
 QPushButton[role="danger"] { background: $danger; color: $on_signal; border-color: $danger; }
 QPushButton[role="danger"]:hover, QPushButton[role="danger"]:focus { border-color: $ink; }
 QPushButton[role="danger"]:disabled { color: $ink_soft; background: $window; border: 1px dashed $border; }
+QPushButton[role="stop"] { background: $surface; color: $danger; border: 2px solid $danger; font-weight: 700; }
+QPushButton[role="stop"][moving="true"] { background: $stop; color: $on_stop; border: 2px solid $stop; }
+QPushButton[role="stop"]:focus { border: 3px solid $ink; padding: 6px 16px; }
 QPushButton[role="tile"] { font-size: ${large_pt}pt; padding: 18px 24px; text-align: left; }
 QPushButton[role="flat"] { background: transparent; border: 2px solid transparent; padding: 3px 4px; color: $accent;
     text-align: left; min-height: 28px; }
@@ -48,8 +51,10 @@ QPushButton[role="flat"]:focus { border: 2px solid $accent; padding: 3px 4px; }
 QPushButton[word] { min-height: 32px; padding: 4px 16px; border-radius: 20px; color: $on_signal; }
 QPushButton[word="ready"] { background: $ok; border-color: $ok; }
 QPushButton[word="ready with warnings"] { background: $warning; border-color: $warning; }
-QPushButton[word="not ready"], QPushButton[word="communication lost"] { background: $danger; border-color: $danger; }
-QPushButton[word="measuring"] { background: $accent; border-color: $accent; color: $on_accent; }
+QPushButton[word="not ready"], QPushButton[word="communication lost"],
+QPushButton[word="blocked"] { background: $danger; border-color: $danger; }
+QPushButton[word="measuring"], QPushButton[word="driving"], QPushButton[word="mapping"],
+QPushButton[word="checking"] { background: $accent; border-color: $accent; color: $on_accent; }
 QPushButton[word="paused"] { background: $warning; border-color: $warning; }
 QPushButton[word]:hover, QPushButton[word]:focus { border-color: $ink; }
 QLineEdit, QComboBox { background: $surface; border: 1px solid $border; border-radius: 6px; padding: 6px 10px;

@@ -55,72 +55,72 @@
 <context>
     <name>CalibrationWindow</name>
     <message>
-        <location filename="../windows/calibration_window.py" line="36"/>
+        <location filename="../windows/calibration_window.py" line="40"/>
         <source>Calibration</source>
         <translation>Kalibrace</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="43"/>
+        <location filename="../windows/calibration_window.py" line="47"/>
         <source>Lock</source>
         <translation>Zamknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="43"/>
+        <location filename="../windows/calibration_window.py" line="47"/>
         <source>Unlock</source>
         <translation>Odemknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="49"/>
+        <location filename="../windows/calibration_window.py" line="53"/>
         <source>Send</source>
         <translation>Odeslat</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="86"/>
+        <location filename="../windows/calibration_window.py" line="93"/>
         <source>Wanted</source>
         <translation>Požadováno</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="100"/>
+        <location filename="../windows/calibration_window.py" line="107"/>
         <source>Reported by the robot</source>
         <translation>Hlášeno robotem</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="89"/>
+        <location filename="../windows/calibration_window.py" line="96"/>
         <source>Buttons to press</source>
         <translation>Tlačítka ke stisknutí</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="101"/>
+        <location filename="../windows/calibration_window.py" line="108"/>
         <source>Key height</source>
         <translation>Výška klíče</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="101"/>
+        <location filename="../windows/calibration_window.py" line="108"/>
         <source>Buttons pressed</source>
         <translation>Stisknutá tlačítka</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="102"/>
+        <location filename="../windows/calibration_window.py" line="109"/>
         <source>Press strength ordered</source>
         <translation>Požadovaná síla stisku</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="66"/>
+        <location filename="../windows/calibration_window.py" line="70"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="127"/>
+        <location filename="../windows/calibration_window.py" line="145"/>
         <source>none</source>
         <translation>žádné</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="137"/>
+        <location filename="../windows/calibration_window.py" line="156"/>
         <source>Pressed for {duration} s.</source>
         <translation>Stisknuto po dobu {duration} s.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="153"/>
+        <location filename="../windows/calibration_window.py" line="172"/>
         <source>Sent.</source>
         <translation>Odesláno.</translation>
     </message>
@@ -171,49 +171,49 @@
 <context>
     <name>CarCard</name>
     <message>
-        <location filename="../windows/car_card.py" line="24"/>
+        <location filename="../windows/car_card.py" line="23"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="28"/>
+        <location filename="../windows/car_card.py" line="27"/>
         <source>Check its position</source>
         <translation>Ověřit jeho polohu</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="29"/>
+        <location filename="../windows/car_card.py" line="28"/>
         <source>Map it again</source>
         <translation>Znovu zmapovat</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="30"/>
-        <source>Stop</source>
-        <translation>Zastavit</translation>
-    </message>
-    <message>
-        <location filename="../windows/car_card.py" line="32"/>
+        <location filename="../windows/car_card.py" line="29"/>
         <source>The robot drives around the Car for both.</source>
         <translation>K obojímu robot jezdí kolem auta.</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="58"/>
+        <location filename="../windows/car_card.py" line="55"/>
         <source>The robot maps the Car.</source>
         <translation>Robot mapuje auto.</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="60"/>
+        <location filename="../windows/car_card.py" line="57"/>
         <source>The robot checks where the Car stands.</source>
         <translation>Robot ověřuje, kde auto stojí.</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="65"/>
+        <location filename="../windows/car_card.py" line="62"/>
         <source>The Car is not measured yet.</source>
         <translation>Auto ještě není změřeno.</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="66"/>
+        <location filename="../windows/car_card.py" line="63"/>
         <source>The Car measures {length} m by {width} m.</source>
         <translation>Auto měří {length} m × {width} m.</translation>
+    </message>
+    <message>
+        <location filename="../windows/car_card.py" line="53"/>
+        <source>The robot was stopped on its way around the Car.</source>
+        <translation>Robot byl zastaven na cestě kolem auta.</translation>
     </message>
 </context>
 <context>
@@ -227,42 +227,42 @@
 <context>
     <name>ConnectionWindow</name>
     <message>
-        <location filename="../windows/connection_window.py" line="24"/>
+        <location filename="../windows/connection_window.py" line="29"/>
         <source>Connect to the robot</source>
         <translation>Připojení k robotu</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="45"/>
+        <location filename="../windows/connection_window.py" line="50"/>
         <source>Connect</source>
         <translation>Připojit</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="49"/>
+        <location filename="../windows/connection_window.py" line="54"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="49"/>
+        <location filename="../windows/connection_window.py" line="54"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="89"/>
+        <location filename="../windows/connection_window.py" line="94"/>
         <source>The IP address or port provided is invalid.</source>
         <translation>Zadaná IP adresa nebo port je neplatný.</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="82"/>
+        <location filename="../windows/connection_window.py" line="87"/>
         <source>Connecting to {host} ...</source>
         <translation>Připojuji se k {host} ...</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="90"/>
+        <location filename="../windows/connection_window.py" line="95"/>
         <source>Connection failed, check the parameters.</source>
         <translation>Připojení selhalo, zkontrolujte parametry.</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="91"/>
+        <location filename="../windows/connection_window.py" line="96"/>
         <source>The CAN adapter cannot be used.</source>
         <translation>Adaptér CAN nelze použít.</translation>
     </message>
@@ -344,22 +344,22 @@
 <context>
     <name>HeaderBar</name>
     <message>
-        <location filename="../header/header_bar.py" line="27"/>
+        <location filename="../header/header_bar.py" line="35"/>
         <source>Welcome</source>
         <translation>Úvod</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="27"/>
+        <location filename="../header/header_bar.py" line="35"/>
         <source>Measurement type</source>
         <translation>Typ měření</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="27"/>
+        <location filename="../header/header_bar.py" line="35"/>
         <source>Measurement</source>
         <translation>Měření</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="27"/>
+        <location filename="../header/header_bar.py" line="35"/>
         <source>Protocol</source>
         <translation>Protokol</translation>
     </message>
@@ -380,44 +380,44 @@
 <context>
     <name>MainWindow</name>
     <message>
-        <location filename="../windows/main_window.py" line="36"/>
+        <location filename="../windows/main_window.py" line="38"/>
         <source>Mobile testing robot</source>
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="78"/>
+        <location filename="../windows/main_window.py" line="95"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="125"/>
+        <location filename="../windows/main_window.py" line="142"/>
         <source>Continue test</source>
         <translation>Pokračovat v testu</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="134"/>
+        <location filename="../windows/main_window.py" line="151"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="136"/>
+        <location filename="../windows/main_window.py" line="153"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="151"/>
-        <source>A test is running. Stop the robot and close? What is measured is kept; the next start offers to go on.</source>
-        <translation>Test běží. Zastavit robot a zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
+        <location filename="../windows/main_window.py" line="168"/>
+        <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
+        <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="153"/>
-        <source>Stop and close</source>
-        <translation>Zastavit a zavřít</translation>
+        <location filename="../windows/main_window.py" line="172"/>
+        <source>Close</source>
+        <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="153"/>
-        <source>Go on measuring</source>
-        <translation>Měřit dál</translation>
+        <location filename="../windows/main_window.py" line="172"/>
+        <source>Stay</source>
+        <translation>Zůstat</translation>
     </message>
 </context>
 <context>
@@ -506,11 +506,6 @@
 <context>
     <name>MeasurementScreen</name>
     <message>
-        <location filename="../screens/measurement.py" line="51"/>
-        <source>Stop</source>
-        <translation>Zastavit</translation>
-    </message>
-    <message>
         <location filename="../screens/measurement.py" line="54"/>
         <source>Resume</source>
         <translation>Pokračovat</translation>
@@ -536,20 +531,20 @@
         <translation>Klika uchopena</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="124"/>
-        <source>Take the Car&apos;s handle now, with the Remote key at {distance} m, and then say so here. When the Car unlocks, nothing more is to be done.</source>
-        <translation>Uchopte nyní kliku auta, klíč je ve vzdálenosti {distance} m, a pak to zde potvrďte. Když se auto odemkne, není třeba nic dalšího.</translation>
+        <location filename="../screens/measurement.py" line="125"/>
+        <source>Take the Car&apos;s handle now, with the Remote key at {distance} m, and then say so here, by Enter or the button. When the Car unlocks, nothing more is to be done.</source>
+        <translation>Uchopte nyní kliku auta, klíč je ve vzdálenosti {distance} m, a pak to zde potvrďte klávesou Enter nebo tlačítkem. Když se auto odemkne, není třeba nic dalšího.</translation>
     </message>
 </context>
 <context>
     <name>MeasurementTypeScreen</name>
     <message>
-        <location filename="../screens/measurement_type.py" line="28"/>
+        <location filename="../screens/measurement_type.py" line="29"/>
         <source>What is to be measured?</source>
         <translation>Co se má měřit?</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_type.py" line="42"/>
+        <location filename="../screens/measurement_type.py" line="43"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
@@ -1239,77 +1234,77 @@
 <context>
     <name>ProtocolScreen</name>
     <message>
-        <location filename="../screens/protocol.py" line="60"/>
+        <location filename="../screens/protocol.py" line="62"/>
         <source>Results; choose a row to see its points</source>
         <translation>Výsledky; vyberte řádek a uvidíte jeho body</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="65"/>
+        <location filename="../screens/protocol.py" line="67"/>
         <source>Save</source>
         <translation>Uložit</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="66"/>
+        <location filename="../screens/protocol.py" line="68"/>
         <source>Save as CSV and PNG</source>
         <translation>Uložit jako CSV a PNG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="67"/>
+        <location filename="../screens/protocol.py" line="69"/>
         <source>Save PDF</source>
         <translation>Uložit PDF</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="68"/>
+        <location filename="../screens/protocol.py" line="70"/>
         <source>Save SVG</source>
         <translation>Uložit SVG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="69"/>
+        <location filename="../screens/protocol.py" line="71"/>
         <source>Show folder</source>
         <translation>Ukázat složku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="70"/>
+        <location filename="../screens/protocol.py" line="72"/>
         <source>New test</source>
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="139"/>
+        <location filename="../screens/protocol.py" line="142"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="161"/>
+        <location filename="../screens/protocol.py" line="164"/>
         <source>{count} lines, {invalid} of them invalid. Not saved as CSV and PNG yet.</source>
         <translation>Počet přímek: {count}, z toho neplatných: {invalid}. Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="163"/>
+        <location filename="../screens/protocol.py" line="166"/>
         <source>{count} lines. Not saved as CSV and PNG yet.</source>
         <translation>Počet přímek: {count}. Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="205"/>
+        <location filename="../screens/protocol.py" line="208"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="210"/>
+        <location filename="../screens/protocol.py" line="213"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="214"/>
+        <location filename="../screens/protocol.py" line="217"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="153"/>
+        <location filename="../screens/protocol.py" line="156"/>
         <source>Verdict: {verdict}.</source>
         <translation>Verdikt: {verdict}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="61"/>
+        <location filename="../screens/protocol.py" line="63"/>
         <source>What the uncertainty of the chosen row is made of</source>
         <translation>Z čeho se skládá nejistota vybraného řádku</translation>
     </message>
@@ -2796,7 +2791,7 @@
 <context>
     <name>SettingsScreen</name>
     <message>
-        <location filename="../screens/settings.py" line="56"/>
+        <location filename="../screens/settings.py" line="57"/>
         <source>Start</source>
         <translation>Spustit</translation>
     </message>
@@ -2806,22 +2801,22 @@
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="131"/>
+        <location filename="../screens/settings.py" line="130"/>
         <source>{count} lines ({word}), about {time}.</source>
         <translation>Počet přímek ({word}): {count}, asi {time}.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="135"/>
+        <location filename="../screens/settings.py" line="134"/>
         <source>The Car is not measured yet; its size is a guess.</source>
         <translation>Auto ještě není změřeno; jeho rozměry jsou odhad.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="140"/>
+        <location filename="../screens/settings.py" line="139"/>
         <source>The battery, at {percent} %, suffices.</source>
         <translation>Baterie ({percent} %) stačí.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="141"/>
+        <location filename="../screens/settings.py" line="140"/>
         <source>The battery, at {percent} %, may not suffice: the test takes about {need} %.</source>
         <translation>Baterie ({percent} %) nemusí stačit: test spotřebuje asi {need} %.</translation>
     </message>
@@ -2829,117 +2824,117 @@
 <context>
     <name>SettingsWindow</name>
     <message>
-        <location filename="../windows/settings_window.py" line="36"/>
+        <location filename="../windows/settings_window.py" line="39"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="40"/>
+        <location filename="../windows/settings_window.py" line="43"/>
         <source>Results</source>
         <translation>Výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="41"/>
+        <location filename="../windows/settings_window.py" line="44"/>
         <source>Progress of tests</source>
         <translation>Průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="42"/>
+        <location filename="../windows/settings_window.py" line="45"/>
         <source>IP address</source>
         <translation>IP adresa</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="43"/>
+        <location filename="../windows/settings_window.py" line="46"/>
         <source>Subscriber port</source>
         <translation>Port odběratele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="44"/>
+        <location filename="../windows/settings_window.py" line="47"/>
         <source>Publisher port</source>
         <translation>Port vydavatele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="47"/>
+        <location filename="../windows/settings_window.py" line="50"/>
         <source>As the system</source>
         <translation>Podle systému</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="45"/>
+        <location filename="../windows/settings_window.py" line="48"/>
         <source>Light</source>
         <translation>Světlý</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="45"/>
+        <location filename="../windows/settings_window.py" line="48"/>
         <source>Dark</source>
         <translation>Tmavý</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="51"/>
+        <location filename="../windows/settings_window.py" line="54"/>
         <source>Use this adapter</source>
         <translation>Použít tento adaptér</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="59"/>
+        <location filename="../windows/settings_window.py" line="62"/>
         <source>The CAN adapter is in use.</source>
         <translation>Adaptér CAN se používá.</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="98"/>
+        <location filename="../windows/settings_window.py" line="102"/>
         <source>Folders</source>
         <translation>Složky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="114"/>
+        <location filename="../windows/settings_window.py" line="118"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="101"/>
+        <location filename="../windows/settings_window.py" line="105"/>
         <source>Appearance</source>
         <translation>Vzhled</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="102"/>
+        <location filename="../windows/settings_window.py" line="106"/>
         <source>Theme</source>
         <translation>Motiv</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="102"/>
+        <location filename="../windows/settings_window.py" line="106"/>
         <source>Language</source>
         <translation>Jazyk</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="121"/>
+        <location filename="../windows/settings_window.py" line="125"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="81"/>
+        <location filename="../windows/settings_window.py" line="85"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="128"/>
+        <location filename="../windows/settings_window.py" line="132"/>
         <source>Change</source>
         <translation>Změnit</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="129"/>
+        <location filename="../windows/settings_window.py" line="133"/>
         <source>Change the folder: {what}</source>
         <translation>Změnit složku: {what}</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="142"/>
+        <location filename="../windows/settings_window.py" line="146"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="149"/>
+        <location filename="../windows/settings_window.py" line="153"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="160"/>
+        <location filename="../windows/settings_window.py" line="164"/>
         <source>The language changes when the application is started next.</source>
         <translation>Jazyk se změní při příštím spuštění aplikace.</translation>
     </message>
@@ -2954,7 +2949,7 @@
     <message>
         <location filename="../header/reasons.py" line="15"/>
         <source>Ready with warnings</source>
-        <translation>Připraveno s výhradami</translation>
+        <translation>S výhradami</translation>
     </message>
     <message>
         <location filename="../header/reasons.py" line="16"/>
@@ -2977,115 +2972,155 @@
         <translation>Spojení ztraceno</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="27"/>
+        <location filename="../header/reasons.py" line="31"/>
         <source>The robot has not answered for {detail} s.</source>
         <translation>Robot neodpovídá {detail} s.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="28"/>
+        <location filename="../header/reasons.py" line="32"/>
         <source>The robot is still starting.</source>
         <translation>Robot se ještě spouští.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="29"/>
+        <location filename="../header/reasons.py" line="33"/>
         <source>The robot reports a fault.</source>
         <translation>Robot hlásí poruchu.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="30"/>
+        <location filename="../header/reasons.py" line="34"/>
         <source>Another application controls the robot.</source>
         <translation>Robot ovládá jiná aplikace.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="32"/>
+        <location filename="../header/reasons.py" line="36"/>
         <source>The robot&apos;s battery is nearly empty: {detail} %.</source>
         <translation>Baterie robotu je téměř vybitá: {detail} %.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="33"/>
+        <location filename="../header/reasons.py" line="37"/>
         <source>The robot&apos;s battery is low: {detail} %.</source>
         <translation>Baterie robotu je slabá: {detail} %.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="34"/>
+        <location filename="../header/reasons.py" line="38"/>
         <source>No CAN adapter is chosen.</source>
         <translation>Není vybrán adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="36"/>
+        <location filename="../header/reasons.py" line="40"/>
         <source>The Car does not say whether it is locked.</source>
         <translation>Auto nesděluje, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="37"/>
+        <location filename="../header/reasons.py" line="43"/>
         <source>The robot does not know its position.</source>
         <translation>Robot nezná svou polohu.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="44"/>
+        <location filename="../header/reasons.py" line="57"/>
         <source>Check the Wi-Fi and that the robot is on. The robot stands still meanwhile; the link comes back by itself.</source>
         <translation>Zkontrolujte Wi-Fi a zda je robot zapnutý. Robot zatím stojí; spojení se obnoví samo.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="46"/>
+        <location filename="../header/reasons.py" line="59"/>
         <source>Wait a moment.</source>
         <translation>Chvíli počkejte.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="47"/>
+        <location filename="../header/reasons.py" line="60"/>
         <source>Make sure that nothing blocks the robot; if the fault stays, switch the robot off and on.</source>
         <translation>Ujistěte se, že robotu nic nebrání; pokud porucha trvá, robot vypněte a zapněte.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="49"/>
+        <location filename="../header/reasons.py" line="62"/>
         <source>End the other application; control comes here by itself.</source>
         <translation>Ukončete druhou aplikaci; řízení přejde sem samo.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="50"/>
+        <location filename="../header/reasons.py" line="63"/>
         <source>Charge the battery before the test.</source>
         <translation>Před testem nabijte baterii.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="51"/>
+        <location filename="../header/reasons.py" line="64"/>
         <source>Short tests are possible; charge the battery soon.</source>
         <translation>Krátké testy jsou možné; baterii brzy nabijte.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="52"/>
+        <location filename="../header/reasons.py" line="65"/>
         <source>Choose one under Settings, CAN adapter.</source>
         <translation>Vyberte jej v Nastavení, Adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="53"/>
+        <location filename="../header/reasons.py" line="66"/>
         <source>If the adapter is the wrong one, choose another under Settings.</source>
         <translation>Pokud je adaptér nesprávný, vyberte v Nastavení jiný.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="54"/>
+        <location filename="../header/reasons.py" line="67"/>
         <source>Wake the Car, e.g. open a door; check the car profile.</source>
         <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="55"/>
+        <location filename="../header/reasons.py" line="71"/>
         <source>Let it see the Car; if it stays lost, begin a new test, which maps the Car again.</source>
         <translation>Umožněte robotu vidět auto; pokud se nenajde, začněte nový test, který auto zmapuje znovu.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="20"/>
+        <source>Driving</source>
+        <translation>Jede</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="21"/>
+        <source>Mapping</source>
+        <translation>Mapuje</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="22"/>
+        <source>Checking</source>
+        <translation>Ověřuje</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="23"/>
+        <source>Blocked</source>
+        <translation>Zablokován</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="41"/>
+        <source>The robot stands until you have it go on.</source>
+        <translation>Robot stojí, dokud mu nedáte pokyn pokračovat.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="42"/>
+        <source>Something blocks the robot&apos;s way.</source>
+        <translation>Robotu něco stojí v cestě.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="68"/>
+        <source>Look at the cause; then have the robot go on.</source>
+        <translation>Prohlédněte příčinu a pak dejte robotu pokyn pokračovat.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="69"/>
+        <source>Clear its way; it goes on by itself, or stands until you have it go on.</source>
+        <translation>Uvolněte mu cestu; pokračuje sám, nebo stojí, dokud mu nedáte pokyn.</translation>
     </message>
 </context>
 <context>
     <name>StatusWord</name>
     <message>
-        <location filename="../header/status_word.py" line="45"/>
+        <location filename="../header/status_word.py" line="50"/>
         <source>Status: {word}</source>
         <translation>Stav: {word}</translation>
     </message>
     <message>
-        <location filename="../header/status_word.py" line="47"/>
+        <location filename="../header/status_word.py" line="52"/>
         <source>Everything is ready for a test.</source>
         <translation>Vše je připraveno k testu.</translation>
     </message>
     <message>
-        <location filename="../header/status_word.py" line="60"/>
+        <location filename="../header/status_word.py" line="65"/>
         <source>Nothing stands against it.</source>
         <translation>Nic tomu nebrání.</translation>
     </message>
@@ -3093,20 +3128,33 @@
 <context>
     <name>StepBar</name>
     <message>
-        <location filename="../header/step_bar.py" line="94"/>
+        <location filename="../header/step_bar.py" line="112"/>
         <source>Step {number} of {count}: {title}</source>
         <translation>Krok {number} z {count}: {title}</translation>
     </message>
 </context>
 <context>
+    <name>StopButton</name>
+    <message>
+        <location filename="../header/stop_button.py" line="22"/>
+        <source>Stop</source>
+        <translation>Zastavit</translation>
+    </message>
+    <message>
+        <location filename="../header/stop_button.py" line="26"/>
+        <source>Stops the robot. While it may move, Space and Esc do so from everywhere.</source>
+        <translation>Zastaví robot. Dokud se může pohybovat, zastaví ho odkudkoli i mezerník a Esc.</translation>
+    </message>
+</context>
+<context>
     <name>WarningSymbol</name>
     <message>
-        <location filename="../header/warning_symbol.py" line="53"/>
+        <location filename="../header/warning_symbol.py" line="55"/>
         <source>Notifications of the robot</source>
         <translation>Upozornění robotu</translation>
     </message>
     <message>
-        <location filename="../header/warning_symbol.py" line="108"/>
+        <location filename="../header/warning_symbol.py" line="110"/>
         <source>The robot says</source>
         <translation>Robot sděluje</translation>
     </message>
@@ -3114,52 +3162,52 @@
 <context>
     <name>WelcomeScreen</name>
     <message>
-        <location filename="../screens/welcome.py" line="29"/>
+        <location filename="../screens/welcome.py" line="30"/>
         <source>What would you like to do?</source>
         <translation>Co chcete udělat?</translation>
     </message>
     <message>
-        <location filename="../screens/welcome.py" line="31"/>
+        <location filename="../screens/welcome.py" line="32"/>
         <source>New test</source>
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/welcome.py" line="31"/>
+        <location filename="../screens/welcome.py" line="32"/>
         <source>Choose scenario and parameters, and let the robot measure.</source>
         <translation>Vyberte scénář a parametry a nechte robot měřit.</translation>
     </message>
     <message>
-        <location filename="../screens/welcome.py" line="32"/>
+        <location filename="../screens/welcome.py" line="33"/>
         <source>Continue test</source>
         <translation>Pokračovat v testu</translation>
     </message>
     <message>
-        <location filename="../screens/welcome.py" line="32"/>
+        <location filename="../screens/welcome.py" line="33"/>
         <source>Go on with a test whose progress was saved to a file.</source>
         <translation>Pokračujte v testu, jehož průběh byl uložen do souboru.</translation>
     </message>
     <message>
-        <location filename="../screens/welcome.py" line="33"/>
+        <location filename="../screens/welcome.py" line="34"/>
         <source>Calibrate</source>
         <translation>Kalibrovat</translation>
     </message>
     <message>
-        <location filename="../screens/welcome.py" line="33"/>
+        <location filename="../screens/welcome.py" line="34"/>
         <source>Try lift and buttons of the robot.</source>
         <translation>Vyzkoušejte zdvih a tlačítka robotu.</translation>
     </message>
     <message>
-        <location filename="../screens/welcome.py" line="57"/>
+        <location filename="../screens/welcome.py" line="60"/>
         <source>The {scenario} test of {moment} is not finished: {done} of {total} lines are measured.</source>
         <translation>Test {scenario} z {moment} není dokončen: změřeno {done} z {total} přímek.</translation>
     </message>
     <message>
-        <location filename="../screens/welcome.py" line="68"/>
+        <location filename="../screens/welcome.py" line="71"/>
         <source>Go on with it</source>
         <translation>Pokračovat v něm</translation>
     </message>
     <message>
-        <location filename="../screens/welcome.py" line="71"/>
+        <location filename="../screens/welcome.py" line="74"/>
         <source>Not now</source>
         <translation>Teď ne</translation>
     </message>

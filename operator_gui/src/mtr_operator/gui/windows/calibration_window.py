@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Sequence
 
+from PyQt5.QtCore import QSize
 from PyQt5.QtWidgets import QCheckBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.parameters import Declaration
@@ -13,6 +14,8 @@ from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameter
 from mtr_operator.station.links.idle_loop import CalibrationRequest
 from mtr_operator.station.readiness import ReadinessWord
 
+from ..fitting.place import open_within
+from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..forms.parameter_field import ParameterField
 from ..i18n import number
@@ -21,6 +24,7 @@ from ..theme.scale import L, M, S
 from .car_card import CarCard
 from .card import Card
 
+_WIDTH = 820
 _CM_PER_M = 100.0
 _UNKNOWN = "\N{EN DASH}"
 
@@ -54,7 +58,7 @@ class CalibrationWindow(QDialog):
             field.changed.connect(self._check)
         flow.bridge.changed.connect(self.show_model)
         self.show_model()
-        self.setMinimumWidth(820)
+        open_within(self, self.wanted_size())
 
     @staticmethod
     def _field(name: str, declared: dict[str, Declaration]) -> ParameterField:
@@ -77,8 +81,11 @@ class CalibrationWindow(QDialog):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(M)
-        layout.addLayout(cards, 1)
-        layout.addWidget(self.car)
+        content = QVBoxLayout()
+        content.setSpacing(M)
+        content.addLayout(cards, 1)
+        content.addWidget(self.car)
+        layout.addWidget(Scroller(content), 1)
         layout.addLayout(row)
         self.send.setDefault(True)
 
@@ -114,6 +121,17 @@ class CalibrationWindow(QDialog):
         card.column.addStretch(1)
         return card
 
+    def wanted_size(self) -> QSize:
+        """Size at which all is seen."""
+        self.ensurePolished()
+        return self.sizeHint().expandedTo(QSize(_WIDTH, 0))
+
+    def done(self, result: int) -> None:
+        """See QDialog; however it is left, what moves is stopped first."""
+        if self._flow.model.may_move:
+            self._flow.stop()
+        super().done(result)
+
     def show_model(self) -> None:
         """Show what the robot says now."""
         robot = self._flow.model.robot
@@ -126,7 +144,8 @@ class CalibrationWindow(QDialog):
                  for button in status.pressed_buttons]
         self.reported["buttons"].setText(", ".join(names) or self.tr("none"))
         self._show_press(status.presses)
-        self.car.show_status(status, self._flow.model.readiness.word is not ReadinessWord.LOST)
+        model = self._flow.model
+        self.car.show_status(status, model.readiness.word is not ReadinessWord.LOST, model.may_move)
         self._check()
 
     def _show_press(self, presses: Sequence[PressReport]) -> None:

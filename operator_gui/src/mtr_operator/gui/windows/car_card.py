@@ -6,6 +6,7 @@ from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
 
 from mtr_operator.domain.robot_status import CheckState, Mode, RobotStatus
 from mtr_operator.station.links.idle_loop import CarRequest
+from mtr_operator.station.motion import ROUNDS
 
 from ..flow import Flow
 from ..i18n import number
@@ -13,11 +14,9 @@ from ..sentences import translated
 from ..theme.scale import S
 from .card import Card
 
-_MOVING = (Mode.MAPPING_CAR, Mode.CHECKING_CAR)
-
 
 class CarCard(Card):
-    """Attributes: check, map, stop: buttons. notice: what the robot says of the Car."""
+    """Attributes: check, map: buttons. notice: what the robot says of the Car."""
 
     def __init__(self, flow: Flow, parent: QWidget | None = None):
         super().__init__(parent=parent)
@@ -27,13 +26,11 @@ class CarCard(Card):
         self.notice.setWordWrap(True)
         self.check = self._button(self.tr("Check its position"), CarRequest.CHECK)
         self.map = self._button(self.tr("Map it again"), CarRequest.MAP)
-        self.stop = self._button(self.tr("Stop"), CarRequest.STOP)
-        self.stop.setProperty("role", "danger")
         hint = QLabel(self.tr("The robot drives around the Car for both."))
         hint.setProperty("role", "hint")
         row = QHBoxLayout()
         row.setSpacing(S)
-        for button in (self.check, self.map, self.stop):
+        for button in (self.check, self.map):
             row.addWidget(button)
         row.addStretch(1)
         self.column.addWidget(self.notice)
@@ -45,15 +42,15 @@ class CarCard(Card):
         button.clicked.connect(lambda _checked: self._flow.request_car(request))
         return button
 
-    def show_status(self, status: RobotStatus, is_linked: bool) -> None:
-        """Show what the robot says; is_linked: it takes requests."""
-        is_moving = status.mode in _MOVING
+    def show_status(self, status: RobotStatus, is_linked: bool, is_moving: bool) -> None:
+        """Show what the robot says; is_linked: it takes requests. is_moving: it may move."""
         self.check.setEnabled(is_linked and status.car is not None and status.car_check is not None and not is_moving)
         self.map.setEnabled(is_linked and not is_moving)
-        self.stop.setEnabled(is_linked and is_moving)
-        self.notice.setText(self._text(status))
+        self.notice.setText(self._text(status, is_moving))
 
-    def _text(self, status: RobotStatus) -> str:
+    def _text(self, status: RobotStatus, is_moving: bool) -> str:
+        if status.mode in ROUNDS and not is_moving:
+            return self.tr("The robot was stopped on its way around the Car.")
         if status.mode is Mode.MAPPING_CAR:
             return self.tr("The robot maps the Car.")
         if status.mode is Mode.CHECKING_CAR:

@@ -2,17 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from PyQt5.QtCore import QSize
 from PyQt5.QtGui import QCloseEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.station.connection import Connection
 
+from ..fitting.place import open_within
+from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..forms.can_form import CanForm
 from ..forms.robot_form import RobotForm
 from ..sentences import translated
 from ..theme.scale import L, M, S
 from .card import Card
+
+_WIDTH = 960
 
 
 class ConnectionWindow(QWidget):
@@ -39,7 +44,7 @@ class ConnectionWindow(QWidget):
         self.robot.show_choice(proposed.robot, flow.store.settings.hosts)
         self.can.show_choice(proposed.can)
         self._say(flow.store.problem, "")
-        self.setMinimumWidth(960)
+        open_within(self, self.sizeHint().expandedTo(QSize(_WIDTH, 0)))
 
     def _lay_out(self) -> None:
         title = QLabel(self.tr("Connect"))
@@ -63,7 +68,7 @@ class ConnectionWindow(QWidget):
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(M)
         layout.addWidget(title)
-        layout.addLayout(cards, 1)
+        layout.addWidget(Scroller(cards), 1)
         layout.addSpacing(S)
         layout.addLayout(row)
 

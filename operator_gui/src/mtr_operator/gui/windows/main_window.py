@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import pathlib
+from typing import Callable
 
-from PyQt5.QtCore import QSize, QTimer
+from PyQt5.QtCore import QSize, Qt, QTimer
 from PyQt5.QtGui import QCloseEvent
-from PyQt5.QtWidgets import QMainWindow, QStackedWidget, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QDialog, QMainWindow, QStackedWidget, QVBoxLayout, QWidget
 
 from mtr_operator.domain.scenarios import SCENARIOS
-from mtr_operator.station.readiness import Phase
+from mtr_operator.station.readiness import RUNNING
 
 from ..dialogs import ask_folder, ask_progress_file, confirm, show_message
+from ..fitting.place import open_within
 from ..flow import Flow, Step
 from ..header.header_bar import HeaderBar
 from ..screens.measurement import MeasurementScreen
@@ -20,23 +22,25 @@ from ..screens.protocol import ProtocolScreen
 from ..screens.settings import SettingsScreen
 from ..screens.welcome import WelcomeScreen
 from ..sentences import translated
+from ..stopping import Stopping
 from ..theme.appearance import Appearance
 from .calibration_window import CalibrationWindow
 from .settings_window import SettingsWindow
 
 _SIZE = QSize(1360, 860)
-_MIN_SIZE = QSize(1080, 680)
 
 
 class MainWindow(QMainWindow):
     """Attributes: header; welcome, types, settings (by scenario), measurement, protocol: the screens."""
 
-    def __init__(self, flow: Flow, appearance: Appearance):
+    def __init__(self, flow: Flow, appearance: Appearance, stopping: Stopping):
         super().__init__()
         self.setWindowTitle(self.tr("Mobile testing robot"))
         self._flow = flow
         self._appearance = appearance
-        self.header = HeaderBar(appearance)
+        self._opened: dict[type[QDialog], QDialog] = {}
+        self._is_asked = False
+        self.header = HeaderBar(appearance, stopping)
         self.welcome = WelcomeScreen()
         self.types = MeasurementTypeScreen(SCENARIOS)
         self.settings = {name: SettingsScreen(scenario, flow.model, appearance) for name, scenario in SCENARIOS.items()}
@@ -53,8 +57,7 @@ class MainWindow(QMainWindow):
         layout.addWidget(self.header)
         layout.addWidget(self._screens, 1)
         self.setCentralWidget(page)
-        self.setMinimumSize(_MIN_SIZE)
-        self.resize(_SIZE)
+        open_within(self, _SIZE)
         self._connect()
         self._show_step(Step.WELCOME)
 
@@ -64,10 +67,24 @@ class MainWindow(QMainWindow):
         return self._screens.currentWidget()
 
     def _show_settings_window(self) -> None:
-        SettingsWindow(self._flow, self._appearance, self).exec_()
+        self._open_beside(SettingsWindow, lambda: SettingsWindow(self._flow, self._appearance, self))
 
     def _show_calibration(self) -> None:
-        CalibrationWindow(self._flow, self).exec_()
+        self._open_beside(CalibrationWindow, lambda: CalibrationWindow(self._flow, self))
+
+    def _open_beside(self, kind: type[QDialog], make: Callable[[], QDialog]) -> None:
+        """Open a window of a kind, or show the one that is open; this one stays alive, and its Stop."""
+        dialog = self._opened.get(kind)
+        if dialog is None:
+            dialog = self._opened[kind] = make()
+            dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+            dialog.finished.connect(lambda _: self._forget(kind))
+        dialog.show()
+        dialog.raise_()
+        dialog.activateWindow()
+
+    def _forget(self, kind: type[QDialog]) -> None:
+        self._opened.pop(kind, None)
 
     def _connect(self) -> None:
         flow = self._flow
@@ -89,12 +106,12 @@ class MainWindow(QMainWindow):
             screen.back.connect(lambda: flow.show(Step.TYPE))
             screen.started.connect(
                 lambda parameters, paths, name=name: flow.start(SCENARIOS[name], parameters, paths))
-        self.measurement.stop_wanted.connect(flow.stop)
         self.measurement.resume_wanted.connect(flow.resume)
         self.measurement.release_wanted.connect(flow.release_hold)
         self.measurement.handle_taken.connect(flow.answer_handle)
         self.measurement.save_wanted.connect(flow.save_progress)
         self.measurement.leave_wanted.connect(flow.to_welcome)
+        self.measurement.answered.connect(self.header.stop.setFocus)
         self.protocol.closed.connect(flow.to_welcome)
 
     def _show_model(self) -> None:
@@ -141,13 +158,17 @@ class MainWindow(QMainWindow):
         show_message(self, self.windowTitle(), translated(text))
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """Ask before a running test is ended."""
-        if self._flow.model.phase is Phase.MEASURING and not self._is_to_be_ended():
-            event.ignore()
-            return
-        event.accept()
+        """Stop the robot first; then ask whether a test that was running is to be left."""
+        was_running = self._flow.model.phase in RUNNING
+        if self._flow.model.may_move:
+            self._flow.stop()
+        event.setAccepted(not self._is_asked and (not was_running or self._is_to_be_left()))
 
-    def _is_to_be_ended(self) -> bool:
-        question = self.tr("A test is running. Stop the robot and close? What is measured is kept; the next start "
-                           "offers to go on.")
-        return confirm(self, self.windowTitle(), question, (self.tr("Stop and close"), self.tr("Go on measuring")))
+    def _is_to_be_left(self) -> bool:
+        question = self.tr("The robot is stopped, and the test paused. Close the application? What is measured is "
+                           "kept; the next start offers to go on.")
+        self._is_asked = True
+        try:
+            return confirm(self, self.windowTitle(), question, (self.tr("Close"), self.tr("Stay")))
+        finally:
+            self._is_asked = False

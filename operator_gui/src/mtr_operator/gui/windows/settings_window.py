@@ -6,13 +6,15 @@ import dataclasses
 import pathlib
 from typing import Any, Callable
 
-from PyQt5.QtCore import Qt
+from PyQt5.QtCore import QSize, Qt
 from PyQt5.QtWidgets import QComboBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from mtr_operator.station.readiness import Phase
+from mtr_operator.station.readiness import RUNNING
 from mtr_operator.station.settings import LANGUAGES, THEMES
 
 from ..dialogs import ask_folder
+from ..fitting.place import open_within
+from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..forms.can_form import CanForm
 from ..forms.field import Field
@@ -21,6 +23,7 @@ from ..theme.appearance import Appearance
 from ..theme.scale import XS, L, M, S
 from .card import Card
 
+_WIDTH = 900
 # Languages are named in themselves.
 _CZECH = "\u010ce\u0161tina"
 
@@ -58,8 +61,9 @@ class SettingsWindow(QDialog):
         self.use_can.clicked.connect(self._change_can)
         flow.can_opened.connect(lambda: self._show_can(self.tr("The CAN adapter is in use.")))
         flow.can_refused.connect(lambda text: self._show_can(translated(text)))
-        self.use_can.setEnabled(flow.model.phase not in (Phase.MEASURING, Phase.STOPPING))
-        self.setMinimumWidth(900)
+        self.use_can.setEnabled(flow.model.phase not in RUNNING)
+        self.ensurePolished()
+        open_within(self, self.sizeHint().expandedTo(QSize(_WIDTH, 0)))
 
     @staticmethod
     def _read_only(title: str, text: str) -> Field:
@@ -91,7 +95,7 @@ class SettingsWindow(QDialog):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(M)
-        layout.addLayout(cards, 1)
+        layout.addWidget(Scroller(cards), 1)
         layout.addLayout(row)
 
     def _own_card(self) -> Card:

@@ -48,13 +48,16 @@ class IdleLoop:
         self.silent_s = 0.0
 
     def calibrate(self, request: CalibrationRequest) -> None:
-        """Have the robot do this from now on."""
+        """Have the robot do this from now on; what a stop has ended stays ended."""
         press = self._desired.press
         if request.buttons:
             self._press_id += 1
             press = Press(self._press_id, request.buttons, request.strength, request.duration_s)
         height_m = self._desired.key_height_m if request.key_height_m is None else request.key_height_m
         self._desired = replace(self._desired, key_height_m=height_m, press=press)
+        if self._desired.stop:
+            # The robot would go on mapping or checking under an order that still stands.
+            self._desired = replace(self._desired, stop=False, map_car_id=0, check_car_id=0)
 
     def request_car(self, request: CarRequest) -> None:
         """Have the robot check or map the Car, or stop doing so; it moves for that."""

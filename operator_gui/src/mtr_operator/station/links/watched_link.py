@@ -1,4 +1,4 @@
-"""A robot link that remembers where it has sent the robot, for those who draw it."""
+"""A robot link that remembers where it has sent the robot, and lets the Operator's stop pass everything else."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -6,16 +6,19 @@ from mtr_operator.domain.ports import RobotLink
 from mtr_operator.domain.requests import DesiredState, Waypoint
 from mtr_operator.domain.robot_status import RobotStatus
 
+from .stop_order import StopOrder
+
 
 class WatchedRobotLink(RobotLink):
-    """Hands everything on.
+    """Hands everything on, while a stop is in force as a stop.
 
     Attributes:
         waypoint: the newest one that was sent, None before.
     """
 
-    def __init__(self, link: RobotLink):
+    def __init__(self, link: RobotLink, stop: StopOrder):
         self._link = link
+        self._stop = stop
         self.statistics = link.statistics
         self.waypoint: Waypoint | None = None
 
@@ -27,6 +30,7 @@ class WatchedRobotLink(RobotLink):
     def connect(self) -> None:
         """See RobotLink."""
         self._link.connect()
+        self._stop.attach(self._link.send)
 
     def next_status(self, timeout_s: float) -> RobotStatus | None:
         """See RobotLink."""
@@ -35,8 +39,9 @@ class WatchedRobotLink(RobotLink):
     def send(self, desired: DesiredState) -> None:
         """See RobotLink."""
         self.waypoint = desired.waypoint
-        self._link.send(desired)
+        self._stop.pass_on(self._link.send, desired)
 
     def close(self) -> None:
         """See RobotLink."""
+        self._stop.detach()
         self._link.close()

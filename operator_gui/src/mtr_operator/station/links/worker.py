@@ -19,6 +19,7 @@ from ..mailbox import Mailbox
 from ..test import Test
 from .idle_loop import CalibrationRequest, CarRequest, IdleLoop
 from .measurement_run import Answers, MeasurementRun
+from .stop_order import StopOrder
 from .watched_link import WatchedRobotLink
 
 # Wall time between two attempts to open the robot's link again.
@@ -38,7 +39,7 @@ class Worker:
         # Short ones, which a running test does not put off.
         self._short_requests: queue.Queue[Callable[[], None]] = queue.Queue()
         self._closing = threading.Event()
-        self._stopping = threading.Event()
+        self._stop = StopOrder()
         self._released_hold = 0
         self._person = AskedPerson(lambda prompt: self._mailbox.put(HandleWanted(prompt)))
         self._thread = threading.Thread(target=self._run, name="links", daemon=True)
@@ -53,19 +54,21 @@ class Worker:
     def close(self, timeout_s: float | None = None) -> bool:
         """Stop the robot, end a running test, disconnect; True when that is done."""
         self._closing.set()
-        self._stopping.set()
+        self._stop.give()
         if self._thread.is_alive():
             self._thread.join(timeout_s)
         return not self._thread.is_alive()
 
     def run_test(self, test: Test) -> None:
         """Measure what is left of a test; Ended comes into the mailbox."""
-        self._stopping.clear()
-        self._requests.put(lambda: self._measure(test))
+        ticket = self._stop.ticket
+        self._requests.put(lambda: self._measure(test, ticket))
 
-    def stop_test(self) -> None:
-        """Stop the robot and end the running test; what is measured is kept."""
-        self._stopping.set()
+    def stop(self) -> None:
+        """Stop the robot, whatever it does: the stop has left when this returns. A running test ends, and what is
+        measured is kept; what was ordered before and not begun yet is not begun."""
+        self._stop.give()
+        self._requests.put(lambda: self._idle.request_car(CarRequest.STOP) if self._idle else None)
 
     def release_hold(self, hold_id: int) -> None:
         """Have the robot go on that is held under this id."""
@@ -81,15 +84,26 @@ class Worker:
 
     def calibrate(self, request: CalibrationRequest) -> None:
         """Have the robot try something."""
-        self._requests.put(lambda: self._idle.calibrate(request) if self._idle else None)
+        self._order(lambda idle: idle.calibrate(request))
 
     def request_car(self, request: CarRequest) -> None:
         """Have the robot check or map the Car, or stop doing so."""
-        self._requests.put(lambda: self._idle.request_car(request) if self._idle else None)
+        if request is CarRequest.STOP:
+            self.stop()
+        else:
+            self._order(lambda idle: idle.request_car(request))
 
     def use_can(self, choice: CanChoice | None) -> None:
         """Change the CAN adapter; CarLinkOpened or Refused comes into the mailbox."""
         self._requests.put(lambda: self._change_car(choice))
+
+    def _order(self, carry_out: Callable[[IdleLoop], None]) -> None:
+        ticket = self._stop.ticket
+        self._requests.put(lambda: self._carry_out(carry_out, ticket))
+
+    def _carry_out(self, order: Callable[[IdleLoop], None], ticket: int) -> None:
+        if self._idle is not None and self._stop.lift(ticket):
+            order(self._idle)
 
     def _run(self) -> None:
         if self._open():
@@ -146,7 +160,7 @@ class Worker:
         return True
 
     def _new_robot(self) -> WatchedRobotLink:
-        return WatchedRobotLink(self._opener.robot(self._connection.robot))
+        return WatchedRobotLink(self._opener.robot(self._connection.robot), self._stop)
 
     def _open_robot(self) -> IdleLoop | None:
         """A session of its own for each purpose: ids of requests begin anew."""
@@ -182,11 +196,13 @@ class Worker:
         else:
             self._mailbox.put(ProgressSaved(""))
 
-    def _measure(self, test: Test) -> None:
+    def _measure(self, test: Test, ticket: int) -> None:
         self._close_robot()
+        # A stop that came meanwhile stays in force, and ends the run at its first Status.
+        self._stop.lift(ticket)
         run = MeasurementRun(test, self._new_robot, self._car, self._mailbox,
                              Answers(self._released, self._person))
-        self._mailbox.put(run.run(self._stopping.is_set, self._run_short_requests))
+        self._mailbox.put(run.run(lambda: self._stop.is_in_force, self._run_short_requests))
 
     def _released(self, _hold_id: int) -> int:
         return self._released_hold

@@ -1,0 +1,72 @@
+"""The Operator's stop: it leaves in the thread that gives it, and nothing that moves the robot leaves after it."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import contextlib
+import threading
+from dataclasses import replace
+from typing import Callable
+
+from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.requests import DesiredState
+
+
+class StopOrder:
+    """Thread-safe; one per application, whatever sessions come and go.
+
+    While it is in force each desired state that leaves is a stop. An order of the Operator lifts it, unless a stop was
+    given after that order.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.RLock()
+        self._count = 0
+        self._is_in_force = False
+        self._send: Callable[[DesiredState], None] | None = None
+        self._newest = DesiredState()
+
+    @property
+    def is_in_force(self) -> bool:
+        """True from a stop to the next order."""
+        return self._is_in_force
+
+    @property
+    def ticket(self) -> int:
+        """What an order that is given now shows to lift()."""
+        return self._count
+
+    def give(self) -> None:
+        """Send a stop now, from any thread, whatever the link's own thread waits for. Without a session there is nobody
+        to send it to, and the robot stands."""
+        with self._lock, contextlib.suppress(OperatorError):
+            self._count += 1
+            self._is_in_force = True
+            if self._send is not None:
+                self._send(_stopped(self._newest))
+
+    def lift(self, ticket: int) -> bool:
+        """The order with this ticket is carried out now; False when a stop came after it, and it is not to be."""
+        with self._lock:
+            if ticket == self._count:
+                self._is_in_force = False
+            return ticket == self._count
+
+    def attach(self, send: Callable[[DesiredState], None]) -> None:
+        """A session begins: this sends its desired states."""
+        with self._lock:
+            self._send, self._newest = send, DesiredState()
+
+    def detach(self) -> None:
+        """The session ends."""
+        with self._lock:
+            self._send = None
+
+    def pass_on(self, send: Callable[[DesiredState], None], desired: DesiredState) -> None:
+        """Send a desired state, as a stop while one is in force."""
+        with self._lock:
+            self._newest = desired
+            send(_stopped(desired) if self._is_in_force else desired)
+
+
+def _stopped(desired: DesiredState) -> DesiredState:
+    return replace(desired, stop=True, press=None)

@@ -1,0 +1,61 @@
+"""Whether the robot may move, so that the view has a stop at hand: from what it reports, and what it was ordered."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+
+from mtr_operator.domain.robot_status import Mode, MotionSource, RobotStatus
+
+# Below these the robot stands: noise of its estimate.
+STANDING_MPS, STANDING_RADPS = 0.02, 0.02
+# Wall time for which an order counts as one under way although the robot does not show it yet, or pauses.
+ORDER_PATIENCE_S = 3.0
+# A lift that moves less than this between two Statuses stands.
+_LIFT_NOISE_M = 0.0005
+ROUNDS = (Mode.MAPPING_CAR, Mode.CHECKING_CAR)
+
+
+def is_driving(status: RobotStatus) -> bool:
+    """True when the wheels turn, or somebody has them turn."""
+    return abs(status.speed_mps) > STANDING_MPS or abs(status.yaw_rate_radps) > STANDING_RADPS or \
+        status.motion_source in (MotionSource.MANUAL, MotionSource.PLANNER)
+
+
+class Motion:
+    """What the Operator orders between two tests; belongs to the view's thread. Times are of one clock, s."""
+
+    def __init__(self) -> None:
+        self._since_s = -math.inf
+        self._is_withdrawn = False
+        self._status: RobotStatus | None = None
+
+    def order(self, now_s: float) -> None:
+        """The robot is ordered to move: to map or check the Car, or to move lift or servos."""
+        self._since_s, self._is_withdrawn = now_s, False
+
+    def stop(self) -> None:
+        """It is ordered to stop; it may still call itself mapping or checking then, and stand."""
+        self._since_s, self._is_withdrawn = -math.inf, True
+
+    def learn(self, status: RobotStatus, now_s: float) -> None:
+        """The newest Status."""
+        before, self._status = self._status, status
+        if status.mode not in ROUNDS:
+            self._is_withdrawn = False
+        if before is not None and _moves_key(before, status) and not self._is_withdrawn:
+            self._since_s = now_s
+
+    def goes_round(self, mode: Mode) -> bool:
+        """True while the robot maps or checks the Car (mode), and was not told to stop."""
+        return self._status is not None and self._status.mode is mode and not self._is_withdrawn
+
+    def is_possible(self, now_s: float) -> bool:
+        """True while it may move."""
+        status = self._status
+        ordered = now_s - self._since_s < ORDER_PATIENCE_S
+        return ordered or (status is not None and (is_driving(status) or any(map(self.goes_round, ROUNDS))))
+
+
+def _moves_key(before: RobotStatus, after: RobotStatus) -> bool:
+    lifted = abs(after.key_height_m - before.key_height_m) > _LIFT_NOISE_M
+    return lifted or bool(after.pressed_buttons)
