@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <initializer_list>
 #include <memory>
 #include <stdexcept>
@@ -30,7 +31,31 @@ struct Problem {
   std::shared_ptr<const Problem> cause;
 
   explicit operator bool() const { return !text.empty(); }
+
+  /// What stays the same while the numbers in the sentence change: a log says each kind once.
+  std::string kind() const;
 };
+
+namespace detail {
+
+inline bool is_number(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0';
+}
+
+}  // namespace detail
+
+inline std::string Problem::kind() const {
+  std::string words;
+  for (const Problem* each = this; each != nullptr && *each; each = each->cause.get()) {
+    words += (each->code.empty() ? each->text : each->code) + '\n';
+    for (const auto& [name, value] : each->arguments) {
+      words += detail::is_number(value) ? "" : value + '\n';
+    }
+  }
+  return words;
+}
 
 /// A problem of which only the text is known.
 inline Problem problem_with_text(const std::string& text) { return {"", text, {}, nullptr}; }

@@ -37,6 +37,12 @@ class Problem:
     def __str__(self) -> str:
         return self.text
 
+    @property
+    def kind(self) -> Tuple[str, ...]:
+        """What stays the same while the numbers in the sentence change: a log says each kind once."""
+        return tuple(word for problem in self.chain() for word in (
+            problem.code or problem.text, *(value for _, value in problem.arguments if not _is_number(value))))
+
     def chain(self) -> Iterator["Problem"]:
         """This problem, its cause, the cause of that and so on; nothing when there is no problem."""
         problem: Optional[Problem] = self
@@ -46,6 +52,14 @@ class Problem:
 
 
 NO_PROBLEM = Problem()
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 class Sentence:

@@ -59,6 +59,14 @@ def test_problem_survives_its_way_through_messages(problem):
     assert problem_of(messages_of(problem, SimpleNamespace), problem.text) == problem
 
 
+def test_a_problem_is_of_the_same_kind_while_only_its_numbers_change():
+    close = {(left_m, side): LOST(cause=TOO_CLOSE(left_m=left_m, side=side, needed_m=1.0)).kind
+             for left_m in (0.1, 0.2) for side in ("left", "right")}
+    assert close[0.1, "left"] == close[0.2, "left"] != close[0.1, "right"]
+    assert LOST(cause=SILENT()).kind not in close.values() and NO_PROBLEM.kind == ()
+    assert Problem(text="One.").kind != Problem(text="Two.").kind
+
+
 def test_text_of_a_sender_without_codes_is_a_problem_without_code():
     assert problem_of([], "Something.") == Problem(text="Something.")
     assert problem_of([], "") == NO_PROBLEM

@@ -42,6 +42,17 @@ TEST(Problem, IsFalseWhenThereIsNone) {
   EXPECT_TRUE(messages_of<Message>(Problem{}).empty());
 }
 
+TEST(Problem, IsOfTheSameKindWhileOnlyItsNumbersChange) {
+  const auto close = [](double left_m, const char* side) {
+    return kLost({{"cause", kTooClose({{"left_m", left_m}, {"side", side}, {"low_m", 0.3}, {"count", 1.0}})}}).kind();
+  };
+  EXPECT_EQ(close(0.12, "ahead"), close(0.34, "ahead"));
+  EXPECT_NE(close(0.12, "ahead"), close(0.12, "behind"));
+  EXPECT_NE(close(0.12, "ahead"), kLost({{"cause", kSilent()}}).kind());
+  EXPECT_NE(problem_with_text("One.").kind(), problem_with_text("Two.").kind());
+  EXPECT_EQ(Problem{}.kind(), "");
+}
+
 TEST(Problem, NeedsAValueForEachPlaceholder) { EXPECT_THROW(kTooClose({{"left_m", 0.1}}), std::invalid_argument); }
 
 TEST(Problem, SurvivesItsWayThroughMessages) {

@@ -5,6 +5,8 @@
 
 #include <geometry_msgs/Twist.h>
 
+#include <utility>
+
 #include "mtr_core/names.hpp"
 #include "mtr_description/robot_description.hpp"
 #include "mtr_drive_control/tip_over.hpp"
@@ -175,17 +177,16 @@ void Node::publish(const mtr_core::Instant& tick, const Decision& decision) {
 }
 
 void Node::log(const Decision& decision) {
-  // While it is blocked the distance in the sentence changes all the time.
-  const std::string& message = decision.message.text;
-  const bool is_news = decision.zone != zone_ || (decision.zone != Zone::kBlocked && message != message_);
-  if (is_news && message != message_) {
-    // The Operator reads warnings.
-    const bool is_stopped = decision.zone == Zone::kBlocked || decision.zone == Zone::kBlind;
-    ROS_LOG(is_stopped ? ros::console::levels::Warn : ros::console::levels::Info, ROSCONSOLE_DEFAULT_NAME, "%s",
-            message.empty() ? "Free to move." : message.c_str());
+  // Distances and durations in the sentence change all the time.
+  std::string kind = decision.message.kind();
+  if (kind == logged_kind_) {
+    return;
   }
-  message_ = message;
-  zone_ = decision.zone;
+  logged_kind_ = std::move(kind);
+  // The Operator reads warnings.
+  const bool is_stopped = decision.zone == Zone::kBlocked || decision.zone == Zone::kBlind;
+  ROS_LOG(is_stopped ? ros::console::levels::Warn : ros::console::levels::Info, ROSCONSOLE_DEFAULT_NAME, "%s",
+          decision.message ? decision.message.text.c_str() : "Free to move.");
 }
 
 }  // namespace mtr_drive_control

@@ -5,6 +5,8 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 
+#include <utility>
+
 #include "mtr_core/clock.hpp"
 #include "mtr_core/names.hpp"
 #include "ros/conversions.hpp"
@@ -54,6 +56,11 @@ void Outputs::publish_map(const MapResult& result, bool with_grid) {
 }
 
 void Outputs::publish_map_from_odom(std::int64_t stamp_ns, const PoseVector& map_from_odom) {
+  // Sweeps of two LiDARs may end at one instant; tf takes no second transform of a time, and complains of each.
+  if (stamp_ns == map_stamp_ns_) {
+    return;
+  }
+  map_stamp_ns_ = stamp_ns;
   transforms_.sendTransform(transform_message(
       stamp_ns, {names::kMap, names::kOdom, map_from_odom.x(), map_from_odom.y(), map_from_odom.z()}));
 }
@@ -61,7 +68,8 @@ void Outputs::publish_map_from_odom(std::int64_t stamp_ns, const PoseVector& map
 void Outputs::publish_transforms(const Estimate& estimate, bool with_map) {
   const auto& odom = publish_odom_tf_ ? estimate.odom : estimate.wheel_odom;
   std::vector<geometry_msgs::TransformStamped> messages;
-  if (with_map) {
+  if (with_map && estimate.stamp_ns != map_stamp_ns_) {
+    map_stamp_ns_ = estimate.stamp_ns;
     messages.push_back(map_from_odom_message(estimate, odom));
   }
   if (publish_odom_tf_) {
@@ -83,16 +91,18 @@ void Outputs::publish_each_second(const PoseSource& source, const Estimate& esti
 }
 
 void Outputs::log(const PoseSource& source, const Estimate& estimate) {
-  if (estimate.message.text == message_) {
+  std::string kind = estimate.message.kind();
+  if (kind == logged_kind_) {
     return;
   }
-  message_ = estimate.message.text;
-  if (message_.empty()) {
+  logged_kind_ = std::move(kind);
+  const std::string& message = estimate.message.text;
+  if (message.empty()) {
     ROS_INFO("Tracking; gyro bias %.5f rad/s.", source.figures().gyro_bias_radps);
   } else if (source.motion_state() == MotionState::kStarting) {
-    ROS_INFO("%s", message_.c_str());
+    ROS_INFO("%s", message.c_str());
   } else {
-    ROS_WARN("%s", message_.c_str());
+    ROS_WARN("%s", message.c_str());
   }
 }
 

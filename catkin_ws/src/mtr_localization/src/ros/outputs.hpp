@@ -39,7 +39,8 @@ class Outputs {
   ros::Publisher diagnostics_;
   tf2_ros::TransformBroadcaster transforms_;
   std::int64_t published_second_ = -1;
-  std::string message_;
+  std::int64_t map_stamp_ns_ = -1;
+  std::string logged_kind_;
 };
 
 }  // namespace mtr_localization

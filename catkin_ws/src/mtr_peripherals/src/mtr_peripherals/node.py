@@ -77,7 +77,7 @@ class PeripheralsNode:
         # From a decision to its last message; a stop that comes in between leaves after them.
         self._deciding = threading.Lock()
         self._health = HealthWatch()
-        self._logged: Optional[Tuple[str, Optional[PressReport]]] = None
+        self._logged: Optional[Tuple[Tuple[str, ...], Optional[PressReport]]] = None
         self._desired = TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER)
         # Lock-step waits for each input, so only for what is needed.
         self._drive = None if parameters.rear_lidar else TickInput(names.DRIVE_STATUS, DriveStatus,
@@ -183,7 +183,7 @@ class PeripheralsNode:
 
     def _log(self, outcome: Outcome) -> None:
         newest = outcome.results[-1] if outcome.results else None
-        now = (outcome.message.text.split(" for ")[0], newest)
+        now = (outcome.message.kind, newest)
         if newest and self._logged and newest != self._logged[1]:
             rospy.loginfo("Press %d: %s", newest.id, newest.error or "done.")
         if outcome.message and (not self._logged or now[0] != self._logged[0]):

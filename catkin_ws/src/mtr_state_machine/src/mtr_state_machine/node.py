@@ -32,7 +32,7 @@ class StateMachineNode:
 
     def __init__(self, parameters: Parameters):
         self._core = StateMachine(parameters)
-        self._logged: Tuple[Optional[State], str, GoalId] = (None, "", NO_GOAL_ID)
+        self._logged: Tuple[Optional[State], Tuple[str, ...], GoalId] = (None, (), NO_GOAL_ID)
         self._inputs = {
             Part.DISPATCHER: TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER),
             Part.LOCALIZATION: TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0),
@@ -62,8 +62,7 @@ class StateMachineNode:
         self._log(decision)
 
     def _log(self, decision: Decision) -> None:
-        reason = decision.lock_reason.text
-        now = (decision.state, reason.split(" for ")[0], decision.goal.id)
+        now = (decision.state, decision.lock_reason.kind, decision.goal.id)
         if now[:2] != self._logged[:2]:
             log = rospy.logwarn if decision.state is State.FAULT else rospy.loginfo
             log("%s. %s", decision.state.name, decision.message)

@@ -88,8 +88,7 @@ class Node {
   ros::Publisher wheels_;
   ros::Publisher status_;
   PublisherWatch publishers_;
-  std::string message_;
-  Zone zone_ = Zone::kClear;
+  std::string logged_kind_;
   /// In a row, since it was asked to leave.
   int zeros_sent_ = 0;
 };
