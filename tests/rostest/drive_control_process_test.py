@@ -22,6 +22,8 @@ IN_FLIGHT_S = 0.05
 # The master is asked once a second.
 INTRUDER_SEEN_S = 1.5
 SAID_WITHIN_S = 1.0
+STARTED_WITHIN_S = 20.0
+OTHER_COMMAND = "/other_base/cmd_vel"
 ACCELERATION_MPS2 = 1.0
 # With a low key, see mtr_drive_control/tip_over.hpp; the last step of a stop may take the rounding with it.
 HARDEST_STEP_MPS = 1.01 * 2.4 * PERIOD_S
@@ -115,6 +117,15 @@ class DriveControlProcess(unittest.TestCase):
         wait_until(lambda: rospy.get_name() in self.message, "a sentence that names the node", SAID_WITHIN_S)
         other.unregister()
         self.cruise()
+
+    def test_it_is_named_also_where_a_launch_file_calls_the_wheels_topic_otherwise(self):  # A12
+        self.node.stop()
+        self.node = NodeProcess("mtr_drive_control", "drive_control_node", "drive_control",
+                                remaps={names.WHEEL_COMMAND: OTHER_COMMAND})
+        other = rospy.Publisher(OTHER_COMMAND, Twist, queue_size=1)
+        wait_until(lambda: rospy.get_name() in self.message and OTHER_COMMAND in self.message,
+                   "a sentence that names the node", STARTED_WITHIN_S)
+        other.unregister()
 
     def test_base_that_the_mast_does_not_survive_or_without_limits_ends_the_node_with_status_2(self):  # A2
         limit = f"/{CONTROLLER}/linear/x/max_acceleration"

@@ -49,6 +49,15 @@ class LaunchFiles(unittest.TestCase):
         for name in limits:
             self.assertEqual(guarded.params["/base_guard" + name].value, shipped[name].value)
 
+    def test_topics_have_the_names_that_a_robot_gives_them(self):
+        robot = load("robot.launch", ["front_scan:=/scan", "wheel_command:=/base/cmd_vel", "publish_odom_tf:=false"])
+        for name in ("drive_control", "localization", "car_locator", "dispatcher"):
+            node = next(node for node in robot.nodes if node.name == name)
+            with self.subTest(name):
+                self.assertIn(["/front/scan", "/scan"], node.remap_args)
+                self.assertIn(["/jackal_velocity_controller/cmd_vel", "/base/cmd_vel"], node.remap_args)
+        self.assertIs(robot.params["/localization/publish_odom_tf"].value, False)
+
     def test_each_node_of_robot_and_simulation_has_an_executable(self):
         for node in load("sim.launch", NEEDED["sim.launch"]).nodes:
             with self.subTest(node.name):

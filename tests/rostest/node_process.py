@@ -3,7 +3,8 @@
 import json
 import signal
 import subprocess
-from typing import Any
+from types import MappingProxyType
+from typing import Any, Mapping
 
 import roslib.packages
 
@@ -14,12 +15,15 @@ END_LIMIT_S = 60.0
 class NodeProcess:
     """One run of a node; parameters are private ones."""
 
-    def __init__(self, package: str, executable: str, name: str, **parameters: Any):
+    def __init__(self, package: str, executable: str, name: str, remaps: Mapping[str, str] = MappingProxyType({}),
+                 **parameters: Any):
+        """remaps: topics by other names."""
         path = roslib.packages.find_node(package, executable)[0]
         # Of C++ nodes a quoted text would keep its quotes.
         values = [f"_{key}:={value if isinstance(value, str) else json.dumps(value)}"
                   for key, value in parameters.items()]
-        self._process = subprocess.Popen([path, f"__name:={name}", *values], stdout=subprocess.PIPE, text=True)
+        others = [f"{old}:={new}" for old, new in remaps.items()]
+        self._process = subprocess.Popen([path, f"__name:={name}", *others, *values], stdout=subprocess.PIPE, text=True)
 
     def signal(self, number: int) -> None:
         """Send it a signal."""

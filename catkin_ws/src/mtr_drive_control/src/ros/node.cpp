@@ -31,10 +31,12 @@ std::vector<std::string> owners_of(const NodeParameters& parameters) {
 
 std::map<std::string, std::string> permitted_publishers(bool has_guard) {
   const std::string& own = ros::this_node::getName();
+  // The master knows topics by the names that a launch file has given them.
+  const std::string wheels = ros::names::resolve(names::kWheelCommand);
   if (has_guard) {
-    return {{names::kGuardedWheelCommand, own}, {names::kWheelCommand, names::kBaseGuard}};
+    return {{ros::names::resolve(names::kGuardedWheelCommand), own}, {wheels, names::kBaseGuard}};
   }
-  return {{names::kWheelCommand, own}};
+  return {{wheels, own}};
 }
 
 void log_limits(const NodeParameters& parameters) {
