@@ -112,12 +112,20 @@ class LiveRobot:
         return ordered_s
 
     def release(self) -> None:
-        """Hold the buttons that release the emergency stop."""
-        for button in RELEASE_BUTTONS:
-            self._joy.buttons[button] = 1
+        """Release the emergency stop."""
+        self.hold_release()
         released = time.monotonic() + RELEASE_HELD_S
         self.wait_until(lambda: time.monotonic() > released
                         and self.status.emergency_stop == link.EMERGENCY_STOP_RELEASED, "the release")
+        self.let_go()
+
+    def hold_release(self) -> None:
+        """Hold the buttons that release the emergency stop."""
+        for button in RELEASE_BUTTONS:
+            self._joy.buttons[button] = 1
+
+    def let_go(self) -> None:
+        """Hold no button."""
         self._joy.buttons = [0] * BUTTONS
 
     def keep_driving(self) -> None:
@@ -134,7 +142,12 @@ class LiveRobot:
 
     def wait_for_motion(self, limit_s: float) -> None:
         """Return when the robot drives."""
-        self.wait_until(lambda: bool(self.wheels) and abs(self.wheels[-1].linear_mps) > MOVES_MPS, "motion", limit_s)
+        self.wait_until(lambda: self.moves, "motion", limit_s)
+
+    @property
+    def moves(self) -> bool:
+        """True while the wheels do."""
+        return bool(self.wheels) and abs(self.wheels[-1].linear_mps) > MOVES_MPS
 
     def wait_until(self, condition: Callable[[], Any], what: str, limit_s: float = START_LIMIT_S) -> None:
         """Wait, and keep the robot driving; LiveError when it takes longer."""

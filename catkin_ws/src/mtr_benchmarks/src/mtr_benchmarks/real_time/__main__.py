@@ -14,11 +14,12 @@ from typing import Any, ContextManager, Dict, Iterator, List, Optional, Tuple
 
 from ..harness.report import BenchmarkReport, finish
 from ..liveness.alarms import AlarmWatch
-from ..liveness.live_robot import LiveRobot
+from ..liveness.live_robot import MACHINE_CLOCK, LiveRobot
 from .arrivals import by_node
-from .judge import Machine, judged
+from .judge import Machine, judged, restart_row
 from .measurement import Stretch, measure
 from .other_work import other_work
+from .restarts import NODES, ROUNDS, Restart, restarts
 
 DRIVE_S, STOPS = 60.0, 20
 SHORT_DRIVE_S, SHORT_STOPS = 5.0, 3
@@ -48,27 +49,39 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--short", action="store_true", help="a short drive and a few stops of each")
     parser.add_argument("--machines", nargs="*", choices=[each.value for each in Machine],
                         default=[each.value for each in Machine], help="idle, busy or both")
+    parser.add_argument("--restarts", nargs="*", default=NODES, choices=NODES, help="nodes to kill")
     options = parser.parse_args(arguments)
     folder = options.out / "real_time"
     drive_s, stops = (SHORT_DRIVE_S, SHORT_STOPS) if options.short else (DRIVE_S, STOPS)
-    found, noted = _measured(folder, drive_s, stops, [Machine(name) for name in options.machines])
+    with LiveRobot(folder, clock={**MACHINE_CLOCK, "respawn": "true"}) as robot:
+        robot.start()
+        found, noted = _measured(robot, folder, drive_s, stops, [Machine(name) for name in options.machines])
+        killed = restarts(robot, 1 if options.short else ROUNDS, options.restarts)
     arrivals = by_node(noted["callers"])
     rows, figures = judged(found, arrivals, noted["tf_age_s"])
+    rows += [restart_row(killed)] if killed else []
     remarks = [f"{machine.value}: {alarm}" for machine, stretch in found.items() for alarm in stretch.alarms]
+    remarks += [_restart_line(each) for each in killed]
+    figures["restarts"] = [each._asdict() for each in killed]
     figures["stretches"] = {machine.value: asdict(stretch) for machine, stretch in found.items()}
     return finish(BenchmarkReport(rows, figures, remarks), options.out / "real_time.json")
 
 
-def _measured(folder: pathlib.Path, drive_s: float, stops: int,
+def _restart_line(found: Restart) -> str:
+    stood = "drove on" if found.stood_s is None else f"stood after {found.stood_s:.2f} s"
+    again = f"drove again after {found.recovered_s:.1f} s" if found.recovered_s is not None else found.why
+    return f"{found.node} killed at {found.speed_mps:.2f} m/s: {stood}; {again}" + (
+        ", with the Car mapped again" if found.mapped_again else "")
+
+
+def _measured(robot: LiveRobot, folder: pathlib.Path, drive_s: float, stops: int,
               machines: List[Machine]) -> Tuple[Dict[Machine, Stretch], Dict[str, Any]]:
     found = {}
-    with LiveRobot(folder) as robot:
-        robot.start()
-        probe, watch = Probe(), AlarmWatch()
-        for machine in machines:
-            with _machine(machine, folder):
-                found[machine] = measure(robot, watch, drive_s, stops)
-        return found, probe.close()
+    probe, watch = Probe(), AlarmWatch()
+    for machine in machines:
+        with _machine(machine, folder):
+            found[machine] = measure(robot, watch, drive_s, stops)
+    return found, probe.close()
 
 
 def _machine(machine: Machine, folder: pathlib.Path) -> ContextManager[None]:

@@ -7,6 +7,7 @@ from typing import Any, Dict, List, Mapping, Sequence, Tuple
 from ..harness.rows import Requirement, Row
 from .arrivals import silences, worst
 from .measurement import Stretch
+from .restarts import Restart
 
 
 class Machine(enum.Enum):
@@ -28,6 +29,7 @@ STOP = {Machine.IDLE: Requirement("the Operator's stop to the first slower comma
         Machine.BUSY: Requirement("the same, busy", "s", must=0.4)}
 ALARMS = {Machine.IDLE: Requirement("alarms of the nodes, idle", "(count)", must=0.0),
           Machine.BUSY: Requirement("the same, busy", "(count)", must=0.0)}
+RESTARTS = Requirement("killed nodes after which the robot drove again", "(share)", must=1.0, at_least=True)
 CPU = Requirement("processor time of all the robot's nodes, idle", "(share of a core)", goal=0.25, must=0.3)
 
 
@@ -58,6 +60,13 @@ def judged(found: Mapping[Machine, Stretch], arrivals: Mapping[str, Sequence[flo
         figures["echo_s"][machine.value] = _distribution(stretch.echoes_s)
         figures["cpu"][machine.value] = stretch.cpu
     return rows, figures
+
+
+def restart_row(made: Sequence[Restart]) -> Row:
+    """Of all deaths of nodes."""
+    recovered_s = [each.recovered_s for each in made if each.recovered_s is not None]
+    return Row(RESTARTS, len(recovered_s) / len(made),
+               remark=f"{len(made)} killed; at the latest after {max(recovered_s, default=0.0):.1f} s")
 
 
 def _distribution(values: Sequence[float]) -> Dict[str, float]:
