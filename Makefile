@@ -45,8 +45,10 @@ setup: ## Install the missing Debian and Python packages
 build: $(STAMPS)/build ## Build the proto and the catkin workspace
 
 $(STAMPS)/build: $(BUILD_INPUTS) setup/debian-packages.txt setup/python-requirements.txt | setup
+	@# What is changed while it builds is younger than the stamp.
+	@touch $@.begun
 	@setup/build.sh
-	@touch $@
+	@mv $@.begun $@
 
 demo: setup build $(if $(EMULATED),firmware) ## Run both scenarios on the simulated robot and Car; results in out/demo
 	@$(RUN) python -m mtr_bringup.demo --seed $(SEED) --car $(CAR) --out out/demo $(if $(EMULATED),--firmware $(FIRMWARE_ELF))
