@@ -11,6 +11,7 @@ class BuddyLabel(QLabel):
 
     def __init__(self, title: str, field: QWidget):
         super().__init__(title)
+        self.setWordWrap(True)
         self.setBuddy(field)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:

@@ -50,6 +50,7 @@ class PicturePanel(QWidget):
     @staticmethod
     def _tool(text: str, hint: str) -> QPushButton:
         button = QPushButton(text)
+        button.setProperty("role", "tool")
         button.setAccessibleName(hint)
         button.setToolTip(hint)
         return button

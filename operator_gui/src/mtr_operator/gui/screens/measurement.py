@@ -21,7 +21,9 @@ from ..theme.appearance import Appearance
 from ..theme.scale import L, M, S
 from .measurement_facts import MeasurementFacts
 
-_SIDE_WIDTH = 400
+# Has no width, and a row may end there.
+_BREAK = "\N{ZERO WIDTH SPACE}"
+_SIDE_WIDTH, _MIN_SIDE_WIDTH = 400, 330
 
 
 class MeasurementScreen(QWidget):
@@ -86,14 +88,15 @@ class MeasurementScreen(QWidget):
         for button in (self.go_on, self.taken, self.resume, self.save, self.leave):
             side.addWidget(button)
         holder = QWidget()
-        holder.setFixedWidth(_SIDE_WIDTH)
+        holder.setMinimumWidth(_MIN_SIDE_WIDTH)
+        holder.setMaximumWidth(_SIDE_WIDTH)
         side.setContentsMargins(0, 0, 0, 0)
         holder.setLayout(side)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(L)
-        layout.addWidget(self.panel, 1)
-        layout.addWidget(holder)
+        layout.addWidget(self.panel, 3)
+        layout.addWidget(holder, 2)
 
     def show_model(self) -> None:
         """Something of robot, Car or test is another one."""
@@ -136,8 +139,8 @@ class MeasurementScreen(QWidget):
             self.answered.emit()
 
     def say(self, sentence: str) -> None:
-        """Show a sentence above the buttons."""
-        self.note.setText(sentence)
+        """Show a sentence above the buttons; a path in it may go on in the next row."""
+        self.note.setText(sentence.replace("/", f"/{_BREAK}").replace("_", f"_{_BREAK}"))
 
     def showEvent(self, event: QShowEvent) -> None:
         """See QWidget."""

@@ -24,7 +24,7 @@ from ..pictures.protocol_picture import Protocol, ProtocolPicture
 from ..report_writer import CSV, PDF, PNG, SVG, ReportWriter
 from ..sentences import translated
 from ..theme.appearance import Appearance
-from ..theme.scale import L, M, S
+from ..theme.scale import M, S
 from ..verdict_text import verdict_text
 from .budget_model import BudgetModel
 from .results_model import PLACE_COLUMN, ResultsModel
@@ -93,7 +93,7 @@ class ProtocolScreen(QWidget):
         table.setTabKeyNavigation(False)
         table.verticalHeader().hide()
         table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        table.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
         return table
 
     @staticmethod
@@ -125,8 +125,8 @@ class ProtocolScreen(QWidget):
         for table, height in ((self.table, _TABLE_HEIGHT), (self.budget, _BUDGET_HEIGHT)):
             table.setMinimumHeight(height)
         layout = QHBoxLayout(self)
-        layout.setContentsMargins(L, L, L, L)
-        layout.setSpacing(L)
+        layout.setContentsMargins(M, M, M, M)
+        layout.setSpacing(M)
         layout.addWidget(self.panel, 2)
         layout.addWidget(holder, 3)
 

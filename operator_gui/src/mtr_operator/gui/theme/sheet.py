@@ -42,6 +42,9 @@ QPushButton[role="danger"]:disabled { color: $ink_soft; background: $window; bor
 QPushButton[role="stop"] { background: $surface; color: $danger; border: 2px solid $danger; font-weight: 700; }
 QPushButton[role="stop"][moving="true"] { background: $stop; color: $on_stop; border: 2px solid $stop; }
 QPushButton[role="stop"]:focus { border: 3px solid $ink; padding: 6px 16px; }
+QPushButton[role="tool"] { padding: 8px 8px; }
+QPushButton[role="tool"]:hover { padding: 7px 7px; }
+QPushButton[role="tool"]:focus { padding: 6px 6px; }
 QPushButton[role="tile"] { font-size: ${large_pt}pt; padding: 18px 24px; text-align: left; }
 QPushButton[role="flat"] { background: transparent; border: 2px solid transparent; padding: 3px 4px; color: $accent;
     text-align: left; min-height: 28px; }
