@@ -27,6 +27,7 @@ from mtr_operator.gui.fitting import place
 from mtr_operator.gui.flow import Step
 from mtr_operator.gui.header.step_bar import StepBar
 from mtr_operator.gui.header.stop_button import StopButton
+from mtr_operator.gui.header.symbols import BatterySymbol
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
 from mtr_operator.gui.windows.connection_window import ConnectionWindow
 from mtr_operator.gui.windows.main_window import MainWindow
@@ -132,15 +133,27 @@ def faults(window):
         field = box.style().subControlRect(QStyle.CC_ComboBox, option, QStyle.SC_ComboBoxEditField, box)
         if box.fontMetrics().horizontalAdvance(box.currentText()) > field.width():
             found.append(f"{box.currentText()!r} is cut in its box")
-    for table in visible(window, QTableView):
-        wide = sum(table.columnWidth(column) for column in range(table.model().columnCount())) if table.model() else 0
-        if wide > table.viewport().width() and not table.horizontalScrollBar().isVisible():
-            found.append("columns of a table are out of sight")
-    for bar in visible(window, StepBar):
-        if bar.texts() == bar._variants()[-1] and bar._width_of(bar.texts()) > bar.width():
-            found.append("the steps are cut")
     found += [f"{widget.text()!r} is cut by {by}" for widget in texts if (by := cut_off(widget, window))]
     return found
+
+
+def faults_of_tables(window):
+    """The same of tables."""
+    found = []
+    for table in visible(window, QTableView):
+        widths = [table.columnWidth(column) for column in range(table.model().columnCount() if table.model() else 0)]
+        if sum(widths) > table.viewport().width() and not table.horizontalScrollBar().isVisible():
+            found.append("columns of a table are out of sight")
+        found += [f"column {column} of a table is elided" for column, width in enumerate(widths)
+                  if table.sizeHintForColumn(column) > width]
+    return found
+
+
+def faults_of_symbols(window):
+    """The same of what paints its own text."""
+    steps = [bar for bar in visible(window, StepBar) if bar.minimumSizeHint().width() > bar.width()]
+    batteries = [symbol for symbol in visible(window, BatterySymbol) if symbol.sizeHint().width() > symbol.width()]
+    return [f"{type(symbol).__name__} is cut" for symbol in (*steps, *batteries)]
 
 
 def assert_fits(window, monkeypatch, wanted=None):
@@ -153,7 +166,8 @@ def assert_fits(window, monkeypatch, wanted=None):
             QApplication.processEvents()
         if not QRect(QPoint(0, 0), size).contains(window.geometry()):
             found.append(f"{name}: the window is {window.geometry()}")
-        found += [f"{name}: {fault}" for fault in (*faults(window), *lost_stops(window))]
+        found += [f"{name}: {fault}" for fault in (
+            *faults(window), *faults_of_tables(window), *faults_of_symbols(window), *lost_stops(window))]
     assert not found, "\n".join(found)
 
 

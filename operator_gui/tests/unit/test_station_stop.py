@@ -7,20 +7,21 @@ import pytest
 from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.geometry.pose import Pose
-from mtr_operator.domain.ports import LinkStatistics, RobotLink
+from mtr_operator.domain.ports import LinkStatistics, LockState, RobotLink
 from mtr_operator.domain.requests import DesiredState, Press, Waypoint
 from mtr_operator.domain.robot_status import Mode, MotionSource, RobotStatus
 from mtr_operator.robot_link.client import ZmqRobotLink
 from mtr_operator.robot_link.conversions import decode_command
 from mtr_operator.robot_link.server import ConnectionServer
 from mtr_operator.station.connection import Connection, LinkOpener
-from mtr_operator.station.events import LinksOpened
+from mtr_operator.station.events import LinksOpened, RobotSnapshot
 from mtr_operator.station.links.idle_loop import CalibrationRequest, CarRequest
 from mtr_operator.station.links.stop_order import StopOrder
 from mtr_operator.station.links.watched_link import WatchedRobotLink
 from mtr_operator.station.links.worker import Worker
 from mtr_operator.station.mailbox import Mailbox
 from mtr_operator.station.motion import ORDER_PATIENCE_S, Motion
+from mtr_operator.station.readiness import Phase, readiness_of
 
 LIMIT_S = 30.0
 GO = DesiredState(waypoint=Waypoint(1, Pose(2.0, 0.0, 0.0)), press=Press(1, (2,), 0.5, 0.2))
@@ -187,7 +188,8 @@ def status(**changes):
 @pytest.mark.parametrize(("changes", "may_move"), [
     ({}, False), ({"speed_mps": -0.1}, True), ({"yaw_rate_radps": 0.1}, True), ({"speed_mps": 0.01}, False),
     ({"motion_source": MotionSource.MANUAL}, True), ({"motion_source": MotionSource.LOCKED}, False),
-    ({"mode": Mode.MAPPING_CAR}, True), ({"mode": Mode.CHECKING_CAR}, True), ({"mode": Mode.STARTING}, False)])
+    ({"mode": Mode.MAPPING_CAR}, False), ({"mode": Mode.MAPPING_CAR, "speed_mps": 0.1}, True),
+    ({"mode": Mode.STARTING}, False)])
 def test_robot_may_move_by_what_it_reports(changes, may_move):
     motion = Motion()
     motion.learn(status(**changes), 10.0)
@@ -212,9 +214,28 @@ def test_stopped_robot_that_still_calls_itself_mapping_may_not_move_once_it_stan
     assert not motion.is_possible(12.0)
 
 
+@pytest.mark.parametrize("mode", [Mode.MAPPING_CAR, Mode.CHECKING_CAR])
+def test_robot_that_was_ordered_round_the_car_may_move_until_it_has_finished(mode):
+    motion = Motion()
+    motion.order(10.0)
+    motion.learn(status(mode=mode), 100.0)
+    assert motion.goes_round(mode) and motion.is_possible(100.0)
+    motion.learn(status(), 101.0)
+    assert not motion.is_possible(101.0)
+
+
+def test_robot_left_mapping_by_a_former_application_does_not_hinder_a_test():
+    motion, robot = Motion(), status(mode=Mode.MAPPING_CAR)
+    motion.learn(robot, 10.0)
+    snapshot = RobotSnapshot(robot, LockState.LOCKED, "")
+    assert readiness_of(snapshot, 0.0, Phase.IDLE, motion).can_start
+
+
 def test_key_that_is_lifted_or_pressed_counts_as_motion():
     motion = Motion()
+    motion.order(0.0)
     motion.learn(status(), 10.0)
+    assert not motion.is_possible(10.0)
     motion.learn(RobotStatus(2, 1, 0.2, key_height_m=1.02), 11.0)
     assert motion.is_possible(11.1)
     motion.learn(RobotStatus(3, 1, 0.3, key_height_m=1.02, pressed_buttons=(1,)), 20.0)

@@ -26,28 +26,27 @@ class Motion:
 
     def __init__(self) -> None:
         self._since_s = -math.inf
-        self._is_withdrawn = False
+        self._is_ordered = False
         self._status: RobotStatus | None = None
 
     def order(self, now_s: float) -> None:
         """The robot is ordered to move: to map or check the Car, or to move lift or servos."""
-        self._since_s, self._is_withdrawn = now_s, False
+        self._since_s, self._is_ordered = now_s, True
 
     def stop(self) -> None:
-        """It is ordered to stop; it may still call itself mapping or checking then, and stand."""
-        self._since_s, self._is_withdrawn = -math.inf, True
+        """It is ordered to stop, or a test is over; it may still call itself mapping or checking then, and stand."""
+        self._since_s, self._is_ordered = -math.inf, False
 
     def learn(self, status: RobotStatus, now_s: float) -> None:
         """The newest Status."""
         before, self._status = self._status, status
-        if status.mode not in ROUNDS:
-            self._is_withdrawn = False
-        if before is not None and _moves_key(before, status) and not self._is_withdrawn:
+        if before is not None and self._is_ordered and _moves_key(before, status):
             self._since_s = now_s
 
     def goes_round(self, mode: Mode) -> bool:
-        """True while the robot maps or checks the Car (mode), and was not told to stop."""
-        return self._status is not None and self._status.mode is mode and not self._is_withdrawn
+        """True while the robot maps or checks the Car (mode); one whose order has gone only calls itself so."""
+        status = self._status
+        return status is not None and status.mode is mode and (self._is_ordered or is_driving(status))
 
     def is_possible(self, now_s: float) -> bool:
         """True while it may move."""

@@ -136,7 +136,6 @@ class ViewModel:
 
     def begin(self) -> None:
         """The test at hand is started or continued now."""
-        self.order_motion()
         self.phase, self.trouble, self.outcome = Phase.MEASURING, "", None
         self._expect()
 
@@ -184,6 +183,7 @@ class ViewModel:
             self._judge()
         elif isinstance(event, RunEnded):
             self.results, self.outcome, self.trouble = event.results, event.outcome, event.text
+            self.motion.stop()
             self.phase = Phase.FINISHED if event.outcome is Outcome.COMPLETE else Phase.PAUSED
             self._judge()
         elif isinstance(event, HandleWanted):

@@ -6,7 +6,7 @@ import math
 
 from PyQt5.QtCore import QPointF, QRectF, QSize, Qt
 from PyQt5.QtGui import QColor, QPainter, QPainterPath, QPaintEvent, QPen
-from PyQt5.QtWidgets import QToolButton, QWidget
+from PyQt5.QtWidgets import QSizePolicy, QToolButton, QWidget
 
 from mtr_operator.station.readiness import EMPTY_BATTERY_PERCENT, LOW_BATTERY_PERCENT
 
@@ -14,6 +14,8 @@ from ..theme.appearance import Appearance
 
 _SIZE = 34
 _TEETH = 8
+# Of the battery.
+_TEXT_LEFT = 44
 
 
 class BatterySymbol(QWidget):
@@ -23,9 +25,17 @@ class BatterySymbol(QWidget):
         super().__init__(parent)
         self._appearance = appearance
         self._percent: int | None = None
-        self.setFixedSize(92, _SIZE)
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         appearance.changed.connect(self.update)
         self.show_percent(None)
+
+    def sizeHint(self) -> QSize:
+        """See QWidget; the charge never moves what stands beside it."""
+        return QSize(_TEXT_LEFT + self.fontMetrics().horizontalAdvance("100 %") + 2, _SIZE)
+
+    def minimumSizeHint(self) -> QSize:
+        """See QWidget."""
+        return self.sizeHint()
 
     def show_percent(self, percent: int | None) -> None:
         """Show a charge; None is an unknown one."""
@@ -50,7 +60,8 @@ class BatterySymbol(QWidget):
                 palette.warning if percent < LOW_BATTERY_PERCENT else palette.ok
             painter.fillRect(QRectF(5, 11, 28 * min(percent, 100) / 100.0, 12), QColor(colour))
         text = "\N{EN DASH}" if percent is None else f"{percent} %"
-        painter.drawText(QRectF(44, 0, 48, _SIZE), Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
+        room = QRectF(_TEXT_LEFT, 0, self.width() - _TEXT_LEFT, _SIZE)
+        painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
 
 
 class LockSymbol(QWidget):

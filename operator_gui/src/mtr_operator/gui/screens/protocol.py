@@ -27,7 +27,7 @@ from ..theme.appearance import Appearance
 from ..theme.scale import M, S
 from ..verdict_text import verdict_text
 from .budget_model import BudgetModel
-from .results_model import PLACE_COLUMN, ResultsModel
+from .results_model import ResultsModel
 
 _SIDE_WIDTH = 600
 _TABLE_HEIGHT, _BUDGET_HEIGHT = 180, 140
@@ -62,7 +62,6 @@ class ProtocolScreen(QWidget):
         self.table = self._make_table(self.tr("Results; choose a row to see its points"))
         self.budget = self._make_table(self.tr("What the uncertainty of the chosen row is made of"))
         self.budget.setSelectionMode(QTableView.NoSelection)
-        self.budget.horizontalHeader().setStretchLastSection(True)
         self.budget.hide()
         self.save = self._button(self.tr("Save"), "primary", lambda: self._write((CSV, PNG)))
         self.save.setToolTip(self.tr("Save as CSV and PNG"))
@@ -142,7 +141,6 @@ class ProtocolScreen(QWidget):
         self.title.setText(self.tr("{scenario} protocol").format(scenario=scenario_title(test.scenario)))
         self.date.setText(date_text(str(progress.session.get("started", ""))))
         self.table.setModel(ResultsModel(protocol, self))
-        self.table.horizontalHeader().setSectionResizeMode(PLACE_COLUMN, QHeaderView.ResizeMode.Stretch)
         self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
         self.panel.legend.show_sets(protocol.picture.point_sets)
         self.panel.view.show_layers(self._shown.layers)

@@ -17,7 +17,6 @@ _CM_PER_M = 100.0
 _FIXED_COLUMNS = 2
 # Columns of each distance.
 _DISTANCE, _INTERVAL = 0, 2
-PLACE_COLUMN = 1
 
 
 class ResultsModel(QAbstractTableModel):

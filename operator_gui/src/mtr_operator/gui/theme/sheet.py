@@ -51,7 +51,7 @@ QPushButton[role="flat"] { background: transparent; border: 2px solid transparen
 QPushButton[role="flat"]:hover { text-decoration: underline; border: 2px solid transparent; padding: 3px 4px; }
 QPushButton[role="flat"]:checked { background: transparent; color: $accent; }
 QPushButton[role="flat"]:focus { border: 2px solid $accent; padding: 3px 4px; }
-QPushButton[word] { min-height: 32px; padding: 4px 16px; border-radius: 20px; color: $on_signal; }
+QPushButton[word] { min-height: 32px; padding: 4px 10px; border-radius: 20px; color: $on_signal; }
 QPushButton[word="ready"] { background: $ok; border-color: $ok; }
 QPushButton[word="ready with warnings"] { background: $warning; border-color: $warning; }
 QPushButton[word="not ready"], QPushButton[word="communication lost"],

@@ -4,12 +4,12 @@
 <context>
     <name>BatterySymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="33"/>
+        <location filename="../header/symbols.py" line="43"/>
         <source>Battery of the robot: unknown</source>
         <translation>Baterie robotu: neznámá</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="34"/>
+        <location filename="../header/symbols.py" line="44"/>
         <source>Battery of the robot: {percent} %</source>
         <translation>Baterie robotu: {percent} %</translation>
     </message>
@@ -219,7 +219,7 @@
 <context>
     <name>CogwheelButton</name>
     <message>
-        <location filename="../header/symbols.py" line="102"/>
+        <location filename="../header/symbols.py" line="113"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
@@ -367,12 +367,12 @@
 <context>
     <name>LockSymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="72"/>
+        <location filename="../header/symbols.py" line="83"/>
         <source>The link to the robot is encrypted.</source>
         <translation>Spojení s robotem je šifrované.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="73"/>
+        <location filename="../header/symbols.py" line="84"/>
         <source>The link to the robot is not encrypted.</source>
         <translation>Spojení s robotem není šifrované.</translation>
     </message>
@@ -506,32 +506,32 @@
 <context>
     <name>MeasurementScreen</name>
     <message>
-        <location filename="../screens/measurement.py" line="54"/>
+        <location filename="../screens/measurement.py" line="56"/>
         <source>Resume</source>
         <translation>Pokračovat</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="55"/>
+        <location filename="../screens/measurement.py" line="57"/>
         <source>Save progress</source>
         <translation>Uložit průběh</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="56"/>
+        <location filename="../screens/measurement.py" line="58"/>
         <source>Back to the beginning</source>
         <translation>Zpět na začátek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="52"/>
+        <location filename="../screens/measurement.py" line="54"/>
         <source>Have the robot go on</source>
         <translation>Nechat robot pokračovat</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="53"/>
+        <location filename="../screens/measurement.py" line="55"/>
         <source>Handle taken</source>
         <translation>Klika uchopena</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="125"/>
+        <location filename="../screens/measurement.py" line="128"/>
         <source>Take the Car&apos;s handle now, with the Remote key at {distance} m, and then say so here, by Enter or the button. When the Car unlocks, nothing more is to be done.</source>
         <translation>Uchopte nyní kliku auta, klíč je ve vzdálenosti {distance} m, a pak to zde potvrďte klávesou Enter nebo tlačítkem. Když se auto odemkne, není třeba nic dalšího.</translation>
     </message>
@@ -1239,67 +1239,67 @@
         <translation>Výsledky; vyberte řádek a uvidíte jeho body</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="67"/>
+        <location filename="../screens/protocol.py" line="66"/>
         <source>Save</source>
         <translation>Uložit</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="68"/>
+        <location filename="../screens/protocol.py" line="67"/>
         <source>Save as CSV and PNG</source>
         <translation>Uložit jako CSV a PNG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="69"/>
+        <location filename="../screens/protocol.py" line="68"/>
         <source>Save PDF</source>
         <translation>Uložit PDF</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="70"/>
+        <location filename="../screens/protocol.py" line="69"/>
         <source>Save SVG</source>
         <translation>Uložit SVG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="71"/>
+        <location filename="../screens/protocol.py" line="70"/>
         <source>Show folder</source>
         <translation>Ukázat složku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="72"/>
+        <location filename="../screens/protocol.py" line="71"/>
         <source>New test</source>
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="142"/>
+        <location filename="../screens/protocol.py" line="141"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="164"/>
+        <location filename="../screens/protocol.py" line="162"/>
         <source>{count} lines, {invalid} of them invalid. Not saved as CSV and PNG yet.</source>
         <translation>Počet přímek: {count}, z toho neplatných: {invalid}. Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="166"/>
+        <location filename="../screens/protocol.py" line="164"/>
         <source>{count} lines. Not saved as CSV and PNG yet.</source>
         <translation>Počet přímek: {count}. Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="208"/>
+        <location filename="../screens/protocol.py" line="206"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="213"/>
+        <location filename="../screens/protocol.py" line="211"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="217"/>
+        <location filename="../screens/protocol.py" line="215"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="156"/>
+        <location filename="../screens/protocol.py" line="154"/>
         <source>Verdict: {verdict}.</source>
         <translation>Verdikt: {verdict}.</translation>
     </message>
