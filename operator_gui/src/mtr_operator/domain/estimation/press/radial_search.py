@@ -34,8 +34,9 @@ PRESSES_IN_DOUBT = 3
 UNLIKELY_TO_WORK = 0.05
 # Fewer presses look sharp by luck where the width is not known from other radials yet.
 MIN_PRESSES = 9
-# A smaller share of lapses is not looked for; before anything is measured more is taken for likely.
-_LAPSES_RARELY = 0.005
+# A smaller share of lapses is not looked for: an end that one of them made would be rarer than one in a hundred. Before
+# anything is measured more is taken for likely.
+_LAPSES_RARELY = 0.01
 # The line's own interval is drawn, which takes some hundredths of a second: whenever the mean curve's is no wider than
 # this times what is wanted, and at the end.
 _WORTH_DRAWING = 3.0
