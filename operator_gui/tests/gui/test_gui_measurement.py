@@ -130,6 +130,39 @@ def test_silent_robot_pauses_the_test_and_resume_goes_on(operator, opener):
         presses(result) for result in measured]
 
 
+def test_values_of_a_silent_robot_are_grey_with_their_age_and_nothing_is_foretold__B1(operator, opener):
+    screen = operator.begin("handle_request", border_distance_m="1.8", handle_timeout_s="3600")
+    operator.wait(screen.taken.isVisible)
+    facts = screen.facts
+    assert not facts.age.isVisible() and not facts.values["speed"].property("stale")
+    opener.is_silent = True
+    operator.wait(facts.age.isVisible)
+    assert facts.age.text().endswith(" s old.")
+    assert all(facts.values[name].property("stale") for name in ("locks", "key", "speed", "position"))
+    assert "left" not in facts.left.text() and facts.action.text() == "Waits until the robot is heard again."
+    opener.is_silent = False
+    operator.wait(lambda: not facts.age.isVisible() and not facts.values["speed"].property("stale"))
+    operator.click(operator.window.header.stop)
+
+
+def test_banner_of_a_cause_that_has_gone_is_red_no_more__B2(operator, opener):
+    screen = operator.begin()
+    operator.wait(lambda: operator.model.done >= 1)
+    opener.car_problem = "No CAN frame for 0.6 s; check the plug, the bit rate and that the Car is awake."
+    operator.wait(lambda: operator.model.phase is Phase.PAUSED and screen.trouble.isVisible())
+    assert screen.trouble.property("role") == "banner"
+    opener.car_problem = ""
+    operator.wait(lambda: screen.trouble.property("role") == "notice")
+
+
+def test_small_uncertainty_of_the_position_is_not_zero__A8(operator, opener):
+    screen = operator.begin("handle_request", border_distance_m="1.8", handle_timeout_s="3600")
+    operator.wait(screen.taken.isVisible)
+    opener.spoil_with(position_sigma_m=0.003)
+    operator.wait(lambda: screen.facts.values["position"].text() == "\N{PLUS-MINUS SIGN}0.3 cm")
+    operator.click(operator.window.header.stop)
+
+
 def test_lost_can_bus_pauses_the_test_and_resume_goes_on(operator, opener):
     screen = operator.begin()
     operator.wait(lambda: operator.model.done >= 1)

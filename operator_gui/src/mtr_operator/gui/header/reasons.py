@@ -54,8 +54,8 @@ def blocked_text(readiness: Readiness) -> str:
 def advice_text(reason: Reason) -> str:
     """What to do about it; empty when the sentence says it already."""
     return {
-        Cause.ROBOT_SILENT: translate("Status", "Check the Wi-Fi and that the robot is on. The robot stands still "
-                                                "meanwhile; the link comes back by itself."),
+        Cause.ROBOT_SILENT: translate("Status", "Check the Wi-Fi and that the robot is on. A robot that hears nobody "
+                                                "stops by itself; the link comes back by itself."),
         Cause.ROBOT_STARTING: translate("Status", "Wait a moment."),
         Cause.ROBOT_FAULT: translate("Status", "Make sure that nothing blocks the robot; if the fault stays, switch "
                                                "the robot off and on."),

@@ -107,11 +107,20 @@ class MeasurementScreen(QWidget):
         self.facts.show_model(model)
         self.trouble.setVisible(bool(model.trouble) and model.phase is Phase.PAUSED)
         self.trouble.setText(translated(model.trouble))
+        self._show_cause(can_resume(model.readiness))
         self._show_hold()
         self._show_handle()
         self.resume.setVisible(model.phase is Phase.PAUSED)
         self.resume.setEnabled(can_resume(model.readiness))
         self.leave.setVisible(model.phase is Phase.PAUSED)
+
+    def _show_cause(self, is_over: bool) -> None:
+        """Why the test paused: red while it lasts."""
+        role = "notice" if is_over else "banner"
+        if self.trouble.property("role") != role:
+            self.trouble.setProperty("role", role)
+            self.trouble.style().unpolish(self.trouble)
+            self.trouble.style().polish(self.trouble)
 
     def _show_hold(self) -> None:
         reason = next((notification.text for notification in self._model.notifications

@@ -10,7 +10,7 @@ from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.results.line_result import LineStatus, MeasuredDistance
 from mtr_operator.domain.verdict.judgement import TestJudgement
 from mtr_operator.station.events import RobotSnapshot
-from mtr_operator.station.readiness import Phase
+from mtr_operator.station.readiness import Phase, ReadinessWord
 from mtr_operator.station.view_model import ViewModel
 
 from ..i18n import duration, number
@@ -22,20 +22,25 @@ from ..verdict_text import verdict_text
 
 _CM_PER_M, _KMH_PER_MPS = 100.0, 3.6
 _UNKNOWN = "\N{EN DASH}"
+# Values that the robot says with each Status.
+_OF_ROBOT = ("locks", "key", "speed", "position")
 
 
 class MeasurementFacts(QFrame):
-    """Attributes: percent, bar, left, action: of the test. values: labels by name of what they show."""
+    """Attributes: percent, bar, left, action: of the test. values: labels by name of what they show.
+
+    age: how old the robot's values are; hidden while they are of now.
+    """
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("card")
         self.title, self.percent, self.count = QLabel(), QLabel(), QLabel()
-        self.left, self.action = QLabel(), QLabel()
+        self.left, self.action, self.age = QLabel(), QLabel(), QLabel()
         self.bar = QProgressBar()
         self.bar.setAccessibleName(self.tr("Progress of the test"))
         for label, role in ((self.title, "large"), (self.percent, "title"), (self.count, "soft"), (self.left, "soft"),
-                            (self.action, "")):
+                            (self.action, ""), (self.age, "error")):
             label.setProperty("role", role)
             label.setWordWrap(True)
         self.values = {name: QLabel() for name in ("car", "locks", "key", "speed", "position", "newest", "verdict")}
@@ -55,7 +60,7 @@ class MeasurementFacts(QFrame):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(M, M, M, M)
         layout.setSpacing(S)
-        for widget in (self.title, self.percent, self.bar, self.count, self.left, self.action):
+        for widget in (self.title, self.percent, self.bar, self.count, self.left, self.action, self.age):
             layout.addWidget(widget)
         layout.addSpacing(M)
         layout.addLayout(rows)
@@ -78,6 +83,20 @@ class MeasurementFacts(QFrame):
                                    f"{number(car.length, 2)} m \N{MULTIPLICATION SIGN} {number(car.width, 2)} m")
         if model.robot is not None:
             self._show_robot(model.robot)
+        self._show_age(model)
+
+    def _show_age(self, model: ViewModel) -> None:
+        """What the robot said last is grey while nothing comes from it."""
+        is_stale = _is_stale(model)
+        self.age.setText(self.tr("The values below are {age} s old.").format(age=f"{model.silent_s:.0f}")
+                         if is_stale else "")
+        self.age.setVisible(is_stale)
+        for name in _OF_ROBOT:
+            label = self.values[name]
+            if bool(label.property("stale")) is not is_stale:
+                label.setProperty("stale", is_stale)
+                label.style().unpolish(label)
+                label.style().polish(label)
 
     def _show_verdict(self, judgement: TestJudgement | None) -> None:
         verdict = self.values["verdict"]
@@ -93,11 +112,12 @@ class MeasurementFacts(QFrame):
         self.values["key"].setText(_measure(status.key_height_m, _CM_PER_M, 0, "cm"))
         self.values["speed"].setText(_measure(abs(status.speed_mps), _KMH_PER_MPS, 1, "km/h"))
         self.values["position"].setText(
-            f"\N{PLUS-MINUS SIGN}{_measure(status.position_sigma_m, _CM_PER_M, 0, 'cm')}" if status.pose_valid
+            f"\N{PLUS-MINUS SIGN}{_measure(status.position_sigma_m, _CM_PER_M, 1, 'cm')}" if status.pose_valid
             else self.tr("not known"))
 
     def _left_text(self, model: ViewModel) -> str:
-        left_s = model.left_s
+        # Nobody knows it while the robot is silent.
+        left_s = None if _is_stale(model) else model.left_s
         left = "" if left_s is None else self.tr("about {time} left").format(time=duration(left_s))
         prospect = prospect_text(model.prospect) if model.phase is Phase.MEASURING else ""
         return "\n".join(filter(None, (left, prospect)))
@@ -107,7 +127,13 @@ class MeasurementFacts(QFrame):
             return self.tr("The robot is being stopped.")
         if model.phase is Phase.PAUSED:
             return self.tr("Paused. The line at hand is measured anew after Resume.")
+        if _is_stale(model):
+            return self.tr("Waits until the robot is heard again.")
         return translated(model.action)
+
+
+def _is_stale(model: ViewModel) -> bool:
+    return model.readiness.word is ReadinessWord.LOST
 
 
 def newest_text(model: ViewModel) -> str:

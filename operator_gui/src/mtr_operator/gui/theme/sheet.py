@@ -22,6 +22,7 @@ QLabel[role="title"] { font-size: ${title_pt}pt; font-weight: 600; }
 QLabel[role="heading"] { font-size: ${heading_pt}pt; font-weight: 600; }
 QLabel[role="large"] { font-size: ${large_pt}pt; font-weight: 600; }
 QLabel[role="soft"] { color: $ink_soft; }
+QLabel[stale="true"] { color: $ink_soft; font-style: italic; }
 QLabel[role="hint"] { color: $ink_soft; font-size: ${small_pt}pt; }
 QLabel[role="error"] { color: $danger; font-size: ${small_pt}pt; font-weight: 600; }
 QLabel[role="banner"] { background: $surface; color: $danger; border: 2px solid $danger; border-radius: ${radius}px;

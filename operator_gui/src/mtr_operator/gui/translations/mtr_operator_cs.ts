@@ -423,84 +423,94 @@
 <context>
     <name>MeasurementFacts</name>
     <message>
-        <location filename="../screens/measurement_facts.py" line="36"/>
+        <location filename="../screens/measurement_facts.py" line="41"/>
         <source>Progress of the test</source>
         <translation>Průběh testu</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="42"/>
+        <location filename="../screens/measurement_facts.py" line="47"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="42"/>
+        <location filename="../screens/measurement_facts.py" line="47"/>
         <source>Locks</source>
         <translation>Zámky</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="42"/>
+        <location filename="../screens/measurement_facts.py" line="47"/>
         <source>Key height</source>
         <translation>Výška klíče</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="43"/>
+        <location filename="../screens/measurement_facts.py" line="48"/>
         <source>Speed</source>
         <translation>Rychlost</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="43"/>
+        <location filename="../screens/measurement_facts.py" line="48"/>
         <source>Position</source>
         <translation>Poloha</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="43"/>
+        <location filename="../screens/measurement_facts.py" line="48"/>
         <source>Last result</source>
         <translation>Poslední výsledek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="70"/>
+        <location filename="../screens/measurement_facts.py" line="75"/>
         <source>{done} of {total} lines measured</source>
         <translation>změřeno {done} z {total} přímek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="90"/>
+        <location filename="../screens/measurement_facts.py" line="109"/>
         <source>locked</source>
         <translation>zamčeno</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="90"/>
+        <location filename="../screens/measurement_facts.py" line="109"/>
         <source>unlocked</source>
         <translation>odemčeno</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="91"/>
+        <location filename="../screens/measurement_facts.py" line="110"/>
         <source>unknown</source>
         <translation>neznámý stav</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="95"/>
+        <location filename="../screens/measurement_facts.py" line="114"/>
         <source>not known</source>
         <translation>není známa</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="101"/>
+        <location filename="../screens/measurement_facts.py" line="121"/>
         <source>about {time} left</source>
         <translation>zbývá asi {time}</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="107"/>
+        <location filename="../screens/measurement_facts.py" line="127"/>
         <source>The robot is being stopped.</source>
         <translation>Robot se zastavuje.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="109"/>
+        <location filename="../screens/measurement_facts.py" line="129"/>
         <source>Paused. The line at hand is measured anew after Resume.</source>
         <translation>Pozastaveno. Rozpracovaná přímka se po pokračování změří znovu.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="44"/>
+        <location filename="../screens/measurement_facts.py" line="49"/>
         <source>Verdict so far</source>
         <translation>Zatím verdikt</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="91"/>
+        <source>The values below are {age} s old.</source>
+        <translation>Údaje níže jsou {age} s staré.</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement_facts.py" line="131"/>
+        <source>Waits until the robot is heard again.</source>
+        <translation>Čeká se, až bude robot zase slyšet.</translation>
     </message>
 </context>
 <context>
@@ -531,7 +541,7 @@
         <translation>Klika uchopena</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="128"/>
+        <location filename="../screens/measurement.py" line="137"/>
         <source>Take the Car&apos;s handle now, with the Remote key at {distance} m, and then say so here, by Enter or the button. When the Car unlocks, nothing more is to be done.</source>
         <translation>Uchopte nyní kliku auta, klíč je ve vzdálenosti {distance} m, a pak to zde potvrďte klávesou Enter nebo tlačítkem. Když se auto odemkne, není třeba nic dalšího.</translation>
     </message>
@@ -3017,11 +3027,6 @@
         <translation>Robot nezná svou polohu.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="57"/>
-        <source>Check the Wi-Fi and that the robot is on. The robot stands still meanwhile; the link comes back by itself.</source>
-        <translation>Zkontrolujte Wi-Fi a zda je robot zapnutý. Robot zatím stojí; spojení se obnoví samo.</translation>
-    </message>
-    <message>
         <location filename="../header/reasons.py" line="59"/>
         <source>Wait a moment.</source>
         <translation>Chvíli počkejte.</translation>
@@ -3105,6 +3110,11 @@
         <location filename="../header/reasons.py" line="69"/>
         <source>Clear its way; it goes on by itself, or stands until you have it go on.</source>
         <translation>Uvolněte mu cestu; pokračuje sám, nebo stojí, dokud mu nedáte pokyn.</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="57"/>
+        <source>Check the Wi-Fi and that the robot is on. A robot that hears nobody stops by itself; the link comes back by itself.</source>
+        <translation>Zkontrolujte Wi-Fi a zda je robot zapnutý. Robot, který nikoho neslyší, se sám zastaví; spojení se samo obnoví.</translation>
     </message>
 </context>
 <context>
