@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/input_gate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -15,6 +16,8 @@ namespace {
 constexpr double kMaxWheelsMps = 3.0;
 // The odometry's noise, however short the interval is.
 constexpr double kJitterM = 0.01;
+// A driver on a busy machine stamps late: what was driven in 40 ms then seems to have been driven in 1.
+constexpr double kStampedLateS = 0.05;
 
 double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-9; }
 
@@ -83,7 +86,9 @@ mtr_core::Problem InputGate::interruption_before(const WheelSample& wheels) {
     return problems::kImuWasSilent({{"gap_s", seconds(imu_gap_ns)}});
   }
   const double distance_m = std::hypot(wheels.x_m - last_used_->x_m, wheels.y_m - last_used_->y_m);
-  if (distance_m > kMaxWheelsMps * seconds(wheel_gap_ns) + kJitterM) {
+  const double speed_mps = std::max(std::abs(last_used_->linear_mps), std::abs(wheels.linear_mps));
+  if (distance_m >
+      kMaxWheelsMps * seconds(wheel_gap_ns) + std::min(speed_mps, kMaxWheelsMps) * kStampedLateS + kJitterM) {
     return problems::kWheelsJumped({{"distance_m", distance_m}});
   }
   return {};

@@ -109,6 +109,24 @@ TEST_F(LocalizerFaultTest, WheelOdometryThatJumpsWhileMovingLosesThePose) {
   EXPECT_NEAR(newest.x_m, 0.5, 1e-3);
 }
 
+TEST_F(LocalizerFaultTest, WheelOdometryThatIsStampedLateOnABusyMachineIsNoJump) {
+  drive(0.7, 0.0, 1.0);
+  for (const std::int64_t late_ns : {15'000'000, -19'000'000}) {
+    advance_truth(0.7, 0.0);
+    wheels.stamp_ns += late_ns;
+    send_imu();
+    send_wheels();
+  }
+  EXPECT_TRUE(drive(0.7, 0.0, 0.5).valid) << newest.message.text;
+  EXPECT_NEAR(newest.x_m, 0.7 * 1.54, 2e-3);
+}
+
+TEST_F(LocalizerFaultTest, OdometryThatIsSetBackByAFewCentimetresAtStandstillIsAJump) {
+  drive(0.0, 0.0, 1.0);
+  wheels.x_m += 0.08;
+  EXPECT_FALSE(drive(0.0, 0.0, 0.1).valid);
+}
+
 TEST_F(LocalizerFaultTest, TimeThatGoesBackwardsWhileMovingLosesThePose) {
   drive(0.5, 0.0, 1.0);
   wheels.stamp_ns = 500'000'000;
