@@ -1,29 +1,36 @@
 """Numbers for the orders of applications, which the other nodes tell apart by nothing else."""
 # SPDX-License-Identifier: Apache-2.0
+import hashlib
 
-MICROSECONDS_PER_S = 1e6
+_NUMBER_BYTES = 8
+_ID_BYTES = 8
 
 
 class OrderNumbers:
-    """Numbers orders of one kind so that those of different sessions differ; 0 is no order.
+    """Numbers orders of one kind; 0 is no order.
 
-    A number is the time in microseconds of the steady clock at which the order was first seen. So no order of before
-    has it, not even one from before a restart of the dispatcher, which the other nodes may still remember.
+    A number follows from session and order alone. So orders of different sessions differ, and a dispatcher that was
+    started anew gives the present order the number that the other nodes know: they have done it, and do not do it again.
     """
 
     def __init__(self) -> None:
-        self._number = 0
         self._order = (0, 0)
 
-    def number_of(self, session_id: int, order_id: int, now_s: float) -> int:
+    def number_of(self, session_id: int, order_id: int) -> int:
         """Number of a session's order."""
         if not order_id:
             return 0
-        if (session_id, order_id) != self._order:
-            self._number = max(self._number + 1, round(now_s * MICROSECONDS_PER_S))
-            self._order = (session_id, order_id)
-        return self._number
+        self._order = (session_id, order_id)
+        return _number(session_id, order_id)
 
     def id_of(self, session_id: int, number: int) -> int:
-        """The session's own id of the order with this number, 0 when it is not its order."""
-        return self._order[1] if number and number == self._number and session_id == self._order[0] else 0
+        """The session's own id of the order with this number, 0 when it is not its newest order."""
+        is_ours = number and session_id == self._order[0] and number == _number(*self._order)
+        return self._order[1] if is_ours else 0
+
+
+def _number(session_id: int, order_id: int) -> int:
+    """63 bits that are as good as random, and never 0."""
+    words = session_id.to_bytes(_ID_BYTES, "big") + order_id.to_bytes(_ID_BYTES, "big")
+    digest = hashlib.blake2b(words, digest_size=_NUMBER_BYTES).digest()
+    return int.from_bytes(digest, "big") >> 1 | 1

@@ -100,8 +100,8 @@ class ControlSession:
     def desired(self, now_s: float) -> SessionState:
         """What the robot shall do at now_s."""
         alive = self.link_alive(now_s)
-        map_order = self.map_orders.number_of(self.session_id, self.command.map_car_id, now_s)
-        check_order = self.check_orders.number_of(self.session_id, self.command.check_car_id, now_s)
+        map_order = self.map_orders.number_of(self.session_id, self.command.map_car_id)
+        check_order = self.check_orders.number_of(self.session_id, self.command.check_car_id)
         return SessionState(self.session_id, self.command, map_order, check_order, alive, self._stop_reason(alive))
 
     def _stop_reason(self, alive: bool) -> Problem:

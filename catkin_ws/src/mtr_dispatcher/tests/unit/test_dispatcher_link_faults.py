@@ -154,22 +154,29 @@ def test_impossible_buttons_are_refused(buttons):  # N7
     assert session.take(Command(1, 1, 1, 1.0, press=press), 1.0, 1.0) is CommandResult.REFUSED
 
 
-def test_order_numbers_go_on_after_a_restart():  # A9a
-    before, after = OrderNumbers(), OrderNumbers()
-    old = [before.number_of(5, order_id, 10.0) for order_id in (1, 2, 3)]
-    new = after.number_of(5, 1, 11.0)
-    assert len(set(old)) == 3 and new not in old and new > max(old)
-    assert after.id_of(5, old[0]) == 0 and after.id_of(5, new) == 1
+def test_orders_of_all_sessions_differ_and_none_is_0():  # A9a
+    numbers = OrderNumbers()
+    made = {numbers.number_of(session_id, order_id) for session_id in (1, 5, 2 ** 63, 2 ** 64 - 1)
+            for order_id in (1, 2, 3, 2 ** 64 - 1)}
+    assert len(made) == 16 and all(0 < number < 2 ** 63 for number in made)
+    assert numbers.number_of(5, 0) == 0 and numbers.id_of(5, 0) == 0
 
 
-def test_old_check_is_not_confirmed_by_a_dispatcher_that_was_restarted():  # A9a
-    old = Link()
-    old.command(old.status(), check_car_id=1)
-    order = old.core.desired(old.steady_s).check_order
-    new = Link()
-    new.steady_s += 5.0
-    new.command(new.status(), check_car_id=1)
-    assert new.core.session.check_orders.id_of(5, order) == 0
+def test_dispatcher_that_was_restarted_gives_an_order_the_number_that_it_had():
+    before, after = Link(), Link()
+    after.steady_s += 5.0
+    for robot in (before, after):
+        robot.command(robot.status(), map_car_id=1, check_car_id=2)
+    old, new = (robot.core.desired(robot.steady_s) for robot in (before, after))
+    assert (old.map_order, old.check_order) == (new.map_order, new.check_order)
+    assert after.core.session.map_orders.id_of(old.session_id, old.map_order) == 1
+
+
+def test_order_of_another_session_is_not_confirmed():  # A9a
+    numbers = OrderNumbers()
+    old = numbers.number_of(5, 1)
+    assert numbers.number_of(6, 1) != old
+    assert numbers.id_of(6, old) == numbers.id_of(5, old) == 0
 
 
 def test_flood_of_different_messages_is_one_line_of_log_per_kind():  # D4
