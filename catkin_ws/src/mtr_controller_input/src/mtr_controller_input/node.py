@@ -9,7 +9,8 @@ import sensor_msgs.msg
 
 from mtr_core import names, schedule
 from mtr_core.lockstep import Ticker, clock, publisher, run_node
-from mtr_core.problems import messages_of
+from mtr_core.problems import NO_PROBLEM, messages_of
+from mtr_core.quiet_start import QuietStart
 from mtr_msgs.msg import LiftCommand, MotionLock, Problem, VelocityCommand
 
 from .core import RELEASED, Controller, Joy, Outcome
@@ -27,6 +28,7 @@ class ControllerInputNode:
         self._core = Controller(parameters)
         self._messages: Deque[Tuple[int, sensor_msgs.msg.Joy]] = collections.deque(maxlen=100)
         self._before = Outcome()
+        self._start, self._said = QuietStart(), (NO_PROBLEM, False)
         self._velocity = publisher(names.MANUAL_VELOCITY, VelocityCommand)
         self._lift = publisher(names.MANUAL_LIFT, LiftCommand)
         self._lock = publisher(names.MOTION_LOCK, MotionLock)
@@ -65,8 +67,12 @@ class ControllerInputNode:
             self._lift.publish(lift)
 
     def _log(self, outcome: Outcome) -> None:
-        if outcome.lock_reason != self._before.lock_reason:
-            rospy.logwarn(outcome.lock_reason.text or "The manual controller locks the robot no longer.")
+        warns = self._start.warns(clock.steady_ns() * NS, is_good=not outcome.lock_reason)
+        said = (outcome.lock_reason, warns and bool(outcome.lock_reason))
+        if said != self._said:
+            log = rospy.logwarn if warns else rospy.loginfo
+            log("%s", outcome.lock_reason.text or "The manual controller locks the robot no longer.")
+        self._said = said
         if outcome.velocity.active != self._before.velocity.active:
             rospy.loginfo("Manual control %s.", "ends" if outcome.velocity == RELEASED else "begins")
 

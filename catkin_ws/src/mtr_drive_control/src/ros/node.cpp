@@ -20,6 +20,8 @@ namespace names = mtr_core::names;
 constexpr double kPeriodS = static_cast<double>(mtr_core::kDriveControl.period_ns) * 1e-9;
 // A scan bears its first beam's time and comes when the sweep has ended, before the clock.
 constexpr std::int64_t kScanLagNs = mtr_core::kLidar.period_ns;
+// As in mtr_core/quiet_start.py.
+constexpr std::int64_t kQuietStartNs = 5 * mtr_core::kSecondNs;
 // What is published last may be lost with the process.
 constexpr int kZerosBeforeLeaving = 5;
 
@@ -175,19 +177,25 @@ void Node::publish(const mtr_core::Instant& tick, const Decision& decision) {
   ticker_.count_message_sent();
   status_.publish(status_message(tick.stamp_ns, decision, interventions_.count(decision)));
   markers_.publish(tick, decision, drive_control_);
-  log(decision);
+  log(tick.time_ns, decision);
 }
 
-void Node::log(const Decision& decision) {
+void Node::log(std::int64_t now_ns, const Decision& decision) {
+  begun_ns_ = begun_ns_ ? begun_ns_ : now_ns;
+  was_free_ = was_free_ || !decision.message;
+  // At the start others have not spoken yet: that is a warning only when it lasts.
+  const bool is_start = !was_free_ && now_ns - *begun_ns_ < kQuietStartNs;
+  // The Operator reads warnings.
+  const bool is_stopped = decision.zone == Zone::kBlocked || decision.zone == Zone::kBlind;
+  const bool is_warning = is_stopped && !is_start;
   // Distances and durations in the sentence change all the time.
   std::string kind = decision.message.kind();
-  if (kind == logged_kind_) {
+  if (kind == logged_kind_ && is_warning == logged_warning_) {
     return;
   }
   logged_kind_ = std::move(kind);
-  // The Operator reads warnings.
-  const bool is_stopped = decision.zone == Zone::kBlocked || decision.zone == Zone::kBlind;
-  ROS_LOG(is_stopped ? ros::console::levels::Warn : ros::console::levels::Info, ROSCONSOLE_DEFAULT_NAME, "%s",
+  logged_warning_ = is_warning;
+  ROS_LOG(is_warning ? ros::console::levels::Warn : ros::console::levels::Info, ROSCONSOLE_DEFAULT_NAME, "%s",
           decision.message ? decision.message.text.c_str() : "Free to move.");
 }
 

@@ -12,6 +12,7 @@ from mtr_core.crc import is_sound
 from mtr_core.liveness import NS, is_fresh, steady_stamp_ns
 from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_core.lockstep.samples import Samples
+from mtr_core.quiet_start import QuietStart
 from mtr_core.requests import PressReport
 from mtr_description.robot_description import described_robot
 from mtr_msgs.msg import (
@@ -77,7 +78,8 @@ class PeripheralsNode:
         # From a decision to its last message; a stop that comes in between leaves after them.
         self._deciding = threading.Lock()
         self._health = HealthWatch()
-        self._logged: Optional[Tuple[Tuple[str, ...], Optional[PressReport]]] = None
+        self._start = QuietStart()
+        self._logged: Optional[Tuple[Tuple[str, ...], Optional[PressReport], bool]] = None
         self._desired = TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER)
         # Lock-step waits for each input, so only for what is needed.
         self._drive = None if parameters.rear_lidar else TickInput(names.DRIVE_STATUS, DriveStatus,
@@ -183,11 +185,13 @@ class PeripheralsNode:
 
     def _log(self, outcome: Outcome) -> None:
         newest = outcome.results[-1] if outcome.results else None
-        now = (outcome.message.kind, newest)
+        warns = self._start.warns(clock.steady_ns() * NS, is_good=not outcome.message)
+        now = (outcome.message.kind, newest, warns and bool(outcome.message))
         if newest and self._logged and newest != self._logged[1]:
             rospy.loginfo("Press %d: %s", newest.id, newest.error or "done.")
-        if outcome.message and (not self._logged or now[0] != self._logged[0]):
-            rospy.logwarn("%s", outcome.message)
+        if outcome.message and (not self._logged or (now[0], now[2]) != (self._logged[0], self._logged[2])):
+            log = rospy.logwarn if warns else rospy.loginfo
+            log("%s", outcome.message)
         self._logged = now
 
 

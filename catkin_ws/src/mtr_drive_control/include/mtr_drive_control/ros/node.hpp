@@ -69,7 +69,7 @@ class Node {
   void tick(const mtr_core::Instant& tick);
   void publish(const mtr_core::Instant& tick, const Decision& decision);
   std::vector<EngagedLock> own_locks() const;
-  void log(const Decision& decision);
+  void log(std::int64_t now_ns, const Decision& decision);
 
   DriveControl drive_control_;
   MotionLocks locks_;
@@ -89,6 +89,9 @@ class Node {
   ros::Publisher status_;
   PublisherWatch publishers_;
   std::string logged_kind_;
+  bool logged_warning_ = false;
+  std::optional<std::int64_t> begun_ns_;
+  bool was_free_ = false;
   /// In a row, since it was asked to leave.
   int zeros_sent_ = 0;
 };

@@ -1,0 +1,18 @@
+"""What is missing at the start is a warning only when it lasts."""
+# SPDX-License-Identifier: Apache-2.0
+from mtr_core.quiet_start import QUIET_S, QuietStart
+
+BEGIN_S = 1000.0
+
+
+def test_what_is_missing_at_the_start_is_a_warning_only_when_it_lasts():
+    start = QuietStart()
+    assert [start.warns(BEGIN_S + after_s, is_good=False) for after_s in (0.0, QUIET_S - 0.1, QUIET_S, 2.0 * QUIET_S)] \
+        == [False, False, True, True]
+
+
+def test_after_everything_was_good_each_fault_is_a_warning_at_once():
+    start = QuietStart()
+    start.warns(BEGIN_S, is_good=False)
+    start.warns(BEGIN_S + 0.1, is_good=True)
+    assert start.warns(BEGIN_S + 0.2, is_good=False)
