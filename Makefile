@@ -44,8 +44,8 @@ setup: ## Install the missing Debian and Python packages
 
 build: $(STAMPS)/build ## Build the proto and the catkin workspace
 
+# The stamp is as old as the beginning: what is changed meanwhile is younger.
 $(STAMPS)/build: $(BUILD_INPUTS) setup/debian-packages.txt setup/python-requirements.txt | setup
-	@# What is changed while it builds is younger than the stamp.
 	@touch $@.begun
 	@setup/build.sh
 	@mv $@.begun $@
