@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
-from mtr_benchmarks.real_time.arrivals import VOICES, by_node, silence, silences, worst
+from mtr_benchmarks.real_time.arrivals import ASKING, VOICES, by_node, silence, silences, worst
 from mtr_benchmarks.real_time.judge import Machine, judged
 from mtr_benchmarks.real_time.measurement import Stop, Stretch, echoes_s
 from mtr_benchmarks.real_time.other_work import other_work
@@ -34,12 +34,19 @@ def test_silence_at_begin_or_end_or_all_the_time_counts(times_s):
 
 
 def arrivals(**pauses_s):
-    return {node: spoken(voice.slot.period_ns * 1e-9, pauses_s.get(node, 0.0)) for node, voice in VOICES.items()}
+    return {node: spoken(voice.slot.period_ns * 1e-9, pauses_s.get(node, 0.0))
+            for node, voice in {**VOICES, **ASKING}.items()}
 
 
 def test_the_worst_node_is_the_one_that_was_late_by_most_of_its_period():
     found = silences(arrivals(car_locator=0.2, drive_control=0.1), BEGIN_S, END_S)
     assert worst(found)[0] == "drive_control"
+
+
+def test_nobody_is_blamed_for_the_silence_of_what_it_answers():
+    found = silences(arrivals(localization=0.3, simulator=0.3), BEGIN_S, END_S)
+    assert found["localization"].late == pytest.approx(0.0, abs=1e-6) and found["simulator"].late > 10.0
+    assert worst(found)[1].late == pytest.approx(0.0, abs=1e-6)
 
 
 def test_a_topic_of_several_speakers_is_sorted_by_them():
@@ -58,7 +65,7 @@ def test_a_good_robot_meets_every_row():
     rows, figures = judged({machine: stretch() for machine in Machine}, arrivals(), TF)
     assert len(rows) == 9 and all(row.is_met for row in rows)
     assert figures["scan_to_tf_s"]["idle"]["max"] == pytest.approx(0.006)
-    assert set(figures["silences"]["busy"]) == set(VOICES)
+    assert set(figures["silences"]["busy"]) == {*VOICES, *ASKING}
 
 
 @pytest.mark.parametrize("machine, measured, spoke, missed", [

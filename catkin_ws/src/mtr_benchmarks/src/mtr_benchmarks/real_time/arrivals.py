@@ -11,15 +11,19 @@ NS = 1e-9
 
 
 class Voice(NamedTuple):
-    """A topic on which a node speaks at its ticks, and their slot."""
+    """A topic on which a node speaks at its ticks, and their slot; asked_by: it answers each message of that voice."""
 
     topic: str
     slot: Slot
+    asked_by: str = ""
+
+
+SENSORS = "simulator"
 
 
 VOICES: Mapping[str, Voice] = {
     "drive_control": Voice(names.DRIVE_STATUS, schedule.DRIVE_CONTROL),
-    "localization": Voice(names.LOCALIZED_POSE, schedule.LOCALIZATION),
+    "localization": Voice(names.LOCALIZED_POSE, schedule.LOCALIZATION, SENSORS),
     "motion_planner": Voice(names.MOTION_STATUS, schedule.MOTION_PLANNER),
     "car_locator": Voice(names.CAR_ESTIMATE, schedule.CAR_LOCATOR),
     "state_machine": Voice(names.ROBOT_MODE, schedule.STATE_MACHINE),
@@ -27,13 +31,15 @@ VOICES: Mapping[str, Voice] = {
     "dispatcher": Voice(names.DESIRED_STATE, schedule.DISPATCHER),
     "controller_input": Voice(names.MOTION_LOCK, schedule.CONTROLLER_INPUT),
 }
+# What speaks besides, so that nobody is blamed for its silence.
+ASKING: Mapping[str, Voice] = {SENSORS: Voice(names.WHEEL_ODOMETRY, schedule.SENSORS)}
 
 
 class Silence(NamedTuple):
     """Gaps between a node's messages, in s.
 
     Attributes:
-        late: by how much of its period the longest gap was longer than the period.
+        late: by how much of its period the longest gap was longer than the period, or than that of what it answers.
     """
 
     period_s: float
@@ -44,25 +50,34 @@ class Silence(NamedTuple):
     late: float
 
 
-def silence(times_s: Sequence[float], begin_s: float, end_s: float, period_s: float) -> Silence:
-    """Of arrivals on a steady clock in a stretch of it; one that ends or begins in silence counts that."""
+def silence(times_s: Sequence[float], begin_s: float, end_s: float, period_s: float,
+            asked_s: float = 0.0) -> Silence:
+    """Of arrivals on a steady clock in a stretch of it; one that ends or begins in silence counts that.
+
+    asked_s: longest silence of what it answers.
+    """
     within = [time_s for time_s in times_s if begin_s <= time_s <= end_s]
     gaps_s = np.diff([begin_s, *within, end_s])
     longest_s = float(np.max(gaps_s))
     return Silence(period_s, len(within), float(np.median(gaps_s)), float(np.quantile(gaps_s, 0.99)), longest_s,
-                   longest_s / period_s - 1.0)
+                   (longest_s - max(period_s, asked_s)) / period_s)
 
 
 def silences(arrivals: Mapping[str, Sequence[float]], begin_s: float, end_s: float) -> Dict[str, Silence]:
-    """Of all nodes."""
-    return {node: silence(arrivals[node], begin_s, end_s, voice.slot.period_ns * NS) for node, voice in VOICES.items()}
+    """Of all nodes, and of what asks them."""
+    asking = {name: silence(arrivals[name], begin_s, end_s, voice.slot.period_ns * NS)
+              for name, voice in ASKING.items()}
+    nodes = {node: silence(arrivals[node], begin_s, end_s, voice.slot.period_ns * NS,
+                           asking[voice.asked_by].longest_s if voice.asked_by else 0.0)
+             for node, voice in VOICES.items()}
+    return {**nodes, **asking}
 
 
 def worst(found: Mapping[str, Silence]) -> Tuple[str, Silence]:
     """The node that was late by most of its period."""
-    return max(found.items(), key=lambda item: item[1].late)
+    return max(((node, found[node]) for node in VOICES), key=lambda item: item[1].late)
 
 
 def by_node(callers: Mapping[str, Mapping[str, List[float]]]) -> Dict[str, List[float]]:
     """Arrivals by topic and caller as arrivals by node."""
-    return {node: callers.get(voice.topic, {}).get(f"/{node}", []) for node, voice in VOICES.items()}
+    return {node: callers.get(voice.topic, {}).get(f"/{node}", []) for node, voice in {**VOICES, **ASKING}.items()}

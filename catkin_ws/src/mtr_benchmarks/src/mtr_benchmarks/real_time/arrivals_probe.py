@@ -15,7 +15,7 @@ from tf2_msgs.msg import TFMessage
 
 from mtr_core import names
 
-from .arrivals import VOICES
+from .arrivals import ASKING, VOICES
 
 PRIORITY = 50
 
@@ -27,7 +27,7 @@ def main() -> int:
     except PermissionError:
         print("The probe may not have priority: a busy machine's own delays are in its figures.", file=sys.stderr)
     rospy.init_node("arrivals_probe", disable_signals=True)
-    callers: Dict[str, Dict[str, List[float]]] = {voice.topic: {} for voice in VOICES.values()}
+    callers: Dict[str, Dict[str, List[float]]] = {voice.topic: {} for voice in (*VOICES.values(), *ASKING.values())}
     ages: List[List[float]] = []
 
     def listen(topic: str) -> rospy.Subscriber:

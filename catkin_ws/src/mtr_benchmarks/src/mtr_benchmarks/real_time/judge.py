@@ -5,7 +5,7 @@ import math
 from typing import Any, Dict, List, Mapping, Sequence, Tuple
 
 from ..harness.rows import Requirement, Row
-from .arrivals import silences, worst
+from .arrivals import VOICES, silences, worst
 from .measurement import Stretch
 from .restarts import Restart
 
@@ -41,7 +41,7 @@ def judged(found: Mapping[Machine, Stretch], arrivals: Mapping[str, Sequence[flo
     for machine, stretch in found.items():
         silent = silences(arrivals, stretch.begin_s, stretch.end_s)
         node, longest = worst(silent)
-        value = longest.late if machine is Machine.IDLE else max(each.longest_s for each in silent.values())
+        value = longest.late if machine is Machine.IDLE else max(silent[name].longest_s for name in VOICES)
         ages_s = [age_s for time_s, age_s in tf_ages if stretch.begin_s <= time_s <= stretch.end_s]
         zero_s = max(stop.zero_s for stop in stretch.stops)
         slowest = max(stretch.stops, key=lambda stop: stop.brakes_s)

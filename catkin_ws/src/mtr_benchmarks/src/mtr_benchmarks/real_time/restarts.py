@@ -13,10 +13,13 @@ from mtr_proto import robot_link_pb2 as link
 from ..liveness.live_robot import LiveError, LiveRobot
 from .arrivals import VOICES
 
-NODES = tuple(VOICES)
+# Localization last: its map ends with it, and the robot has to be put at the starting place by a person.
+NODES = (*(node for node in VOICES if node != "localization"), "localization")
 ROUNDS = 3
 # roslaunch waits 2 s; after a loss of position or of the Car it is mapped again, which takes a minute.
 RECOVERS_LIMIT_S = 180.0
+# A robot that is in FAULT for longer than a node takes to start does not find back by itself.
+PATIENCE_S = 10.0
 # After a death the wheels are told to stop by others, or the base stops for want of commands.
 STANDS_WITHIN_S = 2.0
 STANDS_MPS = 0.05
@@ -42,7 +45,7 @@ class Restart(NamedTuple):
 def restarts(robot: LiveRobot, rounds: int, nodes: Sequence[str] = NODES) -> List[Restart]:
     """Each node so often; the measurement ends where the robot does not recover."""
     made: List[Restart] = []
-    for node in nodes * rounds:
+    for node in [*nodes] * rounds:
         made.append(restart(robot, node))
         if made[-1].recovered_s is None:
             break
@@ -73,15 +76,19 @@ class _Help:
     def __init__(self, robot: LiveRobot):
         self._robot = robot
         self.mapped = False
+        self._begun_s: Optional[float] = None
 
     def give(self) -> bool:
         """Always True, so that it may stand in a condition."""
         status = self._robot.status
         if status.emergency_stop == link.EMERGENCY_STOP_ENGAGED:
             self._robot.hold_release()
-        else:
-            self._robot.let_go()
-        if status.mode == link.MODE_READY_TO_MAP_CAR and not self.mapped:
+            return True
+        self._robot.let_go()
+        if self._begun_s is None:
+            self._begun_s = time.monotonic()
+        wants_map = status.mode in (link.MODE_READY_TO_MAP_CAR, link.MODE_FAULT) and not self.mapped
+        if wants_map and self._begun_s is not None and time.monotonic() - self._begun_s > PATIENCE_S:
             self.mapped = True
             self._robot.map_car()
         return True
