@@ -13,8 +13,9 @@ from mtr_proto import robot_link_pb2 as link
 from ..liveness.live_robot import LiveError, LiveRobot
 from .arrivals import VOICES
 
-# Localization last: its map ends with it, and the robot has to be put at the starting place by a person.
-NODES = (*(node for node in VOICES if node != "localization"), "localization")
+# Those that know where the Car is come last: that ends with them, and a person has to put the robot at the starting place.
+KNOWING = ("car_locator", "localization")
+NODES = (*(node for node in VOICES if node not in KNOWING), *KNOWING)
 ROUNDS = 3
 # roslaunch waits 2 s; after a loss of position or of the Car it is mapped again, which takes a minute.
 RECOVERS_LIMIT_S = 180.0
@@ -54,6 +55,7 @@ def restarts(robot: LiveRobot, rounds: int, nodes: Sequence[str] = NODES) -> Lis
 
 def restart(robot: LiveRobot, node: str) -> Restart:
     """Kill a node of a robot that drives."""
+    robot.wait_until(lambda: robot.knows_car, "the Car mapped", RECOVERS_LIMIT_S)
     robot.wait_for_motion(RECOVERS_LIMIT_S)
     killed, speed_mps = robot.process_of(f"/{node}"), abs(robot.wheels[-1].linear_mps)
     os.kill(killed, signal.SIGKILL)
