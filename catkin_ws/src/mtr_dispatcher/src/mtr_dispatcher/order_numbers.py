@@ -10,7 +10,7 @@ class OrderNumbers:
     """Numbers orders of one kind; 0 is no order.
 
     A number follows from session and order alone. So orders of different sessions differ, and a dispatcher that was
-    started anew gives the present order the number that the other nodes know: they have done it, and do not do it again.
+    started anew gives the present order the number that the other nodes know: what they have done they do not do again.
     """
 
     def __init__(self) -> None:

@@ -13,7 +13,8 @@ from mtr_proto import robot_link_pb2 as link
 from ..liveness.live_robot import LiveError, LiveRobot
 from .arrivals import VOICES
 
-# Those that know where the Car is come last: that ends with them, and a person has to put the robot at the starting place.
+# Those that know where the Car is come last: it is forgotten with them, and a person has to put the robot at the
+# starting place.
 KNOWING = ("car_locator", "localization")
 NODES = (*(node for node in VOICES if node not in KNOWING), *KNOWING)
 ROUNDS = 3
