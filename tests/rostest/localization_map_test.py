@@ -13,7 +13,7 @@ from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import OccupancyGrid
 from node_process import NodeProcess
 from rosgraph_msgs.msg import Log
-from scripted_time import NS, STEP_NS, Listener, ScriptedTime, Speaker, wait_for
+from scripted_time import NS, STEP_NS, Listener, ScriptedTime, Speaker, wait_for, wait_for_subscriptions
 from scripted_yard import START, YardRobot
 from tf2_msgs.msg import TFMessage
 
@@ -62,6 +62,7 @@ class LocalizationMap(unittest.TestCase):
         for collector in (self.surfaces, self.grids, self.transforms, self.log):
             collector.messages.clear()
         self.robot.drive(0.0, 0.0)
+        wait_for_subscriptions("/localization", (names.IMU_DATA, names.WHEEL_ODOMETRY))
         self.time.start()
         self.advance(STANDSTILL_S)
 

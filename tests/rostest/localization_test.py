@@ -10,7 +10,7 @@ import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from node_process import NodeProcess
-from scripted_time import NS, STEP_NS, Listener, ScriptedTime, Speaker, wait_for
+from scripted_time import NS, STEP_NS, Listener, ScriptedTime, Speaker, wait_for, wait_for_subscriptions
 from sensor_msgs.msg import Imu, NavSatFix
 
 from mtr_core import names, schedule
@@ -57,16 +57,20 @@ class Localization(unittest.TestCase):
 
     def setUp(self):
         self.node = NodeProcess("mtr_localization", "localization_node", "localization", rear_lidar=False)
+        # Also when the set-up fails: two nodes of one name end each other.
+        self.addCleanup(self.end)
         self.heard = []
         self.robot.gyro.is_silent = self.robot.wheels.is_silent = False
         self.robot.drive(0.0)
+        wait_for_subscriptions("/localization", (names.IMU_DATA, names.WHEEL_ODOMETRY))
         self.time.start()
         self.advance(STANDSTILL_S + 0.2)
         self.robot.drive(SPEED_MPS)
         self.advance(1.0)
         self.assertTrue(self.heard[-1].valid, self.heard[-1].message)
 
-    def tearDown(self):
+    def end(self):
+        """End localization."""
         self.node.stop()
         wait_for(lambda: not self.pose.is_connected(), "the end of localization")
 

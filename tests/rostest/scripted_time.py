@@ -144,6 +144,14 @@ class ScriptedTime:
         return (self.tick_ns - begun_ns) * NS
 
 
+def wait_for_subscriptions(node: str, topics: Iterable[str]) -> None:
+    """Return when a node that holds no time has subscribed to all that it is to hear: what is said before is lost."""
+    def has_all() -> bool:
+        subscribers = dict(rosgraph.Master(rospy.get_name()).getSystemState()[1])
+        return all(node in subscribers.get(topic, ()) for topic in topics)
+    wait_for(has_all, f"what {node} subscribes to")
+
+
 def wait_for(condition: Callable[[], bool], what: str) -> None:
     """Wait, by wall time, for something that comes before simulated time starts."""
     deadline = time.monotonic() + PATIENCE_WALL_S
