@@ -4,6 +4,7 @@ On the machine's clock, and on a simulated one that waits for nobody, as another
 """
 # SPDX-License-Identifier: Apache-2.0
 import json
+import re
 import subprocess
 import sys
 
@@ -19,6 +20,8 @@ def test_stopped_nodes_let_neither_commands_nor_wheels_surge_when_they_go_on(out
     done = subprocess.run([sys.executable, "-m", "mtr_benchmarks.liveness", "--short", *clock, "--nodes", *nodes,
                            "--steps", "--out", str(out)], text=True, capture_output=True, timeout=LIMIT_S, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
+    log = (out / "liveness" / "stack.log").read_text(encoding="utf-8", errors="replace")
+    assert not re.search(r"silent for \d{4,}", log), "an age is that of a stamp of another clock"
     found = json.loads((out / "liveness.json").read_text(encoding="utf-8"))
     stops = found["stalls"]
     assert [stop["node"] for stop in stops] == list(nodes)

@@ -112,6 +112,9 @@ void Node::subscribe_to_time(ros::NodeHandle& node) {
         },
         ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
   } else {
+    // Before the first message has come the stamps of what is sent are the ROS clock's already.
+    std::int64_t age_ns = 0;
+    time_of(mtr_core::to_ns(ros::Time::now()), age_ns);
     timer_ = node.createSteadyTimer(ros::WallDuration(kPeriodS), [this](const ros::SteadyTimerEvent&) {
       publish(source_->check_silence(mtr_core::boot_time_ns()));
     });
