@@ -66,15 +66,20 @@ def test_robot_that_does_not_say_how_well_it_knows_its_place_leaves_the_passes_o
         assert 0.0 < getattr(unsaid, high) - getattr(unsaid, low) < getattr(said, high) - getattr(said, low)
 
 
-def test_reaction_to_a_key_that_has_come_to_a_stand_tells_nothing_of_its_speed(run_scenario, world):
+def turn_locks_later(world, delay_s):
+    """The Car reacts so much later than the key comes to its places."""
     at_once = world.turn_locks
 
     def later(locked, time_s, source):
         if source == "late":
             at_once(locked, time_s, PASSIVE_ENTRY)
         else:
-            world.foreign.append((time_s + 0.5, locked, "late"))
+            world.foreign.append((time_s + delay_s, locked, "late"))
     world.turn_locks = later
+
+
+def test_reaction_to_a_key_that_has_come_to_a_stand_tells_nothing_of_its_speed(run_scenario, world):
+    turn_locks_later(world, 0.5)
     # The approach ends 0.1 m behind the boundary: the fast one before the Car has reacted, the slow one after.
     result = run_scenario(SCENARIO, replace(TWO, minimum_distance_m=1.4))[0]
     assert result.unlock_pass_distances_m == pytest.approx((1.4, 1.45), abs=0.02)
@@ -84,14 +89,7 @@ def test_reaction_to_a_key_that_has_come_to_a_stand_tells_nothing_of_its_speed(r
 
 
 def test_reaction_to_a_key_that_stands_at_the_end_of_its_way_is_not_taken_for_one_between_steps(run_scenario, world):
-    at_once = world.turn_locks
-
-    def later(locked, time_s, source):
-        if source == "late":
-            at_once(locked, time_s, PASSIVE_ENTRY)
-        else:
-            world.foreign.append((time_s + 1.0, locked, "late"))
-    world.turn_locks = later
+    turn_locks_later(world, 1.0)
     # The retreat ends 0.1 m behind the boundary, and the Car locks 1 s after the key has left it: the key stands.
     stepped = replace(TWO, passes=1, measuring_speeds_mps=None, last_step_m=0.05, straightening_distance_m=1.4,
                       measuring_speed_mps=0.4)
