@@ -91,7 +91,7 @@ class _Help:
         if self._begun_s is None:
             self._begun_s = time.monotonic()
         wants_map = status.mode in (link.MODE_READY_TO_MAP_CAR, link.MODE_FAULT) and not self.mapped
-        if wants_map and self._begun_s is not None and time.monotonic() - self._begun_s > PATIENCE_S:
+        if wants_map and time.monotonic() - self._begun_s > PATIENCE_S:
             self.mapped = True
             self._robot.map_car()
         return True
