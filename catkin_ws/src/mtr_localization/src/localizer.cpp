@@ -72,16 +72,15 @@ bool Localizer::correct_by_scans() {
 
 void Localizer::correct(std::size_t step, const ScanPoints& scan) {
   ScanMatch match = tracker_.match(scan, history().at(step).filter);
-  if (!tracker_.accept(match)) {
-    return;
-  }
-  if (match.contradicts(history().at(step).filter.pose_covariance())) {
+  if (ScanTracker::is_enough(match) && match.contradicts(history().at(step).filter.pose_covariance())) {
     // It was pushed, or slid: the prior's covariance does not know of that.
     const Eigen::Matrix3d surprise = match.shift().cwiseAbs2().asDiagonal();
     history().change(step, [&](PoseFilter& filter) { filter.add_pose_noise(surprise); });
     match = tracker_.match(scan, history().at(step).filter);
   }
-  history().change(step, [&](PoseFilter& filter) { filter.correct(match.correction); });
+  if (tracker_.fits(scan, history().at(step)) && tracker_.accept(match)) {
+    history().change(step, [&](PoseFilter& filter) { filter.correct(match.correction); });
+  }
 }
 
 void Localizer::relocalize(const ScanSet& set, const ScanPoints& scan) {

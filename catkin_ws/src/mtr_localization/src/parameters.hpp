@@ -82,9 +82,10 @@ struct TrackingParameters {
   double lost_hidden_after_s = 1.5;
   /// A position less certain than this, 1 sigma in the worst direction, is lost.
   double lost_sigma_m = 0.3;
-  /// The search for a lost pose covers so much round the last one, in x and y; all headings.
-  double search_radius_m = 3.0;
-  /// Mean of the two shares that a found pose must have, and by how much more than any other place.
+  /// The search for a lost pose covers so much round the last one, in x and y; all headings. Where it does not reach, a
+  /// place that looks like the true one has no rival: it has to be larger than what a robot can be carried.
+  double search_radius_m = 12.0;
+  /// Mean of the two shares that a found pose must have in each view, and by how much more than any other place.
   double found_agreement = 0.6;
   double found_margin = 0.12;
 };
@@ -103,7 +104,7 @@ inline constexpr std::array<TrackingRow, 13> kTrackingRows{{
     {"lost_after_s", &TrackingParameters::lost_after_s, 0.1, 10.0, "s"},
     {"lost_hidden_after_s", &TrackingParameters::lost_hidden_after_s, 0.1, 10.0, "s"},
     {"lost_sigma_m", &TrackingParameters::lost_sigma_m, 0.02, 10.0, "m"},
-    {"search_radius_m", &TrackingParameters::search_radius_m, 0.5, 10.0, "m"},
+    {"search_radius_m", &TrackingParameters::search_radius_m, 0.5, 30.0, "m"},
     {"found_agreement", &TrackingParameters::found_agreement, 0.1, 1.0, ""},
     {"found_margin", &TrackingParameters::found_margin, 0.0, 1.0, ""},
 }};

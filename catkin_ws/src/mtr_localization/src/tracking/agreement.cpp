@@ -175,9 +175,9 @@ Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap
   Agreement agreement;
   const auto beams = static_cast<int>(sweep.ranges_m.size());
   const int stride = std::max(1, static_cast<int>(kBeamStepRad / std::abs(sweep.angle_increment_rad)));
-  const double turn = view.turned_at_last_beam_rad - view.turned_at_first_beam_rad;
+  const double turn = view.turn.at_last_beam_rad - view.turn.at_first_beam_rad;
   for (int beam = 0; beam < beams; beam += stride) {
-    const double turned = view.turned_at_first_beam_rad + turn * beam / beams;
+    const double turned = view.turn.at_first_beam_rad + turn * beam / beams;
     const double angle = eye.z() + turned + sweep.angle_min_rad + beam * sweep.angle_increment_rad;
     const double measured = sweep.ranges_m[static_cast<std::size_t>(beam)];
     if (!(measured >= sweep.range_min_m && measured > 0.0)) {

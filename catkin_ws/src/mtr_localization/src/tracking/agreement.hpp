@@ -32,13 +32,20 @@ struct Agreement {
   double share_of_expected() const;
   /// Share of the returns that the map explains, 0 to 1; without returns 1 when none is expected, else 0.
   double share_of_returns() const;
+  /// Mean of both.
+  double share_of_both() const { return 0.5 * (share_of_expected() + share_of_returns()); }
 };
 
-/// Pose of base_link in the map when a sweep was taken, and how far it turned meanwhile.
+/// How far base_link had turned against the pose of a sweep when its first and its last beam were taken.
+struct SweepTurn {
+  double at_first_beam_rad = 0.0;
+  double at_last_beam_rad = 0.0;
+};
+
+/// Pose of base_link in the map when a sweep was taken.
 struct ViewPose {
   PoseVector pose;
-  double turned_at_first_beam_rad = 0.0;
-  double turned_at_last_beam_rad = 0.0;
+  SweepTurn turn = {};
   /// Rise of base_link's x and y axes per metre.
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
 };

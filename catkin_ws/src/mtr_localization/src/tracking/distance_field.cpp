@@ -13,6 +13,9 @@ namespace {
 constexpr double kInfluenceM = 0.4;
 // A stray surfel far away must not exhaust the memory; LiDARs of this class see 30 m.
 constexpr double kMaxMapM = 120.0;
+// Cells from one place of the search to the next, and what the highest level looks ahead.
+constexpr int kCellsPerStep = static_cast<int>(DistanceField::kStepM / DistanceField::kCellM + 0.5);
+constexpr double kAheadM = ((1 << (DistanceField::kLevels - 1)) - 1) * DistanceField::kStepM;
 
 }  // namespace
 
@@ -28,14 +31,36 @@ DistanceField::DistanceField(const std::vector<Surfel>& surfels) {
   }
   const Eigen::Vector2d middle = 0.5 * (low + high);
   const Eigen::Array2d half = (0.5 * (high - low).array() + 2.0 * kInfluenceM).min(0.5 * kMaxMapM);
-  origin_ = middle - half.matrix();
-  size_ = (2.0 * half / kCellM).ceil().cast<int>();
-  cells_.assign(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()), 0);
+  // Places before the map's low edges look ahead into it.
+  origin_ = middle - half.matrix() - Eigen::Vector2d::Constant(kAheadM);
+  size_ = ((2.0 * half + kAheadM) / kCellM).ceil().cast<int>();
+  levels_[0].assign(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()), 0);
   for (const Surfel& surfel : surfels) {
     const Eigen::Vector2d along(-surfel.normal.y(), surfel.normal.x());
     const int steps = static_cast<int>(std::ceil(surfel.length_m / kCellM));
     for (int step = 0; step <= steps; ++step) {
       mark(surfel.position + along * surfel.length_m * (static_cast<double>(step) / steps - 0.5));
+    }
+  }
+  for (int level = 1; level < kLevels; ++level) {
+    widen(level);
+  }
+}
+
+void DistanceField::widen(int level) {
+  const std::vector<std::uint8_t>& fine = levels_[static_cast<std::size_t>(level - 1)];
+  std::vector<std::uint8_t>& wide = levels_[static_cast<std::size_t>(level)];
+  wide = fine;
+  const int ahead = kCellsPerStep << (level - 1);
+  for (int y = 0; y < size_.y(); ++y) {
+    for (int x = 0; x < size_.x(); ++x) {
+      const bool has_x = x + ahead < size_.x();
+      const bool has_y = y + ahead < size_.y();
+      std::uint8_t largest = fine[index(x, y)];
+      largest = has_x ? std::max(largest, fine[index(x + ahead, y)]) : largest;
+      largest = has_y ? std::max(largest, fine[index(x, y + ahead)]) : largest;
+      largest = has_x && has_y ? std::max(largest, fine[index(x + ahead, y + ahead)]) : largest;
+      wide[index(x, y)] = largest;
     }
   }
 }
@@ -49,7 +74,7 @@ void DistanceField::mark(const Eigen::Vector2d& point) {
     for (int x = std::max(0, middle_x - cells); x <= std::min(size_.x() - 1, middle_x + cells); ++x) {
       const double distance = kCellM * std::hypot(x + 0.5 - place.x(), y + 0.5 - place.y());
       const auto nearness = static_cast<std::uint8_t>(std::lround(255.0 * std::max(0.0, 1.0 - distance / kInfluenceM)));
-      std::uint8_t& cell = cells_[static_cast<std::size_t>(y * size_.x() + x)];
+      std::uint8_t& cell = levels_[0][index(x, y)];
       cell = std::max(cell, nearness);
     }
   }

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "map_names.hpp"
 
@@ -21,6 +22,8 @@ constexpr double kSmallTurnRad = 2e-5;
 constexpr double kCauchy = 2.385;
 // Surfaces are looked for within this, and 3 sigma of the prior.
 constexpr double kMinGateM = 0.08;
+// Points so far above or below the LiDAR are met at its own height.
+constexpr double kLevelM = 0.02;
 // Beyond its ends a surface may go on so far.
 constexpr double kEndM = 0.05;
 
@@ -145,6 +148,29 @@ ScanMatch ScanMatcher::match(const ScanPoints& scan, const ReferenceMap& map, co
   }
   add_error_sources(match.pose, scan, map, prior, match.correction);
   return match;
+}
+
+ScanFit ScanMatcher::fit(const ScanPoints& scan, const ReferenceMap& map, const PosePrior& prior) const {
+  ScanPoints level;
+  std::copy_if(scan.points.begin(), scan.points.end(), std::back_inserter(level.points),
+               [](const ScanPoint& point) { return std::abs(point.rise_m) <= kLevelM; });
+  ScanFit fit;
+  const auto is_near = [&](const ScanPoint& point) {
+    const Eigen::Matrix2d turn = rotation(prior.pose.z());
+    const Eigen::Vector2d direction = turn * point.direction;
+    const Eigen::Vector2d position = prior.pose.head<2>() + turn * point.position - map.range_bias_m * direction;
+    return map.surfaces.match(position, parameters_.max_match_m, direction).has_value();
+  };
+  std::size_t next = 0;
+  const auto stride = std::max<std::size_t>(
+      1, static_cast<std::size_t>(std::ceil(static_cast<double>(level.points.size()) / parameters_.max_points)));
+  for_each_match(prior.pose, level, map, prior,
+                 [&](const Surfel* surfel, const Eigen::Vector3d&, double, double, double, double) {
+                   fit.exact += surfel != nullptr;
+                   fit.near += surfel != nullptr || is_near(level.points[next]);
+                   next += stride;
+                 });
+  return fit;
 }
 
 void ScanMatcher::add_error_sources(const PoseVector& pose, const ScanPoints& scan, const ReferenceMap& map,

@@ -47,6 +47,14 @@ struct ScanMatch {
   bool contradicts(const Eigen::Matrix3d& prior_covariance) const;
 };
 
+/// Returns from the LiDAR's own height, where a surface's lean and steps do not matter.
+struct ScanFit {
+  /// Near a surface.
+  int near = 0;
+  /// Of these as near as the pose's covariance would have them.
+  int exact = 0;
+};
+
 /// Iterated least squares of the points' distances from surfaces, robust against what is not in the map: the update of
 /// an iterated extended Kalman filter (Bell and Cathey 1993).
 class ScanMatcher {
@@ -54,6 +62,8 @@ class ScanMatcher {
   explicit ScanMatcher(const TrackingParameters& parameters) : parameters_(parameters) {}
 
   ScanMatch match(const ScanPoints& scan, const ReferenceMap& map, const PosePrior& prior) const;
+  /// How well a scan lies on the map at the pose of a prior.
+  ScanFit fit(const ScanPoints& scan, const ReferenceMap& map, const PosePrior& prior) const;
 
  private:
   struct Sums;

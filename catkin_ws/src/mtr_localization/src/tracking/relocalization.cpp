@@ -1,188 +1,230 @@
 /// @file
-/// Coarse grid, fine matching, proof of uniqueness, confirmation.
+/// Views from several places, the places that may explain them, and when one of them does.
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/relocalization.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "map_names.hpp"
-#include "tracking/agreement.hpp"
 
 namespace mtr_localization {
 namespace {
 
-constexpr double kStepM = 0.2;
-constexpr int kHeadings = 120;
-constexpr double kStepRad = 2.0 * M_PI / kHeadings;
-// Work of one sweep, about 2 ms.
-constexpr int kHeadingsPerSweep = 6;
-constexpr std::size_t kCandidatesPerSweep = 2;
 constexpr std::size_t kSearchPoints = 60;
-constexpr std::size_t kMaxCandidates = 24;
 constexpr std::size_t kMinPoints = 15;
-// Poses closer than this are the same place.
-constexpr double kSamePlaceM = 0.3;
-constexpr double kSameHeadingRad = 0.12;
-// What a grid step leaves to find.
+// Work of one sweep, some milliseconds.
+constexpr std::size_t kRefinedPerSweep = 2;
+constexpr std::size_t kComparedPerSweep = 6;
+// What a step of the search leaves to find.
 constexpr double kCoarseSigmaM = 0.15;
 constexpr double kCoarseSigmaRad = 0.03;
 constexpr double kFineSigmaM = 0.05;
 constexpr double kFineSigmaRad = 0.01;
 constexpr int kRefinements = 3;
 constexpr double kToleranceM = 0.12;
-constexpr int kConfirmations = 5;
 // Fewer beams of one degree on the map than these are no proof of a place: a Car is met by 20 of them at 12 m.
 constexpr int kMinSeen = 12;
-
-bool same_place(const PoseVector& a, const PoseVector& b) {
-  return (a - b).head<2>().norm() < kSamePlaceM && std::abs(wrapped(a.z() - b.z())) < kSameHeadingRad;
-}
+// From so far, or so much turned, a LiDAR sees other sides of things, at other distances.
+constexpr double kApartM = 0.5;
+constexpr double kApartRad = 0.5;
+constexpr std::size_t kViewsToDecide = 3;
+constexpr std::size_t kMaxViews = 6;
+constexpr std::size_t kMaxHypotheses = 40;
+// A place that explains less of the view that led to it is no rival.
+constexpr double kMinShare = 0.25;
+// A place so near to the end of the search has neighbours that were not tried.
+constexpr double kRimM = 0.5;
 
 Eigen::Matrix3d pose_covariance(double sigma_m, double sigma_rad) {
   return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
 }
 
+std::vector<Eigen::Vector2d> thinned(const ScanPoints& scan) {
+  std::vector<Eigen::Vector2d> points;
+  const double stride = std::max(1.0, static_cast<double>(scan.points.size()) / kSearchPoints);
+  for (double i = 0.0; i < static_cast<double>(scan.points.size()); i += stride) {
+    points.push_back(scan.points[static_cast<std::size_t>(i)].position);
+  }
+  return points;
+}
+
+PoseVector inverse(const PoseVector& pose) { return relative(pose, PoseVector::Zero()); }
+
 }  // namespace
 
-Relocalization::Relocalization(const TrackingParameters& parameters, const ReferenceMap& map)
-    : parameters_(parameters), map_(map), matcher_(parameters), field_(map.surfaces.surfels()) {}
+double Relocalization::Hypothesis::mean() const {
+  return std::accumulate(shares.begin(), shares.end(), 0.0) / static_cast<double>(shares.size());
+}
 
-void Relocalization::begin(const PoseVector& around, const SearchView& view) {
-  phase_ = Phase::kIdle;
-  points_.clear();
-  candidates_.clear();
-  refined_.clear();
-  around_ = around;
-  first_odom_ = view.odom;
-  if (view.scan.points.size() < kMinPoints) {
-    return;
-  }
-  phase_ = Phase::kCoarse;
-  next_heading_ = 0;
-  const double stride = std::max(1.0, static_cast<double>(view.scan.points.size()) / kSearchPoints);
-  for (double i = 0.0; i < static_cast<double>(view.scan.points.size()); i += stride) {
-    points_.push_back(view.scan.points[static_cast<std::size_t>(i)].position);
+double Relocalization::Hypothesis::least() const { return *std::min_element(shares.begin(), shares.end()); }
+
+Relocalization::Relocalization(const TrackingParameters& parameters, const ReferenceMap& map, Extent extent)
+    : parameters_(parameters),
+      map_(map),
+      extent_(extent),
+      matcher_(parameters),
+      field_(map.surfaces.surfels()),
+      places_(field_) {}
+
+std::optional<Relocalization::Found> Relocalization::advance(const View& view, const PoseVector& reckoned) {
+  switch (phase_) {
+    case Phase::kWait:
+      phase_ = begin(view, reckoned) ? Phase::kSearch : Phase::kWait;
+      return std::nullopt;
+    case Phase::kSearch:
+      search();
+      return std::nullopt;
+    case Phase::kRefine:
+      refine();
+      return std::nullopt;
+    case Phase::kCompare:
+      compare();
+      return std::nullopt;
+    default:
+      return decide(view);
   }
 }
 
-std::optional<Relocalization::Found> Relocalization::advance(const SearchView& view) {
-  if (phase_ == Phase::kCoarse) {
-    score_headings();
-  } else if (phase_ == Phase::kFine) {
-    refine(view);
-  } else if (phase_ == Phase::kConfirm) {
-    return confirm(view);
-  } else {
-    begin(carried(around_, view), view);
-  }
-  return std::nullopt;
-}
-
-void Relocalization::score_headings() {
-  const int end = std::min(next_heading_ + kHeadingsPerSweep, kHeadings);
-  const int steps = static_cast<int>(std::floor(parameters_.search_radius_m / kStepM));
-  std::vector<Eigen::Vector2d> turned(points_.size());
-  for (; next_heading_ < end; ++next_heading_) {
-    const double heading = wrapped(around_.z() + next_heading_ * kStepRad);
-    const Eigen::Matrix2d turn = rotation(heading);
-    std::transform(points_.begin(), points_.end(), turned.begin(), [&](const auto& point) { return turn * point; });
-    for (int x = -steps; x <= steps; ++x) {
-      for (int y = -steps; y <= steps; ++y) {
-        const Eigen::Vector2d place = around_.head<2>() + kStepM * Eigen::Vector2d(x, y);
-        int sum = 0;
-        for (const Eigen::Vector2d& point : turned) {
-          sum += field_.nearness(place + point);
-        }
-        keep({{place.x(), place.y(), heading}, static_cast<double>(sum)});
-      }
-    }
-  }
-  if (next_heading_ == kHeadings) {
-    next_candidate_ = 0;
-    phase_ = Phase::kFine;
-  }
-}
-
-void Relocalization::keep(const Candidate& candidate) {
-  if (candidates_.size() == kMaxCandidates && candidate.score <= candidates_.back().score) {
-    return;
-  }
-  for (Candidate& other : candidates_) {
-    if (same_place(other.pose, candidate.pose)) {
-      if (candidate.score > other.score) {
-        other = candidate;
-      }
-      return;
-    }
-  }
-  candidates_.push_back(candidate);
-  std::sort(candidates_.begin(), candidates_.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
-  candidates_.resize(std::min(candidates_.size(), kMaxCandidates));
-}
-
-void Relocalization::refine(const SearchView& view) {
-  const std::size_t end = std::min(next_candidate_ + kCandidatesPerSweep, candidates_.size());
-  for (; next_candidate_ < end; ++next_candidate_) {
-    PoseVector pose = carried(candidates_[next_candidate_].pose, view);
-    for (int i = 0; i < kRefinements; ++i) {
-      pose = match_at(pose, view, i == 0 ? kCoarseSigmaM : kFineSigmaM, i == 0 ? kCoarseSigmaRad : kFineSigmaRad).pose;
-    }
-    // Back to the first sweep's time, where all candidates are at home.
-    const PoseVector at_first = compose(pose, relative(view.odom, first_odom_));
-    refined_.push_back({at_first, agreement_at(pose, view)});
-  }
-  if (next_candidate_ == candidates_.size()) {
-    phase_ = choose() ? Phase::kConfirm : Phase::kIdle;
-    confirmed_ = 0;
-  }
-}
-
-bool Relocalization::choose() {
-  const auto best = std::max_element(refined_.begin(), refined_.end(),
-                                     [](const auto& a, const auto& b) { return a.score < b.score; });
-  if (best == refined_.end() || best->score < parameters_.found_agreement) {
+bool Relocalization::begin(const View& view, const PoseVector& reckoned) {
+  if (view.scan.points.size() < kMinPoints || !is_new(view)) {
     return false;
   }
-  best_ = *best;
-  return std::all_of(refined_.begin(), refined_.end(), [&](const Candidate& other) {
-    return same_place(other.pose, best_.pose) || other.score <= best_.score - parameters_.found_margin;
+  views_.push_back(view);
+  found_ = {reckoned};
+  next_ = 0;
+  around_ = around_.value_or(reckoned);
+  if (extent_ == Extent::kEverywhere) {
+    places_.begin(*around_, parameters_.search_radius_m, thinned(view.scan));
+  }
+  return true;
+}
+
+bool Relocalization::is_new(const View& view) const {
+  return std::all_of(views_.begin(), views_.end(), [&](const View& other) {
+    const PoseVector way = relative(other.odom, view.odom);
+    return way.head<2>().norm() > kApartM || std::abs(way.z()) > kApartRad;
   });
 }
 
-std::optional<Relocalization::Found> Relocalization::confirm(const SearchView& view) {
-  const PoseVector pose = carried(best_.pose, view);
-  const ScanMatch match = match_at(pose, view, kFineSigmaM, kFineSigmaRad);
-  if (agreement_at(match.pose, view) < parameters_.found_agreement) {
-    phase_ = Phase::kIdle;
-    return std::nullopt;
+void Relocalization::search() {
+  if (extent_ == Extent::kEverywhere) {
+    if (!places_.advance()) {
+      return;
+    }
+    found_.insert(found_.end(), places_.places().begin(), places_.places().end());
   }
-  best_.pose = compose(match.pose, relative(view.odom, first_odom_));
-  if (++confirmed_ < kConfirmations) {
-    return std::nullopt;
-  }
-  phase_ = Phase::kIdle;
-  return Found{match.pose, pose_covariance(kFineSigmaM, kFineSigmaRad)};
+  phase_ = Phase::kRefine;
 }
 
-PoseVector Relocalization::carried(const PoseVector& pose, const SearchView& view) const {
-  return compose(pose, relative(first_odom_, view.odom));
+void Relocalization::refine() {
+  const View& view = views_.back();
+  const std::size_t end = std::min(next_ + kRefinedPerSweep, found_.size());
+  for (; next_ < end; ++next_) {
+    PoseVector& pose = found_[next_];
+    for (int i = 0; i < kRefinements; ++i) {
+      pose = matched(view, pose, i == 0 ? kCoarseSigmaM : kFineSigmaM, i == 0 ? kCoarseSigmaRad : kFineSigmaRad);
+    }
+  }
+  if (next_ == found_.size()) {
+    next_ = 0;
+    known_ = hypotheses_.size();
+    phase_ = Phase::kCompare;
+  }
 }
 
-double Relocalization::agreement_at(const PoseVector& pose, const SearchView& view) const {
+void Relocalization::compare() {
+  const View& view = views_.back();
+  std::size_t work = 0;
+  // Places of earlier views in the newest one.
+  for (; next_ < known_ && work < kComparedPerSweep; ++next_, ++work) {
+    Hypothesis& known = hypotheses_[next_];
+    const PoseVector pose = matched(view, compose(known.map_from_odom, view.odom), kFineSigmaM, kFineSigmaRad);
+    known.map_from_odom = compose(pose, inverse(view.odom));
+    known.shares.push_back(share_at(view, pose));
+  }
+  // Places of the newest view in all of them.
+  for (; next_ < known_ + found_.size() && work < kComparedPerSweep; ++next_, work += views_.size()) {
+    add(found_[next_ - known_]);
+  }
+  if (next_ < known_ + found_.size()) {
+    return;
+  }
+  std::sort(hypotheses_.begin(), hypotheses_.end(),
+            [](const Hypothesis& a, const Hypothesis& b) { return a.mean() > b.mean(); });
+  hypotheses_.resize(std::min(hypotheses_.size(), kMaxHypotheses));
+  phase_ = Phase::kDecide;
+}
+
+void Relocalization::add(const PoseVector& pose) {
+  const View& newest = views_.back();
+  if (share_at(newest, pose) < kMinShare) {
+    return;
+  }
+  const Hypothesis found = laid(pose);
+  for (Hypothesis& other : hypotheses_) {
+    if (is_same_place(compose(other.map_from_odom, newest.odom), compose(found.map_from_odom, newest.odom))) {
+      other = found.mean() > other.mean() ? found : other;
+      return;
+    }
+  }
+  hypotheses_.push_back(found);
+}
+
+Relocalization::Hypothesis Relocalization::laid(const PoseVector& pose) const {
+  Hypothesis found{compose(pose, inverse(views_.back().odom)), {}};
+  for (const View& view : views_) {
+    const PoseVector there = matched(view, compose(found.map_from_odom, view.odom), kFineSigmaM, kFineSigmaRad);
+    found.shares.push_back(share_at(view, there));
+  }
+  return found;
+}
+
+std::optional<Relocalization::Found> Relocalization::decide(const View& view) {
+  std::optional<Found> found;
+  if (views_.size() >= kViewsToDecide && !hypotheses_.empty()) {
+    const Hypothesis& best = hypotheses_.front();
+    const PoseVector pose = matched(view, compose(best.map_from_odom, view.odom), kFineSigmaM, kFineSigmaRad);
+    if (best.least() >= parameters_.found_agreement && is_alone(best) && !is_at_rim(pose) &&
+        share_at(view, pose) >= parameters_.found_agreement) {
+      found = {pose, pose_covariance(kFineSigmaM, kFineSigmaRad)};
+    }
+  }
+  // What is seen changes, and wheels and gyro drift: old views are forgotten.
+  if (views_.size() >= kMaxViews) {
+    views_.pop_front();
+    for (Hypothesis& hypothesis : hypotheses_) {
+      hypothesis.shares.pop_front();
+    }
+  }
+  phase_ = Phase::kWait;
+  return found;
+}
+
+bool Relocalization::is_alone(const Hypothesis& best) const {
+  const PoseVector& odom = views_.back().odom;
+  return std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& other) {
+    return is_same_place(compose(other.map_from_odom, odom), compose(best.map_from_odom, odom)) ||
+           other.mean() <= best.mean() - parameters_.found_margin;
+  });
+}
+
+bool Relocalization::is_at_rim(const PoseVector& pose) const {
+  return extent_ == Extent::kEverywhere &&
+         (pose - *around_).head<2>().cwiseAbs().maxCoeff() > parameters_.search_radius_m - kRimM;
+}
+
+double Relocalization::share_at(const View& view, const PoseVector& pose) const {
   // Both count: a place must explain what is seen, and show what it lets expect.
-  const Agreement agreement = agreement_of(view.sweep, {pose, 0.0, 0.0, view.slope}, map_.surfaces, kToleranceM);
-  if (agreement.seen < kMinSeen) {
-    return 0.0;
-  }
-  return 0.5 * (agreement.share_of_expected() + agreement.share_of_returns());
+  const Agreement agreement = agreement_of(view, pose, map_.surfaces, kToleranceM);
+  return agreement.seen < kMinSeen ? 0.0 : agreement.share_of_both();
 }
 
-ScanMatch Relocalization::match_at(const PoseVector& pose, const SearchView& view, double sigma_m,
-                                   double sigma_rad) const {
+PoseVector Relocalization::matched(const View& view, const PoseVector& pose, double sigma_m, double sigma_rad) const {
   const Eigen::Matrix3d covariance = pose_covariance(sigma_m, sigma_rad);
-  return matcher_.match(view.scan, map_, {pose, covariance, covariance});
+  return matcher_.match(view.scan, map_, {pose, covariance, covariance}).pose;
 }
 
 }  // namespace mtr_localization

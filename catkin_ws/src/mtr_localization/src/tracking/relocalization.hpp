@@ -1,78 +1,82 @@
 /// @file
-/// Finds a lost pose again: a search of all poses round the last one, a little with each sweep.
+/// Finds a lost pose again: places that explain what is seen from several places on the way.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
-#include "scans/sweep.hpp"
 #include "tracking/distance_field.hpp"
 #include "tracking/matcher.hpp"
+#include "tracking/place_search.hpp"
+#include "tracking/view.hpp"
 
 namespace mtr_localization {
 
-/// What one scan set shows.
-struct SearchView {
-  const Sweep& sweep;
-  const ScanPoints& scan;
-  /// Base_link in odom at the scan.
-  PoseVector odom;
-  /// Rise of base_link's x and y axes per metre.
-  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
-};
-
-/// One search. The robot may move meanwhile: poses are those at the search's first sweep, carried on by odometry.
+/// One search, for as long as the pose is lost. Sweeps of one place say the same again and again; what tells a place
+/// from one that looks like it is what is seen after driving or turning, which wheels and gyro connect.
 ///
-/// Coarse: each pose of a grid is scored by how near the first sweep's points come to surfaces. Fine: the best are laid
-/// on the surfaces and compared by what the present sweep shows. Unique: the best must be better than any other place.
-/// Confirmed: further sweeps agree.
+/// Search: from each new view all places round the pose that was lost are tried, without regard to those found before.
+/// Compare: each place that was ever found, and the pose that wheels and gyro led to, is laid on the surfaces in each
+/// view. Decide: one place explains all of at least kViewsToDecide views, and every other place explains them less.
 class Relocalization {
  public:
   struct Found {
     PoseVector pose;
     Eigen::Matrix3d covariance;
   };
+  /// Where a pose may be found.
+  enum class Extent { kEverywhere, kReckonedOnly };
 
-  /// Both outlive the search.
-  Relocalization(const TrackingParameters& parameters, const ReferenceMap& map);
-
-  /// Begins anew round a pose of base_link in map.
-  void begin(const PoseVector& around, const SearchView& view);
+  /// The map outlives the search.
+  Relocalization(const TrackingParameters& parameters, const ReferenceMap& map, Extent extent = Extent::kEverywhere);
 
   /// One step; the pose at the view when it is sure.
-  std::optional<Found> advance(const SearchView& view);
+  /// @param reckoned pose of base_link in map that wheels and gyro led to
+  std::optional<Found> advance(const View& view, const PoseVector& reckoned);
 
  private:
-  struct Candidate {
-    PoseVector pose;
-    double score;
-  };
-  enum class Phase { kIdle, kCoarse, kFine, kConfirm };
+  /// A place, as the pose of odom in map, and how much it explains of each view kept.
+  struct Hypothesis {
+    PoseVector map_from_odom;
+    std::deque<double> shares;
 
-  void score_headings();
-  void keep(const Candidate& candidate);
-  void refine(const SearchView& view);
-  bool choose();
-  std::optional<Found> confirm(const SearchView& view);
-  PoseVector carried(const PoseVector& pose, const SearchView& view) const;
-  double agreement_at(const PoseVector& pose, const SearchView& view) const;
-  ScanMatch match_at(const PoseVector& pose, const SearchView& view, double sigma_m, double sigma_rad) const;
+    double mean() const;
+    double least() const;
+  };
+  enum class Phase { kWait, kSearch, kRefine, kCompare, kDecide };
+
+  bool begin(const View& view, const PoseVector& reckoned);
+  void search();
+  void refine();
+  void compare();
+  std::optional<Found> decide(const View& view);
+  bool is_alone(const Hypothesis& best) const;
+  bool is_at_rim(const PoseVector& pose) const;
+  bool is_new(const View& view) const;
+  void add(const PoseVector& pose);
+  Hypothesis laid(const PoseVector& pose) const;
+  double share_at(const View& view, const PoseVector& pose) const;
+  PoseVector matched(const View& view, const PoseVector& pose, double sigma_m, double sigma_rad) const;
 
   TrackingParameters parameters_;
   const ReferenceMap& map_;
+  Extent extent_;
   ScanMatcher matcher_;
   DistanceField field_;
-  Phase phase_ = Phase::kIdle;
-  PoseVector around_ = PoseVector::Zero();
-  PoseVector first_odom_ = PoseVector::Zero();
-  std::vector<Eigen::Vector2d> points_;
-  int next_heading_ = 0;
-  std::vector<Candidate> candidates_;
-  std::size_t next_candidate_ = 0;
-  std::vector<Candidate> refined_;
-  Candidate best_{PoseVector::Zero(), 0.0};
-  int confirmed_ = 0;
+  PlaceSearch places_;
+  Phase phase_ = Phase::kWait;
+  /// Where the search began, in map.
+  std::optional<PoseVector> around_;
+  /// Places found from the newest view.
+  std::vector<PoseVector> found_;
+  /// The next of `known_` hypotheses of earlier views, and of the places found, to be worked on.
+  std::size_t next_ = 0;
+  std::size_t known_ = 0;
+  /// Newest last.
+  std::deque<View> views_;
+  std::vector<Hypothesis> hypotheses_;
 };
 
 }  // namespace mtr_localization

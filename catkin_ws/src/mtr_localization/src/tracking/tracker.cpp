@@ -16,6 +16,8 @@ namespace {
 // Fewer expected beams than these say nothing about being lost: a Car 12 m away is met by 20 of one degree.
 constexpr int kMinEvidence = 8;
 constexpr int kMinMatched = 5;
+// Where nothing is expected, returns of so many beams are more than a person who stands there; 20 are 0.6 m at 2 m.
+constexpr int kMinUnexplained = 20;
 constexpr double kToleranceM = 0.12;
 // Lever that makes an angle comparable with a distance.
 constexpr double kLeverM = 1.0;
@@ -26,8 +28,17 @@ constexpr double kMinInformation = 1e-6;
 constexpr double kMaxBridgedM = 2.0;
 // A robot that moved less since the view agreed was carried, or something stands before it.
 constexpr double kStoodM = 0.05;
-// Sweeps that must agree, one after the other, with where wheels and gyro say the robot is.
-constexpr int kAgreementsToResume = 5;
+// What hid the view has gone when, near the place where it agreed last, so much of it is seen for so long.
+constexpr double kUncoveredShare = 0.75;
+constexpr std::int64_t kUncoveredNs = 1'000'000'000;
+constexpr double kUncoveredWithinM = 1.0;
+constexpr double kUncoveredWithinRad = 0.5;
+// Of so many returns near surfaces a pose that is what its covariance says puts nearly all on them.
+constexpr int kMinNear = 15;
+constexpr double kMinExactShare = 0.5;
+// Beams and share of the expected view that look through surfaces, of which no person can be the cause.
+constexpr int kMinContradicted = 8;
+constexpr double kContradictedShare = 0.25;
 
 double weakest_sigma_m(const Eigen::Matrix3d& information) {
   const Eigen::Vector3d scale(1.0, 1.0, 1.0 / kLeverM);
@@ -41,6 +52,12 @@ double position_sigma_m(const PoseFilter& filter) {
   const Eigen::Matrix2d covariance = filter.pose_covariance().topLeftCorner<2, 2>();
   return std::sqrt(
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+}
+
+/// Surfaces are not where the map has them.
+bool contradicts(const Agreement& all) {
+  const int through = all.beyond + all.missing;
+  return through >= kMinContradicted && through >= kContradictedShare * all.expected();
 }
 
 }  // namespace
@@ -73,6 +90,7 @@ int ScanTracker::enter(const AdjustedMap& adjusted, const FilterStep& here) {
   state_ = State::kLocalized;
   agreed_ns_ = here.stamp_ns;
   agreed_odom_ = here.odom;
+  fitted_ns_ = here.stamp_ns;
   // The constant error of the range is one more.
   return map_->sources.count + 1;
 }
@@ -85,14 +103,16 @@ void ScanTracker::lose(const mtr_core::Problem& reason) {
 void ScanTracker::lose_sight(const mtr_core::Problem& reason) {
   lost_reason_ = reason;
   degenerate_ = false;
-  agreeing_ = 0;
+  uncovered_ns_.reset();
   is_reckoned_ = true;
 }
 
 void ScanTracker::find(const FilterStep& step) {
   lost_reason_ = {};
+  is_contradicted_ = false;
   agreed_ns_ = step.stamp_ns;
   agreed_odom_ = step.odom;
+  fitted_ns_ = step.stamp_ns;
   search_.reset();
 }
 
@@ -104,18 +124,24 @@ Judgement ScanTracker::judge(const ScanSet& set, const FilterHistory& history) {
     return Judgement::kLost;
   }
   const FilterStep& step = history.at(set.step);
-  const Agreement all = agreement(set, history);
+  const double tolerance_m = kToleranceM + 3.0 * position_sigma_m(history.newest().filter);
+  const Agreement all = agreement_of(view_of(set, {}, history), step.filter.pose(), map_->surfaces, tolerance_m);
   const bool is_right = agrees(all);
   if (is_right) {
     agreed_ns_ = step.stamp_ns;
     agreed_odom_ = step.odom;
-  } else if (is_beyond_patience(all, step)) {
+    is_contradicted_ = false;
+  } else {
+    fitted_ns_ = step.stamp_ns;
+  }
+  if (!is_right && is_beyond_patience(all, step)) {
     // Nobody searches while mapping: beside a Car alone a map of half a way round has places that look alike.
     lose_sight(state_ == State::kMapping ? problems::kOtherViewWhileMapping() : problems::kOtherView());
   }
   if (position_sigma_m(history.newest().filter) > parameters_.lost_sigma_m && state_ == State::kLocalized) {
     lose_sight(problems::kOutOfView());
   }
+  is_contradicted_ = is_contradicted_ || contradicts(all);
   if (lost()) {
     return Judgement::kLost;
   }
@@ -123,25 +149,20 @@ Judgement ScanTracker::judge(const ScanSet& set, const FilterHistory& history) {
   return is_right ? Judgement::kAgrees : Judgement::kDisagrees;
 }
 
-Agreement ScanTracker::agreement(const ScanSet& set, const FilterHistory& history) const {
-  const FilterStep& step = history.at(set.step);
-  const double sigma_m = position_sigma_m(history.newest().filter);
-  Agreement all;
-  for (const Sweep& sweep : set.sweeps) {
-    ViewPose view{step.filter.pose()};
-    view.turned_at_first_beam_rad = wrapped(history.odom_at(sweep.stamp_ns).z() - step.odom.z());
-    view.turned_at_last_beam_rad = wrapped(history.odom_at(sweep.last_beam_ns()).z() - step.odom.z());
-    view.slope = step.input.slope;
-    all += agreement_of(sweep, view, map_->surfaces, kToleranceM + 3.0 * sigma_m);
-  }
-  return all;
-}
-
 bool ScanTracker::agrees(const Agreement& all) {
   // Either is enough. Where the ground is uneven the LiDAR looks over or under what is expected, or meets the ground
   // all round; a pose that is wrong fails both.
   figures_.agreement = std::max(all.share_of_expected(), all.share_of_returns());
-  return all.expected() < kMinEvidence || figures_.agreement >= parameters_.min_agreement;
+  if (all.expected() < kMinEvidence) {
+    return !is_unexplained(all);
+  }
+  return figures_.agreement >= parameters_.min_agreement;
+}
+
+bool ScanTracker::is_unexplained(const Agreement& all) const {
+  // A growing map has not seen everything yet.
+  return state_ == State::kLocalized && all.expected() < kMinEvidence && all.unknown >= kMinUnexplained &&
+         all.share_of_returns() < parameters_.min_agreement;
 }
 
 bool ScanTracker::is_beyond_patience(const Agreement& all, const FilterStep& step) const {
@@ -149,7 +170,7 @@ bool ScanTracker::is_beyond_patience(const Agreement& all, const FilterStep& ste
   if (state_ == State::kMapping && bridged_m > kStoodM) {
     return bridged_m > kMaxBridgedM;
   }
-  const bool is_hidden = all.hidden > all.beyond + all.missing + all.passed;
+  const bool is_hidden = is_unexplained(all) || all.hidden > all.beyond + all.missing + all.passed;
   const double patience_s = is_hidden ? parameters_.lost_hidden_after_s : parameters_.lost_after_s;
   return static_cast<double>(step.stamp_ns - agreed_ns_) * 1e-9 >= patience_s;
 }
@@ -158,51 +179,68 @@ ScanMatch ScanTracker::match(const ScanPoints& scan, const PoseFilter& filter) c
   return matcher_.match(scan, *map_, {filter.pose(), filter.prior_covariance(), filter.pose_covariance()});
 }
 
+bool ScanTracker::is_enough(const ScanMatch& match) { return match.matched >= kMinMatched; }
+
 bool ScanTracker::accept(const ScanMatch& match) {
   figures_.points = match.points;
   figures_.matched = match.matched;
   figures_.residual_rms = match.residual_rms;
   figures_.weakest_sigma_m = weakest_sigma_m(match.correction.information);
   degenerate_ = figures_.weakest_sigma_m > parameters_.degenerate_sigma_m;
-  return match.matched >= kMinMatched;
+  return is_enough(match);
+}
+
+bool ScanTracker::fits(const ScanPoints& scan, const FilterStep& step) {
+  const PoseFilter& filter = step.filter;
+  const ScanFit fit = matcher_.fit(scan, *map_, {filter.pose(), filter.prior_covariance(), filter.pose_covariance()});
+  if (fit.near < kMinNear || fit.exact >= kMinExactShare * fit.near) {
+    fitted_ns_ = step.stamp_ns;
+  } else if (static_cast<double>(step.stamp_ns - fitted_ns_) * 1e-9 >= parameters_.lost_after_s) {
+    is_contradicted_ = true;
+    lose_sight(state_ == State::kMapping ? problems::kOtherViewWhileMapping() : problems::kOtherView());
+  }
+  return !lost();
 }
 
 std::optional<Relocalization::Found> ScanTracker::relocalize(const ScanSet& set, const ScanPoints& scan,
                                                              const FilterHistory& history) {
-  // Where the view is the expected one again, the pose by wheels and gyro is better than one that is searched for. A
-  // half-made map is not searched at all.
-  if (is_reckoned_) {
-    resume(set, history);
-  }
-  if (!lost() || state_ != State::kLocalized) {
-    return std::nullopt;
-  }
   const FilterStep& step = history.at(set.step);
-  return search({set.sweeps.front(), scan, step.odom, step.input.slope}, step);
-}
-
-void ScanTracker::resume(const ScanSet& set, const FilterHistory& history) {
-  const Agreement all = agreement(set, history);
-  // What is expected of a place that is hardly known agrees with much.
-  const bool is_known =
-      state_ == State::kMapping || position_sigma_m(history.newest().filter) <= parameters_.lost_sigma_m;
-  agreeing_ = is_known && agrees(all) && all.expected() >= kMinEvidence ? agreeing_ + 1 : 0;
-  if (agreeing_ >= kAgreementsToResume) {
-    find(history.at(set.step));
-  }
-}
-
-std::optional<Relocalization::Found> ScanTracker::search(const SearchView& view, const FilterStep& step) {
-  if (!search_) {
-    search_.emplace(parameters_, *map_);
-    search_->begin(step.filter.pose(), view);
+  const View view = view_of(set, scan, history);
+  if (is_uncovered(view, history, step)) {
+    find(step);
     return std::nullopt;
   }
-  const std::optional<Relocalization::Found> found = search_->advance(view);
-  if (found) {
-    find(step);
+  const bool is_mapping = state_ == State::kMapping;
+  if (is_mapping && !is_reckoned_) {
+    return std::nullopt;
   }
-  return found;
+  if (!search_) {
+    // A half-made map is not searched: beside a Car alone it has places that look alike.
+    using Extent = Relocalization::Extent;
+    search_.emplace(parameters_, *map_, is_mapping ? Extent::kReckonedOnly : Extent::kEverywhere);
+  }
+  const auto found = search_->advance(view, step.filter.pose());
+  if (!found) {
+    return std::nullopt;
+  }
+  find(step);
+  // The growing map goes on where wheels and gyro have led.
+  return is_mapping ? std::nullopt : found;
+}
+
+bool ScanTracker::is_uncovered(const View& view, const FilterHistory& history, const FilterStep& step) {
+  const Agreement all = agreement_of(view, step.filter.pose(), map_->surfaces, kToleranceM);
+  is_contradicted_ = is_contradicted_ || contradicts(all);
+  const PoseVector way = relative(agreed_odom_, step.odom);
+  const bool is_near = way.head<2>().norm() <= kUncoveredWithinM && std::abs(way.z()) <= kUncoveredWithinRad;
+  const bool is_known = position_sigma_m(history.newest().filter) <= parameters_.lost_sigma_m;
+  const bool is_seen = all.expected() >= kMinEvidence && all.share_of_both() >= kUncoveredShare;
+  if (!is_reckoned_ || is_contradicted_ || !is_near || !is_known || !is_seen) {
+    uncovered_ns_.reset();
+    return false;
+  }
+  uncovered_ns_ = uncovered_ns_.value_or(step.stamp_ns);
+  return step.stamp_ns - *uncovered_ns_ >= kUncoveredNs;
 }
 
 }  // namespace mtr_localization

@@ -17,6 +17,7 @@
 #include "tracking/agreement.hpp"
 #include "tracking/matcher.hpp"
 #include "tracking/relocalization.hpp"
+#include "tracking/view.hpp"
 
 namespace mtr_localization {
 
@@ -53,21 +54,26 @@ class ScanTracker {
   Judgement judge(const ScanSet& set, const FilterHistory& history);
   /// What a scan says about the pose of a step.
   ScanMatch match(const ScanPoints& scan, const PoseFilter& filter) const;
+  /// It is of enough points to correct a pose.
+  static bool is_enough(const ScanMatch& match);
   /// Notes the figures of a match; true when it is of enough points to correct a pose.
   bool accept(const ScanMatch& match);
-  /// While lost: waits until the view agrees again with where wheels and gyro have led, and in an adjusted map
-  /// searches. Returns the pose that was found by search.
+  /// Whether a scan lies exactly on the map at the pose of a step, which may look much like the right one and not be it.
+  /// Knows from then on when the pose is lost.
+  bool fits(const ScanPoints& scan, const FilterStep& step);
+  /// While lost: takes the pose of wheels and gyro up again when what hid the view has gone, else looks for places that
+  /// explain several views; in a growing map the pose of wheels and gyro is the only one that is tried. Returns the pose
+  /// that was found by search.
   std::optional<Relocalization::Found> relocalize(const ScanSet& set, const ScanPoints& scan,
                                                   const FilterHistory& history);
 
  private:
   void lose_sight(const mtr_core::Problem& reason);
   void find(const FilterStep& step);
-  Agreement agreement(const ScanSet& set, const FilterHistory& history) const;
   bool agrees(const Agreement& all);
+  bool is_unexplained(const Agreement& all) const;
   bool is_beyond_patience(const Agreement& all, const FilterStep& step) const;
-  void resume(const ScanSet& set, const FilterHistory& history);
-  std::optional<Relocalization::Found> search(const SearchView& view, const FilterStep& step);
+  bool is_uncovered(const View& view, const FilterHistory& history, const FilterStep& step);
 
   TrackingParameters parameters_;
   ScanMatcher matcher_;
@@ -77,13 +83,17 @@ class ScanTracker {
   std::unique_ptr<const ReferenceMap> map_ = std::make_unique<ReferenceMap>();
   std::optional<Relocalization> search_;
   mtr_core::Problem lost_reason_;
-  /// While lost: wheels and gyro saw all of the motion.
+  /// Wheels and gyro saw all of the motion since the view agreed last.
   bool is_reckoned_ = false;
+  /// Since the view agreed last, surfaces were not where the map has them; not only hidden by something nearer.
+  bool is_contradicted_ = false;
   /// When and where the view agreed last.
   std::int64_t agreed_ns_ = 0;
   PoseVector agreed_odom_ = PoseVector::Zero();
-  /// Scan sets in a row that agree again.
-  int agreeing_ = 0;
+  /// When returns lay exactly on the map, or there were too few to tell.
+  std::int64_t fitted_ns_ = 0;
+  /// While lost: since when the view is the expected one again.
+  std::optional<std::int64_t> uncovered_ns_;
   bool degenerate_ = false;
   TrackingFigures figures_;
 };

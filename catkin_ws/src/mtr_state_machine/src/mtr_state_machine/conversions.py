@@ -8,7 +8,7 @@ from mtr_core.conversions import desired_state_from, goal_report_from, waypoint_
 from mtr_core.problems import NO_PROBLEM, Problem, messages_of, problem_of
 from mtr_core.requests import DesiredState
 from mtr_core.states import CarState, Check
-from mtr_msgs.msg import CarCheck, CarEstimate, DriveStatus, MotionLock, RobotMode
+from mtr_msgs.msg import CarCheck, CarEstimate, DriveStatus, LocalizedPose, MotionLock, RobotMode
 from mtr_msgs.msg import Problem as ProblemMessage
 
 from . import problems
@@ -32,7 +32,9 @@ def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], 
         check=check_report(check or CarCheck()),
         map_revision=arrived[Part.LOCALIZATION].map_revision if Part.LOCALIZATION in arrived else 0,
         motion=goal_report_from(arrived.get(Part.MOTION_PLANNER)),
-        age_s=age_s, complaint=complaint, drive=drive(arrived.get(Part.DRIVE_CONTROL, DriveStatus())),
+        age_s=age_s, complaint=complaint,
+        is_position_lost=_is_position_lost(arrived.get(Part.LOCALIZATION, LocalizedPose())),
+        drive=drive(arrived.get(Part.DRIVE_CONTROL, DriveStatus())),
         firmware_resets=arrived[Part.PERIPHERALS].firmware_resets if Part.PERIPHERALS in arrived else 0, now_s=now_s)
 
 
@@ -82,6 +84,10 @@ def _localization_complaint(message: Any) -> Problem:
         return NO_PROBLEM
     cause = _problem(message)
     return problems.LOCALIZATION_LOST_BECAUSE(cause=cause) if cause else problems.LOCALIZATION_LOST()
+
+
+def _is_position_lost(message: LocalizedPose) -> bool:
+    return not message.valid and message.mode == LocalizedPose.LOST
 
 
 def _peripherals_complaint(message: Any) -> Problem:

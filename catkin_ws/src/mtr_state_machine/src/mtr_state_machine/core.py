@@ -18,6 +18,9 @@ from .table import AGAIN, Event, StateTable
 MAX_EVENTS_PER_TICK = 4
 UNWELCOME = (Result.REFUSED, Result.BLOCKED)
 LOCKED_STATES = (State.STARTING, State.FAULT)
+# A lost position stops the robot like any fault. It is found again only on the way, so that after this time, in which
+# the robot has come to rest, it can be driven by hand; without a goal nothing else drives it.
+STANDS_AFTER_S = 1.0
 # States that rest on the Car's frame.
 FRAME_STATES = (State.FOLLOWING_WAYPOINT, State.CHECKING_CAR)
 
@@ -56,6 +59,7 @@ class StateMachine:
         self._fault = NO_PROBLEM
         self._is_map_lost = False
         self._failed_waypoint = (0, 0)
+        self._lost_since_s: Optional[float] = None
         self._failure_is_old = False
 
     @property
@@ -75,6 +79,7 @@ class StateMachine:
             problem = self._problem(seen)
         if self.state is State.FAULT:
             self._keep_fault(seen, problem)
+        self._note_lost(seen)
         self._hold.update(seen, self._goals.goal)
         self._pursue(seen)
         return self._decision(seen, problem)
@@ -201,12 +206,19 @@ class StateMachine:
         return None
 
     def _decision(self, seen: Observation, problem: Problem) -> Decision:
-        locked = self.state in LOCKED_STATES
-        message = problem if locked else self._message(seen)
+        message = problem if self.state in LOCKED_STATES else self._message(seen)
+        locked = self.state in LOCKED_STATES and not self._may_be_driven(seen)
         return Decision(self.state, self._goals.goal, seen.desired.max_speed_mps, self.state is State.MAPPING_CAR,
                         self._map_car_id, self._waypoint.session_id, self._waypoint.waypoint_id,
                         self._waypoint.result, message, message if locked else NO_PROBLEM, self._check_car_id,
                         self._hold.id)
+
+    def _note_lost(self, seen: Observation) -> None:
+        is_lost = self.state is State.FAULT and seen.only_position_is_lost(self._parameters.silent_after_s)
+        self._lost_since_s = (seen.now_s if self._lost_since_s is None else self._lost_since_s) if is_lost else None
+
+    def _may_be_driven(self, seen: Observation) -> bool:
+        return self._lost_since_s is not None and seen.now_s - self._lost_since_s >= STANDS_AFTER_S
 
     def _keep_fault(self, seen: Observation, problem: Problem) -> None:
         """A part that failed is a reason for a person to come near; a Car that was not found is none."""

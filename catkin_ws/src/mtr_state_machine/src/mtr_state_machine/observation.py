@@ -1,6 +1,7 @@
 """What the state machine knows of the robot at its tick, as plain data."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
+import math
 from dataclasses import dataclass, field
 from typing import Dict
 
@@ -60,6 +61,7 @@ class Observation:
         map_revision: map that the robot's pose is in.
         age_s: age of each part's newest message; a part that is missing has not reported yet.
         complaint: of a part that reports but is not well, e.g. a localization that is lost.
+        is_position_lost: localization looks for its place on the map, as opposed to one that lacks a sensor.
         firmware_resets: of the board of lift and servos, since its node's start.
     """
 
@@ -70,6 +72,7 @@ class Observation:
     motion: GoalReport = GoalReport()
     age_s: Dict[Part, float] = field(default_factory=dict)
     complaint: Dict[Part, Problem] = field(default_factory=dict)
+    is_position_lost: bool = False
     drive: Drive = Drive()
     firmware_resets: int = 0
     now_s: float = 0.0
@@ -81,3 +84,9 @@ class Observation:
         if not is_fresh(self.age_s[part], silent_after_s):
             return problems.PART_SILENT(part=part.value, age_s=self.age_s[part])
         return self.complaint.get(part, NO_PROBLEM)
+
+    def only_position_is_lost(self, silent_after_s: float) -> bool:
+        """Localization reports that it looks for its place on the map, and nothing else is wrong."""
+        others = any(self.part_problem(part, silent_after_s) for part in Part if part is not Part.LOCALIZATION)
+        is_heard = is_fresh(self.age_s.get(Part.LOCALIZATION, math.inf), silent_after_s)
+        return is_heard and self.is_position_lost and not others

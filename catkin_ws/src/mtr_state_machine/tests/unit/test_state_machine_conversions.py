@@ -1,6 +1,7 @@
 """ROS messages to the observation and the decision to ROS messages."""
 # SPDX-License-Identifier: Apache-2.0
 import genpy
+import pytest
 
 from mtr_core.conversions import waypoint_message
 from mtr_core.problems import Problem
@@ -61,6 +62,12 @@ def test_lost_localization_and_silent_firmware_are_complaints():
     assert problem.text == "Localization is lost. No IMU."
     assert problem.cause == Problem("localization.no_imu", "No IMU.")
     assert "firmware" in seen.part_problem(Part.PERIPHERALS, 0.5).text
+
+
+@pytest.mark.parametrize("message, lost", [(LocalizedPose(mode=LocalizedPose.LOST), True), (LocalizedPose(), False),
+                                           (LocalizedPose(valid=True, mode=LocalizedPose.LOST), False)])
+def test_lost_position_is_told_from_a_localization_without_a_sensor(message, lost):
+    assert observation({Part.LOCALIZATION: stamped(message)}, None, AGES_S, 10.02).is_position_lost is lost
 
 
 def test_localization_that_says_nothing_is_lost_without_a_cause():

@@ -211,6 +211,34 @@ def test_failed_part_is_a_fault_with_its_sentence_and_ends_where_it_began(machin
     assert machine.step(well).state is before
 
 
+def lost_position(now_s, **changes):
+    return seen(car=LOCATED, complaint=LOST, is_position_lost=True, now_s=now_s, **changes)
+
+
+def test_lost_position_stops_the_robot_and_then_it_can_be_driven_by_hand_but_has_no_goal(following):
+    assert following.step(lost_position(10.0)).lock_reason
+    assert following.step(lost_position(10.99)).lock_reason
+    decision = following.step(lost_position(11.0))
+    assert not decision.lock_reason and decision.state is State.FAULT and decision.goal == NO_GOAL
+    assert decision.message == LOST[Part.LOCALIZATION]
+
+
+def test_position_that_is_lost_anew_stops_the_robot_anew(following):
+    following.step(lost_position(10.0))
+    following.step(seen(car=LOCATED, now_s=12.0))
+    assert following.step(lost_position(12.1)).lock_reason
+
+
+@pytest.mark.parametrize("also", [{"age_s": {**ALL_WELL, Part.PERIPHERALS: 0.6}},
+                                  {"age_s": {**ALL_WELL, Part.LOCALIZATION: 0.6}},
+                                  {"complaint": {**LOST, Part.PERIPHERALS: Problem(text="Silent.")}},
+                                  {"is_position_lost": False}],
+                         ids=["peripherals-silent", "localization-silent", "firmware-silent", "sensor-missing"])
+def test_with_anything_else_wrong_a_robot_that_lost_its_position_stays_locked(following, also):
+    following.step(replace(lost_position(10.0), **also))
+    assert following.step(replace(lost_position(20.0), **also)).lock_reason
+
+
 def test_lost_car_is_a_fault(following):
     decision = following.step(seen(car=Car()))
     assert decision.state is State.FAULT and "map the Car again" in decision.message.text

@@ -1,0 +1,116 @@
+/// @file
+/// What proves a place, and what does not.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "scene_drive.hpp"
+#include "tracking/relocalization.hpp"
+
+namespace mtr_localization {
+namespace {
+
+class RelocalizationTest : public ::testing::Test {
+ protected:
+  void add_surfaces(const synthetic::World& scene) {
+    std::vector<Surfel> surfels;
+    for (const synthetic::Segment& side : scene) {
+      const Eigen::Vector2d along = (side.to - side.from).normalized();
+      for (double at = 0.1; at < (side.to - side.from).norm(); at += 0.2) {
+        surfels.push_back({side.from + at * along, {along.y(), -along.x()}, 0.2, 0.002, 50});
+      }
+    }
+    map.surfaces = SurfelMap(surfels);
+  }
+
+  /// A LiDAR in base_link that sees 70 degrees ahead and `range_max_m` far; odom is where the map is.
+  static View view_from(const synthetic::World& scene, const PoseVector& pose, double range_max_m = 30.0) {
+    View view;
+    view.odom = pose;
+    view.turns.emplace_back();
+    Sweep& sweep = view.sweeps.emplace_back();
+    sweep.angle_min_rad = -0.6;
+    sweep.angle_max_rad = 0.6;
+    sweep.angle_increment_rad = 1.2 / 239;
+    sweep.range_min_m = 0.1;
+    sweep.range_max_m = range_max_m;
+    for (int beam = 0; beam < 240; ++beam) {
+      const double angle = sweep.angle_min_rad + beam * sweep.angle_increment_rad;
+      const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+      const double range = synthetic::cast(scene, pose.head<2>(), rotation(pose.z()) * direction);
+      const bool is_seen = range > 0.0 && range < range_max_m;
+      sweep.ranges_m.push_back(is_seen ? static_cast<float>(range) : std::numeric_limits<float>::infinity());
+      if (is_seen) {
+        view.scan.points.push_back({range * direction, direction, range});
+      }
+    }
+    return view;
+  }
+
+  /// Shows each view for as many steps as a search takes.
+  std::optional<Relocalization::Found> found_from(const std::vector<View>& views, const PoseVector& reckoned) {
+    Relocalization search(TrackingParameters{}, map);
+    for (const View& view : views) {
+      for (int step = 0; step < 200; ++step) {
+        if (const auto found = search.advance(view, reckoned)) {
+          return found;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  ReferenceMap map;
+};
+
+synthetic::World room() {
+  synthetic::World scene;
+  synthetic::add_polygon(scene, {{-4.0, 4.0}, {2.0, 4.0}, {2.0, 1.0}, {5.0, 1.0}, {5.0, -3.0}, {-4.0, -3.0}},
+                         PoseVector::Zero());
+  return scene;
+}
+
+TEST_F(RelocalizationTest, ThreeViewsOnTheWayProveAPlace) {
+  add_surfaces(room());
+  std::vector<View> views;
+  for (const double turn : {0.0, 1.0, 2.0}) {
+    views.push_back(view_from(room(), {0.5, 0.3, turn}));
+  }
+  const auto found = found_from(views, {-1.0, -1.0, 0.0});
+  ASSERT_TRUE(found);
+  EXPECT_LT((found->pose - PoseVector(0.5, 0.3, 2.0)).norm(), 0.02) << found->pose.transpose();
+}
+
+TEST_F(RelocalizationTest, OneViewProvesNothingHoweverLongItIsSeen) {
+  add_surfaces(room());
+  EXPECT_FALSE(found_from(std::vector<View>(20, view_from(room(), {0.5, 0.3, 1.0})), {-1.0, -1.0, 0.0}));
+}
+
+TEST_F(RelocalizationTest, TwoPlacesThatLookAlikeAreNotGuessedBetween) {
+  // Two equal boxes 2.5 m apart and nothing else: either can be the one in view.
+  synthetic::World scene;
+  for (const double y : {-1.25, 1.25}) {
+    scenes::add_box(scene, {0.0, y, 0.0}, 1.0, 1.0);
+  }
+  add_surfaces(scene);
+  // The other box is out of view.
+  synthetic::World one;
+  scenes::add_box(one, {0.0, 1.25, 0.0}, 1.0, 1.0);
+  std::vector<View> views;
+  for (const double x : {1.3, 1.9, 2.5, 3.1}) {
+    views.push_back(view_from(one, {x, 1.25, M_PI}, 2.7));
+  }
+  EXPECT_FALSE(found_from(views, {2.0, 0.0, M_PI}));
+}
+
+TEST_F(RelocalizationTest, PlaceAtTheRimOfTheSearchMayHaveABetterOneBeyond) {
+  add_surfaces(room());
+  const double rim_m = TrackingParameters{}.search_radius_m - 0.2;
+  std::vector<View> views;
+  for (const double turn : {0.0, 1.0, 2.0, 3.0}) {
+    views.push_back(view_from(room(), {0.5, 0.3, turn}));
+  }
+  EXPECT_FALSE(found_from(views, {0.5 - rim_m, 0.3, 0.0}));
+}
+
+}  // namespace
+}  // namespace mtr_localization
