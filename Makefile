@@ -119,7 +119,7 @@ flash: setup ## Write the firmware to a board: BOARD=mega|uno PORT=/dev/serial/b
 bench-motion: setup build ## Benchmark of the robot's motion; figures in out/bench/motion.json
 	@$(RUN) python -m mtr_benchmarks.motion --seed $(SEED) --out out/bench
 
-# Set by a developer: --quick, --only NAME, --keep FOLDER.
+# Set by a developer: --quick, --only NAME, --keep FOLDER, --kidnappings N, --kidnappings-only.
 BENCH_OPTIONS ?=
 bench-localization: setup build ## Localization and Car locator against the truth, odometry and MRPT's SLAM
 	@setup/install.sh setup/debian-bench-packages.txt

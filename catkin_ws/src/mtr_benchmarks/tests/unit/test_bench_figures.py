@@ -10,6 +10,7 @@ from mtr_benchmarks.harness.rows import all_met
 from mtr_benchmarks.localization import real_time, report
 from mtr_benchmarks.localization.drives import selection
 from mtr_benchmarks.localization.drives.selection import (
+    ABDUCT,
     CAMPAIGN,
     KIDNAP,
     PLAIN,
@@ -18,7 +19,7 @@ from mtr_benchmarks.localization.drives.selection import (
     TILT,
     BenchmarkDrive,
 )
-from mtr_benchmarks.localization.judging import campaign, kidnapping, position_rows
+from mtr_benchmarks.localization.judging import abduction, campaign, kidnapping, position_rows
 from mtr_benchmarks.localization.judging.figures import joined, scene_figures
 from mtr_benchmarks.localization.methods.errors import PoseErrors
 from mtr_benchmarks.localization.methods.outcome import (
@@ -35,6 +36,9 @@ CAR = CarErrors(
     width_error_m=0.006, length_plane_sigma_m=0.002, width_plane_sigma_m=0.002, length_error_body_m=-0.04,
     width_error_body_m=-0.03, length_sigma_m=0.01, width_sigma_m=0.01, sigmas=[0.001, 0.001, 0.001], only_wheels=False,
     warning="", key_frame_rmse_m=0.001)
+
+
+FOUND_AGAIN = abduction.Fate(3.0, 90.0, True, 0.8, 6.0, abduction.RIGHT, 0.0, None, None)
 
 
 def errors(key_m, standing=True, on_axis=False, beyond_m=2.0):
@@ -69,7 +73,8 @@ def all_results(key_m=0.004, biased_m=0.006, tilted_m=0.005):
              for variant, each_m in ((PLAIN, key_m), (RANGE_BIAS, biased_m), (TILT, tilted_m))]
     lifted = kidnapped_errors({(4.0, 4.5): 2.0, (4.5, 9.0): float("nan")})
     return [*found, result("lot", CAMPAIGN, 1, key_m),
-            DriveResult(drive("lot", KIDNAP, 1), {THIS_SYSTEM: MethodOutcome(lifted, 0.5, CAR)}, {}, SEGMENTS)]
+            DriveResult(drive("lot", KIDNAP, 1), {THIS_SYSTEM: MethodOutcome(lifted, 0.5, CAR)}, {}, SEGMENTS),
+            DriveResult(drive("lot", ABDUCT, 1), {}, {}, [], FOUND_AGAIN)]
 
 
 def rows(results):
@@ -225,7 +230,7 @@ def test_rows_without_a_must_are_met_whatever_they_are():
 
 
 @pytest.mark.parametrize(("variant", "name"), [(RANGE_BIAS, position_rows.BIAS.name), (TILT, position_rows.TILTED.name),
-                                                 (KIDNAP, kidnapping.DETECTION.name)])
+                                                 (KIDNAP, kidnapping.DETECTION.name), (ABDUCT, abduction.WRONG.name)])
 def test_failed_drive_with_a_further_error_is_not_met(variant, name):
     assert rows(all_results())[name]["met"] is True
     assert rows([*all_results(), failed("lot", variant, THIS_SYSTEM)])[name]["met"] is False

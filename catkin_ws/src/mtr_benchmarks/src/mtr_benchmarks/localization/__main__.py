@@ -12,33 +12,63 @@ import time
 from typing import List, Optional
 
 from ..harness.report import finish
-from .drives.selection import all_drives
+from .drives.selection import ABDUCT, ABDUCTIONS, PLAIN, QUICK_ABDUCTIONS, BenchmarkDrive, abductions, all_drives
+from .one_abduction import run_abduction
 from .one_drive import DriveResult, DriveTask, run_drive
 from .real_time import measure_real_time
-from .report import report
+from .report import abduction_report, report
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
     """Run all drives; the exit status says whether every row of the table is met."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
-    parser.add_argument("--mrpt", type=pathlib.Path, required=True, help="program that mrpt_icp_slam/ builds")
-    parser.add_argument("--jobs", type=int, default=2, help="drives at the same time")
-    parser.add_argument("--quick", action="store_true", help="two seeds of each kind, for development")
-    parser.add_argument("--only", default="", help="only drives whose name begins so, for development")
-    parser.add_argument("--keep", type=pathlib.Path, help="keep the recordings in this folder")
+    parser = command_line()
     options = parser.parse_args(arguments)
-    if not options.mrpt.is_file():
+    if options.kidnappings is not None and options.kidnappings < 1:
+        parser.error(f"--kidnappings is {options.kidnappings}; at least 1 robot is carried away.")
+    drives = selected(options)
+    if any(drive.variant == PLAIN for drive in drives) and not options.mrpt.is_file():
         parser.error(f"There is no program {options.mrpt}; `make bench-localization` builds it.")
     options.out.mkdir(parents=True, exist_ok=True)
-    drives = [drive for drive in all_drives(options.quick) if drive.name.startswith(options.only)]
     with tempfile.TemporaryDirectory(prefix="mtr_bench_") as folder:
         tasks = [DriveTask(drive, options.keep or pathlib.Path(folder), options.mrpt.resolve(), bool(options.keep))
                  for drive in drives]
         results = run_all(tasks, options.jobs)
+    if options.kidnappings_only:
+        return finish(abduction_report(results), options.out / "abductions.json")
     # Alone on the machine, for it measures time.
     real_time = None if options.only else measure_real_time()
     return finish(report(results, real_time), options.out / "localization.json")
+
+
+def command_line() -> argparse.ArgumentParser:
+    """What the program is asked."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
+    parser.add_argument("--mrpt", type=pathlib.Path, default=pathlib.Path("out/bench/mrpt/mrpt_icp_slam"),
+                        help="program that mrpt_icp_slam/ builds; plain drives need it")
+    parser.add_argument("--jobs", type=int, default=2, help="drives at the same time")
+    parser.add_argument("--quick", action="store_true", help="two seeds of each kind, for development")
+    parser.add_argument("--only", default="", help="only drives whose name begins so, for development")
+    parser.add_argument("--kidnappings", type=int, metavar="N", help="robots in each scene that are carried away while "
+                        f"they drive; default {ABDUCTIONS}, with --quick {QUICK_ABDUCTIONS}")
+    parser.add_argument("--kidnap-seed", type=int, default=1, help="seed of the first of them; default 1")
+    parser.add_argument("--kidnappings-only", action="store_true", help="only these; figures go to abductions.json")
+    parser.add_argument("--keep", type=pathlib.Path, help="keep the recordings in this folder; of robots that are "
+                        "carried away while they drive only those that were wrong and valid")
+    return parser
+
+
+def selected(options: argparse.Namespace) -> List[BenchmarkDrive]:
+    """Drives that the command line asks for."""
+    robots = options.kidnappings or (QUICK_ABDUCTIONS if options.quick else ABDUCTIONS)
+    drives = [] if options.kidnappings_only else all_drives(options.quick)
+    drives += abductions(robots, options.kidnap_seed)
+    return [drive for drive in drives if drive.name.startswith(options.only)]
+
+
+def run_one(task: DriveTask) -> DriveResult:
+    """What the drive's variant asks for."""
+    return run_abduction(task) if task.drive.variant == ABDUCT else run_drive(task)
 
 
 def run_all(tasks: List[DriveTask], jobs: int) -> List[DriveResult]:
@@ -46,7 +76,7 @@ def run_all(tasks: List[DriveTask], jobs: int) -> List[DriveResult]:
     begun = time.monotonic()
     with concurrent.futures.ProcessPoolExecutor(max_workers=jobs) as pool:
         results = []
-        for done in pool.map(run_drive, tasks):
+        for done in pool.map(run_one, tasks):
             results.append(done)
             print(progress(done, len(results), len(tasks), time.monotonic() - begun), flush=True)
         return results

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import shutil
-from typing import Any, Dict, List, NamedTuple, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 from .drives.record import DriveError, record
 from .drives.selection import PLAIN, BenchmarkDrive
 from .drives.truth import DriveTruth, read_truth
+from .judging.abduction import Fate
 from .methods.compared import compare
 from .methods.mrpt import MrptError
 from .methods.outcome import MRPT_ICP, THIS_SYSTEM, MethodOutcome
@@ -22,12 +23,16 @@ class DriveResult(NamedTuple):
         outcomes: by method.
         failures: one sentence for each method that failed, or for the recording.
         segments: pieces of the drive, as in its meta.json.
+        fate: of a robot that was carried away while it drove.
+        repeats: one sentence for each drive that was made before and proved nothing.
     """
 
     drive: BenchmarkDrive
     outcomes: Dict[str, MethodOutcome]
     failures: Dict[str, str]
     segments: List[Dict[str, Any]]
+    fate: Optional[Fate] = None
+    repeats: Sequence[str] = ()
 
 
 class DriveTask(NamedTuple):

@@ -4,8 +4,9 @@ from dataclasses import asdict
 from typing import Any, Dict, List, Optional, Sequence
 
 from ..harness.report import BenchmarkReport
-from .drives.selection import CAMPAIGN, KIDNAP, PLAIN, SCENES
-from .judging import campaign, kidnapping, position_rows
+from ..harness.rows import Row
+from .drives.selection import ABDUCT, CAMPAIGN, KIDNAP, PLAIN, SCENES
+from .judging import abduction, campaign, kidnapping, position_rows
 from .judging.figures import scene_figures
 from .methods.outcome import METHODS, THIS_SYSTEM, MethodOutcome
 from .one_drive import DriveResult
@@ -21,6 +22,11 @@ ABOUT = {
                                      "below the widest line, against the widest parts; only drives in which the plane "
                                      "meets the body",
     "nees_ratio": "mean normalised squared error of the pose in the Car's frame by 3; 1 is honest, above is too sure",
+}
+ABOUT_ABDUCTED = {
+    "wrong": "the key is off by more than 0.1 m and by more than 4 sigma in the error's direction; counted from 2 s on",
+    "key": "as published, frame map laid on the truth by the adjusted key frames: the Car locator has no part in it",
+    "repeats": "drives that touched something or gave no map, and were made again with another seed",
 }
 
 
@@ -38,6 +44,7 @@ def report(results: Sequence[DriveResult], real_time: Optional[RealTimeFigures])
     rows = position_rows.rows(found, failed)
     rows += [row for each in campaigns for row in campaign.rows(each)]
     rows += kidnapping.rows(kidnapped, sum(position_rows.failed(failed, scene, KIDNAP) for scene in SCENES))
+    rows += abduction_rows(results)
     rows += real_time.rows() if real_time else []
     figures = {
         "about": ABOUT,
@@ -46,13 +53,49 @@ def report(results: Sequence[DriveResult], real_time: Optional[RealTimeFigures])
         "variants": position_rows.variants(found),
         "campaign": [asdict(each) for each in campaigns],
         "kidnapped": asdict(kidnapped),
+        "abducted": abducted_figures(results),
         "real_time": real_time.as_json() if real_time else {},
         "failures": failed,
-        "drives": [drive_figures(each) for each in results],
+        "drives": [drive_figures(each) for each in results if each.drive.variant != ABDUCT],
     }
-    remarks = [f"{name}, {method}: {sentence}" for name, sentences in failed.items()
-               for method, sentence in sentences.items()]
-    return BenchmarkReport(rows, figures, remarks)
+    return BenchmarkReport(rows, figures, remarks(results))
+
+
+def abduction_report(results: Sequence[DriveResult]) -> BenchmarkReport:
+    """Everything that goes into abductions.json."""
+    figures = {"abducted": abducted_figures(results), "failures": failures(results)}
+    return BenchmarkReport(abduction_rows(results), figures, remarks(results))
+
+
+def abduction_rows(results: Sequence[DriveResult]) -> List[Row]:
+    """Rows of the robots that were carried away while they drove."""
+    missing = sum(position_rows.failed(failures(results), scene, ABDUCT) for scene in SCENES)
+    return abduction.rows(abducted(results), missing)
+
+
+def abducted(results: Sequence[DriveResult], scene: str = "") -> abduction.AbductionFigures:
+    """Figures of the robots that were carried away while they drove, in one scene or in all."""
+    mine = [each for each in results if each.drive.variant == ABDUCT and scene in ("", each.drive.options.scene)]
+    return abduction.figures([each.fate for each in mine if each.fate], sum(len(each.repeats) for each in mine))
+
+
+def abducted_figures(results: Sequence[DriveResult]) -> Dict[str, Any]:
+    """All, by scene, and each robot with what it was and what became of it."""
+    robots = [{"name": each.drive.name, "seed": each.drive.options.seed, "car": each.drive.options.car,
+               "lidar_height_m": each.drive.options.lidar_height_m, "person": each.drive.options.person,
+               **asdict(each.fate)} for each in results if each.fate]
+    return {"about": ABOUT_ABDUCTED, "all": asdict(abducted(results)),
+            "scenes": {scene: asdict(abducted(results, scene)) for scene in SCENES}, "robots": robots,
+            "repeats": [sentence for each in results for sentence in each.repeats]}
+
+
+def remarks(results: Sequence[DriveResult]) -> List[str]:
+    """Sentences below the table: failures, robots that were wrong and said that they were right, repeated drives."""
+    said = [f"{name}, {method}: {sentence}" for name, sentences in failures(results).items()
+            for method, sentence in sentences.items()]
+    said += [f"{each.drive.name}: {abduction.sentence(each.fate)}" for each in results
+             if each.fate and each.fate.first_wrong]
+    return said + [f"Repeated: {sentence}" for each in results for sentence in each.repeats]
 
 
 def outcomes_in(results: Sequence[DriveResult], variant: str) -> List[MethodOutcome]:

@@ -49,19 +49,31 @@ class LiftLeg(NamedTuple):
     turn_rad: float
 
 
+class CarryLeg(NamedTuple):
+    """Somebody carries the robot to a random free place and turns it; the drive's seed decides where."""
+
+
+class WanderLeg(NamedTuple):
+    """Drive about near the Car; the drive's seed decides how."""
+
+    duration_s: float
+
+
+# What LegFollower follows.
+FollowedLeg = Union[StandLeg, TurnLeg, StraightLeg, PathLeg, LiftLeg, CarryLeg]
 # One piece of a drive.
-Leg = Union[StandLeg, TurnLeg, StraightLeg, PathLeg, LiftLeg]
+Leg = Union[FollowedLeg, WanderLeg]
 
 
 def leg_name(leg: Leg) -> str:
-    """Its name in a drive's files: stand, turn, straight, path or lift."""
+    """Its name in a drive's files: stand, turn, straight, path, lift, carry or wander."""
     return type(leg).__name__[:-len("Leg")].lower()
 
 
 class LegFollower:
     """Follows one leg from the pose at which it begins."""
 
-    def __init__(self, leg: Leg, start: Pose2, period_s: float):
+    def __init__(self, leg: FollowedLeg, start: Pose2, period_s: float):
         self._leg, self._start, self._period_s = leg, start, period_s
         self._elapsed_s = self._speed = self._turning = 0.0
         self._ahead: List[Point] = [(start.x, start.y), *leg.points] if isinstance(leg, PathLeg) else []
@@ -69,7 +81,7 @@ class LegFollower:
     def update(self, pose: Pose2) -> Tuple[Velocity, bool]:
         """Command for the true pose, and whether the leg is finished."""
         self._elapsed_s += self._period_s
-        if isinstance(self._leg, LiftLeg):
+        if isinstance(self._leg, (LiftLeg, CarryLeg)):
             return (0.0, 0.0), True
         if isinstance(self._leg, StandLeg):
             return (0.0, 0.0), self._elapsed_s >= self._leg.duration_s

@@ -38,6 +38,7 @@ class DriveOptions(ParameterSet):
         rear: the rear LiDAR is recorded too.
         person: somebody walks to and fro beside the Car.
         kidnap: after the loop somebody lifts the robot and puts it down 2 m aside; no axes, no radials.
+        abduct: after the loop it wanders, somebody carries it to a random place, and it wanders on; no axes either.
         duration_s: axes and radials are driven again and again for so long; 0: once.
         sweeps_apart: only each of so many sweeps of the LiDARs is recorded.
     """
@@ -58,6 +59,7 @@ class DriveOptions(ParameterSet):
     rear: bool = False
     person: bool = False
     kidnap: bool = False
+    abduct: bool = False
     duration_s: float = number(0.0, 0.0, 86_400.0, "s")
     sweeps_apart: int = number(1, 1, 100, "sweeps")
 
@@ -66,6 +68,9 @@ class DriveOptions(ParameterSet):
         named_scenario(self.scene)
         if self.car not in CAR_SHAPES:
             raise ConfigurationError(f"Parameter car is '{self.car}'; allowed is {', '.join(CAR_SHAPES)}.")
+        if self.kidnap and self.abduct:
+            raise ConfigurationError("Parameters kidnap and abduct are both true; a robot is carried away in one way "
+                                     "only.")
 
     @property
     def shape(self) -> CarShape:

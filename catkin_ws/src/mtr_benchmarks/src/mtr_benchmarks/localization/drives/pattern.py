@@ -1,13 +1,13 @@
 """The way of one drive round the Car: the loop that maps it, then axes and radials as the scenarios drive them."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Iterator, List, NamedTuple, Tuple
+from typing import Iterator, List, NamedTuple, Optional, Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
 from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.site.car_shape import CarShape
 
-from .legs import Leg, LiftLeg, PathLeg, Point, StandLeg, StraightLeg, TurnLeg
+from .legs import CarryLeg, Leg, LiftLeg, PathLeg, Point, StandLeg, StraightLeg, TurnLeg, WanderLeg
 
 ROBOT = shipped_robot()
 LOOP_DISTANCE_M, LOOP_SPEED_MPS = 1.6, 0.5
@@ -17,11 +17,13 @@ AXIS_SPEED_MPS, RADIAL_SPEED_MPS = 0.5, 0.5
 AXIS_FAR_M, AXIS_NEAR_M = 2.5, 0.4
 RADIAL_NEAR_M, RADIAL_STEP_M = 1.5, 1.0
 STAND_FIRST_S, STAND_S, STAND_AFTER_LOOP_S = 2.0, 1.5, 4.0
-START, LOOP, SETTLE, TRANSFER, AXIS, RADIAL, KIDNAP = (
-    "start", "loop", "settle", "transfer", "axis", "radial", "kidnap")
+START, LOOP, SETTLE, TRANSFER, AXIS, RADIAL, KIDNAP, WANDER, ABDUCT = (
+    "start", "loop", "settle", "transfer", "axis", "radial", "kidnap", "wander", "abduct")
 # Lifted away from the Car, which is to the left on the way round it; then it stands as the fail-safes let it.
 LIFTED = LiftLeg(-2.0, math.radians(20.0))
 STAND_AFTER_LIFT_S = 20.0
+# An abducted robot drives on for so long.
+WANDER_AFTER_S = 25.0
 
 
 class DrivePiece(NamedTuple):
@@ -41,6 +43,7 @@ class DrivePlan(NamedTuple):
         reach_m: how far from the Car the radials go.
         endless: axes and radials are driven again and again.
         kidnap: instead of axes and radials the robot is lifted and put down elsewhere.
+        abducted_after_s: instead of them it wanders for so long, is carried away, and wanders on; None: it does not.
     """
 
     axes_rad: Tuple[float, ...]
@@ -48,6 +51,7 @@ class DrivePlan(NamedTuple):
     reach_m: float
     endless: bool = False
     kidnap: bool = False
+    abducted_after_s: Optional[float] = None
 
 
 def pieces(shape: CarShape, start: Pose2, plan: DrivePlan) -> Iterator[DrivePiece]:
@@ -59,6 +63,10 @@ def pieces(shape: CarShape, start: Pose2, plan: DrivePlan) -> Iterator[DrivePiec
                 DrivePiece(StandLeg(STAND_AFTER_LOOP_S), SETTLE))
     if plan.kidnap:
         yield from (DrivePiece(LIFTED, KIDNAP), DrivePiece(StandLeg(STAND_AFTER_LIFT_S), KIDNAP))
+        return
+    if plan.abducted_after_s is not None:
+        yield from (DrivePiece(WanderLeg(plan.abducted_after_s), WANDER), DrivePiece(CarryLeg(), ABDUCT),
+                    DrivePiece(WanderLeg(WANDER_AFTER_S), ABDUCT))
         return
     here, again = way[-1], True
     while again:

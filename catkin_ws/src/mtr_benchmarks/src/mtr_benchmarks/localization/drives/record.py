@@ -8,20 +8,25 @@ import math
 import pathlib
 import sys
 from dataclasses import asdict, fields
-from typing import Any, Dict, List, Optional
+from typing import Any, Dict, List, Optional, Tuple, Union
+
+import numpy as np
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import LIMITS
 from mtr_core.schedule import CAR_LOCATOR, CLOCK_STEP, LIDAR, SIMULATION_START_NS
 from mtr_core.se2 import Pose2
 from mtr_msgs.msg import MappingOrder
+from mtr_simulation.noise import stream
 from mtr_simulation.sim import TICK_S, Sim
 from mtr_simulation.site.car_shape import size_at
 
-from .legs import LegFollower, LiftLeg, leg_name
+from .legs import CarryLeg, Leg, LegFollower, LiftLeg, WanderLeg, leg_name
 from .options import DriveOptions
 from .pattern import LOOP, START, DrivePiece, DrivePlan, pieces
 from .recording import Recording, pose_values
+from .site_bodies import random_jump, site_bodies
+from .wandering import Wanderer
 
 # Options are the fields of DriveOptions, some without their unit.
 ALIASES = {"lidar_height_m": "lidar-height", "range_bias_m": "range-bias", "range_noise_m": "range-noise",
@@ -34,6 +39,8 @@ EIGHTH_RAD = math.pi / 4.0
 # Distance from the Car that leaves room before what stands in the lot.
 REACH_M = {"lot": 3.5}
 FULL_REACH_M = 10.0
+# An abducted robot has wandered for so long.
+MIN_WANDER_S, MAX_WANDER_S = 3.0, 8.0
 
 
 class DriveError(Exception):
@@ -46,7 +53,14 @@ def plan(options: DriveOptions) -> DrivePlan:
     axes = tuple(EIGHTH_RAD * ((first + 3 * step) % 8) for step in range(4))
     # None to the right, where a person may walk.
     radials = tuple(EIGHTH_RAD * ((options.seed + step) % 5) for step in (0, 2))
-    return DrivePlan(axes, radials, REACH_M.get(options.scene, FULL_REACH_M), options.duration_s > 0.0, options.kidnap)
+    wander_s = float(chance(options, "abduction").uniform(MIN_WANDER_S, MAX_WANDER_S))
+    return DrivePlan(axes, radials, REACH_M.get(options.scene, FULL_REACH_M), options.duration_s > 0.0, options.kidnap,
+                     wander_s if options.abduct else None)
+
+
+def chance(options: DriveOptions, name: str) -> np.random.Generator:
+    """Random numbers of a drive: other ones in each scene, so that the same seed is no second time the same case."""
+    return stream(options.seed, f"{name} in {options.scene}")
 
 
 def record(options: DriveOptions, folder: pathlib.Path) -> Dict[str, Any]:
@@ -83,13 +97,12 @@ class _Driving:
 
     def __init__(self, sim: Sim, files: Recording, options: DriveOptions):
         self._sim, self._files, self._options = sim, files, options
+        self._bodies, self._chance = site_bodies(sim.scenario), chance(options, "wandering")
 
     def follow(self, index: int, piece: DrivePiece) -> Dict[str, Any]:
         """Follow one leg to its end; what it was, for meta.json."""
         sim, begin_ns = self._sim, self._sim.time_ns
-        if isinstance(piece.leg, LiftLeg):
-            sim.kidnap(sim.truth().world_from_base @ Pose2(0.0, piece.leg.aside_m, piece.leg.turn_rad))
-        follower = LegFollower(piece.leg, sim.truth().car_from_base, TICK_S)
+        follower, carried = self._begin(piece.leg)
         done = False
         while not done:
             velocity, done = follower.update(sim.truth().car_from_base)
@@ -100,8 +113,29 @@ class _Driving:
                                  f"{sim.truth().car_from_base}.")
             if sim.contacts():
                 raise DriveError(f"The robot touches {', '.join(sorted(sim.contacts()))} on leg {index}, {piece.leg}.")
-        return {"index": index, "kind": piece.kind, "leg": leg_name(piece.leg),
-                "line_rad": piece.line_rad, "begin_s": begin_ns * 1e-9, "end_s": sim.time_ns * 1e-9}
+        return {"index": index, "kind": piece.kind, "leg": leg_name(piece.leg), "line_rad": piece.line_rad,
+                "begin_s": begin_ns * 1e-9, "end_s": sim.time_ns * 1e-9, **carried}
+
+    def _begin(self, leg: Leg) -> Tuple[Union[LegFollower, Wanderer], Dict[str, float]]:
+        """Who follows the leg, and how the robot was carried at its beginning, for meta.json."""
+        sim = self._sim
+        carried: Dict[str, float] = {}
+        if isinstance(leg, WanderLeg):
+            return Wanderer(self._bodies, self._chance, leg.duration_s, TICK_S), carried
+        if isinstance(leg, LiftLeg):
+            sim.kidnap(sim.truth().world_from_base @ Pose2(0.0, leg.aside_m, leg.turn_rad))
+        if isinstance(leg, CarryLeg):
+            carried = self._carry()
+        return LegFollower(leg, sim.truth().car_from_base, TICK_S), carried
+
+    def _carry(self) -> Dict[str, float]:
+        here = self._sim.truth().car_from_base
+        try:
+            jump = random_jump(self._bodies, here, self._chance)
+        except ValueError as error:
+            raise DriveError(str(error)) from None
+        self._sim.kidnap(self._sim.scenario.world_from_car @ jump.applied(here))
+        return jump._asdict()
 
     def _tick(self, index: int, phase: int) -> None:
         sim, files = self._sim, self._files

@@ -7,8 +7,12 @@ from .options import DriveOptions
 
 SCENES = ("lot", "far", "cones", "open")
 CARS = ("hatchback", "sedan", "van")
-PLAIN, RANGE_BIAS, TILT, KIDNAP, CAMPAIGN = "plain", "range_bias", "tilt", "kidnap", "campaign"
+PLAIN, RANGE_BIAS, TILT, KIDNAP, CAMPAIGN, ABDUCT = "plain", "range_bias", "tilt", "kidnap", "campaign", "abduct"
 SEEDS, VARIANT_SEEDS, KIDNAP_SEEDS, QUICK_SEEDS = 10, 5, 3, 2
+# Robots that are carried away while they drive, in each scene.
+ABDUCTIONS, QUICK_ABDUCTIONS = 50, 2
+# A drive that proves nothing is repeated with its seed and a multiple of this, which no other drive has.
+NEXT_SEED = 100_000
 RANGE_BIAS_M, TILT_DEG = 0.02, 1.0
 KIDNAP_SCENES = ("lot", "open")
 # A working day. Its sweeps are recorded four times as seldom, so that the recording has 2 GB and not 8.
@@ -43,6 +47,17 @@ def all_drives(quick: bool = False) -> List[BenchmarkDrive]:
     drives += [BenchmarkDrive(replace(options(scene, seed), kidnap=True), KIDNAP) for scene in KIDNAP_SCENES
                for seed in range(1, kidnap_seeds + 1)]
     return drives
+
+
+def abductions(robots: int, first_seed: int = 1) -> List[BenchmarkDrive]:
+    """So many robots in each scene that are carried away while they drive; scenes take turns."""
+    return [BenchmarkDrive(replace(options(scene, seed), abduct=True), ABDUCT)
+            for seed in range(first_seed, first_seed + robots) for scene in SCENES]
+
+
+def repeated(drive: BenchmarkDrive) -> BenchmarkDrive:
+    """The same with the next seed, in the same Car and at the same height."""
+    return drive._replace(options=replace(drive.options, seed=drive.options.seed + NEXT_SEED))
 
 
 def options(scene: str, seed: int) -> DriveOptions:

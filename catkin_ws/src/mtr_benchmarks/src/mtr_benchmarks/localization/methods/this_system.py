@@ -35,17 +35,27 @@ class SystemFailure(Exception):
     """The system gave nothing to judge; the text is what it said."""
 
 
+class NoMap(SystemFailure):
+    """The way round the Car gave no map."""
+
+
 def run_this_system(folder: pathlib.Path, truth: DriveTruth) -> MethodOutcome:
     """Errors of the whole chain in one drive."""
     out = folder / "replay"
-    replay(folder / BAG, out)
-    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
-    if not summary["map_valid"]:
-        raise SystemFailure(f"There is no map of this way round. {summary['map_message']}")
+    summary = mapped(folder / BAG, out)
     track = read_replayed(out / "trajectory.csv")
     found = locate(out, truth.meta, scans_in(folder / BAG, shipped_geometry().lidars()))
     return MethodOutcome(errors_of(track, car_pose(found), truth), float(summary["cpu_ms_per_scan"]),
                    car_errors(found, key_frames(out), truth))
+
+
+def mapped(bag: pathlib.Path, out: pathlib.Path) -> Dict[str, Any]:
+    """Run localization over the bag; its summary, or NoMap."""
+    replay(bag, out)
+    summary: Dict[str, Any] = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    if not summary["map_valid"]:
+        raise NoMap(f"There is no map of this way round. {summary['map_message']}")
+    return summary
 
 
 def replay(bag: pathlib.Path, out: pathlib.Path) -> None:

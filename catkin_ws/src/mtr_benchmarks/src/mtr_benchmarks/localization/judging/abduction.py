@@ -1,0 +1,164 @@
+"""What the system says of a robot that somebody carried elsewhere while it drove, and that drove on."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import Any, Dict, List, Optional, Sequence
+
+import numpy as np
+
+from mtr_core.arrays import BoolArray
+
+from ...harness.rows import Requirement, Row
+from ..drives.pattern import ABDUCT
+from ..methods.errors import percentile
+from ..methods.key_track import KeyTrack
+from .kidnapping import DETECTION_LIMIT_S, RECOVERED_M
+
+# A pose is wrong when it is off by more than RECOVERED_M and by more than so many of its own sigmas.
+WRONG_SIGMAS = 4.0
+SETTLED_S = 10.0
+# Found again: right for so long, for a wrong pose of a robot that drives may pass the right one.
+FOUND_S = 1.0
+RIGHT, LOST, UNSURE, WRONG_STATE = "right", "lost", "unsure", "wrong"
+WRONG = Requirement("kidnapped while driving: robots that were wrong and valid 2 s after it", "(count)", must=0.0)
+SETTLED = Requirement("kidnapped while driving: right again or lost within 10 s", "(share)", must=0.9, at_least=True)
+NOTICED = Requirement("kidnapped while driving: noticed within 2 s", "(share)", at_least=True)
+FOUND = Requirement("kidnapped while driving: found themselves again within 25 s", "(share)", at_least=True)
+FOUND_TIME = Requirement("kidnapped while driving: until they found themselves again, in the middle", "s")
+
+
+@dataclass(frozen=True)
+class WrongPose:
+    """A wrong pose that was called valid; names are those of the file. at_s: since the robot was carried away."""
+
+    at_s: float
+    error_m: float
+    sigma_m: float
+    mode: int
+
+
+@dataclass(frozen=True)
+class Fate:
+    """One robot's; names are those of the file, times are since it was carried away.
+
+    Attributes:
+        knew_before: its last pose before was valid and right.
+        noticed_s: the first pose that was not valid; None: never.
+        found_s: from when on it was right for a second; None: never.
+        after_10_s: right, lost (not valid), wrong, or unsure: valid and off by less than its sigma allows.
+        wrong_s: for how long it was wrong and valid from 2 s on.
+        first_wrong, worst_wrong: of these poses; None: there were none.
+    """
+
+    jump_m: float
+    turn_deg: float
+    knew_before: bool
+    noticed_s: Optional[float]
+    found_s: Optional[float]
+    after_10_s: str
+    wrong_s: float
+    first_wrong: Optional[WrongPose]
+    worst_wrong: Optional[WrongPose]
+
+
+@dataclass(frozen=True)
+class AbductionFigures:
+    """Over all robots; names are those of the file.
+
+    Attributes:
+        noticed: within 2 s.
+        repeated: drives that touched something or gave no map, and were repeated with another seed.
+    """
+
+    robots: int
+    wrong: int
+    settled: int
+    noticed: int
+    slowest_notice_s: Optional[float]
+    found: int
+    found_median_s: Optional[float]
+    found_p90_s: Optional[float]
+    lost_at_10_s: int
+    right_at_10_s: int
+    repeated: int
+
+
+def fate(track: KeyTrack, segments: Sequence[Dict[str, Any]]) -> Fate:
+    """What happened in the drive of this track."""
+    carried = next(each for each in segments if each["kind"] == ABDUCT)
+    after = track.stamps_s > carried["begin_s"]
+    elapsed = track.stamps_s - carried["begin_s"]
+    right = track.valid & (track.error_m <= RECOVERED_M)
+    wrong = track.valid & (track.error_m > np.maximum(RECOVERED_M, WRONG_SIGMAS * track.sigma_m))
+    late = np.flatnonzero(wrong & (elapsed > DETECTION_LIMIT_S))
+    unknown = np.flatnonzero(after & ~track.valid)
+    then = int(np.argmin(np.abs(elapsed - SETTLED_S)))
+    state = LOST if not track.valid[then] else RIGHT if right[then] else WRONG_STATE if wrong[then] else UNSURE
+    return Fate(
+        carried["distance_m"], math.degrees(carried["turn_rad"]), bool(right[~after][-1:].all()),
+        float(elapsed[unknown[0]]) if len(unknown) else None, _found(track, right & after, carried["begin_s"]), state,
+        len(late) * float(np.median(np.diff(track.stamps_s))),
+        _pose(track, int(late[0]), elapsed[late[0]]) if len(late) else None,
+        _worst(track, late, elapsed))
+
+
+def figures(fates: Sequence[Fate], repeated: int = 0) -> AbductionFigures:
+    """Over all robots."""
+    noticed = [each.noticed_s for each in fates if each.noticed_s is not None]
+    found = np.array([each.found_s for each in fates if each.found_s is not None])
+    lost, right = (sum(each.after_10_s == state for each in fates) for state in (LOST, RIGHT))
+    return AbductionFigures(
+        len(fates), sum(each.first_wrong is not None for each in fates), lost + right,
+        sum(each <= DETECTION_LIMIT_S for each in noticed), max(noticed, default=None), len(found),
+        percentile(found, 50.0), percentile(found, 90.0), lost, right, repeated)
+
+
+def rows(found: AbductionFigures, failed_drives: int = 0) -> List[Row]:
+    """A drive that failed, or none at all, meets nothing."""
+    details: Dict[str, Optional[float]] = {"failed_drives": failed_drives, "repeated_drives": found.repeated}
+    is_complete = found.robots > 0 and not failed_drives
+    told = f"{found.robots} robots" + (f", {failed_drives} drives failed" if failed_drives else "") + (
+        f", {found.repeated} drives repeated" if found.repeated else "")
+    states = f"{found.right_at_10_s} right, {found.lost_at_10_s} lost"
+    return [Row(WRONG, found.wrong if found.robots else None, is_complete, details, told),
+            Row(SETTLED, _share(found.settled, found.robots), is_complete, details, states),
+            Row(NOTICED, _share(found.noticed, found.robots), is_complete, details),
+            Row(FOUND, _share(found.found, found.robots), is_complete, details),
+            Row(FOUND_TIME, found.found_median_s, is_complete, details,
+                f"90 % within {found.found_p90_s:.1f} s" if found.found_p90_s is not None else "")]
+
+
+def sentence(found: Fate) -> str:
+    """What a robot that was wrong and valid did, for a person."""
+    first, worst = found.first_wrong, found.worst_wrong
+    if not first or not worst:
+        return "It was never wrong and valid."
+    return (f"Carried {found.jump_m:.2f} m and turned by {found.turn_deg:.0f} deg; wrong and valid for "
+            f"{found.wrong_s:.2f} s, first {first.at_s:.2f} s after it by {first.error_m:.2f} m with a sigma of "
+            f"{first.sigma_m:.3f} m in mode {first.mode}, at worst {worst.at_s:.2f} s after it by "
+            f"{worst.error_m:.2f} m with {worst.sigma_m:.3f} m in mode {worst.mode}.")
+
+
+def _share(count: int, robots: int) -> Optional[float]:
+    return count / robots if robots else None
+
+
+def _pose(track: KeyTrack, row: int, at_s: float) -> WrongPose:
+    return WrongPose(float(at_s), float(track.error_m[row]), float(track.sigma_m[row]), int(track.mode[row]))
+
+
+def _worst(track: KeyTrack, late: Any, elapsed: Any) -> Optional[WrongPose]:
+    if not len(late):
+        return None
+    row = int(late[np.argmax(track.error_m[late])])
+    return _pose(track, row, elapsed[row])
+
+
+def _found(track: KeyTrack, right: BoolArray, begin_s: float) -> Optional[float]:
+    """Since the robot was carried away, the first instant from which on it was right for FOUND_S."""
+    since: Optional[float] = None
+    for stamp_s, is_right in zip(track.stamps_s, right):
+        since = (stamp_s if since is None else since) if is_right else None
+        if since is not None and stamp_s - since >= FOUND_S:
+            return float(since - begin_s)
+    return None
