@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import threading
 import time
+from dataclasses import replace
 from typing import Any
 
 import can
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import CarEvent, CarLink, HandlePort, LockFacts, LockState, Refused
+from mtr_operator.domain.ports import BusTraffic, CarEvent, CarLink, HandlePort, LockFacts, LockState, Refused
 from mtr_operator.domain.robot_status import RobotStatus
 
 from .adapter import AdapterSettings, open_adapter
@@ -19,6 +20,7 @@ from .handle import BusHandle
 from .lock_watch import LockWatch
 from .profile import CarProfile, load_profile
 from .reader import CanReader, FrameSink
+from .traffic import TrafficMeter
 
 # Wall time for which observe() waits at most for the bus to catch up.
 CATCH_UP_LIMIT_S = 0.25
@@ -48,6 +50,7 @@ class CanCarLink(CarLink, FrameSink):
         self._error_frames = self._seen_error_frames = 0
         self._suspect_until_s = -math.inf
         self._stamp_s = -math.inf
+        self._traffic = TrafficMeter(bitrate)
         self._handle: HandlePort | None = None
         self.profile: CarProfile | None = None
         self.frames_received = 0
@@ -99,6 +102,15 @@ class CanCarLink(CarLink, FrameSink):
         return self._handle
 
     @property
+    def traffic(self) -> BusTraffic | None:
+        """See CarLink."""
+        with self._changed:
+            if self.profile is None or self._watch is None:
+                return None
+            now = self._traffic.traffic(time.monotonic(), self.profile.cycle_time_s)
+            return replace(now, clock_problem=self._watch.clock_problem)
+
+    @property
     def refused(self) -> Refused:
         """See CarLink."""
         with self._changed:
@@ -129,6 +141,7 @@ class CanCarLink(CarLink, FrameSink):
         with self._changed:
             if self._watch is not None:
                 self._watch.frame(frame)
+                self._traffic.frame(frame, self._watch.is_lock_message)
             self.frames_received += 1
             self._changed.notify_all()
 

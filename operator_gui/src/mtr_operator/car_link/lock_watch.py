@@ -30,12 +30,14 @@ class LockWatch:
 
     Attributes:
         lock_state: at the stamp of the last released Status; UNKNOWN while the bus is silent.
+        is_lock_message: the newest frame was one.
     """
 
     def __init__(self, profile: CarProfile):
         self._profile = profile
         self._liveness = Liveness(profile)
         self._robot_session_id = 0
+        self.is_lock_message = False
         self._time = FrameTime()
         self._changes = LockChanges(profile, Refused())
         self._restart()
@@ -65,6 +67,7 @@ class LockWatch:
         if was_set:
             self._changes.begin_new_frames()
         reading = self._profile.decode(frame.can_id, frame.is_extended, frame.data)
+        self.is_lock_message = reading is not None
         if reading is not None:
             self._frames.append((local_s, frame.data))
             self._changes.follow(local_s, frame.arrival_s, reading, self._time.is_by_arrival)
@@ -110,6 +113,11 @@ class LockWatch:
     def problem(self) -> str:
         """One sentence, or empty."""
         return self._liveness.problem or self._time.problem
+
+    @property
+    def clock_problem(self) -> str:
+        """Why the time of frames is not known on the robot's clock; empty when it is."""
+        return self._time.problem
 
     def _event(self, change: Change) -> CarEvent:
         reading = change.reading

@@ -73,6 +73,21 @@ class Refused:
     last: str = ""
 
 
+@dataclass(frozen=True)
+class BusTraffic:
+    """What comes over the Car's bus now.
+
+    load: part of the bits that carry frames, without stuffed bits, 0 to 1. cycle_s: of the lock message, None when
+    fewer than two have come; expected_cycle_s: by the car's profile. clock_problem: why the time of frames is not known
+    on the robot's clock; empty when it is.
+    """
+
+    load: float
+    cycle_s: float | None
+    expected_cycle_s: float
+    clock_problem: str = ""
+
+
 @dataclass
 class LinkStatistics:
     """Counts since the connection was made. implausible: messages with a number beyond domain.limits, not used."""
@@ -175,6 +190,11 @@ class CarLink(ABC):
     @property
     def handle(self) -> HandlePort | None:
         """The output that takes this car's handle; None when it has none, and a person has to do it."""
+        return None
+
+    @property
+    def traffic(self) -> BusTraffic | None:
+        """What comes over the bus; None where there is none to ask."""
         return None
 
     @property

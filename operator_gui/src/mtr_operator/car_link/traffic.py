@@ -1,0 +1,53 @@
+"""How full the bus is and how often the lock message comes, counted on the laptop's clock as frames arrive."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import collections
+
+from mtr_operator.domain.ports import BusTraffic
+
+from .can_frame import CanFrame
+
+# Long enough for several cycles of the slowest lock messages, short enough to be of now.
+WINDOW_S = 4.0
+# ISO 11898-1: bits of a frame without its data, with the gap of three bits behind it. Stuffed bits depend on the
+# content and are not counted: they make the bus up to a fifth fuller.
+_BITS, _EXTENDED_BITS = 47, 67
+_BITS_PER_BYTE = 8
+
+
+class TrafficMeter:
+    """Fed with every frame in the order of arrival."""
+
+    def __init__(self, bitrate_bps: int):
+        self._bitrate_bps = bitrate_bps
+        self._frames: collections.deque[tuple[float, int]] = collections.deque()
+        self._locks: collections.deque[float] = collections.deque()
+        self._begun_s: float | None = None
+
+    def frame(self, frame: CanFrame, is_lock_message: bool) -> None:
+        """A frame arrived."""
+        if self._begun_s is None:
+            self._begun_s = frame.arrival_s
+        bits = (_EXTENDED_BITS if frame.is_extended else _BITS) + _BITS_PER_BYTE * len(frame.data)
+        self._frames.append((frame.arrival_s, bits))
+        if is_lock_message:
+            self._locks.append(frame.arrival_s)
+        self._forget(frame.arrival_s)
+
+    def traffic(self, now_s: float, expected_cycle_s: float) -> BusTraffic:
+        """What has come within the last few seconds of the laptop's clock."""
+        self._forget(now_s)
+        begun_s = now_s if self._begun_s is None else self._begun_s
+        span_s = min(WINDOW_S, now_s - begun_s)
+        bits = sum(bits for _, bits in self._frames)
+        gaps = len(self._locks) - 1
+        cycle_s = (self._locks[-1] - self._locks[0]) / gaps if gaps > 0 else None
+        load = bits / (span_s * self._bitrate_bps) if span_s > 0.0 else 0.0
+        return BusTraffic(min(load, 1.0), cycle_s, expected_cycle_s)
+
+    def _forget(self, now_s: float) -> None:
+        while self._frames and now_s - self._frames[0][0] > WINDOW_S:
+            self._frames.popleft()
+        while self._locks and now_s - self._locks[0] > WINDOW_S:
+            self._locks.popleft()
