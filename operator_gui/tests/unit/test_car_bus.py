@@ -247,6 +247,11 @@ def test_file_that_is_no_terminal_is_refused(tmp_path):
         CanCarLink("slcan", str(path)).connect()
 
 
+def test_device_that_is_no_serial_port_is_told_without_numbers_of_the_system__B18():
+    with pytest.raises(ConnectionFailed, match="^/dev/null is no serial port; give the CAN adapter's"):
+        CanCarLink("slcan", "/dev/null").connect()
+
+
 @pytest.mark.parametrize(("arguments", "words"), [
     (("telepathy", "0"), "'telepathy'; allowed are .*slcan"), (("slcan", ""), "channel is empty"),
     (("slcan", "/dev/x", 5), "bit rate is 5; allowed is 10000 to 1000000")])

@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import errno
 import logging
 import os
+import re
 import stat
 import time
 from dataclasses import dataclass, field
@@ -21,6 +23,7 @@ _MAX_BITRATE = 1_000_000
 # Time in which an slcan adapter answers the commands that open it.
 _ANSWER_LIMIT_S = 1.0
 _POLL_S = 0.05
+_SYSTEM_ERROR = re.compile(r"\(\d+, ['\"]([^'\"]*)['\"]\)")
 
 # Drivers log what their exceptions say too, and hints for programmers.
 logging.getLogger("can").addHandler(logging.NullHandler())
@@ -62,6 +65,8 @@ def open_adapter(settings: AdapterSettings) -> can.BusABC:
         bus = StampedSlcanBus(settings.channel, bitrate=settings.bitrate_bps, **settings.options)
     # Drivers raise whatever their vendor's library does.
     except Exception as error:
+        if settings.interface == SLCAN and os.strerror(errno.ENOTTY) in str(error):
+            raise _no_serial_port(settings.channel) from None
         raise ConnectionFailed(f"Cannot open the {settings} at {settings.bitrate_bps} bit/s: {_one_line(error)}.") \
             from None
     try:
@@ -87,11 +92,17 @@ def _check_device(path: str) -> None:
     if not os.path.exists(path):
         raise ConnectionFailed(f"There is no CAN adapter at {path}; check the channel and the USB plug.")
     if not stat.S_ISCHR(os.stat(path).st_mode):
-        raise ConnectionFailed(f"{path} is no serial port; give the CAN adapter's, e.g. /dev/ttyACM0.")
+        raise _no_serial_port(path)
+
+
+def _no_serial_port(path: str) -> ConnectionFailed:
+    return ConnectionFailed(f"{path} is no serial port; give the CAN adapter's, e.g. /dev/ttyACM0.")
 
 
 def _one_line(error: Exception) -> str:
-    return " ".join(str(error).split()).rstrip(".")
+    # pyserial shows the tuple that the system's error is made of.
+    text = _SYSTEM_ERROR.sub(r"\1", str(error))
+    return " ".join(text.split()).rstrip(".")
 
 
 def _wait_for_answer(bus: StampedSlcanBus, settings: AdapterSettings) -> None:
