@@ -64,11 +64,15 @@ def test_lines_are_told_once_each_without_a_terminal(parameters, tmp_path, capsy
     assert "8 of 8 lines to measure" in notice
 
 
-def test_table_of_all_lines_ends_a_test(parameters, tmp_path, capsys):
+def test_tables_of_all_lines_and_of_the_sides_end_a_test(parameters, tmp_path, capsys):
     assert run("autolock", parameters, tmp_path / "out") == 0
     heading, *rows, last = capsys.readouterr().out.splitlines()
-    assert heading.split() == ["axis", "unlock", "cm", "±", "cm", "lock", "cm", "±", "cm"]
+    rows, meaning, sides = rows[:8], rows[8], rows[9:]
+    assert heading.split() == ["axis", "unlock", "m", "key", "±", "m", "lock", "m", "key", "±", "m"]
+    assert meaning.startswith("Beside each distance stands 1 sigma of where the Remote key was")
     assert [row.split()[0] for row in rows] == [str(number) for number in range(1, 9)]
+    assert [row.split("  ")[0] for row in sides if "all sides" in row or "side " in row] == [
+        "unlock: side", "all sides", "lock: side", "all sides"]
     assert last == f"8 lines measured; results are in {tmp_path / 'out'}."
 
 
@@ -206,7 +210,7 @@ def test_terminal_gets_a_bar():
                                      LineStatus.NOT_REACHED, None, None, None, ""), 3, 8)
     display.close()
     assert "3 of 8" in stream.getvalue()
-    assert "[3/8] axis 3 (rear left): unlock 123.5 \N{PLUS-MINUS SIGN} 3.2 cm, lock not reached" in stream.getvalue()
+    assert "[3/8] axis 3 (rear left): unlock 1.235 \N{PLUS-MINUS SIGN} 0.032 m, lock not reached" in stream.getvalue()
 
 
 def test_ctrl_c_while_the_report_is_written_completes_it(parameters, tmp_path, monkeypatch, capsys):

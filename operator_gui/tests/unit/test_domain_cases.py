@@ -155,7 +155,7 @@ def test_position_that_comes_back_at_the_start_does_not_spoil_the_radial(run_sce
 def test_outline_encloses_what_worked_and_an_invalid_radial_is_marked_at_its_first_place(run_scenario):
     results = run_scenario(KEY_PRESS, RADIALS)
     results[0] = replace(results[0], status=LineStatus.INVALID, distance_m=None)
-    worked, failed, invalid = KEY_PRESS.picture(RADIALS, CAR, results).point_sets
+    worked, failed, _, invalid = KEY_PRESS.picture(RADIALS, CAR, results).point_sets
     assert (worked.is_outline, failed.is_outline, invalid.is_outline) == (True, False, False)
     assert invalid.known == (pytest.approx((6.0, 0.0)),)
     assert worked.points[0] is None and len(worked.bars) == 3

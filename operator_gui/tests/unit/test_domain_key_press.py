@@ -136,7 +136,7 @@ def test_last_place_is_exactly_the_minimum_distance(run_scenario, world, robot_l
 
 def test_picture_shows_both_places(run_scenario):
     results = run_scenario(SCENARIO, PARAMETERS)
-    worked, failed, invalid = SCENARIO.picture(PARAMETERS, CAR, results).point_sets
+    worked, failed, _, invalid = SCENARIO.picture(PARAMETERS, CAR, results).point_sets
     assert worked.points[1] == pytest.approx((0.0, -5.0), abs=1e-6)
     assert failed.points[1] == pytest.approx((0.0, -5.5), abs=1e-6)
     assert invalid.known == ()

@@ -13,11 +13,13 @@ from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.autolock_result import AutolockResult
+from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
+from mtr_operator.report.figures import sigma_text
 from mtr_operator.report.files import write_report
 from mtr_operator.report.protocol_png import label_stretches
 from mtr_operator.report.protocol_rows import date_text, parameter_rows
 from mtr_operator.report.results_csv import results_csv
-from mtr_operator.report.table import results_table
+from mtr_operator.report.table import line_text, results_table
 
 HEADERS = {
     "autolock": "axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unlock_status,unlock_distance_m,"
@@ -92,7 +94,7 @@ def test_list_stands_in_one_cell_and_in_one_line_of_metadata():
     metadata, rows = lines_of(results_csv(scenario, progress))
     assert ",2,1.2000 1.3500,," in rows[1]
     assert "# parameter measuring_speeds_mps: 0.4 m/s, 0.1 m/s" in metadata
-    assert ("measuring speeds", "1.44 km/h; 0.36 km/h") in parameter_rows(scenario, progress)
+    assert ("Speeds of the passes", "1.44 km/h; 0.36 km/h") in parameter_rows(scenario, progress)
 
 
 def test_metadata_names_parameters_units_version_profile_and_reasons():
@@ -105,14 +107,52 @@ def test_metadata_names_parameters_units_version_profile_and_reasons():
         assert part in text
 
 
-def test_table_shows_centimetres_and_says_why_a_line_is_invalid():
+def test_table_is_in_metres_as_the_file_says_what_is_known_and_why_a_line_is_invalid__A7():
     results = [axis(1), axis(12, "ok", "not_reached"), axis(13, "invalid", "invalid", "Bus off.")]
-    assert list(results_table(SCENARIOS["autolock"], results)) == [
-        "axis        unlock      cm  \N{PLUS-MINUS SIGN} cm  lock            cm  \N{PLUS-MINUS SIGN} cm",
-        "   1  left  ok       123.5   3.0  ok           200.0",
-        "  12  left  ok       123.5   3.0  not reached",
-        "  13  left  invalid               invalid",
+    scenario = SCENARIOS["autolock"]
+    assert list(results_table(scenario, results, scenario.parameters_type())) == [
+        "axis        unlock m  key \N{PLUS-MINUS SIGN} m         lock m  key \N{PLUS-MINUS SIGN} m",
+        "   1  left     1.235    0.030           2.00",
+        "  12  left     1.235    0.030  at least 3.50",
+        "  13  left   invalid                 invalid",
+        "Beside each distance stands 1 sigma of where the Remote key was at this one event; at another attempt the Car "
+        "may react elsewhere, by more than that.",
         "axis 13 (left) is invalid: Bus off."]
+
+
+@pytest.mark.parametrize(("sigma_m", "text", "shown"), [
+    (0.0, "< 0.001", "1.235 \N{PLUS-MINUS SIGN} < 0.001 m"), (0.0004, "< 0.001", "1.235 \N{PLUS-MINUS SIGN} < 0.001 m"),
+    (0.0006, "0.001", "1.235 \N{PLUS-MINUS SIGN} 0.001 m"), (0.06, "0.060", "1.23 \N{PLUS-MINUS SIGN} 0.060 m"),
+    (None, "", "1.23 m")])
+def test_uncertainty_is_never_shown_as_none__A8(sigma_m, text, shown):
+    assert sigma_text(sigma_m) == text
+    line = line_text(SCENARIOS["autolock"], replace(axis(1), unlock_uncertainty_m=sigma_m))
+    assert line == f"axis 1 (left): unlock {shown}, lock 2.00 m"
+
+
+SCAN = KeyPressResult(1, 0.0, LineStatus.OK, 4.006, 4.506, 0.001, 3, 1.0, "")
+
+
+@pytest.mark.parametrize(("result", "text"), [
+    (SCAN, "radial 1 (0\N{DEGREE SIGN}): press 4.01 to 4.51 m"),
+    (replace(SCAN, distance_m=6.0, failed_distance_m=None), "radial 1 (0\N{DEGREE SIGN}): press at least 6.00 m"),
+    (replace(SCAN, status=LineStatus.NOT_REACHED, distance_m=None, failed_distance_m=3.0, uncertainty_m=None),
+     "radial 1 (0\N{DEGREE SIGN}): press at most 3.00 m"),
+    (replace(SCAN, status=LineStatus.INVALID, distance_m=None, reason="Bus off."),
+     "radial 1 (0\N{DEGREE SIGN}): press invalid: Bus off.")])
+def test_range_between_two_places_and_one_beyond_the_first_are_told_as_such__A5_A6(result, text):
+    scenario = SCENARIOS["key_press"]
+    assert line_text(scenario, result, scenario.parameters_type()) == text
+
+
+def test_csv_says_above_its_table_what_may_be_said_of_each_line__A5_A6():
+    scenario = SCENARIOS["key_press"]
+    beyond = replace(SCAN, radial=2, angle_deg=45.0, distance_m=6.0, failed_distance_m=None)
+    metadata, rows = lines_of(results_csv(scenario, progress_of(scenario, [SCAN, beyond])))
+    assert "# result: radial 1 (0\N{DEGREE SIGN}): press 4.01 to 4.51 m" in metadata
+    assert "# result: radial 2 (45\N{DEGREE SIGN}): press at least 6.00 m" in metadata
+    assert any(line.startswith("# Of a range between two places") for line in metadata)
+    assert len(rows) == 3
 
 
 @pytest.mark.parametrize(("started", "shown"), [

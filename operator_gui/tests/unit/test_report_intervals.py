@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import pytest
 
+from mtr_operator.domain.results.figure import Figure, Kind
 from mtr_operator.domain.results.line_result import LineStatus, has_intervals
+from mtr_operator.domain.results.picture import PointRole
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios import SCENARIOS
@@ -28,16 +30,38 @@ NEARER = replace(FARTHER, radial=4, angle_deg=270.0, reach="nearer", d50_low_m=N
 RESULTS = [MEASURED, OPEN, FARTHER, NEARER]
 
 
-def test_table_has_intervals_in_centimetres_and_says_where_one_is_open():
+def test_table_has_intervals_and_says_where_one_is_open():
     heading, *rows = results_table(KEY_PRESS, RESULTS)
-    assert heading.endswith("95 % cm")
-    assert [row.rsplit("  ", 1)[1] for row in rows] == ["512 to 571", "above 512", "above 512", "below 340"]
+    assert heading.endswith("95 % m")
+    assert [row.rsplit("  ", 1)[1] for row in rows[:4]] == [
+        "5.12 to 5.71", "at least 5.12", "at least 5.12", "at most 3.40"]
+    assert "5.40  0.150" in rows[0] and "at least 5.12" in rows[2].split("  ")
+    assert rows[4].startswith("Beside each distance stands 1 sigma of the boundary, and its 95 % interval")
 
 
 def test_table_without_intervals_is_as_before():
     scan = replace(MEASURED, method="scan")
     assert not has_intervals([scan])
-    assert next(iter(results_table(KEY_PRESS, [scan]))).endswith("\N{PLUS-MINUS SIGN} cm")
+    assert next(iter(results_table(KEY_PRESS, [scan]))).endswith("key \N{PLUS-MINUS SIGN} m")
+
+
+def test_picture_of_a_scan_tells_a_range_between_places_from_one_beyond_the_first__A5_A6():
+    between = replace(MEASURED, method="scan", distance_m=5.0, failed_distance_m=5.5)
+    beyond = replace(between, radial=2, angle_deg=90.0, distance_m=6.0, failed_distance_m=None)
+    scan = KeyPressParameters.from_mapping({"method": "scan", "angle_between_radials_deg": 90.0})
+    worked, failed, farther, _ = KEY_PRESS.picture(scan, CAR, [between, beyond]).point_sets
+    assert (worked.known, failed.known) == (((5.0, 0.0),), ((5.5, 0.0),))
+    assert worked.figures == (Figure(Kind.BETWEEN, 5.0, 5.5), None)
+    assert worked.brackets == (((5.0, 0.0), (5.5, 0.0)),)
+    assert farther.role is PointRole.FIRST_FAILED and farther.figures == (Figure(Kind.AT_LEAST, 6.0),)
+    assert farther.known[0] == pytest.approx((0.0, -6.0))
+    assert protocol_png(KEY_PRESS, scan, Progress("key_press", scan.to_mapping(), {}, CAR, [between, beyond]))
+
+
+def test_figures_stand_beside_the_boundary_alone():
+    half, sure, *_ = KEY_PRESS.picture(PARAMETERS, CAR, RESULTS).point_sets
+    assert half.figures == (Figure(Kind.VALUE, 5.4), Figure(Kind.VALUE, 5.4), None, None)
+    assert set(sure.figures) == {None}
 
 
 def test_picture_of_a_search_has_both_outlines_with_intervals_and_what_is_not_known():

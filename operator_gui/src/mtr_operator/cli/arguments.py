@@ -31,6 +31,7 @@ def argument_parser() -> argparse.ArgumentParser:
     _add_params(commands.add_parser("params", help="list the parameters of a scenario"))
     _add_run(commands.add_parser("run", help="run a test"))
     _add_check(commands.add_parser("check", help="look whether the Car still stands where it was measured"))
+    _add_demo(commands.add_parser("demo", help="run a test on a robot and a Car inside the application; needs no file"))
     return parser
 
 
@@ -70,6 +71,19 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
     car.add_argument("--car-profile", default="mtr_demo_car", metavar="NAME_OR_PATH",
                      help="how the Car's bus tells its lock state, default %(default)s")
     car.add_argument("--simulated-car", action="store_true", help="use a substitute inside the application")
+
+
+def _add_demo(parser: argparse.ArgumentParser) -> None:
+    parser.description = ("Runs a test with usual parameters on a substitute of the robot and a simulated Car, as fast "
+                          "as the computer can.")
+    parser.add_argument("scenario", nargs="?", choices=list(SCENARIOS), default="autolock", metavar="SCENARIO",
+                        help="one of %(choices)s, default %(default)s")
+    parser.add_argument("--out", type=pathlib.Path, metavar="DIR",
+                        help="folder for the results; default: a new one in the folder of results")
+    parser.add_argument("--limits", type=pathlib.Path, metavar="FILE", help="limits that the lines are judged by, YAML")
+    parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",
+                        help="of the substitutes' random numbers, default %(default)s")
+    parser.set_defaults(params=None, continued=None, calibration=None, simulated_robot=True, simulated_car=True)
 
 
 def _add_check(parser: argparse.ArgumentParser) -> None:

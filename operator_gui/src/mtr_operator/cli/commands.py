@@ -7,8 +7,11 @@ import sys
 
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.results.session_record import now
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.verdict.verdict import Verdict
+from mtr_operator.report.parameter_names import parameter_name
+from mtr_operator.station.settings import Settings
 
 from .arguments import argument_parser
 from .checking import check
@@ -29,6 +32,8 @@ def run_command(arguments: list[str] | None = None) -> int:
             list_parameters(options)
         elif options.command == "check":
             check(options)
+        elif options.command == "demo":
+            return run_demo(options)
         elif options.command == "run":
             return _EXIT_CODES[CommandLineRun(options).run()]
         else:
@@ -42,12 +47,21 @@ def run_command(arguments: list[str] | None = None) -> int:
     return EXIT_PASS
 
 
+def run_demo(options: argparse.Namespace) -> int:
+    """A test that needs neither robot, Car nor file; the exit code."""
+    if options.out is None:
+        moment = now().strftime("%Y-%m-%d_%H-%M-%S")
+        options.out = Settings().result_folder / f"demo_{options.scenario}_{moment}"
+    return _EXIT_CODES[CommandLineRun(options).run()]
+
+
 def list_parameters(options: argparse.Namespace) -> None:
     """Print a table of a scenario's parameters."""
     rows = [("parameter", "default", "range", "meaning")]
-    for declared in SCENARIOS[options.scenario].parameters_type.declarations().values():
+    for name, declared in SCENARIOS[options.scenario].parameters_type.declarations().items():
         default = "-" if declared.default is None else declared.text(declared.default)
-        rows.append((declared.file_key, default, declared.allowed, declared.doc))
+        meaning = f"{parameter_name(name, declared)}: {declared.doc}"
+        rows.append((declared.file_key, default, declared.allowed, meaning))
     for name, chosen in SCENARIOS[options.scenario].parameters_type.choices().items():
         rows.append((name, chosen.default, chosen.allowed, chosen.doc))
     for name, declared in SCENARIOS[options.scenario].parameters_type.flags().items():

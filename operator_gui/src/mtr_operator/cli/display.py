@@ -10,7 +10,7 @@ import tqdm
 from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import Mode, RobotStatus
-from mtr_operator.domain.scenario import AnyScenario
+from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.report.table import line_text
 
 _SEVERITY = {2: " warning", 3: " error"}
@@ -21,8 +21,10 @@ _BAR = "{n_fmt} of {total_fmt} |{bar:20}| {remaining} left{postfix}"
 class Display(RunObserver):
     """Shows lines done, the present action, and each sentence of the robot once; scenario: None without lines."""
 
-    def __init__(self, scenario: AnyScenario | None, stream: TextIO | None = None):
+    def __init__(self, scenario: AnyScenario | None, stream: TextIO | None = None,
+                 parameters: ScenarioParameters | None = None):
         self._scenario = scenario
+        self._parameters = parameters
         self._stream = stream or sys.stderr
         self._bar: tqdm.tqdm | None = None
         self._logged: set[int] = set()
@@ -53,7 +55,7 @@ class Display(RunObserver):
     def on_result(self, result: LineResult, done: int, total: int) -> None:
         """See RunObserver."""
         if self._scenario is not None:
-            self.say(f"[{done}/{total}] {line_text(self._scenario, result)}")
+            self.say(f"[{done}/{total}] {line_text(self._scenario, result, self._parameters)}")
         if self._bar is not None:
             self._bar.update(done - self._bar.n)
 

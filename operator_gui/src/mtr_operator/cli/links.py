@@ -19,7 +19,7 @@ def robot_link(options: argparse.Namespace) -> RobotLink:
 def car_link(options: argparse.Namespace) -> CarLink:
     """Link to the Car or its substitute, not connected yet."""
     if options.simulated_car:
-        from mtr_operator.car_link.fake import FakeCarLink
-        return FakeCarLink(options.seed)
+        from mtr_operator.car_link.simulated_car import SimulatedCarLink
+        return SimulatedCarLink(options.seed)
     from mtr_operator.car_link.bus import CanCarLink
     return CanCarLink(options.can_interface, options.can_channel, options.can_bitrate, options.car_profile)

@@ -23,6 +23,8 @@ from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.domain.verdict.suitability import check_before_start
 from mtr_operator.domain.verdict.verdict import Verdict
 from mtr_operator.report.files import FILE_NAMES, write_report
+from mtr_operator.report.side_summary import side_summaries
+from mtr_operator.report.side_table import side_table
 from mtr_operator.report.table import results_table
 from mtr_operator.report.verdict_text import verdict_lines
 from mtr_operator.storage import progress_file
@@ -48,7 +50,10 @@ class CommandLineRun:
     def __init__(self, options: argparse.Namespace):
         self._options = options
         self._scenario = SCENARIOS[options.scenario]
-        self._parameters = load_parameters(options.params, self._scenario.parameters_type)
+        kind = self._scenario.parameters_type
+        # The demo has no file.
+        self._parameters = kind.from_mapping(kind.proposed()) if options.params is None else \
+            load_parameters(options.params, kind)
         self._path = options.out / progress_file.FILE_NAME
         self._given = Given(options.limits, options.calibration)
         if self._given.limits is not None:
@@ -59,7 +64,7 @@ class CommandLineRun:
 
     def run(self) -> Verdict:
         """Measure what is left and write the report; OperatorError or Cancelled when it does not come to its end."""
-        with contextlib.closing(Display(self._scenario)) as display, Interrupt() as interrupt:
+        with contextlib.closing(self._display()) as display, Interrupt() as interrupt:
             with output_folder(self._options.out), Store(self._path, self._progress) as store:
                 try:
                     self._measure(display, interrupt, store)
@@ -74,6 +79,9 @@ class CommandLineRun:
             if interrupt.requested:
                 raise Cancelled("Interrupted when all lines were measured; the results are complete.")
         return Verdict.NOT_SET if assessment.judgement is None else assessment.judgement.verdict
+
+    def _display(self) -> Display:
+        return Display(self._scenario, parameters=self._parameters)
 
     def _begin(self) -> Progress:
         continued, path = self._options.continued, self._path
@@ -129,7 +137,11 @@ class CommandLineRun:
 
     def _say_results(self, assessment: Assessment) -> None:
         results = self._progress.results
-        for line in results_table(self._scenario, results):
+        for line in results_table(self._scenario, results, self._parameters):
+            print(line)
+        judgement = assessment.judgement
+        summaries = side_summaries(self._scenario, self._parameters, self._progress, judgement)
+        for line in side_table(summaries, judgement is not None):
             print(line)
         for line in verdict_lines(self._scenario, results, assessment.judgement):
             print(line)

@@ -28,7 +28,7 @@ from .results.line_result import LineResult
 from .results.notebook import Notebook
 from .results.progress import Progress
 from .results.refusals import Refusals
-from .results.session_record import ENDED_BY, RECOVERED
+from .results.session_record import ENDED_BY, MEASURED_AGAIN, RECOVERED, again_text
 from .robot_status import CheckState
 from .scenario import AnyScenario, Line, ScenarioParameters
 from .verdict.assessment import Assessor
@@ -39,11 +39,11 @@ class Runner:
     """One test from its beginning, or from where its progress ends, to its end.
 
     journal keeps each finding before the robot goes on. save is called with the progress after each line and has to
-    return only when it is safe.
+    return only when it is safe. again: numbers of measured lines that the Operator wants measured once more.
     """
 
     def __init__(self, scenario: AnyScenario, parameters: ScenarioParameters, loop: ControlLoop, progress: Progress,
-                 save: Callable[[Progress], None], *, journal: Journal | None = None):
+                 save: Callable[[Progress], None], *, journal: Journal | None = None, again: Sequence[int] = ()):
         self._scenario = scenario
         self._parameters = parameters
         self._loop = loop
@@ -54,6 +54,7 @@ class Runner:
         self._robot = Robot(loop, progress.results)
         self._car = Car(loop)
         self._total = 0
+        self._again = list(again)
 
     def run(self) -> None:
         """Measure all lines, the invalid ones once more at the end; the robot stands still afterwards in any case."""
@@ -148,10 +149,16 @@ class Runner:
         if not set(done) <= set(by_number):
             raise ProgressFileError(f"The progress file holds {self._scenario.line_word} {max(done)}; this test has "
                                     f"{self._total}.")
-        self._loop.observer.on_plan(len(done), self._total)
+        self._again = [number for number in self._again if number in done]
+        self._loop.observer.on_plan(len(done) - len(self._again), self._total)
         for number, line in by_number.items():
             if number not in done:
                 self._measure_line(line)
+        if self._again:
+            self._notebook.add(SESSION, {MEASURED_AGAIN: again_text(self._progress.session, self._again)})
+        for number in list(self._again):
+            self._again.remove(number)
+            self._measure_line(by_number[number])
         for number in self._progress.to_retry():
             self._measure_line(by_number[number])
 
@@ -193,4 +200,4 @@ class Runner:
         self._notebook.add(LINE, {"result": result.to_document(), "frame": self._frame()})
         self._save(self._progress)
         # Shown when it is kept: what a person has read is there after the next start.
-        self._loop.observer.on_result(result, len(self._progress.results), self._total)
+        self._loop.observer.on_result(result, len(self._progress.results) - len(self._again), self._total)

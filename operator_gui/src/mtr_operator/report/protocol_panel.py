@@ -19,6 +19,7 @@ _ROW, _BOTTOM = 0.0235, 0.02
 _TEXT_POINTS = 8.5
 BAR = {"linewidth": 5.0, "alpha": 0.3, "solid_capstyle": "butt"}
 INTERVAL = {"linewidth": 1.6, "solid_capstyle": "butt"}
+BRACKET = {"linewidth": 1.2, "linestyle": (0, (1, 1))}
 
 
 def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Progress, *, picture: Picture,
@@ -31,7 +32,10 @@ def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Pro
     handles, labels = axes.get_legend_handles_labels()
     if any(points.bars for points in picture.point_sets):
         handles.append(Line2D((), (), color=INK, **BAR))
-        labels.append("uncertainty, \N{PLUS-MINUS SIGN}1 sigma")
+        labels.append("place of the key, \N{PLUS-MINUS SIGN}1 sigma")
+    if any(points.brackets for points in picture.point_sets):
+        handles.append(Line2D((), (), color=INK, **BRACKET))
+        labels.append("border somewhere in between")
     if any(points.intervals for points in picture.point_sets):
         handles.append(Line2D((), (), color=INK, marker="|", **INTERVAL))
         labels.append("95 % interval")

@@ -18,7 +18,8 @@ from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.verdict.assessment import Assessment
 
 from .car_drawing import draw_car
-from .protocol_panel import BAR, INK, INTERVAL, write_panel
+from .figures import SIGNS, filled
+from .protocol_panel import BAR, BRACKET, INK, INTERVAL, write_panel
 
 FILE_NAME = "protocol.png"
 _SIZE_INCH = (11.7, 8.3)  # A4 landscape
@@ -53,6 +54,7 @@ def protocol_png(scenario: AnyScenario, parameters: ScenarioParameters, progress
     _frame(axes, picture, progress)
     for points in picture.point_sets:
         _draw_intervals(axes, points)
+        _write_figures(axes, points)
     draw_car(axes, progress.measured_car, _POINTS_PER_INCH / _metres_per_inch(axes))
     label_stretches(axes, picture)
     write_panel(figure, axes, scenario, progress, picture=picture, assessment=assessment)
@@ -93,6 +95,8 @@ def _draw_points(axes: Axes, points: PointSet) -> None:
     across, ahead = [y for _, y in points.known], [x for x, _ in points.known]
     if points.is_outline and len(points.known) > 2:
         _draw_outline(axes, points, style["color"])
+    for (x0, y0), (x1, y1) in points.brackets:
+        axes.plot((y0, y1), (x0, x1), color=style["color"], zorder=5, **BRACKET)
     for (x0, y0), (x1, y1) in points.bars:
         axes.plot((y0, y1), (x0, x1), color=style["color"], zorder=5, **BAR)
     axes.plot(across, ahead, linestyle="none", markersize=6, markeredgewidth=1.6, color=style["color"],
@@ -108,6 +112,17 @@ def _draw_intervals(axes: Axes, points: PointSet) -> None:
         for (ax, ay), (bx, by) in (((x0, y0), (x1, y1)), *(((x - across_x, y - across_y), (x + across_x, y + across_y))
                                                            for x, y in ((x0, y0), (x1, y1)))):
             axes.plot((ay, by), (ax, bx), color=color, zorder=5, **INTERVAL)
+
+
+def _write_figures(axes: Axes, points: PointSet) -> None:
+    """What may be said of each point, beside it."""
+    gap_m = _LABEL_GAP_INCH * _metres_per_inch(axes)
+    for point, figure in zip(points.points, points.figures):
+        if point is not None and figure is not None:
+            text = filled(SIGNS[figure.kind], figure)
+            axes.text(point[1], point[0] + gap_m, text, ha="center", va="center", fontsize=7, zorder=7,
+                      color=_STYLES[points.role]["color"], bbox={"facecolor": "white", "alpha": 0.8, "pad": 0.6,
+                                                                 "edgecolor": "none"})
 
 
 def _draw_outline(axes: Axes, points: PointSet, color: str) -> None:

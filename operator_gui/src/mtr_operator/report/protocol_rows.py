@@ -11,10 +11,10 @@ from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
 
+from .parameter_names import parameter_name
 from .verdict_text import verdict_counts
 
 LARGEST_UNCERTAINTY = "largest uncertainty (95 %)"
-_CM_PER_M = 100.0
 Row = Tuple[str, str]
 
 
@@ -44,7 +44,7 @@ def assessment_rows(assessment: Assessment | None) -> list[Row]:
     if assessment is None:
         return []
     expanded_m = max((budget.expanded_m for budget in assessment.budgets), default=None)
-    rows = [] if expanded_m is None else [(LARGEST_UNCERTAINTY, f"{_CM_PER_M * expanded_m:.1f} cm")]
+    rows = [] if expanded_m is None else [(LARGEST_UNCERTAINTY, f"{expanded_m:.3f} m")]
     judgement = assessment.judgement
     if judgement is not None:
         rows += [("verdict", judgement.verdict.word), ("judged lines", verdict_counts(judgement))]
@@ -55,12 +55,8 @@ def parameter_rows(scenario: AnyScenario, progress: Progress) -> list[Row]:
     """Every parameter that was set, as a person reads it."""
     rows = [(name, str(progress.parameters.get(name, choice.default)))
             for name, choice in scenario.parameters_type.choices().items()]
-    for _, declared, value in numbers_with_effect(scenario, progress):
-        if value is not None:
-            name, _, suffix = declared.file_key.rpartition("_")
-            shown = name if suffix in ("m", "s", "mps", "deg", "mhz") else declared.file_key
-            rows.append((shown.replace("_", " "), declared.shown_text(value)))
-    return rows
+    return rows + [(parameter_name(name, declared), declared.shown_text(value))
+                   for name, declared, value in numbers_with_effect(scenario, progress) if value is not None]
 
 
 def numbers_with_effect(scenario: AnyScenario, progress: Progress) -> list[tuple[str, Declaration, Any]]:

@@ -13,6 +13,8 @@ from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
 
 from .assessed_columns import AssessedColumns
+from .figures import meanings
+from .table import line_text
 
 FILE_NAME = "results.csv"
 
@@ -52,6 +54,10 @@ def _metadata(scenario: AnyScenario, progress: Progress) -> Iterator[str]:
     for column in scenario.result_type.columns():
         unit = f" [{column.unit}]" if column.unit else ""
         yield f"column {column.name}{unit}: {column.doc}"
+    parameters = scenario.parameters_type.from_mapping(progress.parameters)
+    for result in progress.results:
+        yield f"result: {_one_line(line_text(scenario, result, parameters))}"
+    yield from meanings(progress.results)
     for result in progress.results:
         if result.reason:
             yield f"{scenario.line_word} {result.number} is invalid: {_one_line(result.reason)}"

@@ -77,7 +77,7 @@ class LinkOpener:
         if choice is None:
             return AbsentCarLink()
         if choice.interface == SIMULATED:
-            from mtr_operator.car_link.fake import FakeCarLink
-            return FakeCarLink()
+            from mtr_operator.car_link.simulated_car import SimulatedCarLink
+            return SimulatedCarLink()
         from mtr_operator.car_link.bus import CanCarLink
         return CanCarLink(choice.interface, choice.channel, choice.bitrate_bps, choice.profile)

@@ -41,7 +41,9 @@ class MeasuredDistance:
 
     word: what it is called beside the line, "unlock". low_m, high_m: ends of the 95 % interval of the boundary that the
     distance stands for; None where the method gives none, one of them alone where the boundary lies beyond the other.
-    common_sigma_m: 1 sigma of what the attempts of all lines leave open alike.
+    common_sigma_m: 1 sigma of what the attempts of all lines leave open alike. is_place: the distance is that of the
+    farthest place that worked, and the boundary lies between it and failed_m, the next farther one that failed: None
+    when none did. Of a boundary that was not reached failed_m is the nearest place that failed.
     """
 
     word: str
@@ -51,6 +53,8 @@ class MeasuredDistance:
     low_m: OptionalFloat = None
     high_m: OptionalFloat = None
     common_sigma_m: OptionalFloat = None
+    is_place: bool = False
+    failed_m: OptionalFloat = None
 
 
 def has_intervals(results: Sequence[LineResult]) -> bool:

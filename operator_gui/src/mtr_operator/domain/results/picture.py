@@ -8,6 +8,7 @@ from typing import Iterator, Sequence
 
 from ..geometry.pose import Point
 from ..geometry.ray import Ray
+from .figure import Figure
 from .line_result import MeasuredDistance
 
 
@@ -37,7 +38,8 @@ class PointSet:
 
     is_outline: they enclose an area, in this order; None stands for a line without a point, where the outline is not
     known. bars: 1 sigma to both sides of the points, where it is known and no interval is. intervals: ends of the 95 %
-    interval of each point, where both are known.
+    interval of each point, where both are known. brackets: two places each, between which a border lies that nobody has
+    looked for any closer. figures: what is written beside each point, None for nothing; empty where nothing is.
     """
 
     label: str
@@ -46,6 +48,8 @@ class PointSet:
     is_outline: bool = False
     bars: tuple[tuple[Point, Point], ...] = ()
     intervals: tuple[tuple[Point, Point], ...] = ()
+    brackets: tuple[tuple[Point, Point], ...] = ()
+    figures: tuple[Figure | None, ...] = ()
 
     @property
     def known(self) -> tuple[Point, ...]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import datetime
+from typing import Mapping, Sequence
 
 from mtr_operator import __version__
 
 STARTED, CONTINUED, ROBOT_SOFTWARE = "started", "continued", "robot software"
 # Only in the record of a test in which it happened.
 ENDED_BY, RECOVERED = "ended before its end", "recovered"
+MEASURED_AGAIN = "measured again"
 REFUSED_STATUSES = "messages of the robot that were not used"
 REFUSED_COMMANDS = "messages that the robot refused"
 REFUSED_FRAMES = "frames of the Car that were not believed"
@@ -24,6 +26,12 @@ def session_record(started: datetime.datetime, robot: str, car_profile: str) -> 
         "units": "SI; angles in degrees where the column says so; 1 sigma uncertainties",
         "coordinates": "Car coordinate system: origin in the Car's centre, x to its front, y to its left",
     }
+
+
+def again_text(session: Mapping[str, str], numbers: Sequence[int]) -> str:
+    """What the record says of lines that are measured once more: those of before, and these."""
+    before = session.get(MEASURED_AGAIN, "")
+    return ", ".join(filter(None, (before, *map(str, numbers))))
 
 
 def now() -> datetime.datetime:

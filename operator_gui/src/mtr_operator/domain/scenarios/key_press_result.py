@@ -88,4 +88,5 @@ class KeyPressResult(SearchedResult):
         """See LineResult: where half of the presses work, if that was searched, else the farthest that worked."""
         if self.was_searched:
             return super().distances
-        return (MeasuredDistance(PRESS, self.status, self.distance_m, self.uncertainty_m),)
+        return (MeasuredDistance(PRESS, self.status, self.distance_m, self.uncertainty_m, is_place=True,
+                                 failed_m=self.failed_distance_m),)

@@ -6,6 +6,7 @@ from typing import Sequence
 
 from ...estimation.press.radial_estimate import Reach
 from ...geometry.pose import Point
+from ...results.figure import figure_of
 from ...results.line_result import LineStatus
 from ...results.picture import Picture, PointRole, PointSet, Stretch, bars_along, intervals_along
 from ...robot_status import CarDimensions
@@ -33,7 +34,8 @@ def picture_of(parameters: HandleRequestParameters, car: CarDimensions,
     invalid = tuple(ray.point(far_m) for ray, result in measured if result.status is LineStatus.INVALID)
     return Picture(stretches, (
         PointSet("Border: half of the requests inside", PointRole.FIRST, border, bars=bars_along(half),
-                 intervals=intervals_along(half)),
+                 intervals=intervals_along(half),
+                 figures=tuple(figure_of(distance) for _, distance in half if distance.distance_m is not None)),
         PointSet("Inside", PointRole.SECOND, points("worked_at_m")),
         PointSet("Outside", PointRole.FAILED, points("failed_at_m")),
         PointSet("Border farther than here", PointRole.FIRST_FAILED, beyond(Reach.FARTHER, parameters.farthest_m)),

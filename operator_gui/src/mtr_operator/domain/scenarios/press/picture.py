@@ -8,6 +8,7 @@ from ...estimation.press.radial_estimate import Reach
 from ...geometry.pose import Point
 from ...geometry.radials import radials_around
 from ...geometry.ray import Ray
+from ...results.figure import Kind, figure_of
 from ...results.line_result import LineStatus, MeasuredDistance
 from ...results.picture import Picture, PointRole, PointSet, Stretch, bars_along, intervals_along
 from ..key_press_parameters import KeyPressParameters
@@ -30,12 +31,22 @@ def picture_of(parameters: KeyPressParameters, results: Sequence[KeyPressResult]
 
 
 def _scanned(measured: _Measured) -> tuple[PointSet, ...]:
-    """The places that worked, and the next ones that did not."""
-    worked = tuple(_place(ray, result.distance_m) for ray, result in measured)
+    """The places that worked, the next ones that did not, and those beyond which nobody has looked."""
+    found = [(ray, result.distances[0], figure_of(result.distances[0])) for ray, result in measured]
+    ends = [(ray, distance, figure) for ray, distance, figure in found if figure.kind is Kind.BETWEEN]
+    worked = tuple(ray.point(figure.first_m) if figure.kind is Kind.BETWEEN and figure.first_m is not None else None
+                   for ray, _, figure in found)
+    beyond = tuple(ray.point(figure.first_m) for ray, _, figure in found
+                   if figure.kind is Kind.AT_LEAST and figure.first_m is not None)
     failed = tuple(_place(ray, result.failed_distance_m) for ray, result in measured)
+    brackets = tuple((ray.point(figure.first_m), ray.point(figure.second_m)) for ray, _, figure in ends
+                     if figure.first_m is not None and figure.second_m is not None)
     return (PointSet("Press worked", PointRole.FIRST, worked, is_outline=True,
-                     bars=bars_along([(ray, result.distances[0]) for ray, result in measured])),
-            PointSet("Press failed", PointRole.FAILED, failed))
+                     bars=bars_along([(ray, distance) for ray, distance, _ in ends]), brackets=brackets,
+                     figures=tuple(figure if figure.kind is Kind.BETWEEN else None for _, _, figure in found)),
+            PointSet("Press failed", PointRole.FAILED, failed),
+            PointSet("Border farther than here", PointRole.FIRST_FAILED, beyond,
+                     figures=tuple(figure for _, _, figure in found if figure.kind is Kind.AT_LEAST)))
 
 
 def _searched(parameters: KeyPressParameters, measured: _Measured) -> tuple[PointSet, ...]:
@@ -53,8 +64,10 @@ def _searched(parameters: KeyPressParameters, measured: _Measured) -> tuple[Poin
 
 def _area(label: str, role: PointRole, measured: Sequence[tuple[Ray, MeasuredDistance]]) -> PointSet:
     places = tuple(_place(ray, distance.distance_m) for ray, distance in measured)
+    figures = tuple(figure_of(distance) if role is PointRole.FIRST and distance.distance_m is not None else None
+                    for _, distance in measured)
     return PointSet(label, role, places, is_outline=True, bars=bars_along(measured),
-                    intervals=intervals_along(measured))
+                    intervals=intervals_along(measured), figures=figures)
 
 
 def _beyond(label: str, role: PointRole, measured: _Measured, reach: Reach, place_m: float) -> PointSet:

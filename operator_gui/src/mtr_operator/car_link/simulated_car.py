@@ -1,0 +1,177 @@
+"""A small Car inside the application, for the first try of somebody who has none: its locks react to the key's place.
+
+It is no model of a Car: its ranges are smooth curves around it, with a little chance. mtr_simulation has real ones.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+import random
+
+from mtr_operator.domain.ports import OUTPUT, CarEvent, CarLink, HandlePort, LockState
+from mtr_operator.domain.robot_status import CarDimensions, PressReport, RobotStatus
+
+# Where a standing key is noticed, from the Car's outline; it is given up farther away. Where half of the requests at
+# the handle are inside; where half of the presses work, from the Car's centre.
+UNLOCK_M, LOCK_M, HANDLE_M, PRESS_M = 1.5, 2.2, 1.3, 5.2
+# Parts by which these differ around the Car, by the number of lobes.
+_LOBES = ((1, 0.06), (2, 0.05), (3, 0.03))
+# Widths of the logistic curves of presses and requests, 1 sigma of a poll's noise, and a press that fails anywhere.
+_PRESS_WIDTH_M, _HANDLE_WIDTH_M, _POLL_NOISE_M, _LAPSE = 0.12, 0.08, 0.02, 0.01
+# Polls that fall anywhere between two Statuses.
+_POLL_S, _REACTION_S, _TIME_SIGMA_S = 0.13, 0.02, 0.005
+_PRESS_REACTION_S = 0.1
+_OTHER_STATE = {LockState.LOCKED: LockState.UNLOCKED, LockState.UNLOCKED: LockState.LOCKED}
+_NOBODY = CarDimensions(math.nan, math.nan, math.nan, math.nan)
+
+
+class SimulatedHandle(HandlePort):
+    """An output that is there at once.
+
+    Attributes:
+        is_waiting: it was taken, and the Car has not looked yet.
+    """
+
+    by = OUTPUT
+
+    def __init__(self) -> None:
+        self.is_waiting = False
+        self._is_taken = False
+
+    def request(self, distance_m: float) -> None:
+        """See HandlePort."""
+        self.is_waiting = self._is_taken = True
+
+    def is_taken(self) -> bool:
+        """See HandlePort."""
+        return self._is_taken
+
+    def release(self) -> None:
+        """See HandlePort."""
+        self._is_taken = False
+
+
+class SimulatedCarLink(CarLink):
+    """Passive entry by the key's place, presses and requests at the handle by its distance.
+
+    Passive entry rests once a button was pressed or the handle taken: only one of them can be measured at a time. The
+    same seed and the same Statuses give the same events.
+    """
+
+    def __init__(self, seed: int = 1):
+        self._chance = random.Random(seed)
+        self._lobes = [(count, part, self._chance.uniform(0.0, 2.0 * math.pi)) for count, part in _LOBES]
+        self._handle = SimulatedHandle()
+        self._is_active = False
+        self._state = LockState.LOCKED
+        self._is_passive = True
+        self._poll_s = self._answered_s = -math.inf
+        self._agreed = 0
+        self._robot: tuple[float, tuple[float, float]] | None = None
+
+    def connect(self) -> None:
+        """See CarLink."""
+        self._is_active = True
+
+    def observe(self, status: RobotStatus) -> list[CarEvent]:
+        """See CarLink."""
+        if not self._is_active:
+            return []
+        car, before = status.car or _NOBODY, self._robot
+        self._robot = (status.stamp_s, _key(status)) if status.pose_valid else None
+        events = self._presses(status) + self._requests(status, car)
+        if self._is_passive and status.car is not None and before is not None and self._robot is not None:
+            events += self._polls(before, self._robot, car)
+        return events
+
+    def _presses(self, status: RobotStatus) -> list[CarEvent]:
+        new = [press for press in sorted(status.presses, key=lambda press: press.start_s)
+               if press.start_s > self._answered_s and not press.error]
+        return [event for press in new for event in self._press(press)]
+
+    def _press(self, press: PressReport) -> list[CarEvent]:
+        self._answered_s, self._is_passive = press.start_s, False
+        if self._robot is None:
+            return []
+        place = self._robot[1]
+        border_m = PRESS_M * self._part(place)
+        if not self._works(math.hypot(*place), border_m, _PRESS_WIDTH_M):
+            return []
+        return [self._change(min(press.start_s + _PRESS_REACTION_S, press.end_s))]
+
+    def _requests(self, status: RobotStatus, car: CarDimensions) -> list[CarEvent]:
+        """A hand that came since the last Status."""
+        if not self._handle.is_waiting:
+            return []
+        self._handle.is_waiting, self._is_passive = False, False
+        if self._robot is None or self._state is LockState.UNLOCKED:
+            return []
+        place = self._robot[1]
+        if not self._works(_gap(place, car), HANDLE_M * self._part(place), _HANDLE_WIDTH_M):
+            return []
+        # Later than what was observed before, and not in the future.
+        self._answered_s = max(self._answered_s, status.stamp_s)
+        return [self._change(status.stamp_s)]
+
+    def _polls(self, before: tuple[float, tuple[float, float]], now: tuple[float, tuple[float, float]],
+               car: CarDimensions) -> list[CarEvent]:
+        """The Car looks for its key again and again; two looks in a row have to agree."""
+        events = []
+        (start_s, start), (end_s, end) = before, now
+        self._poll_s = max(self._poll_s + _POLL_S, start_s)
+        while self._poll_s <= end_s - _REACTION_S:
+            part = (self._poll_s - start_s) / max(end_s - start_s, 1e-9)
+            place = (start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1]))
+            gap_m = _gap(place, car) + self._chance.gauss(0.0, _POLL_NOISE_M)
+            is_other = gap_m < UNLOCK_M * self._part(place) if self._state is LockState.LOCKED else \
+                gap_m > LOCK_M * self._part(place)
+            self._agreed = self._agreed + 1 if is_other else 0
+            if self._agreed > 1:
+                self._agreed = 0
+                events.append(self._change(self._poll_s + _REACTION_S))
+            self._poll_s += _POLL_S
+        self._poll_s -= _POLL_S
+        return events
+
+    def _part(self, place: tuple[float, float]) -> float:
+        """By which the ranges are longer or shorter in a direction."""
+        bearing = math.atan2(place[1], place[0])
+        return 1.0 + sum(part * math.cos(count * bearing + phase) for count, part, phase in self._lobes)
+
+    def _works(self, distance_m: float, border_m: float, width_m: float) -> bool:
+        share = (1.0 - _LAPSE) / (1.0 + math.exp(min((distance_m - border_m) / width_m, 50.0)))
+        return self._chance.random() < share
+
+    def _change(self, time_s: float) -> CarEvent:
+        self._state = _OTHER_STATE[self._state]
+        return CarEvent(time_s, _TIME_SIGMA_S, self._state)
+
+    @property
+    def lock_state(self) -> LockState:
+        """See CarLink."""
+        return self._state if self._is_active else LockState.UNKNOWN
+
+    @property
+    def handle(self) -> HandlePort | None:
+        """See CarLink."""
+        return self._handle
+
+    @property
+    def problem(self) -> str:
+        """See CarLink."""
+        return "" if self._is_active else "The Car's substitute is not connected."
+
+    def close(self) -> None:
+        """See CarLink."""
+        self._is_active = False
+
+
+def _key(status: RobotStatus) -> tuple[float, float]:
+    """The Remote key in the Car's frame."""
+    cos, sin = math.cos(status.heading), math.sin(status.heading)
+    return (status.x + cos * status.key_x - sin * status.key_y, status.y + sin * status.key_x + cos * status.key_y)
+
+
+def _gap(place: tuple[float, float], car: CarDimensions) -> float:
+    """From the Car's outline."""
+    return math.hypot(max(abs(place[0]) - car.length / 2.0, 0.0), max(abs(place[1]) - car.width / 2.0, 0.0))

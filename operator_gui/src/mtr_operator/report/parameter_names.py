@@ -1,0 +1,64 @@
+"""Parameters as a person reads them, the same in window, protocol and command line; files have their keys.
+
+The words are those of the thesis where it has some, but for the Remote key, which it also calls the device.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from mtr_operator.domain.parameters import Declaration
+
+_SUFFIXES = ("_m", "_mps", "_s", "_rad", "_deg")
+NAMES = {
+    "minimum_distance_m": "Minimum distance",
+    "maximum_distance_m": "Starting distance",
+    "straightening_distance_m": "Straightening distance",
+    "measurements_distance_m": "Measurements distance",
+    "approach_distance_m": "Approach distance",
+    "angle_between_radials_rad": "Degrees between radials",
+    "key_height_m": "Key height",
+    "maximum_speed_mps": "Maximum speed",
+    "measuring_speed_mps": "Measuring speed",
+    "passes": "Passes",
+    "measuring_speeds_mps": "Speeds of the passes",
+    "boundary_sigma_m": "Sigma of the boundary",
+    "last_step_m": "Step of a last approach",
+    "clearance_m": "Clearance",
+    "spacing_m": "Distance between places",
+    "coverage_percent": "Coverage wanted, half width",
+    "presses_limit": "Presses in a zone at most",
+    "response_timeout_s": "Response time",
+    "lock_timeout_s": "Locking time",
+    "press_strength": "Press strength",
+    "press_duration_s": "Press duration",
+    "settle_time_s": "Standstill before a press",
+    "attempts": "Attempts",
+    "interval_m": "Interval wanted, half width",
+    "border_distance_m": "Nominal border",
+    "border_requests": "Requests at the border",
+    "handle_timeout_s": "Time for the Operator",
+    "heights": "Heights",
+    "highest_key_height_m": "Highest key height",
+    "half_wavelength_m": "Half a wavelength",
+    "attempts_limit": "Presses at most",
+    "confirming_presses": "Presses that confirm",
+    "key_frequency_hz": "Key's radio frequency",
+    "key_rest_limit_s": "Key's rest at most",
+    "lateral_tolerance_m": "Distance beside the line",
+    "heading_tolerance_rad": "Turn from the line",
+    "height_tolerance_m": "Difference in height",
+    "speed_tolerance_mps": "Difference in speed",
+}
+
+
+def parameter_name(name: str, declared: Declaration) -> str:
+    """Name of a parameter by that of its field."""
+    return NAMES.get(name) or _plain_words(name, declared)
+
+
+def _plain_words(name: str, declared: Declaration) -> str:
+    """Words of a parameter of a scenario that came later."""
+    for suffix in _SUFFIXES:
+        if declared.unit and name.endswith(suffix):
+            name = name[:-len(suffix)]
+            break
+    return name.replace("_", " ").capitalize()
