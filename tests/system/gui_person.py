@@ -13,6 +13,7 @@ from PyQt5.QtGui import QPixmap
 from PyQt5.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QWidget
 
 from mtr_operator.gui.app import Application, make_qt
+from mtr_operator.gui.forms.hold_button import HoldButton
 
 POLL_S = 0.05
 # Repainting a window in other colours.
@@ -68,6 +69,13 @@ class Person:
     def click(self, text: str) -> None:
         """Click the button with this text."""
         self._click_at(self.until(f"The button {text!r}", lambda: place_of(button_of(text))))
+
+    def hold(self, text: str) -> None:
+        """Hold the button with this text for as long as it wants to be held."""
+        place = self.until(f"The button {text!r}", lambda: place_of(button_of(text)))
+        xdotool("mousemove", str(place.x()), str(place.y()), "mousedown", "1")
+        time.sleep(HoldButton.HOLD_MS / 1000.0 + SETTLE_S)
+        xdotool("mouseup", "1")
 
     def wait_for(self, text: str, limit_s: Optional[float] = None) -> None:
         """Wait until a text with this part is visible."""

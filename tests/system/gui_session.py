@@ -44,13 +44,13 @@ def measure(person: Person) -> None:
     person.type_into("Degrees between radials", "120")
     person.wait_for("3 lines")
     person.wait_for("Ready")
-    person.click("Start")
+    person.hold("Hold to start")
     person.wait_for("1 of 3 lines measured", MEASURING_LIMIT_S)
     person.click("Stop")
     person.wait_for("Paused.")
     person.click("Save progress")
     person.wait_for("Saved to")
-    person.click("Resume")
+    person.hold("Hold to resume")
     person.wait_for("Key press protocol", MEASURING_LIMIT_S)
 
 

@@ -9,11 +9,13 @@ os.environ["QT_QPA_PLATFORM"] = "offscreen"
 
 import pytest
 from PyQt5.QtCore import Qt
+from PyQt5.QtTest import QTest
 
 from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import CarEvent, CarLink, LockState
 from mtr_operator.gui.app import Application
+from mtr_operator.gui.forms.hold_button import HoldButton
 from mtr_operator.robot_link.fake import FakeRobotLink
 from mtr_operator.robot_link.virtual.robot import VirtualRobot, VirtualWorld
 from mtr_operator.station.connection import SIMULATED, CanChoice, LinkOpener
@@ -122,6 +124,12 @@ class FakeOpener(LinkOpener):
         self.spoil = lambda status: dataclasses.replace(status, **changes)
 
 
+@pytest.fixture(autouse=True)
+def short_hold(monkeypatch):
+    """Nobody has to hold a button for long."""
+    monkeypatch.setattr(HoldButton, "HOLD_MS", 20)
+
+
 @pytest.fixture
 def opener():
     """Links of the application."""
@@ -151,6 +159,7 @@ def start(qtbot, opener, settings_path, tmp_path):
         return application
     yield begin
     for application in started:
+        application.language.use("en")
         application.close()
         application.window.deleteLater()
 
@@ -182,9 +191,20 @@ class Operator:
         return self
 
     def click(self, button):
-        """Click a button that can be clicked."""
+        """Click a button that can be clicked, or hold it where that is wanted."""
         assert button.isEnabled(), button.text()
-        self.bot.mouseClick(button, Qt.LeftButton)
+        if isinstance(button, HoldButton):
+            self.hold(button)
+        else:
+            self.bot.mouseClick(button, Qt.LeftButton)
+
+    def hold(self, button):
+        """Hold a button until it does what it is for."""
+        held = []
+        button.held.connect(lambda: held.append(button))
+        self.bot.mousePress(button, Qt.LeftButton)
+        self.wait(lambda: held)
+        QTest.mouseRelease(button, Qt.LeftButton)
 
     def wait(self, condition):
         """Let time pass until the condition holds."""

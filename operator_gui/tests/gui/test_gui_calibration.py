@@ -31,7 +31,30 @@ def test_buttons_are_pressed_once_with_the_strength(window, operator, opener):
     operator.wait(lambda: opener.sent[-1].press is None)
     presses = {desired.press for desired in opener.sent if desired.press is not None}
     assert [(press.buttons, press.strength) for press in presses] == [((2,), 0.6)]
-    assert window.reported["strength"].text() == "60 %"
+    assert "strength" not in window.reported
+
+
+def test_calibration_says_whether_the_car_obeyed__B14(window, operator, opener):
+    operator.wait(lambda: window.reported["locks"].text() == "locked")
+    # So far from the Car the first press works, and the ones after it change its locks each time.
+    opener.spoil_with(pose_valid=True)
+    window.buttons[2].setChecked(True)
+    operator.click(window.send)
+    operator.wait(lambda: "The Car has answered: unlocked." in window.notice.text())
+    assert window.reported["locks"].text() == "unlocked"
+
+
+def test_calibration_says_that_the_car_did_not_obey__B14(window, operator, opener):
+    window.buttons[2].setChecked(True)
+    operator.click(window.send)
+    operator.wait(lambda: window.notice.text().endswith("The Car has not answered."))
+    assert window.reported["locks"].text() == "locked"
+
+
+def test_reported_values_of_a_silent_robot_are_grey__B1(window, operator, opener):
+    operator.wait(lambda: window.reported["height"].property("stale") is False)
+    opener.is_silent = True
+    operator.wait(lambda: window.reported["height"].property("stale"))
 
 
 def test_buttons_held_down_are_shown(window, operator, opener):

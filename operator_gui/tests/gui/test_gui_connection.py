@@ -49,6 +49,36 @@ def test_can_adapter_that_cannot_be_opened_is_not_taken_for_the_robot(newcomer, 
     assert window.detail.text() == opener.car_refusal
 
 
+def test_refusal_goes_when_its_field_is_put_right__B18(newcomer, opener):
+    window = newcomer.window
+    window.robot.host.edit.setText("300.1.1.1")
+    newcomer.click(window.button)
+    assert window.message.text() == INVALID
+    window.robot.host.edit.setText("10.0.0.7")
+    assert not window.message.text() and not window.robot.host.fault
+    opener.car_refusal = "There is no CAN adapter at /dev/ttyACM0; check the channel and the USB plug."
+    window.can.interface.setCurrentIndex(window.can.interface.findData("slcan"))
+    newcomer.click(window.button)
+    newcomer.wait(window.button.isEnabled)
+    assert window.can.channel.fault == "The CAN adapter cannot be used."
+    window.can.channel.edit.setText("/dev/ttyACM1")
+    assert not window.can.channel.fault and not window.message.text() and not window.detail.text()
+
+
+def test_language_is_chosen_in_the_connection_window_and_what_was_typed_stays__B19(newcomer):
+    former = newcomer.window
+    former.robot.host.edit.setText("10.0.0.7")
+    former.can.interface.setCurrentIndex(former.can.interface.findData("slcan"))
+    former.can.channel.edit.setText("/dev/ttyACM7")
+    former.language.setCurrentIndex(former.language.findData("cs"))
+    newcomer.wait(lambda: newcomer.window is not former)
+    window = newcomer.window
+    assert window.button.text() == "P\u0159ipojit"
+    assert (window.robot.host.text, window.can.choice.channel) == ("10.0.0.7", "/dev/ttyACM7")
+    assert newcomer.application.flow.store.settings.language == "cs"
+    newcomer.application.language.use("en")
+
+
 def test_enter_connects(newcomer):
     newcomer.bot.keyClick(newcomer.window.robot.host.edit, Qt.Key_Return)
     newcomer.wait(lambda: isinstance(newcomer.window, MainWindow))

@@ -84,6 +84,7 @@ def test_closing_waits_for_the_files_that_are_being_written(operator, tmp_path, 
         go_on.wait(10.0)
         written.set()
         return tmp_path / kind
+    operator.wait(protocol.save.isEnabled)
     monkeypatch.setattr(ReportWriter, "_write", write)
     operator.click(protocol.save)
     threading.Timer(0.3, go_on.set).start()

@@ -76,7 +76,7 @@ def test_without_limits_nothing_is_judged(operator):
     assert not measurement.facts.values["verdict"].isVisible() and operator.model.judgement is None
     protocol = operator.finish()
     table = protocol.table.model()
-    assert table.headerData(table.columnCount() - 1, 1) == "95 %"
+    assert table.headerData(table.columnCount() - 1, 1) == "95 % [m]"
     assert "Verdict" not in protocol.notice.text()
 
 
@@ -167,9 +167,9 @@ def test_budget_of_the_chosen_row_is_shown(operator):
             for row in range(table.rowCount())]
     budget = protocol.protocol.assessment.budget(2, "press")
     assert [row[0] for row in rows][-1] == "expanded uncertainty, 95 %"
-    assert float(rows[-1][1]) == pytest.approx(100.0 * budget.expanded_m, abs=0.01)
+    assert float(rows[-1][1]) == pytest.approx(budget.expanded_m, abs=0.0001)
     assert {row[0] for row in rows[:-1]} == {term.name for term in budget.terms}
-    assert sum(float(row[1]) ** 2 for row in rows[:-1]) == pytest.approx((100.0 * budget.sigma_m) ** 2, rel=0.02)
+    assert sum(float(row[1]) ** 2 for row in rows[:-1]) == pytest.approx(budget.sigma_m ** 2, rel=0.02)
 
 
 def test_budget_of_a_line_with_two_distances_names_them(operator, opener):

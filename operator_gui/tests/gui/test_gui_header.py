@@ -3,8 +3,9 @@
 import pytest
 from PyQt5.QtCore import QAbstractAnimation
 
+from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import Mode, Notification
-from mtr_operator.gui.header.symbols import BatterySymbol, LockSymbol
+from mtr_operator.gui.header.symbols import BatterySymbol, LinkSymbol, LocksSymbol
 from mtr_operator.gui.header.warning_symbol import PULSE_MS, PULSE_SCALE, WarningSymbol
 from mtr_operator.gui.theme.appearance import Appearance
 
@@ -55,12 +56,11 @@ def test_status_word_says_each_reason_with_an_advice(operator, opener):
     opener.spoil_with(battery_percent=5, mode=Mode.STARTING)
     operator.wait(lambda: "Not ready" in status.text())
     operator.click(status)
-    texts = status.popup.texts()
+    texts = status.checklist.texts()
     status.popup.hide()
-    assert texts[0] == "Not ready"
-    assert "The robot's battery is nearly empty: 5 %." in texts
-    assert "Charge the battery before the test." in texts
-    assert "The robot is still starting." in texts
+    assert status.popup.texts() == ["Not ready"]
+    assert "\N{MULTIPLICATION X} Battery Nearly empty: 5 %. Charge it before the test." in texts
+    assert "\N{MULTIPLICATION X} Robot The robot is still starting. Wait a moment." in texts
 
 
 def test_warning_alone_does_not_hinder_a_test(operator, opener):
@@ -90,9 +90,35 @@ def test_unknown_battery_is_not_a_number(qtbot):
     assert battery.accessibleName() == "Battery of the robot: unknown"
 
 
-def test_lock_is_closed_only_on_an_encrypted_link(qtbot):
-    lock = LockSymbol(Appearance())
-    qtbot.addWidget(lock)
-    assert lock.toolTip() == "The link to the robot is not encrypted."
-    lock.show_closed(True)
-    assert lock.toolTip() == "The link to the robot is encrypted."
+def test_shield_tells_whether_the_link_is_encrypted_and_is_no_padlock__B15(qtbot):
+    link = LinkSymbol(Appearance())
+    qtbot.addWidget(link)
+    assert link.toolTip() == "The link to the robot is not encrypted."
+    link.show_secret(True)
+    assert link.toolTip() == "The link to the robot is encrypted."
+
+
+@pytest.mark.parametrize(("locks", "is_stale", "text"), [
+    (LockState.LOCKED, False, "The Car is locked."), (LockState.UNLOCKED, False, "The Car is unlocked."),
+    (LockState.UNLOCKED, True, "Whether the Car is locked is not known."),
+    (LockState.UNKNOWN, False, "Whether the Car is locked is not known.")])
+def test_padlock_is_that_of_the_car__B15(qtbot, locks, is_stale, text):
+    symbol = LocksSymbol(Appearance())
+    qtbot.addWidget(symbol)
+    symbol.show_locks(locks, is_stale)
+    assert (symbol.toolTip(), symbol.accessibleName()) == (text, text)
+
+
+def test_header_of_a_silent_robot_shows_the_age_of_what_it_said__B1(operator, opener):
+    header = operator.window.header
+    opener.spoil_with(battery_percent=63, notifications=(LOW,))
+    operator.wait(lambda: header.battery.toolTip().endswith("63 %") and header.warning.isVisible())
+    operator.wait(lambda: header.locks.toolTip() == "The Car is locked.")
+    opener.is_silent = True
+    operator.wait(lambda: header.battery.toolTip().endswith(" s ago)"))
+    assert header.battery.toolTip().startswith("Battery of the robot: 63 % (")
+    assert header.warning.toolTip().startswith("The robot said ")
+    assert header.locks.toolTip() == "Whether the Car is locked is not known."
+    opener.is_silent = False
+    operator.wait(lambda: header.battery.toolTip() == "Battery of the robot: 63 %")
+    assert header.warning.toolTip() == LOW.text

@@ -204,17 +204,23 @@ def test_closing_asks_first_and_the_next_start_offers_to_go_on(operator, start, 
     assert not later.window.welcome.offer.isVisible()
 
 
-def test_offer_can_be_dismissed_and_the_file_stays(operator, start, qtbot):
+def test_offer_can_be_dismissed_until_the_next_start_and_the_file_stays__B13(operator, start, qtbot):
     screen = operator.begin()
     operator.wait(lambda: operator.model.done >= 1)
     operator.click(operator.window.header.stop)
     operator.wait(lambda: operator.model.phase is Phase.PAUSED)
     operator.click(screen.leave)
     assert operator.window.welcome.offer.isVisible()
+    assert operator.window.welcome._first.hasFocus() or not operator.window.isActiveWindow()
     path = operator.application.flow.store.settings.unfinished
     operator.window.welcome.dismiss.emit()
     assert not operator.window.welcome.offer.isVisible()
     assert path.exists()
+    operator.application.flow.to_welcome()
+    assert not operator.window.welcome.offer.isVisible()
+    operator.application.close()
+    later = type(operator)(start(), qtbot, operator.folder).connect()
+    assert later.window.welcome.offer.isVisible()
 
 
 def test_finished_test_from_a_file_shows_its_protocol(operator, monkeypatch):
@@ -288,6 +294,38 @@ def test_waypoint_trail_and_robot_are_in_the_picture(operator):
     operator.wait(lambda: screen.picture.robot.waypoint is not None and screen.picture.robot.pose is not None)
     assert len(screen.picture.trail.places) > 10
     assert screen.picture.robot.key == (0.25, 0.0)
+
+
+def test_robot_of_a_silent_link_is_painted_as_of_before__B1(operator, opener):
+    screen = operator.begin("handle_request", border_distance_m="1.8", handle_timeout_s="3600")
+    operator.wait(screen.taken.isVisible)
+    assert not screen.picture.robot.is_stale
+    opener.is_silent = True
+    operator.wait(lambda: screen.picture.robot.is_stale)
+    operator.click(operator.window.header.stop)
+
+
+def test_last_result_is_shown_after_going_on_with_a_file(operator, monkeypatch):
+    screen = operator.begin()
+    operator.wait(lambda: operator.model.done >= 2)
+    operator.click(operator.window.header.stop)
+    operator.wait(lambda: operator.model.phase is Phase.PAUSED)
+    path, done = operator.model.test.path, operator.model.done
+    operator.click(screen.leave)
+    operator.application.flow.open(path)
+    assert operator.model.newest.number == done
+    assert screen.facts.values["newest"].text().startswith(f"{done} (")
+
+
+def test_time_left_counts_mapping_and_check__B3(operator):
+    operator.begin()
+    left = []
+    operator.application.flow.bridge.changed.connect(
+        lambda: left.append((operator.model.total and operator.model.done, operator.model.left_s)))
+    operator.finish()
+    prepared = next(index for index, (done, _) in enumerate(left) if done)
+    assert left[0][1] is not None and left[0][1] > 17.0 + 45.0
+    assert all(seconds is None or seconds > 0.0 for _, seconds in left[:prepared])
 
 
 def test_robot_that_is_held_goes_on_by_a_click(operator, opener):  # A8

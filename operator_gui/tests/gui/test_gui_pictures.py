@@ -4,16 +4,21 @@ import math
 
 import pytest
 from PyQt5.QtCore import QEvent, QPoint, QPointF, Qt
-from PyQt5.QtGui import QMouseEvent
+from PyQt5.QtGui import QColor, QImage, QMouseEvent, QPainter
 from PyQt5.QtTest import QTest
 from PyQt5.QtWidgets import QApplication
 
 from mtr_operator.domain.geometry.pose import Pose
+from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.gui.pictures.glide import Glide
+from mtr_operator.gui.pictures.layers.car_layer import CarLayer
+from mtr_operator.gui.pictures.layers.layer import Canvas
+from mtr_operator.gui.pictures.layers.robot_layer import TrailLayer
 from mtr_operator.gui.pictures.layers.surroundings import step_for
 from mtr_operator.gui.pictures.picture_panel import PicturePanel
 from mtr_operator.gui.pictures.viewport import Viewport
 from mtr_operator.gui.theme.appearance import Appearance
+from mtr_operator.gui.theme.palette import LIGHT
 
 VIEW = Viewport(400.0, 300.0, 50.0)
 
@@ -31,6 +36,43 @@ def drag(view, pixel):
     """QTest.mouseMove moves the pointer of a screen, which there is none of."""
     event = QMouseEvent(QEvent.MouseMove, QPointF(pixel), Qt.NoButton, Qt.LeftButton, Qt.NoModifier)
     QApplication.sendEvent(view, event)
+
+
+def painted(layer, px_per_m):
+    """Picture of a layer alone."""
+    image = QImage(400, 300, QImage.Format_RGB32)
+    image.fill(QColor(LIGHT.surface))
+    painter = QPainter(image)
+    layer.paint(Canvas(painter, Viewport(400.0, 300.0, px_per_m), LIGHT))
+    painter.end()
+    return image
+
+
+def is_blank(image, x, y, radius=2):
+    return all(image.pixelColor(x + dx, y + dy).name() == LIGHT.surface
+               for dx in range(-radius, radius + 1) for dy in range(-radius, radius + 1))
+
+
+def test_trail_is_not_painted_across_a_gap__B4():
+    trail = TrailLayer()
+    trail.places = [(0.0, 3.0), (0.0, 2.0), None, (0.0, -2.0), (0.0, -3.0)]
+    image = painted(trail, 50.0)
+    assert is_blank(image, 200, 150)
+    assert not is_blank(image, 75, 150) and not is_blank(image, 325, 150)
+
+
+def test_body_from_which_distances_count_is_shown_within_an_outline_with_mirrors__B20():
+    outline = ((2.25, 0.9), (0.5, 0.9), (0.5, 1.1), (0.3, 1.1), (0.3, 0.9), (-2.25, 0.9), (-2.25, -0.9), (2.25, -0.9))
+    car = CarDimensions(4.5, 1.8, 0.01, 0.01, outline)
+    across = int(200 - 0.9 * 60)
+    seen = [not is_blank(painted(CarLayer(each, True), 60.0), across, 150 - dy, 0) for dy in range(20, 30)
+            for each in (car,)]
+    assert any(seen)
+
+
+def test_front_of_a_small_car_is_told_by_an_arrow():
+    image = painted(CarLayer(CarDimensions(4.5, 1.8, 0.01, 0.01), True), 8.0)
+    assert not is_blank(image, 200, 150 - 18 - 8, 0) and is_blank(image, 200, 150 + 18 + 8, 0)
 
 
 def test_front_is_up_and_left_is_left():

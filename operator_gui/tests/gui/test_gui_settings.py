@@ -38,10 +38,57 @@ def test_theme_changes_at_once_and_is_remembered(window, operator, start):
     assert operator.application.appearance.palette is LIGHT
 
 
-def test_language_is_remembered(window, operator):
-    window.language.setCurrentIndex(window.language.findData("cs"))
+def test_language_changes_at_once_and_is_remembered__B19(operator):
+    screen = operator.begin()
+    operator.wait(lambda: operator.model.done >= 1)
+    operator.click(operator.window.header.stop)
+    operator.wait(screen.resume.isEnabled)
+    operator.click(operator.window.header.settings)
+    settings = operator.window.findChild(SettingsWindow)
+    former = operator.window
+    settings.language.setCurrentIndex(settings.language.findData("cs"))
+    operator.wait(lambda: operator.window is not former)
     assert operator.application.flow.store.settings.language == "cs"
-    assert "started next" in window.message.text()
+    renewed = operator.window
+    assert renewed.isVisible() and not former.isVisible() and renewed.geometry() == former.geometry()
+    assert renewed.screen is renewed.measurement
+    assert renewed.measurement.resume.text() == "Podr\u017een\u00edm pokra\u010dovat"
+    assert renewed.findChild(SettingsWindow).isVisible()
+    operator.application.language.use("en")
+    operator.click(renewed.measurement.resume)
+    operator.finish()
+
+
+def test_events_after_a_change_of_language_reach_the_new_window_alone__B19(operator, qtbot, monkeypatch):
+    said = []
+    monkeypatch.setattr("mtr_operator.gui.windows.main_window.show_message", lambda *words: said.append(words[0]))
+    former = operator.window
+    operator.application.flow.use_language("en")
+    operator.wait(lambda: operator.window is not former)
+    qtbot.wait(50)
+    with qtbot.capture_exceptions() as caught:
+        operator.application.flow.failed.emit("A sentence.")
+        operator.application.flow.saved.emit("/tmp/x")
+        operator.wait(lambda: said)
+        qtbot.wait(50)
+    assert (said, caught) == ([operator.window], [])
+
+
+def test_adapter_that_was_chosen_and_not_used_is_asked_about__B12(window, operator, monkeypatch):
+    answers = []
+    monkeypatch.setattr("mtr_operator.gui.windows.settings_window.confirm",
+                        lambda *words: answers.append(words[2]) or len(answers) > 1)
+    in_use = operator.application.flow.connection.can
+    window.can.interface.setCurrentIndex(0)
+    window.close()
+    assert not window.isVisible() and operator.application.flow.connection.can == in_use
+    assert answers == ["The CAN adapter that you have chosen is not in use yet. Use it?"]
+    window.show()
+    window.reject()
+    operator.wait(lambda: operator.application.flow.connection.can is None)
+    assert window.isVisible()
+    window.reject()
+    assert not window.isVisible() and len(answers) == 2
 
 
 def test_can_adapter_can_be_changed_without_a_restart(window, operator, opener):

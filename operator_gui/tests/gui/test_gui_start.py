@@ -1,5 +1,6 @@
 """How the window is started."""
 # SPDX-License-Identifier: Apache-2.0
+import os
 import subprocess
 import sys
 
@@ -34,6 +35,16 @@ def test_given_values_are_filled_in(start):
     window = application.window
     assert (window.robot.host.text, window.robot.subscriber_port.text) == ("10.0.0.7", "3334")
     assert window.can.choice == CanChoice("slcan", "/dev/ttyACM3")
+
+
+@pytest.mark.parametrize("command", [[], ["window"]])
+def test_no_display_is_one_sentence_and_exit_code_2__B17(command):
+    environment = {name: value for name, value in os.environ.items()
+                   if name not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
+    done = subprocess.run([sys.executable, "-m", "mtr_operator", *command], capture_output=True, text=True, check=False,
+                          env={**environment, "PYTHONPATH": os.pathsep.join(sys.path)})
+    assert (done.returncode, len(done.stderr.splitlines())) == (2, 1), done.stderr
+    assert done.stderr.startswith("There is no display for the window")
 
 
 def test_missing_qt_is_one_sentence():

@@ -15,7 +15,8 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.gui.i18n import FOLDER, Language, duration, number
 from mtr_operator.gui.names import domain_word, parameter_title
 from mtr_operator.gui.sentences import robot_sentences, translated
-from mtr_operator.gui.texts import application, judgement, parameter_docs, scenarios, words
+from mtr_operator.gui.texts import application, judgement, parameter_docs, parameter_names, scenarios, words
+from mtr_operator.report.parameter_names import parameter_name
 
 SOURCE = pathlib.Path(mtr_operator.__file__).parent
 GUI = SOURCE / "gui"
@@ -28,7 +29,7 @@ LINK_FILES = ("address.py", "client.py", "probe.py", "sockets.py")
 INTERNAL = ("LookupError", "ValueError", "TypeError", "BadYaml", "OSError")
 # Told on the command line alone, or of the substitutes.
 NOT_SHOWN = ("--continue", "of another test; choose another folder.", "parameter file", "Parameter file",
-             "'parameter: value'", "Parameter threshold", "Parameter period_s",
+             "'parameter: value'",
              # Put together from two halves; both wholes are listed.
              "The {} {}; check the channel")
 
@@ -109,7 +110,8 @@ def test_every_parameter_scenario_and_word_is_listed():
         assert {scenario.line_word, *scenario.distance_words} <= set(words.WORDS)
         for name, declared in scenario.parameters_type.declarations().items():
             assert declared.doc in parameter_docs.SENTENCES
-            assert parameter_title(name, declared)
+            assert parameter_name(name, declared) in parameter_names.NAMES
+            assert parameter_title(name, declared) == parameter_name(name, declared)
         assert {choice.doc for choice in scenario.parameters_type.choices().values()} <= set(parameter_docs.SENTENCES)
         assert {flag.doc for flag in scenario.parameters_type.flags().values()} <= set(parameter_docs.SENTENCES)
 

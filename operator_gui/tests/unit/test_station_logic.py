@@ -10,7 +10,7 @@ import pytest
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.ports import LockState
-from mtr_operator.domain.robot_status import Mode, Notification, RobotStatus
+from mtr_operator.domain.robot_status import CarDimensions, Mode, Notification, RobotStatus
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.connection import CanChoice, Connection, RobotChoice
 from mtr_operator.station.estimate import USUAL_CAR, TimeLeft, plan_of
@@ -20,6 +20,8 @@ from mtr_operator.station.number_text import Fault, parse_number, read, shown_nu
 from mtr_operator.station.readiness import Cause, Phase, ReadinessWord, can_resume, readiness_of
 from mtr_operator.station.settings import Settings
 from mtr_operator.station.settings_file import SettingsStore, default_path, former_path
+from mtr_operator.station.trail import thinned
+from mtr_operator.station.view_model import ViewModel
 
 KEY_PRESS = SCENARIOS["key_press"].parameters_type.declarations()
 
@@ -213,7 +215,22 @@ def test_time_left_learns_from_the_pace():
     left.advance(1, 120.0)  # twice as slow as expected
     assert left.left_s(120.0) == pytest.approx(60.0)
     assert left.left_s(130.0) == pytest.approx(50.0)
+
+
+def test_time_left_does_not_come_to_an_end_while_lines_are_left__B3():
+    left = TimeLeft((10.0, 10.0, 10.0, 10.0))
+    left.begin(1, 100.0)
+    assert left.left_s(1000.0) == pytest.approx(20.0)
+    left.advance(3, 120.0)
     assert left.left_s(1000.0) == 0.0
+
+
+def test_time_left_counts_what_comes_before_the_lines__B3():
+    left = TimeLeft((10.0, 10.0), 62.0)
+    left.begin(0, 100.0)
+    assert left.left_s(100.0) == pytest.approx(82.0)
+    assert left.left_s(150.0) == pytest.approx(32.0)
+    assert left.left_s(500.0) == pytest.approx(20.0)
 
 
 def test_time_of_a_pause_does_not_count():
@@ -236,6 +253,39 @@ def test_mailbox_wakes_once_and_thins_out_the_trail():
     assert mailbox.take().robot is None
     mailbox.put(ActionBegun("b"))
     assert len(woken) == 2
+
+
+def trail_of(*snapshots):
+    mailbox, model = Mailbox(), ViewModel()
+    model.test = object()
+    for each in snapshots:
+        mailbox.put_robot(each)
+    model.apply(mailbox.take())
+    return model.trail
+
+
+CAR = CarDimensions(4.5, 1.8, 0.01, 0.01)
+
+
+def test_trail_begins_anew_when_the_robot_was_restarted__B4():
+    before, after = (snapshot(x=x, y=0.0, car=CAR, robot_session_id=number)
+                     for x, number in ((3.0, 1), (-3.0, 2)))
+    assert trail_of(before, after) == [(-3.0, 0.0)]
+
+
+def test_trail_begins_anew_when_the_car_is_mapped_anew__B4():
+    assert trail_of(snapshot(x=3.0, y=0.0, car=CAR), snapshot(pose_valid=False), snapshot(x=2.0, y=2.0, car=CAR)) == [
+        (2.0, 2.0)]
+
+
+@pytest.mark.parametrize("between", [[], [snapshot(pose_valid=False, car=CAR)]])
+def test_trail_has_a_gap_where_nobody_saw_the_robot_drive__B4(between):
+    far = [snapshot(x=x, y=0.0, car=CAR) for x in (3.0, -3.0)]
+    assert trail_of(far[0], *between, far[1]) == [(3.0, 0.0), None, (-3.0, 0.0)]
+
+
+def test_trail_that_is_thinned_out_keeps_its_gaps__B4():
+    assert thinned([(0.0, 0.0), (1.0, 0.0), None, (5.0, 0.0), (6.0, 0.0)]) == [(0.0, 0.0), None, (6.0, 0.0)]
 
 
 def test_default_folders_are_the_operators_own():

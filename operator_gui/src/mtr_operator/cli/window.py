@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import os
+import sys
+from typing import Mapping
 
 from mtr_operator.domain.errors import OperatorError
 
+# On these platforms of Qt, the first of which is whatever suits the desktop, a window needs a display.
+_NEEDS_DISPLAY = ("", "xcb", "wayland")
+_DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")
 # Options of the command line by the name of what they fill in.
 _ROBOT = {"host": "robot", "subscriber_port": "subscriber_port", "publisher_port": "publisher_port"}
 _CAN = {"interface": "can_interface", "channel": "can_channel", "bitrate_bps": "can_bitrate", "profile": "car_profile"}
@@ -20,7 +26,18 @@ def open_window(options: argparse.Namespace) -> int:
             raise
         raise OperatorError("The window needs PyQt5, which is not installed; pip install PyQt5, or use the command "
                             "run.") from None
+    _check_display(os.environ, sys.platform)
     return run(_given(options, _ROBOT), _given(options, _CAN))
+
+
+def _check_display(environment: Mapping[str, str], platform: str) -> None:
+    """Qt ends the process with a signal where there is no display."""
+    wanted = environment.get("QT_QPA_PLATFORM", "").partition(":")[0]
+    if platform != "linux" or wanted not in _NEEDS_DISPLAY:
+        return
+    if not any(environment.get(name) for name in _DISPLAYS):
+        raise OperatorError("There is no display for the window (neither DISPLAY nor WAYLAND_DISPLAY is set); start it "
+                            "on the laptop's desktop, or use the command run.")
 
 
 def _given(options: argparse.Namespace, names: dict[str, str]) -> dict[str, object]:

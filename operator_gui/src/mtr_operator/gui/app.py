@@ -7,7 +7,7 @@ import pathlib
 import signal
 from typing import Any, Mapping
 
-from PyQt5.QtCore import Qt
+from PyQt5.QtCore import QRect, Qt, QTimer
 from PyQt5.QtGui import QGuiApplication
 from PyQt5.QtWidgets import QApplication, QWidget
 
@@ -21,6 +21,7 @@ from .flow import Flow
 from .header.stop_button import add_stop
 from .i18n import Language
 from .report_writer import ReportWriter
+from .sounds import Sounds
 from .stopping import Stopping
 from .theme.appearance import Appearance
 from .windows.connection_window import ConnectionWindow
@@ -38,6 +39,7 @@ class Application:
         self.flow = Flow(self.bridge, self._store, opener or LinkOpener())
         self.stopping = Stopping(self.flow)
         self.stopping.dialog_opens.connect(lambda dialog: add_stop(dialog, self.stopping))
+        self.sounds = Sounds(self.flow)
         self.appearance = Appearance()
         self.language = Language()
         self.defects = Defects()
@@ -54,6 +56,7 @@ class Application:
         self.appearance.use(settings.theme)
         self.bridge.start()
         self.flow.connected.connect(self._show_main)
+        self.flow.language_changed.connect(self._speak)
         self._show(ConnectionWindow(self.flow, _filled_in(settings.connection, robot or {}, can or {})))
 
     def close(self) -> None:
@@ -68,7 +71,24 @@ class Application:
     def _show_main(self) -> None:
         self._show(MainWindow(self.flow, self.appearance, self.stopping))
 
-    def _show(self, window: QWidget) -> None:
+    def _speak(self, code: str) -> None:
+        """Windows are made anew in another language; later, for the one at hand has asked for it."""
+        self.language.use(code)
+        QTimer.singleShot(0, self._renew)
+
+    def _renew(self) -> None:
+        former = self.window
+        if isinstance(former, ConnectionWindow):
+            self._show(ConnectionWindow(self.flow, former.typed), former.geometry())
+        elif isinstance(former, MainWindow):
+            window = MainWindow(self.flow, self.appearance, self.stopping)
+            self._show(window, former.geometry())
+            window.show_settings()
+
+    def _show(self, window: QWidget, place: QRect | None = None) -> None:
+        """place: where the former one was, None for where it opens by itself."""
+        if place is not None:
+            window.setGeometry(place)
         former, self.window = self.window, window
         window.show()
         if former is not None:

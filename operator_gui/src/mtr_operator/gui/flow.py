@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import enum
 import pathlib
+from typing import Sequence
 
 from PyQt5.QtCore import QObject, pyqtSignal
 
@@ -12,6 +13,7 @@ from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.verdict.suitability import check_before_start
 from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
+from mtr_operator.station.disk_watch import DiskWatch
 from mtr_operator.station.events import (
     CarLinkOpened,
     LineMeasured,
@@ -56,6 +58,7 @@ class Flow(QObject):
         step_changed(Step): another screen is due.
         failed(text): the Operator has to know this sentence.
         saved(text): the progress was written there.
+        language_changed(code): the Operator wants another language, see settings.LANGUAGES.
         folder_wanted(text): the folder of the progress cannot be written, for this reason; see use_progress_folder.
     """
 
@@ -67,6 +70,7 @@ class Flow(QObject):
     failed = pyqtSignal(str)
     saved = pyqtSignal(str)
     folder_wanted = pyqtSignal(str)
+    language_changed = pyqtSignal(str)
 
     def __init__(self, bridge: Bridge, store: SettingsStore, opener: LinkOpener):
         super().__init__()
@@ -79,7 +83,10 @@ class Flow(QObject):
         self._worker: Worker | None = None
         self._is_connected = False
         self._wanted_can: CanChoice | None = None
+        self._disk = DiskWatch(lambda: self.store.settings.progress_folder)
+        self._dismissed: pathlib.Path | None = None
         bridge.happened.connect(self._learn)
+        bridge.changed.connect(self._learn_room)
 
     # Connection
 
@@ -88,6 +95,7 @@ class Flow(QObject):
         self.connection = connection
         self._worker = Worker(connection, self._opener, self.bridge.mailbox)
         self._worker.start()
+        self._disk.start()
 
     def use_can(self, choice: CanChoice | None) -> None:
         """Change the CAN adapter; can_opened or can_refused follows."""
@@ -96,6 +104,7 @@ class Flow(QObject):
 
     def close(self) -> bool:
         """Stop the robot and disconnect; True when that has succeeded in time."""
+        self._disk.stop()
         return self._worker is None or self._worker.close(CLOSE_LIMIT_S)
 
     def keep_after_defect(self, text: str) -> None:
@@ -115,6 +124,11 @@ class Flow(QObject):
         """Back to the beginning; an unfinished test stays on disk."""
         self.model.lay_aside()
         self.show(Step.WELCOME)
+
+    def use_language(self, code: str) -> None:
+        """Speak another language from now on, and after the next start."""
+        self.store.change(dataclasses.replace(self.store.settings, language=code))
+        self.language_changed.emit(code)
 
     # Test
 
@@ -141,6 +155,12 @@ class Flow(QObject):
             note_continued(test)
         self.model.begin()
         self._links.run_test(test)
+
+    def measure_again(self, numbers: Sequence[int]) -> None:
+        """Measure lines of the test at hand once more; their former results stay in its journal."""
+        self.model.current_test.again = tuple(numbers)
+        self.resume()
+        self.show(Step.MEASUREMENT)
 
     def stop(self) -> None:
         """Stop the robot, whatever it does: the stop has left when this returns. The line that is being measured is
@@ -189,10 +209,10 @@ class Flow(QObject):
             self.show(Step.MEASUREMENT)
 
     def unfinished_test(self) -> Test | None:
-        """The test that the last start of the application has not finished; None when there is none."""
+        """The test that was not finished, also by an earlier start; None when there is none, or none is wanted now."""
         path = self.store.settings.unfinished
         try:
-            test = None if path is None else open_test(path)
+            test = None if path is None or path == self._dismissed else open_test(path)
         except OperatorError:
             return None
         return test if test is not None and test.progress.has_findings else None
@@ -204,8 +224,8 @@ class Flow(QObject):
             self.open(path)
 
     def dismiss_unfinished(self) -> None:
-        """Offer it no more; its file stays."""
-        self._forget_unfinished()
+        """Offer it no more until the next start."""
+        self._dismissed = self.store.settings.unfinished
 
     def calibrate(self, request: CalibrationRequest) -> None:
         """Have the robot try something."""
@@ -245,7 +265,11 @@ class Flow(QObject):
         elif isinstance(event, ProgressSaved):
             self._learn_saved(event)
 
+    def _learn_room(self) -> None:
+        self.model.free_bytes = self._disk.free
+
     def _remember_unfinished(self, path: pathlib.Path) -> None:
+        self._dismissed = None
         if self.store.settings.unfinished != path:
             self.store.change(dataclasses.replace(self.store.settings, unfinished=path))
 

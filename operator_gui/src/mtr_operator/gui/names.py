@@ -4,62 +4,16 @@ from __future__ import annotations
 
 from mtr_operator.domain.choice import Choice
 from mtr_operator.domain.parameters import Declaration, Flag
+from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.scenario import AnyScenario
+from mtr_operator.report.parameter_names import parameter_name
 
 from .i18n import translate
 
-_SUFFIXES = ("_m", "_mps", "_s", "_rad", "_deg")
-
 
 def parameter_title(name: str, declared: Declaration) -> str:
-    """Label of a parameter's field; the words are those of the thesis where it has some."""
-    titles = {
-        "minimum_distance_m": translate("Parameter", "Minimum distance"),
-        "maximum_distance_m": translate("Parameter", "Starting distance"),
-        "straightening_distance_m": translate("Parameter", "Straightening distance"),
-        "measurements_distance_m": translate("Parameter", "Measurements distance"),
-        "approach_distance_m": translate("Parameter", "Approach distance"),
-        "angle_between_radials_rad": translate("Parameter", "Degrees between radials"),
-        "key_height_m": translate("Parameter", "Device height"),
-        "maximum_speed_mps": translate("Parameter", "Maximum speed"),
-        "measuring_speed_mps": translate("Parameter", "Measuring speed"),
-        "passes": translate("Parameter", "Passes"),
-        "measuring_speeds_mps": translate("Parameter", "Speeds of the passes"),
-        "boundary_sigma_m": translate("Parameter", "Sigma of the boundary"),
-        "last_step_m": translate("Parameter", "Step of a last approach"),
-        "clearance_m": translate("Parameter", "Clearance"),
-        "response_timeout_s": translate("Parameter", "Response time"),
-        "lock_timeout_s": translate("Parameter", "Locking time"),
-        "press_strength": translate("Parameter", "Press strength"),
-        "press_duration_s": translate("Parameter", "Press duration"),
-        "settle_time_s": translate("Parameter", "Standstill before a press"),
-        "attempts": translate("Parameter", "Attempts"),
-        "interval_m": translate("Parameter", "Interval wanted, half width"),
-        "border_distance_m": translate("Parameter", "Nominal border"),
-        "border_requests": translate("Parameter", "Requests at the border"),
-        "handle_timeout_s": translate("Parameter", "Time for the Operator"),
-        "heights": translate("Parameter", "Heights"),
-        "highest_key_height_m": translate("Parameter", "Highest device height"),
-        "half_wavelength_m": translate("Parameter", "Half a wavelength"),
-        "attempts_limit": translate("Parameter", "Presses at most"),
-        "confirming_presses": translate("Parameter", "Presses that confirm"),
-        "key_frequency_hz": translate("Parameter", "Key's radio frequency"),
-        "key_rest_limit_s": translate("Parameter", "Key's rest at most"),
-        "lateral_tolerance_m": translate("Parameter", "Distance beside the line"),
-        "heading_tolerance_rad": translate("Parameter", "Turn from the line"),
-        "height_tolerance_m": translate("Parameter", "Difference in height"),
-        "speed_tolerance_mps": translate("Parameter", "Difference in speed"),
-    }
-    return titles.get(name) or plain_words(name, declared)
-
-
-def plain_words(name: str, declared: Declaration) -> str:
-    """Words of a parameter of a scenario that came later."""
-    for suffix in _SUFFIXES:
-        if declared.unit and name.endswith(suffix):
-            name = name[:-len(suffix)]
-            break
-    return name.replace("_", " ").capitalize()
+    """Label of a parameter's field."""
+    return translate("Parameter", parameter_name(name, declared))
 
 
 def flag_title(name: str) -> str:
@@ -102,6 +56,12 @@ def scenario_title(scenario: AnyScenario) -> str:
 def scenario_doc(scenario: AnyScenario) -> str:
     """One sentence on a scenario."""
     return translate("Scenario", " ".join((type(scenario).__doc__ or "").split()))
+
+
+def locks_text(locks: LockState) -> str:
+    """State of the Car's locks."""
+    return {LockState.LOCKED: translate("Locks", "locked"), LockState.UNLOCKED: translate("Locks", "unlocked"),
+            LockState.UNKNOWN: translate("Locks", "not known")}[locks]
 
 
 def domain_word(word: str) -> str:

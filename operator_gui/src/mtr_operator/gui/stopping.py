@@ -16,6 +16,7 @@ from PyQt5.QtWidgets import (
 )
 
 from .flow import Flow
+from .forms.hold_button import HoldButton
 
 _STOP_KEYS = (Qt.Key.Key_Space, Qt.Key.Key_Escape)
 _PRESS_KEYS = (Qt.Key.Key_Return, Qt.Key.Key_Enter)
@@ -63,6 +64,9 @@ class Stopping(QObject):
 
     def _takes(self, event: QKeyEvent) -> bool:
         focus = QApplication.focusWidget()
+        if event.isAutoRepeat() and event.key() in (*_STOP_KEYS, *_PRESS_KEYS) and self._flow.model.may_move:
+            # Whoever holds a key to start has not let it go yet: only a new press stops.
+            return not _is_text_field(focus)
         if event.key() in _STOP_KEYS and self._flow.model.may_move:
             if not _is_text_field(focus):
                 self.stop()
@@ -71,7 +75,7 @@ class Stopping(QObject):
                 focus.clearFocus()
                 return True
         presses = event.key() in _PRESS_KEYS and isinstance(focus, QAbstractButton) and focus.isEnabled()
-        if presses and not isinstance(focus.window(), QDialog):
+        if presses and not isinstance(focus.window(), QDialog) and not isinstance(focus, HoldButton):
             focus.click()
             return True
         return False

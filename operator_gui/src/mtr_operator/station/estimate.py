@@ -87,10 +87,14 @@ def _way(start: tuple[float, float], goal: tuple[float, float]) -> float:
 
 
 class TimeLeft:
-    """Time to the end, from the expected times of the lines and how well they have held so far."""
+    """Time to the end, from the expected times of the lines and how well they have held so far.
 
-    def __init__(self, expected_s: Sequence[float]):
+    preparation_s: what mapping and check are expected to take before the next line.
+    """
+
+    def __init__(self, expected_s: Sequence[float], preparation_s: float = 0.0):
         self._expected_s = tuple(expected_s)
+        self._preparation_s = preparation_s
         self._begun_with = self._done = 0
         self._begun_s = self._done_s = math.nan
 
@@ -105,9 +109,11 @@ class TimeLeft:
 
     def left_s(self, now_s: float) -> float | None:
         """Time from now on; None when nothing is known."""
-        rest_s = sum(self._expected_s[self._done:])
         if math.isnan(self._begun_s) or not self._expected_s:
             return None
         measured_s = sum(self._expected_s[self._begun_with:self._done])
         pace = (self._done_s - self._begun_s) / measured_s if measured_s else 1.0
-        return max(0.0, rest_s * pace - (now_s - self._done_s))
+        # What the robot does now may take longer than it should, which shortens nothing of what comes after it.
+        *now, later_s = ((self._preparation_s, sum(self._expected_s[self._done:])) if self._preparation_s else
+                         (sum(self._expected_s[self._done:self._done + 1]), sum(self._expected_s[self._done + 1:])))
+        return max(0.0, now[0] * pace - (now_s - self._done_s)) + later_s * pace

@@ -6,7 +6,7 @@ import enum
 from dataclasses import dataclass
 from typing import Union
 
-from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.ports import BusTraffic, LockState
 from mtr_operator.domain.requests import Waypoint
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import CarDimensions, RobotStatus
@@ -18,7 +18,8 @@ from .handle_prompt import HandlePrompt
 class RobotSnapshot:
     """The newest Status with the Car's locks at its time; only the newest one counts.
 
-    waypoint: where the robot was sent last, None when nowhere. is_secret: the link is encrypted.
+    waypoint: where the robot was sent last, None when nowhere. is_secret: the link is encrypted. traffic: of the Car's
+    bus, None where there is no bus to ask.
     """
 
     status: RobotStatus
@@ -26,6 +27,7 @@ class RobotSnapshot:
     car_problem: str
     waypoint: Waypoint | None = None
     is_secret: bool = False
+    traffic: BusTraffic | None = None
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.robot_status import Problem
 
 from .events import RobotSnapshot, StationEvent
+from .trail import Passing, Places, thinned
 
 # Points of the way between two batches; more than that is thinned out.
 MAX_TRAIL = 512
@@ -23,12 +24,14 @@ class Batch:
     """Everything since the batch before.
 
     robot: newest, None when no Status came. trail: places passed. said: sentences of the robot, each with its causes.
+    trail_begins: what was passed before lies in another frame of the Car.
     """
 
     events: tuple[StationEvent, ...]
     robot: RobotSnapshot | None
-    trail: tuple[Point, ...]
+    trail: tuple[Point | None, ...]
     said: tuple[tuple[Problem, ...], ...] = ()
+    trail_begins: bool = False
 
 
 class Mailbox:
@@ -39,7 +42,9 @@ class Mailbox:
         self._lock = threading.Lock()
         self._events: list[StationEvent] = []
         self._robot: RobotSnapshot | None = None
-        self._trail: list[Point] = []
+        self._trail: Places = []
+        self._passing = Passing()
+        self._trail_begins = False
         self._said: dict[str, tuple[Problem, ...]] = {}
 
     def put(self, event: StationEvent) -> None:
@@ -57,18 +62,21 @@ class Mailbox:
             first = self._is_empty()
             self._robot = snapshot
             self._said.update((problems[0].text, problems) for problems in status.problems() if problems)
-            if status.pose_valid:
-                self._trail.append((status.x, status.y))
-                if len(self._trail) > MAX_TRAIL:
-                    self._trail = self._trail[::2]
+            if self._passing.begins_anew(status):
+                self._trail, self._trail_begins = [], True
+            self._trail += self._passing.places(status)
+            if len(self._trail) > MAX_TRAIL:
+                self._trail = thinned(self._trail)
         if first:
             self._wake()
 
     def take(self) -> Batch:
         """Empty the mailbox."""
         with self._lock:
-            batch = Batch(tuple(self._events), self._robot, tuple(self._trail), tuple(self._said.values()))
+            batch = Batch(tuple(self._events), self._robot, tuple(self._trail), tuple(self._said.values()),
+                          self._trail_begins)
             self._events, self._robot, self._trail, self._said = [], None, [], {}
+            self._trail_begins = False
         return batch
 
     def _is_empty(self) -> bool:

@@ -69,9 +69,9 @@ class Cause(enum.Enum):
 
 HELD_CODE = "held"
 # Red, and no reason not to start: a robot may have no emergency stop, and one that is held is released during the test.
-_NOT_BLOCKING = ("no_emergency_stop", HELD_CODE)
+NOT_BLOCKING = ("no_emergency_stop", HELD_CODE)
 # In these the robot itself says what is the matter.
-_MODE_CODES = ("fault", "link_lost", "not_localized")
+MODE_CODES = ("fault", "link_lost", "not_localized")
 
 
 @dataclass(frozen=True)
@@ -159,10 +159,10 @@ def _robot_reasons(status: RobotStatus) -> list[Reason]:
         is_empty = status.battery_percent < EMPTY_BATTERY_PERCENT
         reasons.append(Reason(Cause.BATTERY_EMPTY if is_empty else Cause.BATTERY_LOW, is_empty,
                               str(status.battery_percent)))
-    reasons += [Reason(Cause.NOTIFICATION, notification.severity >= ERROR and code not in _NOT_BLOCKING,
+    reasons += [Reason(Cause.NOTIFICATION, notification.severity >= ERROR and code not in NOT_BLOCKING,
                        notification.text)
                 for code, notification in notified.items()
-                if notification.severity >= WARNING and code not in (*_MODE_CODES, "low_battery")]
+                if notification.severity >= WARNING and code not in (*MODE_CODES, "low_battery")]
     return reasons
 
 

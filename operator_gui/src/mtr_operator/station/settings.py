@@ -37,6 +37,7 @@ class Settings:
         parameters: last used ones by scenario, as in a parameter file.
         limits: last used limits files by scenario. calibration: record of the robot, None for that of the design.
         unfinished: progress file of a test that has not come to its end.
+        has_sounds: the application beeps where the Operator has to hear something.
     """
 
     connection: Connection = Connection()
@@ -49,6 +50,7 @@ class Settings:
     unfinished: pathlib.Path | None = None
     limits: dict[str, pathlib.Path] = field(default_factory=dict)
     calibration: pathlib.Path | None = None
+    has_sounds: bool = True
 
     def with_connection(self, connection: Connection) -> Settings:
         """Settings after a success with this connection."""
@@ -95,9 +97,9 @@ def settings_from_document(document: Any) -> Settings:
             _path(document["result_folder"]), _path(document["progress_folder"]),
             {str(name): _remembered(values) for name, values in document["parameters"].items()},
             _path_or_none(document["unfinished"]),
-            # An earlier version kept neither.
+            # An earlier version kept none of these.
             {str(name): _path(path) for name, path in document.get("limits", {}).items()},
-            _path_or_none(document.get("calibration")))
+            _path_or_none(document.get("calibration")), _flag(document.get("has_sounds", True)))
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError):
         raise NotSettings("They are damaged.") from None
 
@@ -120,6 +122,12 @@ def _remembered(values: Any) -> dict[str, Any]:
                or (isinstance(value, str) and len(value) <= _LONGEST) for value in each):
         raise TypeError("parameters")
     return known
+
+
+def _flag(value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise TypeError("flag")
+    return value
 
 
 def _one_of(allowed: tuple[str, ...], value: Any) -> str:

@@ -29,7 +29,10 @@ _MOMENT = "%Y-%m-%d_%H-%M-%S"
 
 @dataclass
 class Test:
-    """What is measured, and where its progress is written. While it runs, progress belongs to the links' thread."""
+    """What is measured, and where its progress is written. While it runs, progress belongs to the links' thread.
+
+    again: measured lines that are to be measured once more.
+    """
 
     # The name would make pytest collect it.
     __test__ = False
@@ -38,6 +41,7 @@ class Test:
     parameters: ScenarioParameters
     progress: Progress
     path: pathlib.Path
+    again: tuple[int, ...] = ()
     _store: Store | None = field(default=None, init=False, compare=False)
 
     @property
@@ -60,7 +64,7 @@ class Test:
         """True when no line is left to be measured."""
         progress = self.progress
         return (progress.car is not None and len(progress.results) == self.line_count
-                and not progress.to_retry())
+                and not progress.to_retry() and not self.again)
 
     @contextlib.contextmanager
     def opened(self) -> Iterator[Store]:

@@ -9,12 +9,15 @@ from typing import Callable
 
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.geometry.pose import Point
+from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.prospect import Prospect
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import CarDimensions, Notification
 from mtr_operator.domain.verdict.judgement import TestJudgement
 from mtr_operator.report.assessed import assess
 
+from .checks.checklist import Facts, Wanted, checklist
+from .checks.finding import Item
 from .estimate import USUAL_CAR, USUAL_FACTS, TimeLeft, plan_of
 from .events import (
     ActionBegun,
@@ -30,8 +33,9 @@ from .events import (
 from .handle_prompt import HandlePrompt
 from .mailbox import Batch
 from .motion import Motion
-from .readiness import RUNNING, Phase, Readiness, readiness_of
+from .readiness import RUNNING, Phase, Readiness, ReadinessWord, readiness_of
 from .test import Test
+from .trail import Places, thinned
 
 # The trail is kept at this spacing; one that gets too long loses every other place.
 TRAIL_SPACING_M = 0.1
@@ -43,7 +47,7 @@ class ViewModel:
 
     Attributes:
         robot: newest Status of the robot with the Car's locks, None before.
-        trail: places that the robot has passed during the test.
+        trail: places that the robot has passed during the test; None is a gap.
         test: the test at hand, None before one is started or opened.
         phase: what is done with it.
         results: of the test so far. newest: the one measured last, None before.
@@ -53,6 +57,7 @@ class ViewModel:
         judgement: of the lines measured so far, None without limits.
         handle: what the Operator is asked to do at the Car's handle, None when nothing.
         motion: what was ordered between two tests.
+        wanted: the test that is about to begin. free_bytes: room on the disk of the results, None when not known.
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic):
@@ -61,7 +66,7 @@ class ViewModel:
         self._time_left = TimeLeft(())
         self._car: CarDimensions | None = None
         self.robot: RobotSnapshot | None = None
-        self.trail: list[Point] = []
+        self.trail: Places = []
         self.test: Test | None = None
         self.phase = Phase.IDLE
         self.results: tuple[LineResult, ...] = ()
@@ -72,6 +77,9 @@ class ViewModel:
         self.judgement: TestJudgement | None = None
         self.handle: HandlePrompt | None = None
         self.motion = Motion()
+        self.wanted = Wanted()
+        self.free_bytes: int | None = None
+        self._answered_s: float | None = None
 
     @property
     def current_test(self) -> Test:
@@ -86,9 +94,23 @@ class ViewModel:
         return self._clock() - self._received_s
 
     @property
+    def is_stale(self) -> bool:
+        """True when what is known of the robot is not of now any more."""
+        return self.readiness.word is ReadinessWord.LOST
+
+    @property
     def readiness(self) -> Readiness:
         """Whether a test can be started now."""
         return readiness_of(self.robot, self.silent_s, self.phase, self.motion)
+
+    @property
+    def checklist(self) -> tuple[Item, ...]:
+        """What has to be right before the robot moves."""
+        answered_s = None if self._answered_s is None else self._clock() - self._answered_s
+        test, wanted = self.test, self.wanted
+        if test is not None and test.progress.limits is not None:
+            wanted = Wanted(limits=len(test.progress.limits.requirements))
+        return checklist(Facts(self.robot, self.silent_s, wanted, answered_s, self.free_bytes))
 
     @property
     def may_move(self) -> bool:
@@ -130,14 +152,14 @@ class ViewModel:
         self.results = tuple(test.progress.results)
         self.done, self.total = len(self.results), total
         self.action = self.trouble = ""
-        self.outcome = self.newest = None
+        self.outcome, self.newest = None, self.results[-1] if self.results else None
         self.trail = []
         self._judge()
 
     def begin(self) -> None:
         """The test at hand is started or continued now."""
         self.phase, self.trouble, self.outcome = Phase.MEASURING, "", None
-        self._expect()
+        self._expect(is_prepared=False)
 
     def order_motion(self) -> None:
         """The robot is ordered to do something for which it moves."""
@@ -157,23 +179,32 @@ class ViewModel:
     def apply(self, batch: Batch) -> None:
         """Learn what has happened."""
         if batch.robot is not None:
-            self.robot, self._received_s = batch.robot, self._clock()
+            before, self.robot, self._received_s = self.robot, batch.robot, self._clock()
+            if before is not None and {before.lock_state, batch.robot.lock_state} == {LockState.LOCKED,
+                                                                                      LockState.UNLOCKED}:
+                self._answered_s = self._received_s
             self.motion.learn(batch.robot.status, self._received_s)
+        if batch.trail_begins:
+            self.trail = []
         for place in batch.trail if self.test is not None else ():
             self._pass(place)
         for event in batch.events:
             self._learn(event)
 
-    def _pass(self, place: Point) -> None:
-        if not self.trail or math.dist(self.trail[-1], place) >= TRAIL_SPACING_M:
+    def _pass(self, place: Point | None) -> None:
+        before = self.trail[-1] if self.trail else None
+        # Of several gaps in a row one is kept.
+        if place is None and before is None:
+            return
+        if place is None or before is None or math.dist(before, place) >= TRAIL_SPACING_M:
             self.trail.append(place)
         if len(self.trail) > TRAIL_LENGTH:
-            self.trail = self.trail[::2]
+            self.trail = thinned(self.trail)
 
     def _learn(self, event: StationEvent) -> None:
         if isinstance(event, LinesPlanned):
             self.done, self.total, self._car = event.done, event.total, event.car
-            self._expect()
+            self._expect(is_prepared=True)
         elif isinstance(event, ActionBegun):
             self.action = event.text
         elif isinstance(event, LineMeasured):
@@ -203,13 +234,15 @@ class ViewModel:
             measured = {result.number for result in self.results}
             self.judgement = TestJudgement(tuple(each for each in judgement.judgements if each.line in measured))
 
-    def _expect(self) -> None:
+    def _expect(self, is_prepared: bool) -> None:
+        """is_prepared: the Car is mapped and checked; only the lines are left."""
         test = self.test
         if test is None:
             return
         try:
-            plan = plan_of(test.scenario, test.parameters, self.mapped_car or USUAL_CAR, True)
-            self._time_left = TimeLeft(plan.lines_s)
+            is_mapped = self.robot is not None and self.robot.status.car is not None
+            plan = plan_of(test.scenario, test.parameters, self.mapped_car or USUAL_CAR, is_mapped)
+            self._time_left = TimeLeft(plan.lines_s, 0.0 if is_prepared else plan.preparation_s)
         except InvalidParameter:  # the runner will say it
             self._time_left = TimeLeft(())
         self._time_left.begin(self.done, self._clock())

@@ -20,9 +20,13 @@ _BITRATES = ("125000", "250000", "500000", "1000000")
 
 
 class CanForm(QWidget):
-    """Attributes: interface, bitrate, profile: combo boxes. channel: field. Signals: submitted: Enter was pressed."""
+    """Attributes: interface, bitrate, profile: combo boxes. channel: field. Signals: submitted: Enter was pressed.
+
+    changed: something else was chosen or typed.
+    """
 
     submitted = pyqtSignal()
+    changed = pyqtSignal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -50,6 +54,14 @@ class CanForm(QWidget):
         self._add(layout, self.tr("Car profile"), self.profile)
         layout.addStretch(1)
         self._suit_interface()
+        self.channel.changed.connect(self.changed)
+        for box in (self.interface, self.bitrate, self.profile):
+            box.currentTextChanged.connect(lambda _: self.changed.emit())
+        self.changed.connect(lambda: self.channel.show_fault(""))
+
+    def show_fault(self, sentence: str) -> None:
+        """Say, at the field for it, why the adapter cannot be used."""
+        self.channel.show_fault(sentence)
 
     def _editable(self, entries: tuple[str, ...]) -> QComboBox:
         box = QComboBox()

@@ -6,6 +6,7 @@ from PyQt5.QtCore import pyqtSignal
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
 
 from ..theme.scale import XS, S
+from ..theme.state import show_state
 from .buddy_label import BuddyLabel
 
 _UNIT_WIDTH = 56
@@ -62,9 +63,6 @@ class Field(QWidget):
         if sentence == self.fault:
             return
         self.note.setText(sentence or self._hint)
-        self.note.setProperty("role", "error" if sentence else "hint")
-        self.edit.setProperty("faulty", bool(sentence))
         self.edit.setAccessibleDescription(sentence or self._hint)
-        for widget in (self.note, self.edit):
-            widget.style().unpolish(widget)
-            widget.style().polish(widget)
+        show_state(self.note, "role", "error" if sentence else "hint")
+        show_state(self.edit, "faulty", bool(sentence))

@@ -33,6 +33,7 @@ class GivenForm(QWidget):
         self._limits: Limits | None = None
         self._record: CalibrationRecord | None = None
         self._faults = {"limits": "", "calibration": ""}
+        self._unsuitable = ""
         self.limits = FileField(self.tr("Limits file"), self.tr("none: no verdict"),
                                 self.tr("What the distances have to be; the lines are judged by it."))
         self.calibration = FileField(self.tr("Calibration record"), self.tr("that of the design"),
@@ -54,6 +55,16 @@ class GivenForm(QWidget):
         """A sentence when the record is not of today's robot any more, else empty."""
         return "" if self._record is None else translated(self._record.warning(datetime.date.today()))
 
+    @property
+    def limit_count(self) -> int:
+        """How many limits are loaded."""
+        return 0 if self._limits is None else len(self._limits.requirements)
+
+    @property
+    def limits_problem(self) -> str:
+        """Why they cannot be used, as judged last; empty when they can."""
+        return self._faults["limits"] or self._unsuitable
+
     def show_paths(self, paths: GivenPaths) -> None:
         """Show files, and read them."""
         self.limits.show_path(paths.limits)
@@ -70,6 +81,7 @@ class GivenForm(QWidget):
                 unsuitable = str(error)
         self.limits.show_fault(translated(self._faults["limits"] or unsuitable))
         self.calibration.show_fault(translated(self._faults["calibration"]))
+        self._unsuitable = unsuitable
         return not (unsuitable or any(self._faults.values()))
 
     def _read(self) -> None:

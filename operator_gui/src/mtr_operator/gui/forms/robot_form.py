@@ -16,9 +16,13 @@ from .field import Field
 
 
 class RobotForm(QWidget):
-    """Attributes: host, subscriber_port, publisher_port: the fields. Signals: submitted: Enter was pressed."""
+    """Attributes: host, subscriber_port, publisher_port: the fields. Signals: submitted: Enter was pressed.
+
+    changed: something else was typed.
+    """
 
     submitted = pyqtSignal()
+    changed = pyqtSignal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -33,6 +37,7 @@ class RobotForm(QWidget):
         for field in self._fields:
             field.edit.returnPressed.connect(self.submitted)
             field.changed.connect(lambda field=field: field.show_fault(""))
+            field.changed.connect(self.changed)
             layout.addWidget(field)
         layout.addStretch(1)
 

@@ -1,8 +1,9 @@
-"""The header bar: Stop, steps of the test, status word, notifications, lock, battery, settings."""
+"""The header bar: Stop, steps of the test, status word, notifications, the Car's locks, link, battery, settings."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 from PyQt5.QtCore import Qt, pyqtSignal
+from PyQt5.QtGui import QResizeEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from mtr_operator.station.view_model import ViewModel
@@ -14,8 +15,11 @@ from .reasons import blocked_text
 from .status_word import StatusWord
 from .step_bar import StepBar
 from .stop_button import StopButton
-from .symbols import BatterySymbol, CogwheelButton, LockSymbol
+from .symbols import BatterySymbol, CogwheelButton, LinkSymbol, LocksSymbol
 from .warning_symbol import WarningSymbol
+
+# All symbols fit beside the longest status word.
+_WIDE_PX = 960
 
 
 class HeaderBar(QWidget):
@@ -36,7 +40,8 @@ class HeaderBar(QWidget):
                               self.tr("Protocol")], appearance)
         self.warning = WarningSymbol(appearance, stopping)
         self.status = StatusWord(stopping)
-        self.lock = LockSymbol(appearance)
+        self.locks = LocksSymbol(appearance)
+        self.link = LinkSymbol(appearance)
         self.battery = BatterySymbol(appearance)
         self.settings = CogwheelButton(appearance)
         self.settings.clicked.connect(self.settings_wanted)
@@ -51,7 +56,7 @@ class HeaderBar(QWidget):
         row.setSpacing(S)
         row.addWidget(self.stop)
         row.addWidget(self.steps, 1)
-        for widget in (self.warning, self.status, self.lock, self.battery, self.settings):
+        for widget in (self.warning, self.status, self.locks, self.link, self.battery, self.settings):
             row.addWidget(widget)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(S, S, S, S)
@@ -59,14 +64,22 @@ class HeaderBar(QWidget):
         layout.addLayout(row)
         layout.addWidget(self.blocked)
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """See QWidget; where there is no room the link is in the list behind the status word alone."""
+        self.link.setVisible(event.size().width() >= _WIDE_PX)
+        super().resizeEvent(event)
+
     def show_model(self, model: ViewModel) -> None:
         """Show the newest of robot and Car."""
         readiness = model.readiness
         self.status.show_readiness(readiness)
-        self.warning.show_notifications(model.notifications)
+        self.status.show_checklist(model.checklist)
+        age_s = model.silent_s if model.is_stale else None
+        self.warning.show_notifications(model.notifications, age_s)
         blocked = blocked_text(readiness)
         self.blocked.setText(blocked)
         self.blocked.setVisible(bool(blocked))
         if model.robot is not None:
-            self.battery.show_percent(model.robot.status.battery_percent)
-            self.lock.show_closed(model.robot.is_secret)
+            self.battery.show_percent(model.robot.status.battery_percent, age_s)
+            self.locks.show_locks(model.robot.lock_state, model.is_stale)
+            self.link.show_secret(model.robot.is_secret)

@@ -1,12 +1,15 @@
-"""One word with a colour: can a test be started? A click lists the reasons."""
+"""One word with a colour: can a test be started? A click lists the reasons, and everything that is looked at."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 from PyQt5.QtWidgets import QPushButton, QWidget
 
-from mtr_operator.station.readiness import Readiness, ReadinessWord
+from mtr_operator.station.checks.finding import Item
+from mtr_operator.station.readiness import Cause, Readiness, ReadinessWord
 
 from ..stopping import Stopping
+from ..theme.state import show_state
+from .checklist_panel import ChecklistPanel
 from .popup import Popup
 from .reasons import advice_text, reason_text, word_text
 
@@ -25,12 +28,18 @@ _SIGNS = {
 }
 
 
+_LIST_WIDTH = 680
+
+
 class StatusWord(QPushButton):
-    """Attributes: popup: the list of reasons."""
+    """Attributes: popup: the list of reasons. checklist: below them, what has to be right before the robot moves."""
 
     def __init__(self, stopping: Stopping, parent: QWidget | None = None):
         super().__init__(parent)
         self.popup = Popup(self, stopping)
+        self.checklist = ChecklistPanel()
+        self.popup.widen(_LIST_WIDTH, self.checklist)
+        self._items: tuple[Item, ...] = ()
         self._readiness: Readiness | None = None
         self.clicked.connect(self._open)
 
@@ -43,9 +52,7 @@ class StatusWord(QPushButton):
         word = word_text(readiness.word)
         if word_changed:
             self.setText(f"{_SIGNS[readiness.word]}  {word}")
-            self.setProperty("word", readiness.word.value)
-            self.style().unpolish(self)
-            self.style().polish(self)
+            show_state(self, "word", readiness.word.value)
         sentences = [reason_text(reason) for reason in readiness.reasons]
         self.setAccessibleName(self.tr("Status: {word}").format(word=word))
         self.setAccessibleDescription(" ".join(sentences))
@@ -53,7 +60,14 @@ class StatusWord(QPushButton):
         if self.popup.isVisible():
             self._fill()
 
+    def show_checklist(self, items: tuple[Item, ...]) -> None:
+        """Show another checklist."""
+        self._items = items
+        if self.popup.isVisible():
+            self.checklist.show_items(items)
+
     def _open(self) -> None:
+        self.checklist.show_items(self._items)
         self._fill()
         self.popup.open_below(self)
 
@@ -61,5 +75,7 @@ class StatusWord(QPushButton):
         readiness = self._readiness
         if readiness is None:
             return
-        entries = [(reason_text(reason), advice_text(reason)) for reason in readiness.reasons]
-        self.popup.fill(word_text(readiness.word), entries or [(self.tr("Nothing stands against it."), "")])
+        # The checklist has the others.
+        entries = [(reason_text(reason), advice_text(reason)) for reason in readiness.reasons
+                   if reason.cause in (Cause.HELD, Cause.WAY_BLOCKED)]
+        self.popup.fill(word_text(readiness.word), entries)

@@ -7,6 +7,7 @@ from PyQt5.QtGui import QShowEvent
 from PyQt5.QtWidgets import QBoxLayout, QDialog, QGridLayout, QPushButton, QWidget
 
 from ..stopping import Stopping
+from ..theme.state import show_state
 
 _MIN_WIDTH = 112
 
@@ -40,9 +41,7 @@ class StopButton(QPushButton):
             self.setFocus()
 
     def _show(self, may_move: bool) -> None:
-        self.setProperty("moving", may_move)
-        self.style().unpolish(self)
-        self.style().polish(self)
+        show_state(self, "moving", may_move)
         if may_move and self.isVisible() and self.window().isActiveWindow():
             self.setFocus()
 

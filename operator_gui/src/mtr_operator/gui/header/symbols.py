@@ -1,4 +1,4 @@
-"""Symbols of the header bar, painted so that they follow theme and screen resolution: battery, lock, cogwheel."""
+"""Symbols of the header bar, painted so that they follow theme and resolution: battery, locks, link, cogwheel."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from PyQt5.QtCore import QPointF, QRectF, QSize, Qt
 from PyQt5.QtGui import QColor, QPainter, QPainterPath, QPaintEvent, QPen
 from PyQt5.QtWidgets import QSizePolicy, QToolButton, QWidget
 
+from mtr_operator.domain.ports import LockState
 from mtr_operator.station.readiness import EMPTY_BATTERY_PERCENT, LOW_BATTERY_PERCENT
 
 from ..theme.appearance import Appearance
@@ -25,6 +26,7 @@ class BatterySymbol(QWidget):
         super().__init__(parent)
         self._appearance = appearance
         self._percent: int | None = None
+        self._is_stale = False
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         appearance.changed.connect(self.update)
         self.show_percent(None)
@@ -37,11 +39,13 @@ class BatterySymbol(QWidget):
         """See QWidget."""
         return self.sizeHint()
 
-    def show_percent(self, percent: int | None) -> None:
-        """Show a charge; None is an unknown one."""
-        self._percent = percent
+    def show_percent(self, percent: int | None, age_s: float | None = None) -> None:
+        """Show a charge; None is an unknown one. age_s: how old it is, None while it is of now."""
+        self._percent, self._is_stale = percent, age_s is not None
         text = self.tr("Battery of the robot: unknown") if percent is None else \
             self.tr("Battery of the robot: {percent} %").format(percent=percent)
+        if age_s is not None:
+            text += " " + self.tr("({age} s ago)").format(age=f"{age_s:.0f}")
         self.setAccessibleName(text)
         self.setToolTip(text)
         self.update()
@@ -52,11 +56,12 @@ class BatterySymbol(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         palette, percent = self._appearance.palette, self._percent
         body = QRectF(2, 8, 34, 18)
-        painter.setPen(QPen(QColor(palette.ink), 2))
+        ink = QColor(palette.ink_soft if self._is_stale else palette.ink)
+        painter.setPen(QPen(ink, 2))
         painter.drawRoundedRect(body, 3, 3)
-        painter.fillRect(QRectF(37, 13, 3, 8), QColor(palette.ink))
+        painter.fillRect(QRectF(37, 13, 3, 8), ink)
         if percent is not None:
-            colour = palette.danger if percent < EMPTY_BATTERY_PERCENT else \
+            colour = palette.line if self._is_stale else palette.danger if percent < EMPTY_BATTERY_PERCENT else \
                 palette.warning if percent < LOW_BATTERY_PERCENT else palette.ok
             painter.fillRect(QRectF(5, 11, 28 * min(percent, 100) / 100.0, 12), QColor(colour))
         text = "\N{EN DASH}" if percent is None else f"{percent} %"
@@ -64,23 +69,65 @@ class BatterySymbol(QWidget):
         painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
 
 
-class LockSymbol(QWidget):
-    """A padlock, closed when the link to the robot is encrypted."""
+class LocksSymbol(QWidget):
+    """A padlock that is as the Car's locks are: closed, open, or dashed when nobody knows."""
 
     def __init__(self, appearance: Appearance, parent: QWidget | None = None):
         super().__init__(parent)
         self._appearance = appearance
-        self._is_closed = True
+        self._shown: tuple[LockState, bool] | None = None
         self.setFixedSize(_SIZE, _SIZE)
         appearance.changed.connect(self.update)
-        self.show_closed(False)
+        self.show_locks(LockState.UNKNOWN, False)
 
-    def show_closed(self, is_closed: bool) -> None:
-        """Show whether the link is encrypted."""
-        if is_closed == self._is_closed:
+    def show_locks(self, locks: LockState, is_stale: bool) -> None:
+        """Show the state of the locks; a stale one is not known any more."""
+        shown = (LockState.UNKNOWN if is_stale else locks, is_stale)
+        if shown == self._shown:
             return
-        self._is_closed = is_closed
-        text = self.tr("The link to the robot is encrypted.") if is_closed else \
+        self._shown = shown
+        text = {LockState.LOCKED: self.tr("The Car is locked."), LockState.UNLOCKED: self.tr("The Car is unlocked."),
+                LockState.UNKNOWN: self.tr("Whether the Car is locked is not known.")}[shown[0]]
+        self.setAccessibleName(text)
+        self.setToolTip(text)
+        self.update()
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """See QWidget."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        locks = self._shown[0] if self._shown else LockState.UNKNOWN
+        is_known = locks is not LockState.UNKNOWN
+        colour = QColor(self._appearance.palette.ink if is_known else self._appearance.palette.ink_soft)
+        painter.setPen(QPen(colour, 3 if is_known else 2, Qt.PenStyle.SolidLine if is_known else Qt.PenStyle.DotLine))
+        shackle = QRectF(8, 5, 12, 18)
+        if locks is LockState.UNLOCKED:
+            shackle.translate(9, 0)
+        painter.drawArc(shackle, 0, 180 * 16)
+        painter.drawLine(shackle.topLeft() + QPointF(0, 9), shackle.topLeft() + QPointF(0, 11))
+        if is_known:
+            painter.setBrush(colour)
+            painter.setPen(Qt.PenStyle.NoPen)
+        painter.drawRoundedRect(QRectF(4, 15, 20, 14), 3, 3)
+
+
+class LinkSymbol(QWidget):
+    """A shield: with a tick on an encrypted link, hollow and crossed out on one that anybody can read."""
+
+    def __init__(self, appearance: Appearance, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._appearance = appearance
+        self._is_secret = True
+        self.setFixedSize(_SIZE, _SIZE)
+        appearance.changed.connect(self.update)
+        self.show_secret(False)
+
+    def show_secret(self, is_secret: bool) -> None:
+        """Show whether the link is encrypted."""
+        if is_secret == self._is_secret:
+            return
+        self._is_secret = is_secret
+        text = self.tr("The link to the robot is encrypted.") if is_secret else \
             self.tr("The link to the robot is not encrypted.")
         self.setAccessibleName(text)
         self.setToolTip(text)
@@ -90,16 +137,13 @@ class LockSymbol(QWidget):
         """See QWidget."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        colour = QColor(self._appearance.palette.ok if self._is_closed else self._appearance.palette.ink_soft)
-        painter.setPen(QPen(colour, 3))
-        shackle = QRectF(11, 6, 12, 18)
-        if not self._is_closed:
-            shackle.translate(7, 0)
-        painter.drawArc(shackle, 0, 180 * 16)
-        painter.drawLine(shackle.topLeft() + QPointF(0, 9), shackle.topLeft() + QPointF(0, 11))
-        painter.setBrush(colour)
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.drawRoundedRect(QRectF(7, 15, 20, 14), 3, 3)
+        palette = self._appearance.palette
+        painter.setPen(QPen(QColor(palette.ok if self._is_secret else palette.ink_soft), 2.5))
+        painter.drawPath(_shield())
+        lines = ((QPointF(11, 16), QPointF(15, 20)), (QPointF(15, 20), QPointF(22, 11))) if self._is_secret else \
+            ((QPointF(5, 29), QPointF(29, 5)),)
+        for start, end in lines:
+            painter.drawLine(start, end)
 
 
 class CogwheelButton(QToolButton):
@@ -124,6 +168,17 @@ class CogwheelButton(QToolButton):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.translate(self.width() / 2.0, self.height() / 2.0)
         painter.fillPath(_cogwheel(), QColor(self._appearance.palette.ink))
+
+
+def _shield() -> QPainterPath:
+    path = QPainterPath(QPointF(17, 4))
+    path.lineTo(28, 8)
+    path.lineTo(28, 17)
+    path.quadTo(28, 26, 17, 31)
+    path.quadTo(6, 26, 6, 17)
+    path.lineTo(6, 8)
+    path.closeSubpath()
+    return path
 
 
 def _cogwheel() -> QPainterPath:

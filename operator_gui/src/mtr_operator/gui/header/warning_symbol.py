@@ -43,6 +43,7 @@ class WarningSymbol(QAbstractButton):
         super().__init__(parent)
         self._appearance = appearance
         self._notifications: tuple[Notification, ...] = ()
+        self._age_s: int | None = None
         self._scale = 1.0
         self.popup = Popup(self, stopping)
         self.pulse = QPropertyAnimation(self, b"scale", self)
@@ -59,17 +60,19 @@ class WarningSymbol(QAbstractButton):
         appearance.changed.connect(self.update)
         self.hide()
 
-    def show_notifications(self, notifications: Sequence[Notification]) -> None:
-        """Show these; a new one pulses."""
+    def show_notifications(self, notifications: Sequence[Notification], age_s: float | None = None) -> None:
+        """Show these; a new one pulses. age_s: how long ago the robot said them, None while it does."""
         now = tuple(sorted(notifications, key=lambda notification: -notification.severity))
-        if now == self._notifications:
+        age = None if age_s is None else round(age_s)
+        if (now, age) == (self._notifications, self._age_s):
             return
+        self._age_s = age
         known = {notification.code for notification in self._notifications}
         is_new = any(notification.code not in known for notification in now)
         self._notifications = now
         self.setVisible(bool(now))
         texts = [translated(notification.text) for notification in now]
-        self.setToolTip("\n".join(texts))
+        self.setToolTip("\n".join(texts if age is None else [self._heading(), *texts]))
         self.setAccessibleDescription(" ".join(texts))
         if is_new:
             self.pulse.start()
@@ -82,6 +85,8 @@ class WarningSymbol(QAbstractButton):
         palette = self._appearance.palette
         worst = max((notification.severity for notification in self._notifications), default=WARNING)
         colour = palette.danger if worst >= ERROR else palette.warning if worst >= WARNING else palette.accent
+        if self._age_s is not None:
+            colour = palette.ink_soft
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.translate(_SIZE / 2.0, _SIZE / 2.0)
@@ -107,8 +112,13 @@ class WarningSymbol(QAbstractButton):
         self.popup.open_below(self)
 
     def _fill(self) -> None:
-        self.popup.fill(self.tr("The robot says"),
+        self.popup.fill(self._heading(),
                         [(translated(notification.text), "") for notification in self._notifications])
+
+    def _heading(self) -> str:
+        if self._age_s is None:
+            return self.tr("The robot says")
+        return self.tr("The robot said {age} s ago").format(age=self._age_s)
 
     def _rest(self) -> None:
         self._set_scale(1.0)

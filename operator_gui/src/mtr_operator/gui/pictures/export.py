@@ -9,15 +9,18 @@ from PyQt5.QtSvg import QSvgGenerator
 from .protocol_sheet import HEIGHT, WIDTH, ProtocolSheet
 
 PNG_SCALE = 2
+# 2376 by 6720 pixels are 64 MB while they are painted.
+_MAX_FINE_PAGES = 4
 _PDF_DPI = 300
 
 
 def png(sheet: ProtocolSheet) -> bytes:
-    """The sheet as a bitmap."""
-    image = QImage(QSize(PNG_SCALE * round(WIDTH), PNG_SCALE * round(HEIGHT)), QImage.Format.Format_RGB32)
+    """The pages as a bitmap, one below the other; many of them are painted coarser."""
+    scale = PNG_SCALE if sheet.pages <= _MAX_FINE_PAGES else 1
+    image = QImage(QSize(scale * round(WIDTH), scale * round(HEIGHT) * sheet.pages), QImage.Format.Format_RGB32)
     painter = QPainter(image)
-    painter.scale(PNG_SCALE, PNG_SCALE)
-    sheet.paint(painter)
+    painter.scale(scale, scale)
+    _paint_below_each_other(sheet, painter)
     painter.end()
     with _Buffer() as buffer:
         image.save(buffer, "PNG")
@@ -25,30 +28,41 @@ def png(sheet: ProtocolSheet) -> bytes:
 
 
 def pdf(sheet: ProtocolSheet) -> bytes:
-    """The sheet as one page of A4 landscape."""
+    """The pages in A4 landscape."""
     with _Buffer() as buffer:
         writer = QPdfWriter(buffer)
         writer.setResolution(_PDF_DPI)
-        page = QPageSize(QPageSize.PageSizeId.A4)
-        writer.setPageLayout(QPageLayout(page, QPageLayout.Orientation.Landscape, QMarginsF()))
+        paper = QPageSize(QPageSize.PageSizeId.A4)
+        writer.setPageLayout(QPageLayout(paper, QPageLayout.Orientation.Landscape, QMarginsF()))
         painter = QPainter(writer)
         painter.scale(writer.width() / WIDTH, writer.height() / HEIGHT)
-        sheet.paint(painter)
+        for page in range(sheet.pages):
+            if page:
+                writer.newPage()
+            sheet.paint(painter, page)
         painter.end()
         return buffer.content()
 
 
 def svg(sheet: ProtocolSheet) -> bytes:
-    """The sheet as scalable graphics."""
+    """The pages as scalable graphics, one below the other."""
     with _Buffer() as buffer:
         generator = QSvgGenerator()
         generator.setOutputDevice(buffer)
-        generator.setSize(QSize(round(WIDTH), round(HEIGHT)))
-        generator.setViewBox(QRectF(0, 0, WIDTH, HEIGHT))
+        generator.setSize(QSize(round(WIDTH), round(HEIGHT) * sheet.pages))
+        generator.setViewBox(QRectF(0, 0, WIDTH, HEIGHT * sheet.pages))
         painter = QPainter(generator)
-        sheet.paint(painter)
+        _paint_below_each_other(sheet, painter)
         painter.end()
         return buffer.content()
+
+
+def _paint_below_each_other(sheet: ProtocolSheet, painter: QPainter) -> None:
+    for page in range(sheet.pages):
+        painter.save()
+        painter.translate(0.0, HEIGHT * page)
+        sheet.paint(painter, page)
+        painter.restore()
 
 
 class _Buffer(QBuffer):

@@ -23,14 +23,18 @@ _TEXT_LEFT_PX = 26.0
 _FONT_PX = 15.0
 
 
+def _meanings(sets: Sequence[PointSet]) -> list[tuple[str, str]]:
+    """What else is painted beside the markers, each with its text."""
+    return [(kind, text) for kind, text in (
+        ("bars", translate("Picture", "place of the key (1 sigma)")),
+        ("brackets", translate("Picture", "border somewhere in between")),
+        ("intervals", translate("Picture", "95 % interval"))) if any(getattr(points, kind) for points in sets)]
+
+
 def legend_texts(sets: Sequence[PointSet]) -> list[str]:
-    """Label and number of points of each set that has some, and the meaning of the bars."""
+    """Label and number of points of each set that has some, and the meaning of bars, brackets and intervals."""
     texts = [f"{domain_word(points.label)} ({len(points.known)})" for points in sets if points.known]
-    if any(points.bars for points in sets):
-        texts.append(translate("Picture", "uncertainty (1 sigma)"))
-    if any(points.intervals for points in sets):
-        texts.append(translate("Picture", "95 % interval"))
-    return texts
+    return texts + [text for _, text in _meanings(sets)]
 
 
 def paint_entry(canvas: Canvas, sets: Sequence[PointSet], index: int, corner: QPointF) -> None:
@@ -43,18 +47,23 @@ def paint_entry(canvas: Canvas, sets: Sequence[PointSet], index: int, corner: QP
         painter.setPen(canvas.pen(colour, 2.2))
         painter.setBrush(QColor(colour))
         draw_marker(painter, shown[index].role, middle, 5.5 * unit)
-    elif index > len(shown) or not any(points.bars for points in sets):
-        painter.setPen(canvas.pen(canvas.palette.ink_soft, 2.2))
-        reach = QPointF(8.0 * unit, 0.0)
-        draw_interval(painter, middle - reach, middle + reach, 5.0 * unit)
     else:
-        bar = canvas.pen(canvas.palette.ink_soft, 7.0, alpha=0.5)
-        bar.setCapStyle(Qt.PenCapStyle.FlatCap)
-        painter.setPen(bar)
-        painter.drawLine(QPointF(middle.x() - 8.0 * unit, middle.y()), QPointF(middle.x() + 8.0 * unit, middle.y()))
+        _paint_meaning(canvas, _meanings(sets)[index - len(shown)][0], middle)
     painter.setPen(QColor(canvas.palette.ink))
     box = QRectF(corner.x() + _TEXT_LEFT_PX * unit, corner.y(), 600 * unit, ROW_PX * unit)
     painter.drawText(box, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, legend_texts(sets)[index])
+
+
+def _paint_meaning(canvas: Canvas, kind: str, middle: QPointF) -> None:
+    reach, colour = QPointF(8.0 * canvas.unit, 0.0), canvas.palette.ink_soft
+    if kind == "intervals":
+        canvas.painter.setPen(canvas.pen(colour, 2.2))
+        draw_interval(canvas.painter, middle - reach, middle + reach, 5.0 * canvas.unit)
+        return
+    pen = canvas.pen(colour, 7.0, alpha=0.5) if kind == "bars" else canvas.pen(colour, 1.6, Qt.PenStyle.DotLine)
+    pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+    canvas.painter.setPen(pen)
+    canvas.painter.drawLine(middle - reach, middle + reach)
 
 
 class LegendStrip(QWidget):

@@ -59,6 +59,7 @@ class MeasurementPicture:
         robot = self.robot
         robot.pose, robot.key, robot.sigma_m = self._glide.at(now_s), (status.key_x, status.key_y), \
             status.position_sigma_m
+        robot.is_stale = self._model.is_stale
         waypoint = snapshot.waypoint
         robot.waypoint = None if waypoint is None else waypoint.pose
         if self._model.trail is not self.trail.places:

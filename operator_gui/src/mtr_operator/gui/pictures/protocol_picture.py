@@ -50,7 +50,7 @@ class ProtocolPicture:
         self.protocol = protocol
         picture = protocol.picture
         stretches = [Stretch(stretch.start, stretch.end, domain_word(stretch.label)) for stretch in picture.stretches]
-        self.points = PointsLayer(picture.point_sets, shows_distances=len(protocol.scenario.distance_words) == 1)
+        self.points = PointsLayer(picture.point_sets, shows_figures=True)
         self.layers: Sequence[Layer] = (
             GridLayer(), LinesLayer(stretches), AreasLayer(picture.point_sets),
             CarLayer(protocol.progress.measured_car, True),

@@ -1,4 +1,4 @@
-"""A protocol as one sheet: the picture, and beside it legend, result, parameters and circumstances."""
+"""A protocol as a sheet: the picture with legend, result, parameters and circumstances; on further pages all tables."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from ..theme.palette import LIGHT
 from .layers.layer import Canvas, paint_all
 from .legend import ROW_PX, legend_texts, paint_entry
 from .protocol_picture import Protocol, ProtocolPicture
+from .protocol_tables import ROW, pages_of, paint_rows, table_rows
 from .viewport import Viewport
 
 # A4 landscape in units of a quarter of a millimetre, nearly those of a 96 dpi screen.
@@ -30,23 +31,48 @@ _PANEL = 380.0
 _ROW = 18.0
 _TEXT_PX = 12.5
 _MAX_REASON = 90
+# Of the further pages: their headline, and how many rows fit below it.
+_HEAD = 40.0
+_ROWS = int((HEIGHT - 2 * _MARGIN - _HEAD) // ROW)
 _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 _WRAPPED = Qt.TextFlag.TextWordWrap | Qt.AlignmentFlag.AlignLeft
 
 
 class ProtocolSheet:
-    """Paints itself on any painter whose window is WIDTH by HEIGHT.
+    """Paints its pages on any painter whose window is WIDTH by HEIGHT, always in the light colours.
 
-    Attributes: picture: the layers on its left.
+    Attributes: picture: the layers on the left of the first page. pages: how many there are.
     """
 
     def __init__(self, protocol: Protocol):
         self._protocol = protocol
+        self._tables = pages_of(table_rows(protocol), _ROWS)
         self.picture = ProtocolPicture(protocol)
+        self.pages = 1 + len(self._tables)
 
-    def paint(self, painter: QPainter) -> None:
-        """Paint the sheet, always in the light colours."""
+    def paint(self, painter: QPainter, page: int = 0) -> None:
+        """Paint a page; the first one is 0."""
+        if page == 0:
+            self._paint_picture(painter)
+            return
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.fillRect(QRectF(0, 0, WIDTH, HEIGHT), QColor(LIGHT.surface))
+        canvas = Canvas(painter, Viewport(WIDTH, HEIGHT), LIGHT)
+        area = QRectF(_MARGIN, _MARGIN, WIDTH - 2 * _MARGIN, HEIGHT - 2 * _MARGIN)
+        painter.setFont(canvas.font(14.0, True))
+        painter.setPen(QColor(LIGHT.ink))
+        painter.drawText(QRectF(area.left(), area.top(), area.width(), _ROW + 2), _LEFT, self._title())
+        painter.drawText(QRectF(area.left(), area.top(), area.width(), _ROW + 2), _RIGHT,
+                         translate("Protocol", "page {page} of {count}").format(page=page + 1, count=self.pages))
+        paint_rows(canvas, self._tables[page - 1], area.adjusted(0, _HEAD, 0, 0))
+
+    def _title(self) -> str:
+        protocol = self._protocol
+        title = translate("Protocol", "{scenario} protocol").format(scenario=scenario_title(protocol.scenario))
+        return f"{title}, {date_text(str(protocol.progress.session.get('started', '')))}"
+
+    def _paint_picture(self, painter: QPainter) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.fillRect(QRectF(0, 0, WIDTH, HEIGHT), QColor(LIGHT.surface))
         width, height = WIDTH - _PANEL - 3 * _MARGIN, HEIGHT - 2 * _MARGIN
@@ -88,7 +114,8 @@ class ProtocolSheet:
     def _result_rows(self) -> list[Row]:
         rows = summary_rows(self._protocol.scenario, self._protocol.progress)
         rows += assessment_rows(self._protocol.assessment)
-        return [(domain_word(name), ", ".join(_count(part) for part in value.split(", "))) for name, value in rows]
+        return [(domain_word(name), ", ".join(_count(part) for part in value.split(", ")).replace(".", decimal_sign()))
+                for name, value in rows]
 
     def _parameter_rows(self) -> list[Row]:
         protocol = self._protocol

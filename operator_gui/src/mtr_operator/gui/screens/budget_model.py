@@ -13,28 +13,28 @@ from ..i18n import number
 from ..names import domain_word
 from ..sentences import translated
 
-_CM_PER_M = 100.0
+_DIGITS = 4
 # Column with a number.
 _SIGMA = 2
 
 
 class BudgetModel(QAbstractTableModel):
-    """Term by term of each distance of a line: 1 sigma in cm, whether other lines have the same error, and the source;
+    """Term by term of each distance of a line: 1 sigma in m, whether other lines have the same error, and the source;
     then the expanded uncertainty. None shows nothing. What a distance is called is told where a line has several."""
 
     def __init__(self, assessment: Assessment, line: int | None, parent: QObject | None = None):
         super().__init__(parent)
-        self._headings = (self.tr("Distance"), self.tr("Part of its uncertainty"), "\N{GREEK SMALL LETTER SIGMA} [cm]",
+        self._headings = (self.tr("Distance"), self.tr("Part of its uncertainty"), "\N{GREEK SMALL LETTER SIGMA} [m]",
                           self.tr("In common"), self.tr("From"))
         self._first = 0 if len({budget.word for budget in assessment.budgets}) > 1 else 1
         self._rows = [row for budget in assessment.budgets if budget.line == line for row in self._rows_of(budget)]
 
     def _rows_of(self, budget: DistanceBudget) -> list[tuple[str, ...]]:
         word = domain_word(budget.word)
-        rows = [(word, domain_word(term.name), number(_CM_PER_M * term.contribution_m, 2),
+        rows = [(word, domain_word(term.name), number(term.contribution_m, _DIGITS),
                  self.tr("yes") if term.is_common else self.tr("no"), translated(domain_word(term.source)))
                 for term in sorted(budget.terms, key=lambda term: -term.contribution_m)]
-        return [*rows, (word, self.tr("expanded uncertainty, 95 %"), number(_CM_PER_M * budget.expanded_m, 2), "", "")]
+        return [*rows, (word, self.tr("expanded uncertainty, 95 %"), number(budget.expanded_m, _DIGITS), "", "")]
 
     def rowCount(self, parent: QModelIndex = QModelIndex()) -> int:  # noqa: B008
         """See QAbstractItemModel."""

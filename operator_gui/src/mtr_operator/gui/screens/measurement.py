@@ -13,12 +13,14 @@ from mtr_operator.station.view_model import ViewModel
 
 from ..bridge import FRAME_MS
 from ..fitting.scroller import Scroller
+from ..forms.hold_button import HoldButton
 from ..i18n import number
 from ..pictures.measurement_picture import MeasurementPicture
 from ..pictures.picture_panel import PicturePanel
 from ..sentences import translated
 from ..theme.appearance import Appearance
 from ..theme.scale import L, M, S
+from ..theme.state import show_state
 from .measurement_facts import MeasurementFacts
 
 # Has no width, and a row may end there.
@@ -51,9 +53,9 @@ class MeasurementScreen(QWidget):
         self.facts = MeasurementFacts()
         self.trouble, self.held, self.handle = (self._label("banner") for _ in range(3))
         self.note = self._label("soft")
-        self.go_on = self._button(self.tr("Have the robot go on"), "primary", self.release_wanted)
+        self.go_on = self._hold_button(self.tr("Hold to go on"), self.release_wanted)
         self.taken = self._button(self.tr("Handle taken"), "primary", self.handle_taken)
-        self.resume = self._button(self.tr("Resume"), "primary", self.resume_wanted)
+        self.resume = self._hold_button(self.tr("Hold to resume"), self.resume_wanted)
         self.save = self._button(self.tr("Save progress"), "", self.save_wanted)
         self.leave = self._button(self.tr("Back to the beginning"), "", self.leave_wanted)
         self._frames = QTimer(self)
@@ -73,6 +75,14 @@ class MeasurementScreen(QWidget):
         button = QPushButton(text)
         button.setProperty("role", role)
         button.clicked.connect(signal)
+        return button
+
+    @staticmethod
+    def _hold_button(text: str, signal: pyqtBoundSignal) -> HoldButton:
+        """For what moves the robot."""
+        button = HoldButton(text)
+        button.setProperty("role", "primary")
+        button.held.connect(signal)
         return button
 
     def _lay_out(self) -> None:
@@ -116,11 +126,7 @@ class MeasurementScreen(QWidget):
 
     def _show_cause(self, is_over: bool) -> None:
         """Why the test paused: red while it lasts."""
-        role = "notice" if is_over else "banner"
-        if self.trouble.property("role") != role:
-            self.trouble.setProperty("role", role)
-            self.trouble.style().unpolish(self.trouble)
-            self.trouble.style().polish(self.trouble)
+        show_state(self.trouble, "role", "notice" if is_over else "banner")
 
     def _show_hold(self) -> None:
         reason = next((notification.text for notification in self._model.notifications

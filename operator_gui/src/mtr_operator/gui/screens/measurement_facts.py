@@ -6,18 +6,19 @@ import math
 
 from PyQt5.QtWidgets import QFormLayout, QFrame, QLabel, QProgressBar, QVBoxLayout, QWidget
 
-from mtr_operator.domain.ports import LockState
-from mtr_operator.domain.results.line_result import LineStatus, MeasuredDistance
 from mtr_operator.domain.verdict.judgement import TestJudgement
+from mtr_operator.report.figures import figures_of
 from mtr_operator.station.events import RobotSnapshot
-from mtr_operator.station.readiness import Phase, ReadinessWord
+from mtr_operator.station.readiness import Phase
 from mtr_operator.station.view_model import ViewModel
 
+from ..figure_text import figure_text
 from ..i18n import duration, number
-from ..names import domain_word, scenario_title
+from ..names import domain_word, locks_text, scenario_title
 from ..prospect_text import prospect_text
 from ..sentences import translated
 from ..theme.scale import M, S
+from ..theme.state import show_state
 from ..verdict_text import verdict_text
 
 _CM_PER_M, _KMH_PER_MPS = 100.0, 3.6
@@ -87,16 +88,12 @@ class MeasurementFacts(QFrame):
 
     def _show_age(self, model: ViewModel) -> None:
         """What the robot said last is grey while nothing comes from it."""
-        is_stale = _is_stale(model)
+        is_stale = model.is_stale
         self.age.setText(self.tr("The values below are {age} s old.").format(age=f"{model.silent_s:.0f}")
                          if is_stale else "")
         self.age.setVisible(is_stale)
         for name in _OF_ROBOT:
-            label = self.values[name]
-            if bool(label.property("stale")) is not is_stale:
-                label.setProperty("stale", is_stale)
-                label.style().unpolish(label)
-                label.style().polish(label)
+            show_state(self.values[name], "stale", is_stale)
 
     def _show_verdict(self, judgement: TestJudgement | None) -> None:
         verdict = self.values["verdict"]
@@ -106,9 +103,7 @@ class MeasurementFacts(QFrame):
 
     def _show_robot(self, robot: RobotSnapshot) -> None:
         status = robot.status
-        locks = {LockState.LOCKED: self.tr("locked"), LockState.UNLOCKED: self.tr("unlocked"),
-                 LockState.UNKNOWN: self.tr("unknown")}
-        self.values["locks"].setText(locks[robot.lock_state])
+        self.values["locks"].setText(locks_text(robot.lock_state))
         self.values["key"].setText(_measure(status.key_height_m, _CM_PER_M, 0, "cm"))
         self.values["speed"].setText(_measure(abs(status.speed_mps), _KMH_PER_MPS, 1, "km/h"))
         self.values["position"].setText(
@@ -117,7 +112,7 @@ class MeasurementFacts(QFrame):
 
     def _left_text(self, model: ViewModel) -> str:
         # Nobody knows it while the robot is silent.
-        left_s = None if _is_stale(model) else model.left_s
+        left_s = None if model.is_stale else model.left_s
         left = "" if left_s is None else self.tr("about {time} left").format(time=duration(left_s))
         prospect = prospect_text(model.prospect) if model.phase is Phase.MEASURING else ""
         return "\n".join(filter(None, (left, prospect)))
@@ -127,13 +122,9 @@ class MeasurementFacts(QFrame):
             return self.tr("The robot is being stopped.")
         if model.phase is Phase.PAUSED:
             return self.tr("Paused. The line at hand is measured anew after Resume.")
-        if _is_stale(model):
+        if model.is_stale:
             return self.tr("Waits until the robot is heard again.")
         return translated(model.action)
-
-
-def _is_stale(model: ViewModel) -> bool:
-    return model.readiness.word is ReadinessWord.LOST
 
 
 def newest_text(model: ViewModel) -> str:
@@ -141,17 +132,14 @@ def newest_text(model: ViewModel) -> str:
     if not model.results or model.newest is None:
         return _UNKNOWN
     result = model.newest
-    distances = [f"{domain_word(distance.word)} {_distance_text(distance)}" for distance in result.distances]
+    test = model.current_test
+    figures = zip(result.distances, figures_of(test.scenario, test.parameters, result))
+    distances = [f"{domain_word(distance.word)} {figure_text(figure, distance.uncertainty_m)}"
+                 for distance, figure in figures]
     text = f"{result.number} ({domain_word(result.place)}): {', '.join(distances)}"
     if model.judgement is None or not model.judgement.names(result.number):
         return text
     return f"{text} \N{EN DASH} {domain_word(model.judgement.of_line(result.number).word)}"
-
-
-def _distance_text(distance: MeasuredDistance) -> str:
-    if distance.distance_m is None or distance.status is not LineStatus.OK:
-        return domain_word(distance.status.value.replace("_", " "))
-    return f"{number(distance.distance_m * _CM_PER_M, 0)} cm"
 
 
 def _measure(value: float, per_si: float, digits: int, unit: str) -> str:

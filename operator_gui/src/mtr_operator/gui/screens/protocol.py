@@ -13,11 +13,14 @@ from PyQt5.QtWidgets import QHBoxLayout, QHeaderView, QLabel, QPushButton, QTabl
 
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.report.protocol_rows import date_text
+from mtr_operator.station.checks.checklist import hindrances
+from mtr_operator.station.events import Outcome
 from mtr_operator.station.test import report_folder
 
 from ..dialogs import ask_folder
 from ..fitting.scroller import Scroller
 from ..flow import Flow
+from ..forms.hold_button import HoldButton
 from ..names import scenario_title
 from ..pictures.picture_panel import PicturePanel
 from ..pictures.protocol_picture import Protocol, ProtocolPicture
@@ -38,7 +41,7 @@ class ProtocolScreen(QWidget):
     """Attributes: protocol: what is shown. panel: the picture. table: the results. budget: of the row chosen.
     notice: what was saved.
 
-    save, save_pdf, save_svg, show_folder, done: buttons.
+    save, save_pdf, save_svg, show_folder, again, done: buttons; again is held, for it moves the robot.
 
     Signals: closed: the Operator is done with it.
     """
@@ -51,6 +54,7 @@ class ProtocolScreen(QWidget):
         self._flow = flow
         self._shown: ProtocolPicture | None = None
         self._writer: ReportWriter | None = None
+        self._kinds: tuple[str, ...] = ()
         self._saved: set[str] = set()
         self._folder: pathlib.Path | None = None
         self.panel = PicturePanel(appearance)
@@ -59,7 +63,8 @@ class ProtocolScreen(QWidget):
         self.title.setProperty("role", "heading")
         self.date.setProperty("role", "soft")
         self.notice.setWordWrap(True)
-        self.table = self._make_table(self.tr("Results; choose a row to see its points"))
+        self.table = self._make_table(self.tr("Results; choose a row to see its points, or several to measure them "
+                                              "again"))
         self.budget = self._make_table(self.tr("What the uncertainty of the chosen row is made of"))
         self.budget.setSelectionMode(QTableView.NoSelection)
         self.budget.hide()
@@ -68,6 +73,8 @@ class ProtocolScreen(QWidget):
         self.save_pdf = self._button(self.tr("Save PDF"), "", lambda: self._write((PDF,)))
         self.save_svg = self._button(self.tr("Save SVG"), "", lambda: self._write((SVG,)))
         self.show_folder = self._button(self.tr("Show folder"), "", self._open_folder)
+        self.again = HoldButton(self.tr("Hold to measure again"))
+        self.again.held.connect(self._measure_again)
         self.done = self._button(self.tr("New test"), "", self.closed.emit)
         self._lay_out()
 
@@ -87,7 +94,7 @@ class ProtocolScreen(QWidget):
         table = QTableView()
         table.setAccessibleName(name)
         table.setSelectionBehavior(QTableView.SelectRows)
-        table.setSelectionMode(QTableView.SingleSelection)
+        table.setSelectionMode(QTableView.ExtendedSelection)
         table.setAlternatingRowColors(True)
         table.setTabKeyNavigation(False)
         table.verticalHeader().hide()
@@ -117,6 +124,7 @@ class ProtocolScreen(QWidget):
         side.addWidget(self.table, 3)
         side.addWidget(self.budget, 2)
         side.addWidget(self.notice)
+        side.addWidget(self.again)
         side.addLayout(first)
         side.addLayout(second)
         holder = Scroller(side)
@@ -144,10 +152,31 @@ class ProtocolScreen(QWidget):
         self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
         self.panel.legend.show_sets(protocol.picture.point_sets)
         self.panel.view.show_layers(self._shown.layers)
+        self.table.selectionModel().selectionChanged.connect(lambda *_: self.show_model())
         self._show_budget(-1)
-        self._show_notice(self._summary())
+        self._show_notice(self.tr("Not saved as CSV and PNG yet."))
         self.show_folder.setEnabled(False)
         self.save.setFocus()
+        self.show_model()
+        if model.outcome is Outcome.COMPLETE:
+            # Nobody has to think of it.
+            self._write((CSV, PNG))
+
+    def show_model(self) -> None:
+        """Something of robot, Car or test is another one."""
+        readiness = self._flow.model.readiness
+        can_start = readiness.can_start and not hindrances(self._flow.model.checklist)
+        self.again.setEnabled(can_start and bool(self._chosen_lines()))
+
+    def _chosen_lines(self) -> list[int]:
+        """Numbers of the lines whose rows are chosen."""
+        selection = self.table.selectionModel()
+        rows = [] if selection is None or self._shown is None else sorted(
+            index.row() for index in selection.selectedRows())
+        return [self.protocol.progress.results[row].number for row in rows]
+
+    def _measure_again(self) -> None:
+        self._flow.measure_again(self._chosen_lines())
 
     def _summary(self) -> str:
         judgement = self.protocol.assessment.judgement
@@ -159,9 +188,8 @@ class ProtocolScreen(QWidget):
         results = self.protocol.progress.results
         invalid = sum(1 for result in results if result.invalid_count)
         if invalid:
-            return self.tr("{count} lines, {invalid} of them invalid. Not saved as CSV and PNG yet.").format(
-                count=len(results), invalid=invalid)
-        return self.tr("{count} lines. Not saved as CSV and PNG yet.").format(count=len(results))
+            return self.tr("{count} lines, {invalid} of them invalid.").format(count=len(results), invalid=invalid)
+        return self.tr("{count} lines.").format(count=len(results))
 
     def _mark(self, row: int) -> None:
         points = self.protocol.picture_of(row).point_sets if row >= 0 else ()
@@ -190,9 +218,11 @@ class ProtocolScreen(QWidget):
         folder = report_folder(self._flow.store.settings.result_folder, self._flow.model.current_test)
         self._folder = folder
         self._set_saving(True)
-        self._writer = ReportWriter(self.protocol, folder, kinds, self)
+        self._kinds = kinds
+        # No child of the screen, and no lambda: it may outlive both when the window closes or is made anew.
+        self._writer = ReportWriter(self.protocol, folder, kinds)
         self._writer.written.connect(self._show_written)
-        self._writer.refused.connect(lambda text: self._show_refused(text, kinds))
+        self._writer.refused.connect(self._show_refused)
         self._writer.start()
 
     def _set_saving(self, is_saving: bool) -> None:
@@ -206,21 +236,23 @@ class ProtocolScreen(QWidget):
         self._show_notice(self.tr("Saved {files} to {folder}").format(files=files, folder=self._folder))
         self.show_folder.setEnabled(True)
 
-    def _show_refused(self, text: str, kinds: tuple[str, ...]) -> None:
+    def _show_refused(self, text: str) -> None:
         self._set_saving(False)
         self._show_notice(translated(text) + " " + self.tr("Choose another folder; nothing is lost."))
-        QTimer.singleShot(0, lambda: self._ask_folder(kinds))
+        QTimer.singleShot(0, self._ask_folder)
 
-    def _ask_folder(self, kinds: tuple[str, ...]) -> None:
+    def _ask_folder(self) -> None:
         folder = ask_folder(self, self.tr("Folder for results"), pathlib.Path.home())
         if folder is not None:
             store = self._flow.store
             store.change(dataclasses.replace(store.settings, result_folder=folder))
-            self._write(kinds)
+            self._write(self._kinds)
 
     def _open_folder(self) -> None:
-        QDesktopServices.openUrl(QUrl.fromLocalFile(str(self._folder)))
+        if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(self._folder))):
+            sentence = self.tr("No file manager opens it; the files are in {folder}")
+            self._show_notice(sentence.format(folder=self._folder))
 
     def _show_notice(self, sentence: str) -> None:
-        self.notice.setText(sentence)
+        self.notice.setText(f"{self._summary()} {sentence}")
         self.notice.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)

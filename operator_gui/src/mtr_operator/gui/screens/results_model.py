@@ -6,26 +6,27 @@ from typing import Any
 
 from PyQt5.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt
 
-from mtr_operator.domain.results.line_result import LineResult, LineStatus, MeasuredDistance, has_intervals
+from mtr_operator.domain.results.line_result import LineResult, has_intervals
+from mtr_operator.report.figures import INTERVAL, figures_of, meanings
 
-from ..i18n import number
+from ..figure_text import cell_text, interval_text, sigma_heading, sigma_text
 from ..names import domain_word
 from ..pictures.protocol_picture import Protocol
 from ..sentences import translated
 
-_CM_PER_M = 100.0
 _FIXED_COLUMNS = 2
 # Columns of each distance.
 _DISTANCE, _INTERVAL = 0, 2
 
 
 class ResultsModel(QAbstractTableModel):
-    """Number and place of each line, then distance, uncertainty and perhaps interval of each measurement in cm; at the
+    """Number and place of each line, then distance, uncertainty and perhaps interval of each measurement in m; at the
     end the verdict, where there are limits."""
 
     def __init__(self, protocol: Protocol, parent: QObject | None = None):
         super().__init__(parent)
         self._scenario = protocol.scenario
+        self._parameters = protocol.parameters
         self._results = protocol.progress.results
         self._kinds = 3 if has_intervals(self._results) else 2
         self._judgement = protocol.assessment.judgement
@@ -41,6 +42,8 @@ class ResultsModel(QAbstractTableModel):
 
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """See QAbstractItemModel."""
+        if role == Qt.ItemDataRole.ToolTipRole and section >= _FIXED_COLUMNS:
+            return "\n".join(map(translated, meanings(self._results))) or None
         if role != Qt.ItemDataRole.DisplayRole or orientation != Qt.Orientation.Horizontal:
             return None
         if section < _FIXED_COLUMNS:
@@ -48,7 +51,7 @@ class ResultsModel(QAbstractTableModel):
         if section == self._verdict_column:
             return domain_word("verdict").capitalize()
         word = domain_word(self._scenario.distance_words[self._index(section)]).capitalize()
-        return (f"{word} [cm]", "\N{PLUS-MINUS SIGN}", "95 %")[self._kind(section)]
+        return (f"{word} [m]", sigma_heading(self._results), f"{INTERVAL} [m]")[self._kind(section)]
 
     def data(self, index: QModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """See QAbstractItemModel."""
@@ -69,10 +72,10 @@ class ResultsModel(QAbstractTableModel):
         distance, kind = result.distances[self._index(column)], self._kind(column)
         if kind == _INTERVAL:
             return interval_text(distance)
-        if kind == _DISTANCE and distance.status is not LineStatus.OK:
-            return domain_word(distance.status.value.replace("_", " "))
-        value = distance.distance_m if kind == _DISTANCE else distance.uncertainty_m
-        return "" if value is None else number(value * _CM_PER_M, 1)
+        if kind == _DISTANCE:
+            figure = figures_of(self._scenario, self._parameters, result)[self._index(column)]
+            return cell_text(figure, distance.uncertainty_m)
+        return sigma_text(distance.uncertainty_m)
 
     def _reason(self, result: LineResult, column: int) -> str:
         """Why the line is invalid, or did not pass."""
@@ -86,11 +89,3 @@ class ResultsModel(QAbstractTableModel):
 
     def _kind(self, column: int) -> int:
         return (column - _FIXED_COLUMNS) % self._kinds
-
-
-def interval_text(distance: MeasuredDistance) -> str:
-    """Ends in cm; an inequality where the boundary lies beyond the other one."""
-    low, high = ("" if end is None else number(end * _CM_PER_M, 0) for end in (distance.low_m, distance.high_m))
-    if low and high:
-        return f"{low}\N{EN DASH}{high}"
-    return f"> {low}" if low else f"< {high}" if high else ""

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from PyQt5.QtCore import pyqtSignal
+from PyQt5.QtGui import QHideEvent, QShowEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.scenario import AnyScenario
+from mtr_operator.station.checks.checklist import Wanted, hindrances
+from mtr_operator.station.checks.finding import Check
 from mtr_operator.station.estimate import USUAL_CAR, Plan, plan_of
 from mtr_operator.station.view_model import ViewModel
 
 from ..fitting.scroller import Scroller
 from ..forms.given_form import GivenForm
+from ..forms.hold_button import HoldButton
 from ..forms.parameter_form import ParameterForm
-from ..header.reasons import reason_text
+from ..header.check_texts import check_text
 from ..i18n import duration
 from ..names import domain_word, scenario_title
 from ..pictures.layers.car_layer import CarLayer
@@ -54,9 +58,9 @@ class SettingsScreen(QWidget):
         self.caution = QLabel()
         self.caution.setWordWrap(True)
         self.caution.setProperty("role", "error")
-        self.start = QPushButton(self.tr("Start"))
+        self.start = HoldButton(self.tr("Hold to start"))
         self.start.setProperty("role", "primary")
-        self.start.clicked.connect(self._start)
+        self.start.held.connect(self._start)
         self._hindrance = QLabel()
         self._hindrance.setWordWrap(True)
         self._hindrance.setProperty("role", "error")
@@ -98,7 +102,8 @@ class SettingsScreen(QWidget):
     def show_model(self) -> None:
         """Something of robot or Car is another one."""
         status = self._model.robot.status if self._model.robot else None
-        shown = (self._model.mapped_car, self._model.readiness, status and status.battery_percent)
+        bad = hindrances(self._model.checklist)
+        shown = (self._model.mapped_car, self._model.readiness, status and status.battery_percent, bad)
         if shown != self._shown:
             self._shown = shown
             self._preview()
@@ -122,6 +127,22 @@ class SettingsScreen(QWidget):
         self.caution.setText(" ".join(filter(None, (*cautions, self.given.caution))))
         self.caution.setVisible(bool(self.caution.text()))
         self._judge()
+        if self.isVisible():
+            self._tell_wanted()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """See QWidget."""
+        super().showEvent(event)
+        self._tell_wanted()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """See QWidget; nothing is about to begin any more."""
+        super().hideEvent(event)
+        self._model.wanted = Wanted()
+
+    def _tell_wanted(self) -> None:
+        """What is about to begin, for the checklist."""
+        self._model.wanted = Wanted(self._plan, self.given.limit_count, self.given.limits_problem)
 
     def _forecast(self, is_mapped: bool) -> str:
         plan = self._plan
@@ -142,11 +163,11 @@ class SettingsScreen(QWidget):
 
     def _judge(self) -> None:
         readiness = self._model.readiness
-        hindrance = "" if readiness.can_start else " ".join(reason_text(reason) for reason in readiness.reasons
-                                                           if reason.is_blocking)
-        self._hindrance.setText(hindrance)
+        # The fields of the files say themselves what is wrong with them.
+        missing = [item for item in hindrances(self._model.checklist) if item.check is not Check.LIMITS]
+        self._hindrance.setText(" ".join(map(check_text, missing)))
         is_given_well = self.given.judge(None if self._plan is None else self.form.parameters)
-        self.start.setEnabled(self._plan is not None and is_given_well and readiness.can_start)
+        self.start.setEnabled(self._plan is not None and is_given_well and readiness.can_start and not missing)
 
     def _start(self) -> None:
         self.started.emit(self.form.parameters, self.given.paths)

@@ -63,19 +63,23 @@ class WelcomeScreen(QWidget):
                 moment=str(test.progress.session.get("started", "")).replace("T", " ")[:16],
                 done=len(test.progress.results), total=test.line_count))
 
+    def take_focus(self) -> None:
+        """What is likely to be wanted gets the focus."""
+        (self.new if self.offer.isHidden() else self._first).setFocus()
+
     def _make_offer(self) -> QWidget:
         offer = QWidget()
         self._notice = QLabel()
         self._notice.setWordWrap(True)
         self._notice.setProperty("role", "notice")
-        go_on = QPushButton(self.tr("Go on with it"))
-        go_on.setProperty("role", "primary")
-        go_on.clicked.connect(self.go_on)
+        self._first = QPushButton(self.tr("Go on with it"))
+        self._first.setProperty("role", "primary")
+        self._first.clicked.connect(self.go_on)
         dismiss = QPushButton(self.tr("Not now"))
         dismiss.clicked.connect(self.dismiss)
         row = QHBoxLayout()
         row.setSpacing(M)
-        row.addWidget(go_on)
+        row.addWidget(self._first)
         row.addWidget(dismiss)
         row.addStretch(1)
         column = QVBoxLayout(offer)

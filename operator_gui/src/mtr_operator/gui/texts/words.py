@@ -74,4 +74,13 @@ WORDS = (
     QT_TRANSLATE_NOOP("Word", "robot's Status and the Car's bus"),
     QT_TRANSLATE_NOOP("Word", "robot's map of the Car"),
     QT_TRANSLATE_NOOP("Word", "attempts of the test"),
+    QT_TRANSLATE_NOOP("Word", "all sides"),
+    QT_TRANSLATE_NOOP("Word", "started"),
+    QT_TRANSLATE_NOOP("Word", "continued"),
+    QT_TRANSLATE_NOOP("Word", "measured again"),
+    QT_TRANSLATE_NOOP("Word", "ended before its end"),
+    QT_TRANSLATE_NOOP("Word", "recovered"),
+    QT_TRANSLATE_NOOP("Word", "messages of the robot that were not used"),
+    QT_TRANSLATE_NOOP("Word", "messages that the robot refused"),
+    QT_TRANSLATE_NOOP("Word", "frames of the Car that were not believed"),
 )

@@ -22,6 +22,9 @@ QLabel[role="title"] { font-size: ${title_pt}pt; font-weight: 600; }
 QLabel[role="heading"] { font-size: ${heading_pt}pt; font-weight: 600; }
 QLabel[role="large"] { font-size: ${large_pt}pt; font-weight: 600; }
 QLabel[role="soft"] { color: $ink_soft; }
+QLabel[check="good"] { color: $ok; font-weight: 700; }
+QLabel[check="note"], QLabel[check="unknown"] { color: $warning; font-weight: 700; }
+QLabel[check="bad"] { color: $danger; font-weight: 700; }
 QLabel[stale="true"] { color: $ink_soft; font-style: italic; }
 QLabel[role="hint"] { color: $ink_soft; font-size: ${small_pt}pt; }
 QLabel[role="error"] { color: $danger; font-size: ${small_pt}pt; font-weight: 600; }

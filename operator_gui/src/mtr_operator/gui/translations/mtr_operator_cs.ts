@@ -4,14 +4,19 @@
 <context>
     <name>BatterySymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="43"/>
+        <location filename="../header/symbols.py" line="45"/>
         <source>Battery of the robot: unknown</source>
         <translation>Baterie robotu: neznámá</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="44"/>
+        <location filename="../header/symbols.py" line="46"/>
         <source>Battery of the robot: {percent} %</source>
         <translation>Baterie robotu: {percent} %</translation>
+    </message>
+    <message>
+        <location filename="../header/symbols.py" line="48"/>
+        <source>({age} s ago)</source>
+        <translation>(před {age} s)</translation>
     </message>
 </context>
 <context>
@@ -55,115 +60,125 @@
 <context>
     <name>CalibrationWindow</name>
     <message>
-        <location filename="../windows/calibration_window.py" line="40"/>
+        <location filename="../windows/calibration_window.py" line="43"/>
         <source>Calibration</source>
         <translation>Kalibrace</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="47"/>
+        <location filename="../windows/calibration_window.py" line="51"/>
         <source>Lock</source>
         <translation>Zamknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="47"/>
+        <location filename="../windows/calibration_window.py" line="51"/>
         <source>Unlock</source>
         <translation>Odemknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="53"/>
+        <location filename="../windows/calibration_window.py" line="57"/>
         <source>Send</source>
         <translation>Odeslat</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="93"/>
+        <location filename="../windows/calibration_window.py" line="97"/>
         <source>Wanted</source>
         <translation>Požadováno</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="107"/>
-        <source>Reported by the robot</source>
-        <translation>Hlášeno robotem</translation>
-    </message>
-    <message>
-        <location filename="../windows/calibration_window.py" line="96"/>
+        <location filename="../windows/calibration_window.py" line="100"/>
         <source>Buttons to press</source>
         <translation>Tlačítka ke stisknutí</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="108"/>
+        <location filename="../windows/calibration_window.py" line="112"/>
         <source>Key height</source>
         <translation>Výška klíče</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="108"/>
+        <location filename="../windows/calibration_window.py" line="112"/>
         <source>Buttons pressed</source>
         <translation>Stisknutá tlačítka</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="109"/>
-        <source>Press strength ordered</source>
-        <translation>Požadovaná síla stisku</translation>
-    </message>
-    <message>
-        <location filename="../windows/calibration_window.py" line="70"/>
+        <location filename="../windows/calibration_window.py" line="74"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="145"/>
+        <location filename="../windows/calibration_window.py" line="149"/>
         <source>none</source>
         <translation>žádné</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="156"/>
+        <location filename="../windows/calibration_window.py" line="166"/>
         <source>Pressed for {duration} s.</source>
         <translation>Stisknuto po dobu {duration} s.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="172"/>
+        <location filename="../windows/calibration_window.py" line="184"/>
         <source>Sent.</source>
         <translation>Odesláno.</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="111"/>
+        <source>Reported by robot and Car</source>
+        <translation>Hlásí robot a auto</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="113"/>
+        <source>The Car&apos;s locks</source>
+        <translation>Zámky auta</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="167"/>
+        <source>The Car has answered: {locks}.</source>
+        <translation>Auto odpovědělo: {locks}.</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="168"/>
+        <source>The Car has not answered.</source>
+        <translation>Auto neodpovědělo.</translation>
     </message>
 </context>
 <context>
     <name>CanForm</name>
     <message>
-        <location filename="../forms/can_form.py" line="32"/>
+        <location filename="../forms/can_form.py" line="36"/>
         <source>None yet</source>
         <translation>Zatím žádný</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="35"/>
+        <location filename="../forms/can_form.py" line="39"/>
         <source>Simulated Car (to try the application)</source>
         <translation>Simulované auto (na vyzkoušení aplikace)</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="36"/>
+        <location filename="../forms/can_form.py" line="40"/>
         <source>Channel</source>
         <translation>Kanál</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="36"/>
+        <location filename="../forms/can_form.py" line="40"/>
         <source>as the adapter&apos;s driver calls it</source>
         <translation>jak jej nazývá ovladač adaptéru</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="41"/>
+        <location filename="../forms/can_form.py" line="45"/>
         <source>Without an adapter everything but a test works.</source>
         <translation>Bez adaptéru funguje vše kromě testu.</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="47"/>
+        <location filename="../forms/can_form.py" line="51"/>
         <source>CAN adapter</source>
         <translation>Adaptér CAN</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="49"/>
+        <location filename="../forms/can_form.py" line="53"/>
         <source>Bit rate in bit/s</source>
         <translation>Přenosová rychlost v bit/s</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="50"/>
+        <location filename="../forms/can_form.py" line="54"/>
         <source>Car profile</source>
         <translation>Profil auta</translation>
     </message>
@@ -171,55 +186,463 @@
 <context>
     <name>CarCard</name>
     <message>
-        <location filename="../windows/car_card.py" line="23"/>
+        <location filename="../windows/car_card.py" line="24"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="27"/>
-        <source>Check its position</source>
-        <translation>Ověřit jeho polohu</translation>
-    </message>
-    <message>
-        <location filename="../windows/car_card.py" line="28"/>
-        <source>Map it again</source>
-        <translation>Znovu zmapovat</translation>
-    </message>
-    <message>
-        <location filename="../windows/car_card.py" line="29"/>
-        <source>The robot drives around the Car for both.</source>
-        <translation>K obojímu robot jezdí kolem auta.</translation>
-    </message>
-    <message>
-        <location filename="../windows/car_card.py" line="55"/>
+        <location filename="../windows/car_card.py" line="58"/>
         <source>The robot maps the Car.</source>
         <translation>Robot mapuje auto.</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="57"/>
+        <location filename="../windows/car_card.py" line="60"/>
         <source>The robot checks where the Car stands.</source>
         <translation>Robot ověřuje, kde auto stojí.</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="62"/>
+        <location filename="../windows/car_card.py" line="65"/>
         <source>The Car is not measured yet.</source>
         <translation>Auto ještě není změřeno.</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="63"/>
+        <location filename="../windows/car_card.py" line="66"/>
         <source>The Car measures {length} m by {width} m.</source>
         <translation>Auto měří {length} m × {width} m.</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="53"/>
+        <location filename="../windows/car_card.py" line="56"/>
         <source>The robot was stopped on its way around the Car.</source>
         <translation>Robot byl zastaven na cestě kolem auta.</translation>
+    </message>
+    <message>
+        <location filename="../windows/car_card.py" line="28"/>
+        <source>Hold to check its position</source>
+        <translation>Podržením zkontrolovat polohu</translation>
+    </message>
+    <message>
+        <location filename="../windows/car_card.py" line="51"/>
+        <source>Hold to map it again</source>
+        <translation>Podržením znovu zmapovat</translation>
+    </message>
+    <message>
+        <location filename="../windows/car_card.py" line="30"/>
+        <source>The robot drives around the Car for both: hold the button when its way is clear.</source>
+        <translation>Robot při obojím objíždí auto: tlačítko podržte, až bude cesta volná.</translation>
+    </message>
+    <message>
+        <location filename="../windows/car_card.py" line="51"/>
+        <source>Hold to map it</source>
+        <translation>Podržením zmapovat</translation>
+    </message>
+</context>
+<context>
+    <name>Check</name>
+    <message>
+        <location filename="../header/check_texts.py" line="19"/>
+        <source>Link</source>
+        <translation>Spojení</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="19"/>
+        <source>Encryption</source>
+        <translation>Šifrování</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="20"/>
+        <source>Robot</source>
+        <translation>Robot</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="20"/>
+        <source>Emergency stop</source>
+        <translation>Nouzové zastavení</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="21"/>
+        <source>Position</source>
+        <translation>Poloha</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="21"/>
+        <source>LiDARs</source>
+        <translation>Lidary</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="22"/>
+        <source>Lift and buttons</source>
+        <translation>Zdvih a tlačítka</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="22"/>
+        <source>Battery</source>
+        <translation>Baterie</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="23"/>
+        <source>CAN bus</source>
+        <translation>Sběrnice CAN</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="23"/>
+        <source>Car&apos;s locks</source>
+        <translation>Zámky auta</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="24"/>
+        <source>Clocks</source>
+        <translation>Hodiny</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="24"/>
+        <source>Remote key</source>
+        <translation>Klíč</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="25"/>
+        <source>Disk</source>
+        <translation>Disk</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="25"/>
+        <source>Limits</source>
+        <translation>Meze</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="34"/>
+        <source>Not known while the robot is silent.</source>
+        <translation>Dokud robot mlčí, není známo.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="35"/>
+        <source>The robot&apos;s newest message is {first} s old.</source>
+        <translation>Nejnovější zpráva robotu je stará {first} s.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="36"/>
+        <source>The robot has not answered for {first} s.</source>
+        <translation>Robot už {first} s neodpovídá.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="37"/>
+        <source>The link to the robot is encrypted.</source>
+        <translation>Spojení s robotem je šifrované.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="38"/>
+        <source>The link is not encrypted: whoever is in its network can listen and send.</source>
+        <translation>Spojení není šifrované: kdo je v jeho síti, může poslouchat i vysílat.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="40"/>
+        <source>It takes orders, and reports nothing against a test.</source>
+        <translation>Přijímá pokyny a nehlásí nic, co by bránilo testu.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="41"/>
+        <source>The robot is still starting.</source>
+        <translation>Robot se ještě spouští.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="42"/>
+        <source>The robot reports a fault.</source>
+        <translation>Robot hlásí poruchu.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="43"/>
+        <source>Another application controls the robot.</source>
+        <translation>Robot ovládá jiná aplikace.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="46"/>
+        <source>The one by hand is heard, and released.</source>
+        <translation>Ruční ovladač je slyšet a je uvolněný.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="47"/>
+        <source>The one by hand is engaged: the robot stands.</source>
+        <translation>Na ručním ovladači je stisknuto: robot stojí.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="48"/>
+        <source>The robot has none by hand.</source>
+        <translation>Robot nemá ruční ovladač.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="49"/>
+        <source>The robot does not say whether it has one by hand.</source>
+        <translation>Robot neříká, zda má ruční ovladač.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="51"/>
+        <source>Known beside the Car.</source>
+        <translation>Vůči autu známa.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="52"/>
+        <source>Not known yet: a test begins with a drive around the Car.</source>
+        <translation>Zatím neznámá: test začíná objetím auta.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="53"/>
+        <source>The robot does not know its position.</source>
+        <translation>Robot nezná svou polohu.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="55"/>
+        <source>The robot reports nothing against them.</source>
+        <translation>Robot nehlásí nic, co by jim vadilo.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="56"/>
+        <source>At {first} %; what a test takes is told when it is chosen.</source>
+        <translation>Na {first} %; kolik test spotřebuje, se ukáže po jeho zvolení.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="57"/>
+        <source>At {first} %; the test takes about {second} %.</source>
+        <translation>Na {first} %; test spotřebuje asi {second} %.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="58"/>
+        <source>At {first} % it may not suffice: the test takes about {second} %.</source>
+        <translation>Na {first} % nemusí stačit: test spotřebuje asi {second} %.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="59"/>
+        <source>Low: {first} %.</source>
+        <translation>Slabá: {first} %.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="60"/>
+        <source>Nearly empty: {first} %.</source>
+        <translation>Téměř vybitá: {first} %.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="61"/>
+        <source>The robot does not say its charge.</source>
+        <translation>Robot neříká, jak je nabitá.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="62"/>
+        <source>Load {first} %, lock message every {second} ms.</source>
+        <translation>Vytížení {first} %, zpráva o zámcích každých {second} ms.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="63"/>
+        <source>Load {first} %, no lock message yet.</source>
+        <translation>Vytížení {first} %, zpráva o zámcích zatím nepřišla.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="64"/>
+        <source>There is none: the Car is a substitute inside the application.</source>
+        <translation>Žádná není: auto je náhrada uvnitř aplikace.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="65"/>
+        <source>Load {first} %: messages may be late, and so the time of events.</source>
+        <translation>Vytížení {first} %: zprávy se mohou opožďovat, a s nimi čas událostí.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="66"/>
+        <source>The lock message comes every {first} ms; the profile says {second} ms.</source>
+        <translation>Zpráva o zámcích chodí každých {first} ms; profil uvádí {second} ms.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="67"/>
+        <source>No CAN adapter is chosen.</source>
+        <translation>Není zvolen žádný adaptér CAN.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="68"/>
+        <source>The Car says: {said}.</source>
+        <translation>Auto hlásí: {said}.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="69"/>
+        <source>The Car does not say whether it is locked.</source>
+        <translation>Auto neříká, zda je zamčené.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="70"/>
+        <source>Events of the Car have a time on the robot&apos;s clock.</source>
+        <translation>Události auta mají čas na hodinách robotu.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="71"/>
+        <source>Not known without an adapter.</source>
+        <translation>Bez adaptéru není známo.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="72"/>
+        <source>The Car has reacted {first} s ago: the key is awake.</source>
+        <translation>Auto reagovalo před {first} s: klíč je vzhůru.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="73"/>
+        <source>Whether it is awake nobody knows before the Car reacts to it.</source>
+        <translation>Zda je vzhůru, se pozná, až na něj auto zareaguje.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="74"/>
+        <source>{first} GB are free.</source>
+        <translation>Volných je {first} GB.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="75"/>
+        <source>Only {first} GB are free.</source>
+        <translation>Volných je jen {first} GB.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="76"/>
+        <source>Nearly full: {first} GB are free.</source>
+        <translation>Téměř plný: volných je {first} GB.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="77"/>
+        <source>The system does not say how much room there is.</source>
+        <translation>Systém neříká, kolik je na něm místa.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="78"/>
+        <source>Limits loaded: {first}.</source>
+        <translation>Načtené meze: {first}.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="79"/>
+        <source>None: the lines get no verdict.</source>
+        <translation>Žádné: přímky nebudou hodnoceny.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="87"/>
+        <source>Check the Wi-Fi and that the robot is on; the link comes back by itself.</source>
+        <translation>Zkontrolujte Wi-Fi a že je robot zapnutý; spojení se obnoví samo.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="89"/>
+        <source>This version has no encryption yet; use a network of the robot&apos;s own.</source>
+        <translation>Tato verze šifrování ještě nemá; použijte vlastní síť robotu.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="91"/>
+        <source>Wait a moment.</source>
+        <translation>Chvíli počkejte.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="92"/>
+        <source>Make sure that nothing blocks the robot; if the fault stays, switch it off and on.</source>
+        <translation>Ujistěte se, že robotu nic nebrání; pokud porucha trvá, vypněte jej a zapněte.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="94"/>
+        <source>End the other application; control comes here by itself.</source>
+        <translation>Ukončete druhou aplikaci; řízení sem přejde samo.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="95"/>
+        <source>Release it when the area is clear.</source>
+        <translation>Uvolněte je, až bude prostor volný.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="96"/>
+        <source>Stay where you reach the button on the robot.</source>
+        <translation>Zůstaňte tam, kde dosáhnete na tlačítko na robotu.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="97"/>
+        <source>Let it see the Car; if it stays lost, map the Car again under Calibrate.</source>
+        <translation>Nechte jej vidět auto; pokud polohu nenajde, zmapujte auto znovu v Kalibraci.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="99"/>
+        <source>Charge it, or measure fewer lines; an interrupted test can be gone on with.</source>
+        <translation>Nabijte ji, nebo změřte méně přímek; v přerušeném testu lze pokračovat.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="101"/>
+        <source>Charge it soon.</source>
+        <translation>Brzy ji nabijte.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="102"/>
+        <source>Charge it before the test.</source>
+        <translation>Před testem ji nabijte.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="103"/>
+        <source>Check bit rate and other testers on the bus.</source>
+        <translation>Zkontrolujte rychlost a další testery na sběrnici.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="104"/>
+        <source>Check whether the profile is that of this Car.</source>
+        <translation>Zkontrolujte, zda profil patří tomuto autu.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="105"/>
+        <source>Choose one under Settings, CAN adapter.</source>
+        <translation>Zvolte jej v Nastavení, Adaptér CAN.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="106"/>
+        <source>If the adapter is the wrong one, choose another under Settings.</source>
+        <translation>Pokud je to jiný adaptér, zvolte správný v Nastavení.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="107"/>
+        <source>Wake the Car, e.g. open a door; check the car profile.</source>
+        <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="108"/>
+        <source>Press one of its buttons under Calibrate; a test notices a key that sleeps.</source>
+        <translation>Stiskněte v Kalibraci některé jeho tlačítko; test pozná, že klíč spí.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="111"/>
+        <source>Make room, or choose another folder under Settings.</source>
+        <translation>Uvolněte místo, nebo zvolte v Nastavení jinou složku.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="112"/>
+        <source>Choose a limits file below the parameters if there are limits.</source>
+        <translation>Jsou-li předepsané meze, zvolte pod parametry jejich soubor.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="113"/>
+        <source>Choose another file below the parameters, or none.</source>
+        <translation>Zvolte pod parametry jiný soubor, nebo žádný.</translation>
+    </message>
+    <message>
+        <location filename="../header/checklist_panel.py" line="73"/>
+        <source>good</source>
+        <translation>v pořádku</translation>
+    </message>
+    <message>
+        <location filename="../header/checklist_panel.py" line="73"/>
+        <source>note</source>
+        <translation>upozornění</translation>
+    </message>
+    <message>
+        <location filename="../header/checklist_panel.py" line="74"/>
+        <source>not known</source>
+        <translation>není známo</translation>
+    </message>
+    <message>
+        <location filename="../header/checklist_panel.py" line="74"/>
+        <source>hinders a test</source>
+        <translation>brání testu</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="50"/>
+        <source>Known beside the Car to {first} cm (1 sigma).</source>
+        <translation>Vůči autu známa na {first} cm (1 sigma).</translation>
     </message>
 </context>
 <context>
     <name>CogwheelButton</name>
     <message>
-        <location filename="../header/symbols.py" line="113"/>
+        <location filename="../header/symbols.py" line="157"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
@@ -227,42 +650,42 @@
 <context>
     <name>ConnectionWindow</name>
     <message>
-        <location filename="../windows/connection_window.py" line="29"/>
+        <location filename="../windows/connection_window.py" line="33"/>
         <source>Connect to the robot</source>
         <translation>Připojení k robotu</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="50"/>
+        <location filename="../windows/connection_window.py" line="58"/>
         <source>Connect</source>
         <translation>Připojit</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="54"/>
+        <location filename="../windows/connection_window.py" line="62"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="54"/>
+        <location filename="../windows/connection_window.py" line="62"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="94"/>
+        <location filename="../windows/connection_window.py" line="116"/>
         <source>The IP address or port provided is invalid.</source>
         <translation>Zadaná IP adresa nebo port je neplatný.</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="87"/>
+        <location filename="../windows/connection_window.py" line="107"/>
         <source>Connecting to {host} ...</source>
         <translation>Připojuji se k {host} ...</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="95"/>
+        <location filename="../windows/connection_window.py" line="117"/>
         <source>Connection failed, check the parameters.</source>
         <translation>Připojení selhalo, zkontrolujte parametry.</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="96"/>
+        <location filename="../windows/connection_window.py" line="122"/>
         <source>The CAN adapter cannot be used.</source>
         <translation>Adaptér CAN nelze použít.</translation>
     </message>
@@ -283,6 +706,44 @@
         <location filename="../i18n.py" line="64"/>
         <source>{hours} h {minutes:02d} min</source>
         <translation>{hours} h {minutes:02d} min</translation>
+    </message>
+</context>
+<context>
+    <name>Figure</name>
+    <message>
+        <location filename="../texts/figures.py" line="5"/>
+        <source>{first}</source>
+        <translation>{first}</translation>
+    </message>
+    <message>
+        <location filename="../texts/figures.py" line="5"/>
+        <source>at least {first}</source>
+        <translation>nejméně {first}</translation>
+    </message>
+    <message>
+        <location filename="../texts/figures.py" line="5"/>
+        <source>at most {first}</source>
+        <translation>nejvýše {first}</translation>
+    </message>
+    <message>
+        <location filename="../texts/figures.py" line="5"/>
+        <source>{first} to {second}</source>
+        <translation>{first} až {second}</translation>
+    </message>
+    <message>
+        <location filename="../texts/figures.py" line="5"/>
+        <source>not reached</source>
+        <translation>nedosaženo</translation>
+    </message>
+    <message>
+        <location filename="../texts/figures.py" line="5"/>
+        <source>invalid</source>
+        <translation>neplatné</translation>
+    </message>
+    <message>
+        <location filename="../texts/figures.py" line="5"/>
+        <source>key</source>
+        <translation>klíč</translation>
     </message>
 </context>
 <context>
@@ -311,32 +772,32 @@
 <context>
     <name>GivenForm</name>
     <message>
-        <location filename="../forms/given_form.py" line="36"/>
+        <location filename="../forms/given_form.py" line="37"/>
         <source>Limits file</source>
         <translation>Soubor mezí</translation>
     </message>
     <message>
-        <location filename="../forms/given_form.py" line="36"/>
+        <location filename="../forms/given_form.py" line="37"/>
         <source>none: no verdict</source>
         <translation>žádný: bez verdiktu</translation>
     </message>
     <message>
-        <location filename="../forms/given_form.py" line="36"/>
+        <location filename="../forms/given_form.py" line="37"/>
         <source>What the distances have to be; the lines are judged by it.</source>
         <translation>Jaké vzdálenosti mají být; podle toho se linie posoudí.</translation>
     </message>
     <message>
-        <location filename="../forms/given_form.py" line="38"/>
+        <location filename="../forms/given_form.py" line="39"/>
         <source>Calibration record</source>
         <translation>Kalibrační záznam</translation>
     </message>
     <message>
-        <location filename="../forms/given_form.py" line="38"/>
+        <location filename="../forms/given_form.py" line="39"/>
         <source>that of the design</source>
         <translation>konstrukční</translation>
     </message>
     <message>
-        <location filename="../forms/given_form.py" line="38"/>
+        <location filename="../forms/given_form.py" line="39"/>
         <source>What is known of this robot; the uncertainties follow from it.</source>
         <translation>Co je o tomto robotu známo; plynou z toho nejistoty.</translation>
     </message>
@@ -344,37 +805,94 @@
 <context>
     <name>HeaderBar</name>
     <message>
-        <location filename="../header/header_bar.py" line="35"/>
+        <location filename="../header/header_bar.py" line="39"/>
         <source>Welcome</source>
         <translation>Úvod</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="35"/>
+        <location filename="../header/header_bar.py" line="39"/>
         <source>Measurement type</source>
         <translation>Typ měření</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="35"/>
+        <location filename="../header/header_bar.py" line="39"/>
         <source>Measurement</source>
         <translation>Měření</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="35"/>
+        <location filename="../header/header_bar.py" line="39"/>
         <source>Protocol</source>
         <translation>Protokol</translation>
     </message>
 </context>
 <context>
-    <name>LockSymbol</name>
+    <name>HoldButton</name>
     <message>
-        <location filename="../header/symbols.py" line="83"/>
+        <location filename="../forms/hold_button.py" line="30"/>
+        <source>Hold it for {time} s, with the mouse, Space or Enter: so you confirm that nobody and nothing is in the robot&apos;s way.</source>
+        <translation>Podržte {time} s myší, mezerníkem nebo klávesou Enter: tím potvrzujete, že robotu nikdo a nic nestojí v cestě.</translation>
+    </message>
+</context>
+<context>
+    <name>LanguageBox</name>
+    <message>
+        <location filename="../forms/language_box.py" line="18"/>
+        <source>As the system</source>
+        <translation>Podle systému</translation>
+    </message>
+    <message>
+        <location filename="../forms/language_box.py" line="22"/>
+        <source>Language</source>
+        <translation>Jazyk</translation>
+    </message>
+</context>
+<context>
+    <name>LinkSymbol</name>
+    <message>
+        <location filename="../header/symbols.py" line="130"/>
         <source>The link to the robot is encrypted.</source>
         <translation>Spojení s robotem je šifrované.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="84"/>
+        <location filename="../header/symbols.py" line="131"/>
         <source>The link to the robot is not encrypted.</source>
         <translation>Spojení s robotem není šifrované.</translation>
+    </message>
+</context>
+<context>
+    <name>Locks</name>
+    <message>
+        <location filename="../names.py" line="63"/>
+        <source>locked</source>
+        <translation>zamčeno</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="63"/>
+        <source>unlocked</source>
+        <translation>odemčeno</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="64"/>
+        <source>not known</source>
+        <translation>není známo</translation>
+    </message>
+</context>
+<context>
+    <name>LocksSymbol</name>
+    <message>
+        <location filename="../header/symbols.py" line="89"/>
+        <source>The Car is locked.</source>
+        <translation>Auto je zamčené.</translation>
+    </message>
+    <message>
+        <location filename="../header/symbols.py" line="89"/>
+        <source>The Car is unlocked.</source>
+        <translation>Auto je odemčené.</translation>
+    </message>
+    <message>
+        <location filename="../header/symbols.py" line="90"/>
+        <source>Whether the Car is locked is not known.</source>
+        <translation>Zda je auto zamčené, není známo.</translation>
     </message>
 </context>
 <context>
@@ -385,37 +903,37 @@
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="95"/>
+        <location filename="../windows/main_window.py" line="160"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="142"/>
+        <location filename="../windows/main_window.py" line="143"/>
         <source>Continue test</source>
         <translation>Pokračovat v testu</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="151"/>
+        <location filename="../windows/main_window.py" line="163"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="153"/>
+        <location filename="../windows/main_window.py" line="165"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="168"/>
+        <location filename="../windows/main_window.py" line="180"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="172"/>
+        <location filename="../windows/main_window.py" line="184"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="172"/>
+        <location filename="../windows/main_window.py" line="184"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
@@ -423,92 +941,77 @@
 <context>
     <name>MeasurementFacts</name>
     <message>
-        <location filename="../screens/measurement_facts.py" line="41"/>
+        <location filename="../screens/measurement_facts.py" line="42"/>
         <source>Progress of the test</source>
         <translation>Průběh testu</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="47"/>
+        <location filename="../screens/measurement_facts.py" line="48"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="47"/>
+        <location filename="../screens/measurement_facts.py" line="48"/>
         <source>Locks</source>
         <translation>Zámky</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="47"/>
+        <location filename="../screens/measurement_facts.py" line="48"/>
         <source>Key height</source>
         <translation>Výška klíče</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="48"/>
+        <location filename="../screens/measurement_facts.py" line="49"/>
         <source>Speed</source>
         <translation>Rychlost</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="48"/>
+        <location filename="../screens/measurement_facts.py" line="49"/>
         <source>Position</source>
         <translation>Poloha</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="48"/>
+        <location filename="../screens/measurement_facts.py" line="49"/>
         <source>Last result</source>
         <translation>Poslední výsledek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="75"/>
+        <location filename="../screens/measurement_facts.py" line="76"/>
         <source>{done} of {total} lines measured</source>
         <translation>změřeno {done} z {total} přímek</translation>
     </message>
     <message>
         <location filename="../screens/measurement_facts.py" line="109"/>
-        <source>locked</source>
-        <translation>zamčeno</translation>
-    </message>
-    <message>
-        <location filename="../screens/measurement_facts.py" line="109"/>
-        <source>unlocked</source>
-        <translation>odemčeno</translation>
-    </message>
-    <message>
-        <location filename="../screens/measurement_facts.py" line="110"/>
-        <source>unknown</source>
-        <translation>neznámý stav</translation>
-    </message>
-    <message>
-        <location filename="../screens/measurement_facts.py" line="114"/>
         <source>not known</source>
         <translation>není známa</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="121"/>
+        <location filename="../screens/measurement_facts.py" line="116"/>
         <source>about {time} left</source>
         <translation>zbývá asi {time}</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="127"/>
+        <location filename="../screens/measurement_facts.py" line="122"/>
         <source>The robot is being stopped.</source>
         <translation>Robot se zastavuje.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="129"/>
+        <location filename="../screens/measurement_facts.py" line="124"/>
         <source>Paused. The line at hand is measured anew after Resume.</source>
         <translation>Pozastaveno. Rozpracovaná přímka se po pokračování změří znovu.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="49"/>
+        <location filename="../screens/measurement_facts.py" line="50"/>
         <source>Verdict so far</source>
         <translation>Zatím verdikt</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="91"/>
+        <location filename="../screens/measurement_facts.py" line="92"/>
         <source>The values below are {age} s old.</source>
         <translation>Údaje níže jsou {age} s staré.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="131"/>
+        <location filename="../screens/measurement_facts.py" line="126"/>
         <source>Waits until the robot is heard again.</source>
         <translation>Čeká se, až bude robot zase slyšet.</translation>
     </message>
@@ -516,34 +1019,34 @@
 <context>
     <name>MeasurementScreen</name>
     <message>
-        <location filename="../screens/measurement.py" line="56"/>
-        <source>Resume</source>
-        <translation>Pokračovat</translation>
-    </message>
-    <message>
-        <location filename="../screens/measurement.py" line="57"/>
+        <location filename="../screens/measurement.py" line="59"/>
         <source>Save progress</source>
         <translation>Uložit průběh</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="58"/>
+        <location filename="../screens/measurement.py" line="60"/>
         <source>Back to the beginning</source>
         <translation>Zpět na začátek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="54"/>
-        <source>Have the robot go on</source>
-        <translation>Nechat robot pokračovat</translation>
-    </message>
-    <message>
-        <location filename="../screens/measurement.py" line="55"/>
+        <location filename="../screens/measurement.py" line="57"/>
         <source>Handle taken</source>
         <translation>Klika uchopena</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="137"/>
+        <location filename="../screens/measurement.py" line="143"/>
         <source>Take the Car&apos;s handle now, with the Remote key at {distance} m, and then say so here, by Enter or the button. When the Car unlocks, nothing more is to be done.</source>
         <translation>Uchopte nyní kliku auta, klíč je ve vzdálenosti {distance} m, a pak to zde potvrďte klávesou Enter nebo tlačítkem. Když se auto odemkne, není třeba nic dalšího.</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="58"/>
+        <source>Hold to resume</source>
+        <translation>Podržením pokračovat</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="56"/>
+        <source>Hold to go on</source>
+        <translation>Podržením jet dál</translation>
     </message>
 </context>
 <context>
@@ -562,234 +1065,249 @@
 <context>
     <name>Parameter</name>
     <message>
-        <location filename="../names.py" line="17"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Minimum distance</source>
         <translation>Nejmenší vzdálenost</translation>
     </message>
     <message>
-        <location filename="../names.py" line="18"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Starting distance</source>
         <translation>Počáteční vzdálenost</translation>
     </message>
     <message>
-        <location filename="../names.py" line="19"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Straightening distance</source>
         <translation>Srovnávací vzdálenost</translation>
     </message>
     <message>
-        <location filename="../names.py" line="20"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Measurements distance</source>
         <translation>Rozteč měření</translation>
     </message>
     <message>
-        <location filename="../names.py" line="21"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Approach distance</source>
         <translation>Krok přiblížení</translation>
     </message>
     <message>
-        <location filename="../names.py" line="22"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Degrees between radials</source>
         <translation>Stupně mezi paprsky</translation>
     </message>
     <message>
-        <location filename="../names.py" line="23"/>
-        <source>Device height</source>
-        <translation>Výška zařízení</translation>
-    </message>
-    <message>
-        <location filename="../names.py" line="24"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Maximum speed</source>
         <translation>Nejvyšší rychlost</translation>
     </message>
     <message>
-        <location filename="../names.py" line="25"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Measuring speed</source>
         <translation>Rychlost měření</translation>
     </message>
     <message>
-        <location filename="../names.py" line="30"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Clearance</source>
         <translation>Odstup</translation>
     </message>
     <message>
-        <location filename="../names.py" line="31"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Response time</source>
         <translation>Doba odezvy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="32"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Locking time</source>
         <translation>Doba zamčení</translation>
     </message>
     <message>
-        <location filename="../names.py" line="33"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Press strength</source>
         <translation>Síla stisku</translation>
     </message>
     <message>
-        <location filename="../names.py" line="34"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Press duration</source>
         <translation>Délka stisku</translation>
     </message>
     <message>
-        <location filename="../names.py" line="35"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Standstill before a press</source>
         <translation>Klid před stiskem</translation>
     </message>
     <message>
-        <location filename="../names.py" line="36"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Attempts</source>
         <translation>Počet pokusů</translation>
     </message>
     <message>
-        <location filename="../names.py" line="67"/>
+        <location filename="../names.py" line="21"/>
         <source>Check the Car&apos;s position before the test</source>
         <translation>Před testem ověřit polohu auta</translation>
     </message>
     <message>
-        <location filename="../names.py" line="89"/>
+        <location filename="../names.py" line="43"/>
         <source>yes</source>
         <translation>ano</translation>
     </message>
     <message>
-        <location filename="../names.py" line="89"/>
+        <location filename="../names.py" line="43"/>
         <source>no</source>
         <translation>ne</translation>
     </message>
     <message>
-        <location filename="../names.py" line="48"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Distance beside the line</source>
         <translation>Odchylka od osy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="49"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Turn from the line</source>
         <translation>Natočení od osy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="50"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Difference in height</source>
         <translation>Odchylka výšky</translation>
     </message>
     <message>
-        <location filename="../names.py" line="51"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Difference in speed</source>
         <translation>Odchylka rychlosti</translation>
     </message>
     <message>
-        <location filename="../names.py" line="26"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Passes</source>
         <translation>Průjezdy</translation>
     </message>
     <message>
-        <location filename="../names.py" line="27"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Speeds of the passes</source>
         <translation>Rychlosti průjezdů</translation>
     </message>
     <message>
-        <location filename="../names.py" line="28"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Sigma of the boundary</source>
         <translation>Sigma hranice</translation>
     </message>
     <message>
-        <location filename="../names.py" line="29"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Step of a last approach</source>
         <translation>Krok posledního přiblížení</translation>
     </message>
     <message>
-        <location filename="../names.py" line="37"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Interval wanted, half width</source>
         <translation>Požadovaný interval, polovina šířky</translation>
     </message>
     <message>
-        <location filename="../names.py" line="44"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Presses at most</source>
         <translation>Nejvýše stisků</translation>
     </message>
     <message>
-        <location filename="../names.py" line="46"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Key&apos;s radio frequency</source>
         <translation>Rádiová frekvence klíče</translation>
     </message>
     <message>
-        <location filename="../names.py" line="47"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Key&apos;s rest at most</source>
         <translation>Klid klíče nejvýše</translation>
     </message>
     <message>
-        <location filename="../names.py" line="73"/>
+        <location filename="../names.py" line="27"/>
         <source>Method</source>
         <translation>Metoda</translation>
     </message>
     <message>
-        <location filename="../names.py" line="80"/>
+        <location filename="../names.py" line="34"/>
         <source>from far to near (scan)</source>
         <translation>z dálky k autu (scan)</translation>
     </message>
     <message>
-        <location filename="../names.py" line="81"/>
+        <location filename="../names.py" line="35"/>
         <source>search with intervals (adaptive)</source>
         <translation>hledání s intervaly (adaptive)</translation>
     </message>
     <message>
-        <location filename="../names.py" line="45"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Presses that confirm</source>
         <translation>Potvrzujících stisků</translation>
     </message>
     <message>
-        <location filename="../names.py" line="38"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Nominal border</source>
         <translation>Jmenovitá hranice</translation>
     </message>
     <message>
-        <location filename="../names.py" line="39"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Requests at the border</source>
         <translation>Žádosti na hranici</translation>
     </message>
     <message>
-        <location filename="../names.py" line="40"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Time for the Operator</source>
         <translation>Doba pro obsluhu</translation>
     </message>
     <message>
-        <location filename="../names.py" line="41"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Heights</source>
         <translation>Počet výšek</translation>
     </message>
     <message>
-        <location filename="../names.py" line="42"/>
-        <source>Highest device height</source>
-        <translation>Největší výška zařízení</translation>
-    </message>
-    <message>
-        <location filename="../names.py" line="43"/>
+        <location filename="../texts/parameter_names.py" line="5"/>
         <source>Half a wavelength</source>
         <translation>Polovina vlnové délky</translation>
     </message>
     <message>
-        <location filename="../names.py" line="73"/>
+        <location filename="../names.py" line="27"/>
         <source>Side of the Car</source>
         <translation>Strana auta</translation>
     </message>
     <message>
-        <location filename="../names.py" line="74"/>
+        <location filename="../names.py" line="28"/>
         <source>Locking the Car again</source>
         <translation>Opětovné zamčení auta</translation>
     </message>
     <message>
-        <location filename="../names.py" line="82"/>
+        <location filename="../names.py" line="36"/>
         <source>all around</source>
         <translation>kolem celého auta</translation>
     </message>
     <message>
-        <location filename="../names.py" line="82"/>
+        <location filename="../names.py" line="36"/>
         <source>by the key&apos;s button</source>
         <translation>tlačítkem klíče</translation>
     </message>
     <message>
-        <location filename="../names.py" line="83"/>
+        <location filename="../names.py" line="37"/>
         <source>the Car by itself</source>
         <translation>auto samo</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Key height</source>
+        <translation>Výška klíče</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Highest key height</source>
+        <translation>Největší výška klíče</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Distance between places</source>
+        <translation>Vzdálenost mezi místy</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Coverage wanted, half width</source>
+        <translation>Požadované pokrytí, poloviční šířka</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Presses in a zone at most</source>
+        <translation>Stisků v zóně nejvýše</translation>
     </message>
 </context>
 <context>
@@ -1144,19 +1662,24 @@
 <context>
     <name>Picture</name>
     <message>
-        <location filename="../pictures/layers/car_layer.py" line="74"/>
+        <location filename="../pictures/layers/car_layer.py" line="84"/>
         <source>FRONT</source>
         <translation>PŘEDEK</translation>
     </message>
     <message>
-        <location filename="../pictures/legend.py" line="30"/>
-        <source>uncertainty (1 sigma)</source>
-        <translation>nejistota (1 sigma)</translation>
-    </message>
-    <message>
-        <location filename="../pictures/legend.py" line="32"/>
+        <location filename="../pictures/legend.py" line="28"/>
         <source>95 % interval</source>
         <translation>95% interval</translation>
+    </message>
+    <message>
+        <location filename="../pictures/legend.py" line="28"/>
+        <source>place of the key (1 sigma)</source>
+        <translation>místo klíče (1 sigma)</translation>
+    </message>
+    <message>
+        <location filename="../pictures/legend.py" line="28"/>
+        <source>border somewhere in between</source>
+        <translation>hranice je někde mezi</translation>
     </message>
 </context>
 <context>
@@ -1221,133 +1744,183 @@
 <context>
     <name>Protocol</name>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="69"/>
+        <location filename="../pictures/protocol_sheet.py" line="95"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="82"/>
+        <location filename="../pictures/protocol_sheet.py" line="108"/>
         <source>Result</source>
         <translation>Výsledek</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="82"/>
+        <location filename="../pictures/protocol_sheet.py" line="108"/>
         <source>Parameters</source>
         <translation>Parametry</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="82"/>
+        <location filename="../pictures/protocol_sheet.py" line="108"/>
         <source>Test</source>
         <translation>Test</translation>
+    </message>
+    <message>
+        <location filename="../pictures/protocol_sheet.py" line="66"/>
+        <source>page {page} of {count}</source>
+        <translation>strana {page} z {count}</translation>
+    </message>
+    <message>
+        <location filename="../pictures/protocol_tables.py" line="84"/>
+        <source>Lines</source>
+        <translation>Přímky</translation>
+    </message>
+    <message>
+        <location filename="../pictures/protocol_tables.py" line="84"/>
+        <source>Minimum [m]</source>
+        <translation>Minimum [m]</translation>
+    </message>
+    <message>
+        <location filename="../pictures/protocol_tables.py" line="84"/>
+        <source>Mean [m]</source>
+        <translation>Průměr [m]</translation>
+    </message>
+    <message>
+        <location filename="../pictures/protocol_tables.py" line="84"/>
+        <source>Maximum [m]</source>
+        <translation>Maximum [m]</translation>
+    </message>
+    <message>
+        <location filename="../pictures/protocol_tables.py" line="84"/>
+        <source>Worst line</source>
+        <translation>Nejhorší</translation>
+    </message>
+    <message>
+        <location filename="../pictures/protocol_tables.py" line="133"/>
+        <source>Course of the test</source>
+        <translation>Průběh testu</translation>
     </message>
 </context>
 <context>
     <name>ProtocolScreen</name>
     <message>
-        <location filename="../screens/protocol.py" line="62"/>
-        <source>Results; choose a row to see its points</source>
-        <translation>Výsledky; vyberte řádek a uvidíte jeho body</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="66"/>
+        <location filename="../screens/protocol.py" line="71"/>
         <source>Save</source>
         <translation>Uložit</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="67"/>
+        <location filename="../screens/protocol.py" line="72"/>
         <source>Save as CSV and PNG</source>
         <translation>Uložit jako CSV a PNG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="68"/>
+        <location filename="../screens/protocol.py" line="73"/>
         <source>Save PDF</source>
         <translation>Uložit PDF</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="69"/>
+        <location filename="../screens/protocol.py" line="74"/>
         <source>Save SVG</source>
         <translation>Uložit SVG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="70"/>
+        <location filename="../screens/protocol.py" line="75"/>
         <source>Show folder</source>
         <translation>Ukázat složku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="71"/>
+        <location filename="../screens/protocol.py" line="78"/>
         <source>New test</source>
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="141"/>
+        <location filename="../screens/protocol.py" line="149"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="162"/>
-        <source>{count} lines, {invalid} of them invalid. Not saved as CSV and PNG yet.</source>
-        <translation>Počet přímek: {count}, z toho neplatných: {invalid}. Zatím neuloženo jako CSV a PNG.</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="164"/>
-        <source>{count} lines. Not saved as CSV and PNG yet.</source>
-        <translation>Počet přímek: {count}. Zatím neuloženo jako CSV a PNG.</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="206"/>
+        <location filename="../screens/protocol.py" line="236"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="211"/>
+        <location filename="../screens/protocol.py" line="241"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="215"/>
+        <location filename="../screens/protocol.py" line="245"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="154"/>
+        <location filename="../screens/protocol.py" line="183"/>
         <source>Verdict: {verdict}.</source>
         <translation>Verdikt: {verdict}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="63"/>
+        <location filename="../screens/protocol.py" line="68"/>
         <source>What the uncertainty of the chosen row is made of</source>
         <translation>Z čeho se skládá nejistota vybraného řádku</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="253"/>
+        <source>No file manager opens it; the files are in {folder}</source>
+        <translation>Žádný správce souborů ji neotevře; soubory jsou ve složce {folder}</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="66"/>
+        <source>Results; choose a row to see its points, or several to measure them again</source>
+        <translation>Výsledky; volbou řádku uvidíte jeho body, více řádků lze změřit znovu</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="76"/>
+        <source>Hold to measure again</source>
+        <translation>Podržením změřit znovu</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="157"/>
+        <source>Not saved as CSV and PNG yet.</source>
+        <translation>Zatím neuloženo jako CSV a PNG.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="191"/>
+        <source>{count} lines, {invalid} of them invalid.</source>
+        <translation>Počet přímek: {count}, z toho neplatných: {invalid}.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="192"/>
+        <source>{count} lines.</source>
+        <translation>Počet přímek: {count}.</translation>
     </message>
 </context>
 <context>
     <name>RobotForm</name>
     <message>
-        <location filename="../forms/robot_form.py" line="25"/>
+        <location filename="../forms/robot_form.py" line="29"/>
         <source>IP address</source>
         <translation>IP adresa</translation>
     </message>
     <message>
-        <location filename="../forms/robot_form.py" line="25"/>
+        <location filename="../forms/robot_form.py" line="29"/>
         <source>of the robot, e.g. 192.168.0.10</source>
         <translation>robotu, např. 192.168.0.10</translation>
     </message>
     <message>
-        <location filename="../forms/robot_form.py" line="26"/>
+        <location filename="../forms/robot_form.py" line="30"/>
         <source>Subscriber port</source>
         <translation>Port odběratele</translation>
     </message>
     <message>
-        <location filename="../forms/robot_form.py" line="26"/>
+        <location filename="../forms/robot_form.py" line="30"/>
         <source>where this laptop hears the robot, usually 3334</source>
         <translation>zde počítač slyší robot, obvykle 3334</translation>
     </message>
     <message>
-        <location filename="../forms/robot_form.py" line="28"/>
+        <location filename="../forms/robot_form.py" line="32"/>
         <source>Publisher port</source>
         <translation>Port vydavatele</translation>
     </message>
     <message>
-        <location filename="../forms/robot_form.py" line="28"/>
+        <location filename="../forms/robot_form.py" line="32"/>
         <source>where the robot hears this laptop, usually 3333</source>
         <translation>zde robot slyší počítač, obvykle 3333</translation>
     </message>
@@ -2797,156 +3370,191 @@
         <source>calibration record of {}: {}</source>
         <translation>kalibrační záznam z {}: {}</translation>
     </message>
+    <message>
+        <location filename="../texts/figures.py" line="14"/>
+        <source>Beside each distance stands 1 sigma of where the Remote key was at this one event; at another attempt the Car may react elsewhere, by more than that.</source>
+        <translation>U každé vzdálenosti je 1 sigma místa, kde byl klíč při této jedné události; při jiném pokusu může auto zareagovat jinde, i o více než to.</translation>
+    </message>
+    <message>
+        <location filename="../texts/figures.py" line="14"/>
+        <source>Beside each distance stands 1 sigma of the boundary, and its 95 % interval: in 95 of 100 tests like this one it holds where the Car decides either way equally often.</source>
+        <translation>U každé vzdálenosti je 1 sigma hranice a její 95% interval: v 95 ze 100 takových testů obsahuje místo, kde se auto rozhoduje tak i onak stejně často.</translation>
+    </message>
+    <message>
+        <location filename="../texts/figures.py" line="14"/>
+        <source>Of a range between two places the nearer one is the farthest press that worked, the other the next one that failed; a range of at least a place worked at the first.</source>
+        <translation>U dosahu mezi dvěma místy je bližší nejvzdálenější stisk, který zabral, a druhé nejbližší vzdálenější, který nezabral; dosah nejméně nějaký zabral hned na prvním místě.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
     <message>
-        <location filename="../screens/settings.py" line="57"/>
-        <source>Start</source>
-        <translation>Spustit</translation>
-    </message>
-    <message>
-        <location filename="../screens/settings.py" line="75"/>
+        <location filename="../screens/settings.py" line="79"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="130"/>
+        <location filename="../screens/settings.py" line="151"/>
         <source>{count} lines ({word}), about {time}.</source>
         <translation>Počet přímek ({word}): {count}, asi {time}.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="134"/>
+        <location filename="../screens/settings.py" line="155"/>
         <source>The Car is not measured yet; its size is a guess.</source>
         <translation>Auto ještě není změřeno; jeho rozměry jsou odhad.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="139"/>
+        <location filename="../screens/settings.py" line="160"/>
         <source>The battery, at {percent} %, suffices.</source>
         <translation>Baterie ({percent} %) stačí.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="140"/>
+        <location filename="../screens/settings.py" line="161"/>
         <source>The battery, at {percent} %, may not suffice: the test takes about {need} %.</source>
         <translation>Baterie ({percent} %) nemusí stačit: test spotřebuje asi {need} %.</translation>
+    </message>
+    <message>
+        <location filename="../screens/settings.py" line="61"/>
+        <source>Hold to start</source>
+        <translation>Podržením spustit</translation>
     </message>
 </context>
 <context>
     <name>SettingsWindow</name>
     <message>
-        <location filename="../windows/settings_window.py" line="39"/>
+        <location filename="../windows/settings_window.py" line="38"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="43"/>
+        <location filename="../windows/settings_window.py" line="42"/>
         <source>Results</source>
         <translation>Výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="44"/>
+        <location filename="../windows/settings_window.py" line="43"/>
         <source>Progress of tests</source>
         <translation>Průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="45"/>
+        <location filename="../windows/settings_window.py" line="44"/>
         <source>IP address</source>
         <translation>IP adresa</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="46"/>
+        <location filename="../windows/settings_window.py" line="45"/>
         <source>Subscriber port</source>
         <translation>Port odběratele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="47"/>
+        <location filename="../windows/settings_window.py" line="46"/>
         <source>Publisher port</source>
         <translation>Port vydavatele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="50"/>
+        <location filename="../windows/settings_window.py" line="47"/>
         <source>As the system</source>
         <translation>Podle systému</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="48"/>
+        <location filename="../windows/settings_window.py" line="47"/>
         <source>Light</source>
         <translation>Světlý</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="48"/>
+        <location filename="../windows/settings_window.py" line="47"/>
         <source>Dark</source>
         <translation>Tmavý</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="54"/>
+        <location filename="../windows/settings_window.py" line="58"/>
         <source>Use this adapter</source>
         <translation>Použít tento adaptér</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="62"/>
+        <location filename="../windows/settings_window.py" line="184"/>
         <source>The CAN adapter is in use.</source>
         <translation>Adaptér CAN se používá.</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="102"/>
+        <location filename="../windows/settings_window.py" line="107"/>
         <source>Folders</source>
         <translation>Složky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="118"/>
+        <location filename="../windows/settings_window.py" line="124"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="105"/>
+        <location filename="../windows/settings_window.py" line="110"/>
         <source>Appearance</source>
         <translation>Vzhled</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="106"/>
+        <location filename="../windows/settings_window.py" line="111"/>
         <source>Theme</source>
         <translation>Motiv</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="106"/>
+        <location filename="../windows/settings_window.py" line="111"/>
         <source>Language</source>
         <translation>Jazyk</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="125"/>
+        <location filename="../windows/settings_window.py" line="131"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="85"/>
+        <location filename="../windows/settings_window.py" line="90"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="132"/>
+        <location filename="../windows/settings_window.py" line="138"/>
         <source>Change</source>
         <translation>Změnit</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="133"/>
+        <location filename="../windows/settings_window.py" line="139"/>
         <source>Change the folder: {what}</source>
         <translation>Změnit složku: {what}</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="146"/>
+        <location filename="../windows/settings_window.py" line="152"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="153"/>
+        <location filename="../windows/settings_window.py" line="159"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="164"/>
-        <source>The language changes when the application is started next.</source>
-        <translation>Jazyk se změní při příštím spuštění aplikace.</translation>
+        <location filename="../windows/settings_window.py" line="199"/>
+        <source>The CAN adapter that you have chosen is not in use yet. Use it?</source>
+        <translation>Zvolený adaptér CAN se zatím nepoužívá. Použít jej?</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="202"/>
+        <source>Use it</source>
+        <translation>Použít</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="202"/>
+        <source>Leave it as it was</source>
+        <translation>Ponechat původní</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="50"/>
+        <source>Sounds</source>
+        <translation>Zvuky</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="51"/>
+        <source>One beep when the robot begins to move, two when the test is done, three at trouble</source>
+        <translation>Jedno pípnutí, když se robot rozjíždí, dvě po skončení testu, tři při potížích</translation>
     </message>
 </context>
 <context>
@@ -3120,19 +3728,14 @@
 <context>
     <name>StatusWord</name>
     <message>
-        <location filename="../header/status_word.py" line="50"/>
+        <location filename="../header/status_word.py" line="57"/>
         <source>Status: {word}</source>
         <translation>Stav: {word}</translation>
     </message>
     <message>
-        <location filename="../header/status_word.py" line="52"/>
+        <location filename="../header/status_word.py" line="59"/>
         <source>Everything is ready for a test.</source>
         <translation>Vše je připraveno k testu.</translation>
-    </message>
-    <message>
-        <location filename="../header/status_word.py" line="65"/>
-        <source>Nothing stands against it.</source>
-        <translation>Nic tomu nebrání.</translation>
     </message>
 </context>
 <context>
@@ -3146,12 +3749,12 @@
 <context>
     <name>StopButton</name>
     <message>
-        <location filename="../header/stop_button.py" line="22"/>
+        <location filename="../header/stop_button.py" line="23"/>
         <source>Stop</source>
         <translation>Zastavit</translation>
     </message>
     <message>
-        <location filename="../header/stop_button.py" line="26"/>
+        <location filename="../header/stop_button.py" line="27"/>
         <source>Stops the robot. While it may move, Space and Esc do so from everywhere.</source>
         <translation>Zastaví robot. Dokud se může pohybovat, zastaví ho odkudkoli i mezerník a Esc.</translation>
     </message>
@@ -3159,14 +3762,19 @@
 <context>
     <name>WarningSymbol</name>
     <message>
-        <location filename="../header/warning_symbol.py" line="55"/>
+        <location filename="../header/warning_symbol.py" line="56"/>
         <source>Notifications of the robot</source>
         <translation>Upozornění robotu</translation>
     </message>
     <message>
-        <location filename="../header/warning_symbol.py" line="110"/>
+        <location filename="../header/warning_symbol.py" line="120"/>
         <source>The robot says</source>
         <translation>Robot sděluje</translation>
+    </message>
+    <message>
+        <location filename="../header/warning_symbol.py" line="121"/>
+        <source>The robot said {age} s ago</source>
+        <translation>Robot řekl před {age} s</translation>
     </message>
 </context>
 <context>
@@ -3212,12 +3820,12 @@
         <translation>Test {scenario} z {moment} není dokončen: změřeno {done} z {total} přímek.</translation>
     </message>
     <message>
-        <location filename="../screens/welcome.py" line="71"/>
+        <location filename="../screens/welcome.py" line="75"/>
         <source>Go on with it</source>
         <translation>Pokračovat v něm</translation>
     </message>
     <message>
-        <location filename="../screens/welcome.py" line="74"/>
+        <location filename="../screens/welcome.py" line="78"/>
         <source>Not now</source>
         <translation>Teď ne</translation>
     </message>
@@ -3578,6 +4186,51 @@
         <location filename="../texts/words.py" line="5"/>
         <source>attempts of the test</source>
         <translation>pokusy testu</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>all sides</source>
+        <translation>všechny strany</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>started</source>
+        <translation>začátek</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>continued</source>
+        <translation>pokračování</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>measured again</source>
+        <translation>změřeno znovu</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>ended before its end</source>
+        <translation>skončil předčasně</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>recovered</source>
+        <translation>obnoveno</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>messages of the robot that were not used</source>
+        <translation>nepoužité zprávy robotu</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>messages that the robot refused</source>
+        <translation>zprávy, které robot odmítl</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>frames of the Car that were not believed</source>
+        <translation>rámce auta, kterým se nevěří</translation>
     </message>
 </context>
 </TS>

@@ -9,6 +9,7 @@ from PyQt5.QtCore import QSize
 from PyQt5.QtWidgets import QCheckBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.parameters import Declaration
+from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import PressReport
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 from mtr_operator.station.links.idle_loop import CalibrationRequest
@@ -19,8 +20,10 @@ from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..forms.parameter_field import ParameterField
 from ..i18n import number
+from ..names import locks_text
 from ..sentences import translated
 from ..theme.scale import L, M, S
+from ..theme.state import show_state
 from .car_card import CarCard
 from .card import Card
 
@@ -40,12 +43,13 @@ class CalibrationWindow(QDialog):
         self.setWindowTitle(self.tr("Calibration"))
         self._flow = flow
         self._sent: CalibrationRequest | None = None
+        self._locks_before = LockState.UNKNOWN
         declared = KeyPressParameters.declarations()
         self.key_height = self._field("key_height_m", declared)
         self.strength = self._field("press_strength", declared)
         self.press_s = self._field("press_duration_s", declared)
         self.buttons = {1: QCheckBox(self.tr("Lock")), 2: QCheckBox(self.tr("Unlock"))}
-        self.reported = {name: QLabel(_UNKNOWN) for name in ("height", "buttons", "strength")}
+        self.reported = {name: QLabel(_UNKNOWN) for name in ("height", "buttons", "locks")}
         self.car = CarCard(flow)
         self.notice = QLabel()
         self.notice.setWordWrap(True)
@@ -104,9 +108,9 @@ class CalibrationWindow(QDialog):
         return card
 
     def _reported_card(self) -> Card:
-        card = Card(self.tr("Reported by the robot"))
+        card = Card(self.tr("Reported by robot and Car"))
         titles = {"height": self.tr("Key height"), "buttons": self.tr("Buttons pressed"),
-                  "strength": self.tr("Press strength ordered")}
+                  "locks": self.tr("The Car's locks")}
         for name, label in self.reported.items():
             label.setProperty("role", "heading")
             label.setAccessibleName(titles[name])
@@ -143,19 +147,26 @@ class CalibrationWindow(QDialog):
         names = [self.buttons[button].text() if button in self.buttons else str(button)
                  for button in status.pressed_buttons]
         self.reported["buttons"].setText(", ".join(names) or self.tr("none"))
-        self._show_press(status.presses)
+        for label in self.reported.values():
+            show_state(label, "stale", self._flow.model.is_stale)
+        self.reported["locks"].setText(locks_text(robot.lock_state))
+        self._show_press(status.presses, robot.lock_state)
         model = self._flow.model
         self.car.show_status(status, model.readiness.word is not ReadinessWord.LOST, model.may_move)
         self._check()
 
-    def _show_press(self, presses: Sequence[PressReport]) -> None:
+    def _show_press(self, presses: Sequence[PressReport], locks: LockState) -> None:
         sent = self._sent
         if sent is None or not sent.buttons or not presses:
             return
         newest = presses[-1]
-        self.notice.setText(translated(newest.error) if newest.error else
-                          self.tr("Pressed for {duration} s.").format(
-                              duration=number(newest.end_s - newest.start_s, 2)))
+        if newest.error:
+            self.notice.setText(translated(newest.error))
+            return
+        pressed = self.tr("Pressed for {duration} s.").format(duration=number(newest.end_s - newest.start_s, 2))
+        answer = self.tr("The Car has answered: {locks}.").format(locks=locks_text(locks)) \
+            if locks not in (self._locks_before, LockState.UNKNOWN) else self.tr("The Car has not answered.")
+        self.notice.setText(f"{pressed} {answer}")
 
     def _check(self) -> None:
         is_valid = all([field.check() for field in (self.key_height, self.strength, self.press_s)])
@@ -168,5 +179,6 @@ class CalibrationWindow(QDialog):
             return
         self._sent = CalibrationRequest(self.key_height.reading.value, buttons, strength, press_s)
         self._flow.calibrate(self._sent)
-        self.reported["strength"].setText(f"{number(100.0 * strength, 0)} %" if buttons else _UNKNOWN)
+        robot = self._flow.model.robot
+        self._locks_before = LockState.UNKNOWN if robot is None else robot.lock_state
         self.notice.setText(self.tr("Sent."))

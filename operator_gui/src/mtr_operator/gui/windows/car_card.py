@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QWidget
+from PyQt5.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from mtr_operator.domain.robot_status import CheckState, Mode, RobotStatus
 from mtr_operator.station.links.idle_loop import CarRequest
 from mtr_operator.station.motion import ROUNDS
 
 from ..flow import Flow
+from ..forms.hold_button import HoldButton
 from ..i18n import number
 from ..sentences import translated
 from ..theme.scale import S
@@ -24,9 +25,10 @@ class CarCard(Card):
         self._flow = flow
         self.notice = QLabel()
         self.notice.setWordWrap(True)
-        self.check = self._button(self.tr("Check its position"), CarRequest.CHECK)
-        self.map = self._button(self.tr("Map it again"), CarRequest.MAP)
-        hint = QLabel(self.tr("The robot drives around the Car for both."))
+        self.check = self._button(self.tr("Hold to check its position"), CarRequest.CHECK)
+        self.map = self._button(self.tr("Hold to map it again"), CarRequest.MAP)
+        hint = QLabel(self.tr("The robot drives around the Car for both: hold the button when its way is clear."))
+        hint.setWordWrap(True)
         hint.setProperty("role", "hint")
         row = QHBoxLayout()
         row.setSpacing(S)
@@ -37,15 +39,16 @@ class CarCard(Card):
         self.column.addLayout(row)
         self.column.addWidget(hint)
 
-    def _button(self, text: str, request: CarRequest) -> QPushButton:
-        button = QPushButton(text)
-        button.clicked.connect(lambda _checked: self._flow.request_car(request))
+    def _button(self, text: str, request: CarRequest) -> HoldButton:
+        button = HoldButton(text)
+        button.held.connect(lambda: self._flow.request_car(request))
         return button
 
     def show_status(self, status: RobotStatus, is_linked: bool, is_moving: bool) -> None:
         """Show what the robot says; is_linked: it takes requests. is_moving: it may move."""
         self.check.setEnabled(is_linked and status.car is not None and status.car_check is not None and not is_moving)
         self.map.setEnabled(is_linked and not is_moving)
+        self.map.setText(self.tr("Hold to map it") if status.car is None else self.tr("Hold to map it again"))
         self.notice.setText(self._text(status, is_moving))
 
     def _text(self, status: RobotStatus, is_moving: bool) -> str:

@@ -12,6 +12,7 @@ from ..fitting.place import open_within
 from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..forms.can_form import CanForm
+from ..forms.language_box import LanguageBox
 from ..forms.robot_form import RobotForm
 from ..sentences import translated
 from ..theme.scale import L, M, S
@@ -21,7 +22,10 @@ _WIDTH = 960
 
 
 class ConnectionWindow(QWidget):
-    """Attributes: robot, can: the forms. button: Connect. message, detail: what went wrong."""
+    """Attributes: robot, can: the forms. button: Connect. message, detail: what went wrong.
+
+    language: choice of it.
+    """
 
     def __init__(self, flow: Flow, proposed: Connection, parent: QWidget | None = None):
         super().__init__(parent)
@@ -36,10 +40,14 @@ class ConnectionWindow(QWidget):
         self.button = QPushButton(self.tr("Connect"))
         self.button.setProperty("role", "primary")
         self.button.setDefault(True)
+        self.language = LanguageBox(flow.store.settings.language)
+        self.language.currentIndexChanged.connect(self._change_language)
         self._lay_out()
         self.button.clicked.connect(self._connect)
         self.robot.submitted.connect(self._connect)
         self.can.submitted.connect(self._connect)
+        for form in (self.robot, self.can):
+            form.changed.connect(self._forget_refusal)
         flow.refused.connect(self._show_refusal)
         self.robot.show_choice(proposed.robot, flow.store.settings.hosts)
         self.can.show_choice(proposed.can)
@@ -67,7 +75,10 @@ class ConnectionWindow(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(M)
-        layout.addWidget(title)
+        top = QHBoxLayout()
+        top.addWidget(title, 1)
+        top.addWidget(self.language)
+        layout.addLayout(top)
         layout.addWidget(Scroller(cards), 1)
         layout.addSpacing(S)
         layout.addLayout(row)
@@ -76,6 +87,15 @@ class ConnectionWindow(QWidget):
         """See QWidget."""
         self._flow.close()
         super().closeEvent(event)
+
+    @property
+    def typed(self) -> Connection:
+        """What stands in the fields; the last choice of a robot where that is none."""
+        robot = self.robot.choice or self._flow.store.settings.connection.robot
+        return Connection(robot, self.can.choice)
+
+    def _change_language(self) -> None:
+        self._flow.use_language(self.language.currentData())
 
     def _connect(self) -> None:
         if not self.button.isEnabled():
@@ -86,16 +106,25 @@ class ConnectionWindow(QWidget):
             return
         self._say("", self.tr("Connecting to {host} ...").format(host=robot.host))
         self.button.setEnabled(False)
+        self.language.setEnabled(False)
         self._flow.connect_to(Connection(robot, self.can.choice))
 
     def _show_refusal(self, part: str, text: str) -> None:
         self.button.setEnabled(True)
+        self.language.setEnabled(True)
         message = {
             "address": self.tr("The IP address or port provided is invalid."),
             "robot": self.tr("Connection failed, check the parameters."),
             "car": self.tr("The CAN adapter cannot be used."),
         }[part]
         self._say(message, translated(text))
+        if part == "car":
+            self.can.show_fault(self.tr("The CAN adapter cannot be used."))
+
+    def _forget_refusal(self) -> None:
+        """What was wrong is being put right."""
+        if self.button.isEnabled():
+            self._say("", "")
 
     def _say(self, message: str, detail: str) -> None:
         self.message.setText(message)

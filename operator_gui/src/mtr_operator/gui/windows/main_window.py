@@ -59,14 +59,15 @@ class MainWindow(QMainWindow):
         self.setCentralWidget(page)
         open_within(self, _SIZE)
         self._connect()
-        self._show_step(Step.WELCOME)
+        self._show_step(flow.step)
 
     @property
     def screen(self) -> QWidget:
         """What is shown below the header."""
         return self._screens.currentWidget()
 
-    def _show_settings_window(self) -> None:
+    def show_settings(self) -> None:
+        """Open the settings window, or show the one that is open."""
         self._open_beside(SettingsWindow, lambda: SettingsWindow(self._flow, self._appearance, self))
 
     def _show_calibration(self) -> None:
@@ -90,11 +91,11 @@ class MainWindow(QMainWindow):
         flow = self._flow
         flow.bridge.changed.connect(self._show_model)
         flow.step_changed.connect(self._show_step)
-        # Later: a dialog within the delivery of events would let the later ones pass the earlier ones.
-        flow.failed.connect(lambda text: QTimer.singleShot(0, lambda: self._show_notice(text)))
-        flow.saved.connect(lambda path: self.measurement.say(self.tr("Saved to {path}").format(path=path)))
-        flow.folder_wanted.connect(lambda text: QTimer.singleShot(0, lambda: self._ask_progress_folder(text)))
-        self.header.settings_wanted.connect(self._show_settings_window)
+        # No lambdas: they would outlive the window, which is made anew in another language.
+        flow.failed.connect(self._tell)
+        flow.saved.connect(self._say_saved)
+        flow.folder_wanted.connect(self._want_progress_folder)
+        self.header.settings_wanted.connect(self.show_settings)
         self.welcome.new_test.connect(lambda: flow.show(Step.TYPE))
         self.welcome.continue_test.connect(self._open)
         self.welcome.calibrate.connect(self._show_calibration)
@@ -116,14 +117,14 @@ class MainWindow(QMainWindow):
 
     def _show_model(self) -> None:
         self.header.show_model(self._flow.model)
-        if isinstance(self.screen, (MeasurementScreen, SettingsScreen)):
+        if isinstance(self.screen, (MeasurementScreen, ProtocolScreen, SettingsScreen)):
             self.screen.show_model()
 
     def _show_step(self, step: Step) -> None:
         self.header.steps.select(step.value)
         if step is Step.WELCOME:
             self.welcome.offer_unfinished(self._flow.unfinished_test())
-            self.welcome.new.setFocus()
+            self.welcome.take_focus()
         elif step is Step.PROTOCOL:
             self.protocol.show_test()
         self._screens.setCurrentWidget({Step.WELCOME: self.welcome, Step.TYPE: self.types,
@@ -146,6 +147,17 @@ class MainWindow(QMainWindow):
     def _dismiss(self) -> None:
         self._flow.dismiss_unfinished()
         self.welcome.offer_unfinished(None)
+
+    # A dialog within the delivery of events would let the later ones pass the earlier ones.
+
+    def _tell(self, text: str) -> None:
+        QTimer.singleShot(0, lambda: self._show_notice(text))
+
+    def _want_progress_folder(self, text: str) -> None:
+        QTimer.singleShot(0, lambda: self._ask_progress_folder(text))
+
+    def _say_saved(self, path: str) -> None:
+        self.measurement.say(self.tr("Saved to {path}").format(path=path))
 
     def _ask_progress_folder(self, text: str) -> None:
         show_message(self, self.windowTitle(),

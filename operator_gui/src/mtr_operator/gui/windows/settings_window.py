@@ -7,25 +7,24 @@ import pathlib
 from typing import Any, Callable
 
 from PyQt5.QtCore import QSize, Qt
-from PyQt5.QtWidgets import QComboBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QCheckBox, QComboBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.station.readiness import RUNNING
-from mtr_operator.station.settings import LANGUAGES, THEMES
+from mtr_operator.station.settings import THEMES
 
-from ..dialogs import ask_folder
+from ..dialogs import ask_folder, confirm
 from ..fitting.place import open_within
 from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..forms.can_form import CanForm
 from ..forms.field import Field
+from ..forms.language_box import LanguageBox
 from ..sentences import translated
 from ..theme.appearance import Appearance
 from ..theme.scale import XS, L, M, S
 from .card import Card
 
 _WIDTH = 900
-# Languages are named in themselves.
-_CZECH = "\u010ce\u0161tina"
 
 
 class SettingsWindow(QDialog):
@@ -47,10 +46,15 @@ class SettingsWindow(QDialog):
         self.publisher_port = self._read_only(self.tr("Publisher port"), str(robot.publisher_port))
         self.theme = self._box({"system": self.tr("As the system"), "light": self.tr("Light"), "dark": self.tr("Dark")},
                                THEMES, settings.theme)
-        self.language = self._box({"system": self.tr("As the system"), "en": "English", "cs": _CZECH},
-                                  LANGUAGES, settings.language)
+        self.language = LanguageBox(settings.language)
+        self.sounds = QCheckBox(self.tr("Sounds"))
+        self.sounds.setToolTip(self.tr("One beep when the robot begins to move, two when the test is done, three at "
+                                       "trouble"))
+        self.sounds.setChecked(settings.has_sounds)
         self.can = CanForm()
         self.can.show_choice(flow.connection.can)
+        self._can_in_use = self.can.choice
+        self._is_asked = False
         self.use_can = QPushButton(self.tr("Use this adapter"))
         self.message = QLabel()
         self.message.setWordWrap(True)
@@ -58,9 +62,10 @@ class SettingsWindow(QDialog):
         self._lay_out()
         self.theme.currentIndexChanged.connect(self._change_theme)
         self.language.currentIndexChanged.connect(self._change_language)
+        self.sounds.toggled.connect(self._change_sounds)
         self.use_can.clicked.connect(self._change_can)
-        flow.can_opened.connect(lambda: self._show_can(self.tr("The CAN adapter is in use.")))
-        flow.can_refused.connect(lambda text: self._show_can(translated(text)))
+        flow.can_opened.connect(self._show_can_in_use)
+        flow.can_refused.connect(self._show_can_refused)
         self.use_can.setEnabled(flow.model.phase not in RUNNING)
         self.ensurePolished()
         open_within(self, self.sizeHint().expandedTo(QSize(_WIDTH, 0)))
@@ -112,6 +117,7 @@ class SettingsWindow(QDialog):
             group.addWidget(label)
             group.addWidget(box)
             card.column.addLayout(group)
+        card.column.addWidget(self.sounds)
         return card
 
     def _connection_card(self) -> Card:
@@ -160,8 +166,10 @@ class SettingsWindow(QDialog):
         self._appearance.use(self.theme.currentData())
 
     def _change_language(self) -> None:
-        self._change(language=self.language.currentData())
-        self.message.setText(self.tr("The language changes when the application is started next."))
+        self._flow.use_language(self.language.currentData())
+
+    def _change_sounds(self, is_wanted: bool) -> None:
+        self._change(has_sounds=is_wanted)
 
     def _change_can(self) -> None:
         self.use_can.setEnabled(False)
@@ -170,6 +178,30 @@ class SettingsWindow(QDialog):
     def _show_can(self, sentence: str) -> None:
         self.use_can.setEnabled(True)
         self.message.setText(sentence)
+
+    def _show_can_in_use(self) -> None:
+        self._can_in_use = self.can.choice
+        self._show_can(self.tr("The CAN adapter is in use."))
+
+    def _show_can_refused(self, text: str) -> None:
+        self._show_can(translated(text))
+
+    def done(self, result: int) -> None:
+        """See QDialog; an adapter that was chosen and is not in use is asked about first."""
+        if self._is_asked:
+            return
+        if self.use_can.isEnabled() and self.can.choice != self._can_in_use and self._is_can_wanted():
+            self._change_can()
+            return
+        super().done(result)
+
+    def _is_can_wanted(self) -> bool:
+        question = self.tr("The CAN adapter that you have chosen is not in use yet. Use it?")
+        self._is_asked = True
+        try:
+            return confirm(self, self.windowTitle(), question, (self.tr("Use it"), self.tr("Leave it as it was")))
+        finally:
+            self._is_asked = False
 
     def _change(self, **changes: Any) -> None:
         self._flow.store.change(dataclasses.replace(self._flow.store.settings, **changes))

@@ -85,4 +85,6 @@ class MeasurementRun:
             loop = ControlLoop(robot, self._car, reporter, is_cancelled, self._answers.resumed_hold)
             loop.person = self._answers.person
             test.progress.session[ROBOT_SOFTWARE] = loop.status.software_version
-            Runner(test.scenario, test.parameters, loop, test.progress, lambda _: test.save(), journal=store).run()
+            Runner(test.scenario, test.parameters, loop, test.progress, lambda _: test.save(), journal=store,
+                   again=test.again).run()
+            test.again = ()

@@ -51,6 +51,7 @@ class CarLayer(Layer):
         painter.setBrush(QBrush(QColor(palette.body)))
         if car.outline:
             painter.drawPolygon(canvas.polygon(car.outline))
+            self._paint_body(canvas, half_length, half_width)
         else:
             body = QRectF(canvas.at((half_length, half_width)), canvas.at((-half_length, -half_width)))
             painter.drawRoundedRect(body, rounding, rounding)
@@ -62,9 +63,18 @@ class CarLayer(Layer):
                 painter.drawPolygon(canvas.polygon(scaled(part, half_length, half_width)))
         self._write_front(canvas, half_length)
 
+    @staticmethod
+    def _paint_body(canvas: Canvas, half_length: float, half_width: float) -> None:
+        """The rectangle of the measured size: distances from a side count from here, not from mirrors or bumpers."""
+        canvas.painter.setPen(canvas.pen(canvas.palette.edge, 1.0, Qt.PenStyle.DashLine))
+        canvas.painter.setBrush(Qt.BrushStyle.NoBrush)
+        canvas.painter.drawRect(QRectF(canvas.at((half_length, half_width)), canvas.at((-half_length, -half_width))))
+        canvas.painter.setPen(canvas.pen(canvas.palette.edge, 1.8))
+
     def _write_front(self, canvas: Canvas, half_length: float) -> None:
         size = min(15.0, 0.13 * self.car.width * canvas.viewport.px_per_m / canvas.unit)
         if size < _MIN_TEXT_PX:
+            self._point_to_front(canvas, half_length)
             return
         canvas.painter.setPen(QColor(canvas.palette.ink))
         canvas.painter.setFont(canvas.font(size, True))
@@ -72,3 +82,13 @@ class CarLayer(Layer):
         room = QPointF(0.5 * self.car.width * canvas.viewport.px_per_m, 12.0 * canvas.unit)
         box = QRectF(middle - room, middle + room)
         canvas.painter.drawText(box, Qt.AlignmentFlag.AlignCenter, translate("Picture", "FRONT"))
+
+    @staticmethod
+    def _point_to_front(canvas: Canvas, half_length: float) -> None:
+        """An arrow head before a Car that is too small for letters."""
+        bumper, unit = canvas.at((half_length, 0.0)), canvas.unit
+        tip, left, right = (QPointF(bumper.x() + x * unit, bumper.y() - y * unit)
+                            for x, y in ((0.0, 13.0), (-6.0, 4.0), (6.0, 4.0)))
+        canvas.painter.setPen(Qt.PenStyle.NoPen)
+        canvas.painter.setBrush(QBrush(QColor(canvas.palette.ink)))
+        canvas.painter.drawPolygon(tip, left, right)

@@ -11,7 +11,7 @@ from PyQt5.QtGui import QColor, QPainter
 from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.results.picture import PointRole, PointSet
 
-from ...i18n import number
+from ...figure_text import sign_text
 from ...theme.palette import Palette
 from .layer import Canvas, Layer
 
@@ -71,13 +71,13 @@ class AreasLayer(Layer):
 class PointsLayer(Layer):
     """Attributes: sets: what there is to show. chosen: points to be marked, e.g. those of a row of the table.
 
-    shows_distances: writes the distance from the Car's centre beside the points of an outline that is the only one.
+    shows_figures: writes what may be said of each point beside it.
     """
 
-    def __init__(self, sets: Sequence[PointSet] = (), shows_distances: bool = False):
+    def __init__(self, sets: Sequence[PointSet] = (), shows_figures: bool = False):
         self.sets = tuple(sets)
         self.chosen: tuple[Point, ...] = ()
-        self.shows_distances = shows_distances
+        self.shows_figures = shows_figures
 
     def points(self) -> Sequence[Point]:
         """See Layer."""
@@ -91,20 +91,22 @@ class PointsLayer(Layer):
             canvas.painter.setBrush(Qt.BrushStyle.NoBrush)
             canvas.painter.setPen(canvas.pen(canvas.palette.ink, 3.0))
             canvas.painter.drawEllipse(canvas.at(point), 12.0 * canvas.unit, 12.0 * canvas.unit)
-        if self.shows_distances:
-            self._write_distances(canvas)
+        if self.shows_figures:
+            self._write_figures(canvas)
 
-    def _write_distances(self, canvas: Canvas) -> None:
+    def _write_figures(self, canvas: Canvas) -> None:
         canvas.painter.setFont(canvas.font(14.0, True))
         written: list[QPointF] = []
         for points in self.sets:
-            if points.role is PointRole.FIRST:
-                for point in points.known:
-                    text = f"{number(math.hypot(*point), 2)} m"
-                    place = _outward(canvas, points, point, text) if points.intervals else _inward(canvas, point, text)
-                    if all(_is_apart(canvas, place, other, text) for other in written):
-                        written.append(place)
-                        canvas.label(place, text, colour_of(points.role, canvas.palette))
+            for point, figure in zip(points.points, points.figures):
+                if point is None or figure is None:
+                    continue
+                text = sign_text(figure)
+                is_beyond = points.intervals or points.brackets
+                place = _outward(canvas, points, point, text) if is_beyond else _inward(canvas, point, text)
+                if all(_is_apart(canvas, place, other, text) for other in written):
+                    written.append(place)
+                    canvas.label(place, text, colour_of(points.role, canvas.palette))
 
 
 def _is_apart(canvas: Canvas, place: QPointF, other: QPointF, text: str) -> bool:
@@ -114,7 +116,8 @@ def _is_apart(canvas: Canvas, place: QPointF, other: QPointF, text: str) -> bool
 
 def _outward(canvas: Canvas, points: PointSet, point: Point, text: str) -> QPointF:
     """Beyond a point and its interval: the points nearer to the Car stay in sight."""
-    place = canvas.at(next((end for _, end in points.intervals if _is_behind(point, end)), point))
+    ends = (*points.intervals, *points.brackets)
+    place = canvas.at(next((end for _, end in ends if _is_behind(point, end)), point))
     inward = _toward(canvas, place, canvas.at((0.0, 0.0)), text) - place
     return QPointF(place.x() - inward.x(), place.y() - inward.y())
 
@@ -162,6 +165,9 @@ def _paint_points(canvas: Canvas, points: PointSet) -> None:
     bar.setCapStyle(Qt.PenCapStyle.FlatCap)
     painter.setPen(bar)
     for start, end in points.bars:
+        painter.drawLine(canvas.at(start), canvas.at(end))
+    painter.setPen(canvas.pen(colour, 1.6, Qt.PenStyle.DotLine))
+    for start, end in points.brackets:
         painter.drawLine(canvas.at(start), canvas.at(end))
     painter.setPen(canvas.pen(colour, 2.2))
     for start, end in points.intervals:

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import itertools
 import math
-from typing import Sequence
+from typing import Iterator, Sequence
 
 from PyQt5.QtCore import QPointF, Qt
 from PyQt5.QtGui import QColor
@@ -19,7 +20,10 @@ _SIGMA_ALPHA = 0.2
 
 
 class RobotLayer(Layer):
-    """Attributes: pose: None while it is not known. key: the key in base_link. sigma_m: of the position. waypoint."""
+    """Attributes: pose: None while it is not known. key: the key in base_link. sigma_m: of the position. waypoint.
+
+    is_stale: that was a while ago, and where the robot is now nobody knows; it is painted hollow.
+    """
 
     is_moving = True
 
@@ -28,6 +32,7 @@ class RobotLayer(Layer):
         self.key: Point = (0.0, 0.0)
         self.sigma_m = math.nan
         self.waypoint: Pose | None = None
+        self.is_stale = False
 
     def points(self) -> Sequence[Point]:
         """See Layer."""
@@ -60,6 +65,11 @@ class RobotLayer(Layer):
             painter.setBrush(haze)
             radius = 2.0 * self.sigma_m * canvas.viewport.px_per_m
             painter.drawEllipse(place, radius, radius)
+        if self.is_stale:
+            painter.setPen(canvas.pen(palette.ink_soft, 1.8, Qt.PenStyle.DashLine))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawPolygon(canvas.polygon(_outline(pose)))
+            return
         painter.setPen(canvas.pen(palette.ink, 1.8))
         painter.setBrush(QColor(palette.robot))
         painter.drawPolygon(canvas.polygon(_outline(pose)))
@@ -75,10 +85,10 @@ class RobotLayer(Layer):
 
 
 class TrailLayer(Layer):
-    """Attributes: places: where the robot has been."""
+    """Attributes: places: where the robot has been; None is a gap, across which nothing is painted."""
 
     def __init__(self) -> None:
-        self.places: Sequence[Point] = ()
+        self.places: Sequence[Point | None] = ()
         self._painted = 0
 
     def paint(self, canvas: Canvas) -> None:
@@ -95,7 +105,15 @@ class TrailLayer(Layer):
         pen.setJoinStyle(Qt.PenJoinStyle.BevelJoin)
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         canvas.painter.setPen(pen)
-        canvas.painter.drawPolyline(canvas.polygon(added))
+        for piece in pieces(added):
+            canvas.painter.drawPolyline(canvas.polygon(piece))
+
+
+def pieces(places: Sequence[Point | None]) -> Iterator[list[Point]]:
+    """The pieces between the gaps."""
+    for is_gap, group in itertools.groupby(places, lambda place: place is None):
+        if not is_gap:
+            yield [place for place in group if place is not None]
 
 
 def _outline(pose: Pose) -> list[Point]:

@@ -1,0 +1,48 @@
+"""Distances in the language of the window; words, units and digits are those of report/figures.py."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Sequence
+
+from mtr_operator.domain.results.figure import Figure, Kind
+from mtr_operator.domain.results.line_result import LineResult, MeasuredDistance
+from mtr_operator.report import figures
+
+from .i18n import number, translate
+
+_WORDS = (Kind.NOT_REACHED, Kind.INVALID)
+
+
+def cell_text(figure: Figure, sigma_m: float | None = None) -> str:
+    """In a table whose heading has the unit."""
+    return figures.filled(_translated(figures.TEMPLATES[figure.kind]), figure, number, sigma_m)
+
+
+def figure_text(figure: Figure, sigma_m: float | None = None) -> str:
+    """With its unit."""
+    text = cell_text(figure, sigma_m)
+    return text if figure.kind in _WORDS else f"{text} m"
+
+
+def sign_text(figure: Figure) -> str:
+    """Beside a point of a picture."""
+    return figures.filled(figures.SIGNS[figure.kind], figure, number)
+
+
+def sigma_text(sigma_m: float | None) -> str:
+    """In a table whose heading has the unit."""
+    return figures.sigma_text(sigma_m, number)
+
+
+def sigma_heading(results: Sequence[LineResult]) -> str:
+    """Of the uncertainties, with their unit."""
+    return f"{figures.sigma_word(results, _translated)} [m]"
+
+
+def interval_text(distance: MeasuredDistance) -> str:
+    """Ends of the 95 % interval, or the one that is known."""
+    return figures.interval_text(distance, number, _translated)
+
+
+def _translated(text: str) -> str:
+    return translate("Figure", text)

@@ -1,0 +1,59 @@
+"""What the Car's bus says before the robot moves."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from typing import Iterator
+
+from mtr_operator.domain.absent_car import NO_ADAPTER
+from mtr_operator.domain.ports import LockState
+
+from ..events import RobotSnapshot
+from .finding import Check, Finding, Item, State
+
+# CiA's advice for a bus whose messages are to come in time.
+FULL_BUS = 0.7
+# A mean cycle of the lock message that is so much longer than the profile's is that of another car.
+SLOW_CYCLE = 1.5
+# Keys fall asleep when they have rested for a minute or more (mtr_simulation, honest_handle.yaml).
+AWAKE_S = 60.0
+
+
+def key(answered_s: float | None) -> Item:
+    """Nothing tells whether a key sleeps but a Car that answers it."""
+    if answered_s is not None and answered_s < AWAKE_S:
+        return Item(Check.KEY, State.GOOD, Finding.KEY_ANSWERED, numbers=(answered_s,))
+    return Item(Check.KEY, State.UNKNOWN, Finding.KEY_UNKNOWN)
+
+
+def bus(robot: RobotSnapshot) -> Iterator[Item]:
+    """Adapter and traffic, the locks, and whether frames have a time on the robot's clock."""
+    traffic = robot.traffic
+    if robot.car_problem == NO_ADAPTER:
+        yield Item(Check.BUS, State.BAD, Finding.NO_ADAPTER)
+        yield Item(Check.LOCKS, State.UNKNOWN, Finding.LOCKS_UNKNOWN)
+        yield Item(Check.CLOCK, State.UNKNOWN, Finding.CLOCK_UNKNOWN)
+        return
+    clock = "" if traffic is None else traffic.clock_problem
+    if clock:
+        yield Item(Check.CLOCK, State.BAD if robot.car_problem else State.NOTE, Finding.CLOCK_NOT_MAPPED, clock)
+    else:
+        yield Item(Check.CLOCK, State.GOOD, Finding.CLOCK_MAPPED)
+    yield _traffic(robot, clock)
+    is_heard = robot.lock_state is not LockState.UNKNOWN
+    yield (Item(Check.LOCKS, State.GOOD, Finding.LOCKS_HEARD, robot.lock_state.value) if is_heard
+           else Item(Check.LOCKS, State.UNKNOWN if robot.car_problem else State.BAD, Finding.LOCKS_UNKNOWN))
+
+
+def _traffic(robot: RobotSnapshot, clock_problem: str) -> Item:
+    traffic = robot.traffic
+    if robot.car_problem and robot.car_problem != clock_problem:
+        return Item(Check.BUS, State.BAD, Finding.BUS_TROUBLED, robot.car_problem)
+    if traffic is None:
+        return Item(Check.BUS, State.GOOD, Finding.BUS_SIMULATED)
+    if traffic.load > FULL_BUS:
+        return Item(Check.BUS, State.NOTE, Finding.BUS_FULL, numbers=(100.0 * traffic.load,))
+    cycle_s = traffic.cycle_s if traffic.cycle_s is not None else math.nan
+    if cycle_s > SLOW_CYCLE * traffic.expected_cycle_s:
+        return Item(Check.BUS, State.NOTE, Finding.BUS_SLOW, numbers=(cycle_s, traffic.expected_cycle_s))
+    return Item(Check.BUS, State.GOOD, Finding.BUS_FINE, numbers=(100.0 * traffic.load, cycle_s))

@@ -1,0 +1,96 @@
+"""What has to be right before the robot moves: one finding per item, from what is known now; no Qt."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Iterator
+
+from ..estimate import Plan
+from ..events import RobotSnapshot
+from ..readiness import SILENCE_LIMIT_S
+from . import car_checks, robot_checks
+from .finding import Check, Finding, Item, State
+
+# A long test with its pictures takes some 20 MB, and its journal is written before the robot goes on.
+LEAST_FREE_BYTES, FEW_FREE_BYTES = 50_000_000, 500_000_000
+_BYTES_PER_MB = 1e6
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """The test that is about to begin. plan: None before one is chosen. limits: how many are loaded, 0 for none;
+    limits_problem: why they do not suit."""
+
+    plan: Plan | None = None
+    limits: int = 0
+    limits_problem: str = ""
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What is known before the robot moves.
+
+    silent_s: wall time since the newest Status. answered_s: wall time since the Car's locks moved, None when nobody has
+    seen that. free_bytes: on the disk of the results, None when not known.
+    """
+
+    robot: RobotSnapshot | None
+    silent_s: float
+    wanted: Wanted = Wanted()
+    answered_s: float | None = None
+    free_bytes: int | None = None
+
+
+def checklist(facts: Facts) -> tuple[Item, ...]:
+    """All items in their order."""
+    robot = facts.robot
+    items = list(_of_robot(robot, facts) if robot is not None and facts.silent_s < SILENCE_LIMIT_S
+                 else _of_silence(facts.silent_s))
+    items += [_disk(facts.free_bytes), _limits(facts.wanted)]
+    order = list(Check)
+    return tuple(sorted(items, key=lambda item: order.index(item.check)))
+
+
+def hindrances(items: tuple[Item, ...]) -> tuple[Item, ...]:
+    """Those with which no test begins."""
+    return tuple(item for item in items if item.state is State.BAD)
+
+
+def _of_silence(silent_s: float) -> Iterator[Item]:
+    yield Item(Check.LINK, State.BAD, Finding.LINK_SILENT, numbers=(silent_s,))
+    for check in Check:
+        if check not in (Check.LINK, Check.DISK, Check.LIMITS):
+            yield Item(check, State.UNKNOWN, Finding.UNHEARD)
+
+
+def _of_robot(robot: RobotSnapshot, facts: Facts) -> Iterator[Item]:
+    status = robot.status
+    yield Item(Check.LINK, State.GOOD, Finding.LINK_ALIVE, numbers=(facts.silent_s,))
+    yield (Item(Check.ENCRYPTION, State.GOOD, Finding.ENCRYPTED) if robot.is_secret
+           else Item(Check.ENCRYPTION, State.NOTE, Finding.NOT_ENCRYPTED))
+    yield from robot_checks.condition(status)
+    yield robot_checks.emergency_stop(status.emergency_stop)
+    yield robot_checks.position(status)
+    yield from robot_checks.parts(status)
+    yield robot_checks.battery(status.battery_percent, facts.wanted.plan)
+    yield from car_checks.bus(robot)
+    yield car_checks.key(facts.answered_s)
+
+
+def _disk(free_bytes: int | None) -> Item:
+    if free_bytes is None:
+        return Item(Check.DISK, State.UNKNOWN, Finding.DISK_UNKNOWN)
+    numbers = (free_bytes / _BYTES_PER_MB,)
+    if free_bytes < LEAST_FREE_BYTES:
+        return Item(Check.DISK, State.BAD, Finding.DISK_FULL, numbers=numbers)
+    is_short = free_bytes < FEW_FREE_BYTES
+    return Item(Check.DISK, State.NOTE if is_short else State.GOOD,
+                Finding.DISK_SHORT if is_short else Finding.DISK_FINE, numbers=numbers)
+
+
+def _limits(wanted: Wanted) -> Item:
+    if wanted.limits_problem:
+        return Item(Check.LIMITS, State.BAD, Finding.LIMITS_UNFIT, wanted.limits_problem)
+    if wanted.limits:
+        return Item(Check.LIMITS, State.GOOD, Finding.LIMITS_LOADED, numbers=(wanted.limits,))
+    return Item(Check.LIMITS, State.NOTE, Finding.NO_LIMITS)

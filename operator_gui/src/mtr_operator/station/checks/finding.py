@@ -1,0 +1,101 @@
+"""What a look at one thing before the robot moves may find."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass
+
+
+class Check(enum.Enum):
+    """What is looked at, in the order in which it is shown."""
+
+    LINK = "link"
+    ENCRYPTION = "encryption"
+    ROBOT = "robot"
+    EMERGENCY_STOP = "emergency stop"
+    POSITION = "position"
+    LIDARS = "LiDARs"
+    BOARD = "board"
+    BATTERY = "battery"
+    BUS = "CAN bus"
+    LOCKS = "locks"
+    CLOCK = "clock map"
+    KEY = "key"
+    DISK = "disk"
+    LIMITS = "limits"
+
+
+class State(enum.Enum):
+    """GOOD: as it should be. NOTE: hinders nothing, and the Operator should know. UNKNOWN: nobody can say. BAD: no test
+    begins like this."""
+
+    GOOD = "good"
+    NOTE = "note"
+    UNKNOWN = "unknown"
+    BAD = "bad"
+
+
+class Finding(enum.Enum):
+    """What was found; a view has a sentence for each, and an advice where something is to be done."""
+
+    UNHEARD = "unheard"
+    LINK_ALIVE = "link alive"
+    LINK_SILENT = "link silent"
+    ENCRYPTED = "encrypted"
+    NOT_ENCRYPTED = "not encrypted"
+    ROBOT_READY = "robot ready"
+    ROBOT_STARTING = "robot starting"
+    ROBOT_FAULT = "robot fault"
+    OTHER_OPERATOR = "other operator"
+    ROBOT_SAYS = "robot says"
+    STOP_RELEASED = "stop released"
+    STOP_ENGAGED = "stop engaged"
+    STOP_ABSENT = "stop absent"
+    STOP_UNKNOWN = "stop unknown"
+    POSITION_KNOWN = "position known"
+    POSITION_TO_COME = "position to come"
+    POSITION_LOST = "position lost"
+    LIDARS_FINE = "lidars fine"
+    BOARD_FINE = "board fine"
+    PART_TROUBLED = "part troubled"
+    BATTERY_FINE = "battery fine"
+    BATTERY_SUFFICES = "battery suffices"
+    BATTERY_SHORT = "battery short"
+    BATTERY_LOW = "battery low"
+    BATTERY_EMPTY = "battery empty"
+    BATTERY_UNKNOWN = "battery unknown"
+    BUS_FINE = "bus fine"
+    BUS_SIMULATED = "bus simulated"
+    BUS_FULL = "bus full"
+    BUS_SLOW = "bus slow"
+    BUS_TROUBLED = "bus troubled"
+    NO_ADAPTER = "no adapter"
+    LOCKS_HEARD = "locks heard"
+    LOCKS_UNKNOWN = "locks unknown"
+    CLOCK_MAPPED = "clock mapped"
+    CLOCK_NOT_MAPPED = "clock not mapped"
+    CLOCK_UNKNOWN = "clock unknown"
+    KEY_ANSWERED = "key answered"
+    KEY_UNKNOWN = "key unknown"
+    DISK_FINE = "disk fine"
+    DISK_SHORT = "disk short"
+    DISK_FULL = "disk full"
+    DISK_UNKNOWN = "disk unknown"
+    LIMITS_LOADED = "limits loaded"
+    LIMITS_UNFIT = "limits unfit"
+    NO_LIMITS = "no limits"
+
+
+@dataclass(frozen=True)
+class Item:
+    """One line of the list.
+
+    said: what robot, link or file say of it themselves, translatable. numbers: that the view's sentence holds, in the
+    finding's order, in s, m, percent, MB or counts.
+    """
+
+    check: Check
+    state: State
+    finding: Finding
+    said: str = ""
+    numbers: tuple[float, ...] = ()

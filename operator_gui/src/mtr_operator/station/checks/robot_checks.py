@@ -1,0 +1,94 @@
+"""What a Status says of the robot before it moves."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from typing import Iterator
+
+from mtr_operator.domain.robot_status import EmergencyStop, Mode, Notification, RobotStatus
+
+from ..estimate import Plan
+from ..readiness import EMPTY_BATTERY_PERCENT, ERROR, LOW_BATTERY_PERCENT, MODE_CODES, NOT_BLOCKING, WARNING
+from .finding import Check, Finding, Item, State
+
+_BOARD_CODES = ("peripherals", "peripherals_silent")
+_NO_EMERGENCY_STOP = "no_emergency_stop"
+# Part of the codes of the robot's sentences on them.
+_LIDAR = "lidar"
+
+
+def condition(status: RobotStatus) -> Iterator[Item]:
+    """Whether it can be ordered, and what it says that belongs to no other item."""
+    said = {notification.code: notification.text for notification in status.notifications}
+    troubles = []
+    if status.controlled_by_other:
+        troubles.append(Item(Check.ROBOT, State.BAD, Finding.OTHER_OPERATOR))
+    if status.mode in (Mode.UNKNOWN, Mode.STARTING):
+        troubles.append(Item(Check.ROBOT, State.BAD, Finding.ROBOT_STARTING))
+    if status.mode is Mode.FAULT:
+        troubles.append(Item(Check.ROBOT, State.BAD, Finding.ROBOT_FAULT, said.get("fault", "")))
+    troubles += [Item(Check.ROBOT, _severity(each), Finding.ROBOT_SAYS, each.text) for each in _warnings(status)
+                 if not _is_of_lidar(each) and each.code not in (*_BOARD_CODES, _NO_EMERGENCY_STOP)]
+    yield from troubles or [Item(Check.ROBOT, State.GOOD, Finding.ROBOT_READY)]
+
+
+def _warnings(status: RobotStatus) -> list[Notification]:
+    """What the robot says beside what other items show."""
+    return [each for each in status.notifications
+            if each.severity >= WARNING and each.code not in (*MODE_CODES, "low_battery")]
+
+
+def _severity(notification: Notification) -> State:
+    is_blocking = notification.severity >= ERROR and notification.code not in NOT_BLOCKING
+    return State.BAD if is_blocking else State.NOTE
+
+
+def emergency_stop(stop: EmergencyStop) -> Item:
+    """The one by hand; while it is engaged the robot says itself what that hinders."""
+    state, finding = {
+        EmergencyStop.RELEASED: (State.GOOD, Finding.STOP_RELEASED),
+        EmergencyStop.ENGAGED: (State.NOTE, Finding.STOP_ENGAGED),
+        EmergencyStop.ABSENT: (State.NOTE, Finding.STOP_ABSENT),
+        EmergencyStop.UNKNOWN: (State.UNKNOWN, Finding.STOP_UNKNOWN)}[stop]
+    return Item(Check.EMERGENCY_STOP, state, finding)
+
+
+def position(status: RobotStatus) -> Item:
+    """Where it is beside the Car; one that has not mapped the Car yet cannot know."""
+    if status.pose_valid:
+        numbers = () if math.isnan(status.position_sigma_m) else (status.position_sigma_m,)
+        return Item(Check.POSITION, State.GOOD, Finding.POSITION_KNOWN, numbers=numbers)
+    if status.mode is not Mode.FOLLOWING_WAYPOINT:
+        return Item(Check.POSITION, State.GOOD, Finding.POSITION_TO_COME)
+    said = next((each.text for each in status.notifications if each.code == "not_localized"), "")
+    return Item(Check.POSITION, State.BAD, Finding.POSITION_LOST, said)
+
+
+def parts(status: RobotStatus) -> Iterator[Item]:
+    """LiDARs, and the board of lift and buttons: the robot says nothing of them while they work."""
+    warnings = _warnings(status)
+    of_lidars = [each for each in warnings if _is_of_lidar(each)]
+    of_board = [each for each in warnings if each.code in _BOARD_CODES]
+    for check, fine, said in ((Check.LIDARS, Finding.LIDARS_FINE, of_lidars),
+                              (Check.BOARD, Finding.BOARD_FINE, of_board)):
+        yield from ([Item(check, _severity(each), Finding.PART_TROUBLED, each.text) for each in said]
+                    or [Item(check, State.GOOD, fine)])
+
+
+def _is_of_lidar(notification: Notification) -> bool:
+    return any(_LIDAR in problem.code for problem in notification.problems)
+
+
+def battery(percent: int | None, plan: Plan | None) -> Item:
+    """Whether it lasts for the plan, or at all."""
+    if percent is None:
+        return Item(Check.BATTERY, State.UNKNOWN, Finding.BATTERY_UNKNOWN)
+    if percent < EMPTY_BATTERY_PERCENT:
+        return Item(Check.BATTERY, State.BAD, Finding.BATTERY_EMPTY, numbers=(percent,))
+    if plan is not None and not plan.suffices(percent):
+        return Item(Check.BATTERY, State.NOTE, Finding.BATTERY_SHORT, numbers=(percent, plan.battery_percent))
+    if percent < LOW_BATTERY_PERCENT:
+        return Item(Check.BATTERY, State.NOTE, Finding.BATTERY_LOW, numbers=(percent,))
+    if plan is None:
+        return Item(Check.BATTERY, State.GOOD, Finding.BATTERY_FINE, numbers=(percent,))
+    return Item(Check.BATTERY, State.GOOD, Finding.BATTERY_SUFFICES, numbers=(percent, plan.battery_percent))

@@ -1,0 +1,149 @@
+"""The checklist: each item by what is known, and never greener than the status word."""
+# SPDX-License-Identifier: Apache-2.0
+import dataclasses
+import math
+
+import pytest
+
+from mtr_operator.domain.absent_car import NO_ADAPTER
+from mtr_operator.domain.ports import BusTraffic, LockState
+from mtr_operator.domain.robot_status import EmergencyStop, Mode, Notification, Problem, RobotStatus
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.station.alert import Alert, Heard, alert_of
+from mtr_operator.station.checks.checklist import Facts, Wanted, checklist, hindrances
+from mtr_operator.station.checks.finding import Check, Finding, State
+from mtr_operator.station.disk_watch import free_bytes
+from mtr_operator.station.estimate import USUAL_CAR, plan_of
+from mtr_operator.station.events import RobotSnapshot
+from mtr_operator.station.readiness import Phase, ReadinessWord, readiness_of
+
+STATUS = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, pose_valid=True, mode=Mode.FOLLOWING_WAYPOINT,
+                     battery_percent=80, position_sigma_m=0.02, emergency_stop=EmergencyStop.RELEASED)
+TRAFFIC = BusTraffic(0.3, 0.1, 0.1)
+LIDAR = Problem("drive_control.lidar_covered", (("lidar", "rear LiDAR"),), "The rear LiDAR is covered.")
+
+
+def snapshot(lock=LockState.LOCKED, problem="", traffic=TRAFFIC, is_secret=False, **changes):
+    return RobotSnapshot(dataclasses.replace(STATUS, **changes), lock, problem, None, is_secret, traffic)
+
+
+def items(robot, silent_s=0.1, **facts):
+    return {item.check: item for item in checklist(Facts(robot, silent_s, **facts))}
+
+
+def test_each_thing_is_looked_at_in_its_order():
+    shown = checklist(Facts(snapshot(), 0.1, free_bytes=10 ** 11))
+    assert [item.check for item in shown] == list(Check)
+    assert {item.check for item in shown if item.state is not State.GOOD} == {
+        Check.ENCRYPTION, Check.KEY, Check.LIMITS}
+    assert not hindrances(shown)
+
+
+@pytest.mark.parametrize(("robot", "check", "state", "finding"), [
+    (snapshot(is_secret=True), Check.ENCRYPTION, State.GOOD, Finding.ENCRYPTED),
+    (snapshot(), Check.ENCRYPTION, State.NOTE, Finding.NOT_ENCRYPTED),
+    (snapshot(mode=Mode.STARTING), Check.ROBOT, State.BAD, Finding.ROBOT_STARTING),
+    (snapshot(mode=Mode.FAULT), Check.ROBOT, State.BAD, Finding.ROBOT_FAULT),
+    (snapshot(controlled_by_other=True), Check.ROBOT, State.BAD, Finding.OTHER_OPERATOR),
+    (snapshot(notifications=(Notification("x", 3, "Broken."),)), Check.ROBOT, State.BAD, Finding.ROBOT_SAYS),
+    (snapshot(notifications=(Notification("x", 2, "Slow."),)), Check.ROBOT, State.NOTE, Finding.ROBOT_SAYS),
+    (snapshot(notifications=(Notification("held", 3, "Held."),)), Check.ROBOT, State.NOTE, Finding.ROBOT_SAYS),
+    (snapshot(emergency_stop=EmergencyStop.ENGAGED), Check.EMERGENCY_STOP, State.NOTE, Finding.STOP_ENGAGED),
+    (snapshot(emergency_stop=EmergencyStop.ABSENT), Check.EMERGENCY_STOP, State.NOTE, Finding.STOP_ABSENT),
+    (snapshot(emergency_stop=EmergencyStop.UNKNOWN), Check.EMERGENCY_STOP, State.UNKNOWN, Finding.STOP_UNKNOWN),
+    (snapshot(pose_valid=False), Check.POSITION, State.BAD, Finding.POSITION_LOST),
+    (snapshot(pose_valid=False, mode=Mode.READY_TO_MAP_CAR), Check.POSITION, State.GOOD, Finding.POSITION_TO_COME),
+    (snapshot(notifications=(Notification("fault", 3, "Stands.", (LIDAR,)),)), Check.LIDARS, State.GOOD,
+     Finding.LIDARS_FINE),
+    (snapshot(notifications=(Notification("mode", 2, "Stands.", (LIDAR,)),)), Check.LIDARS, State.NOTE,
+     Finding.PART_TROUBLED),
+    (snapshot(notifications=(Notification("peripherals", 2, "Slow."),)), Check.BOARD, State.NOTE,
+     Finding.PART_TROUBLED),
+    (snapshot(notifications=(Notification("peripherals_silent", 3, "Silent."),)), Check.BOARD, State.BAD,
+     Finding.PART_TROUBLED),
+    (snapshot(battery_percent=None), Check.BATTERY, State.UNKNOWN, Finding.BATTERY_UNKNOWN),
+    (snapshot(battery_percent=20), Check.BATTERY, State.NOTE, Finding.BATTERY_LOW),
+    (snapshot(battery_percent=9), Check.BATTERY, State.BAD, Finding.BATTERY_EMPTY),
+    (snapshot(LockState.UNKNOWN, NO_ADAPTER, None), Check.BUS, State.BAD, Finding.NO_ADAPTER),
+    (snapshot(LockState.UNKNOWN, "No CAN frame."), Check.BUS, State.BAD, Finding.BUS_TROUBLED),
+    (snapshot(traffic=BusTraffic(0.75, 0.1, 0.1)), Check.BUS, State.NOTE, Finding.BUS_FULL),
+    (snapshot(traffic=BusTraffic(0.3, 0.4, 0.1)), Check.BUS, State.NOTE, Finding.BUS_SLOW),
+    (snapshot(traffic=None), Check.BUS, State.GOOD, Finding.BUS_SIMULATED),
+    (snapshot(LockState.UNKNOWN), Check.LOCKS, State.BAD, Finding.LOCKS_UNKNOWN),
+    (snapshot(LockState.UNKNOWN, "The clock jumped.", BusTraffic(0.3, 0.1, 0.1, "The clock jumped.")), Check.CLOCK,
+     State.BAD, Finding.CLOCK_NOT_MAPPED),
+    (snapshot(LockState.UNKNOWN, "The clock jumped.", BusTraffic(0.3, 0.1, 0.1, "The clock jumped.")), Check.BUS,
+     State.GOOD, Finding.BUS_FINE),
+])
+def test_each_item_says_what_was_found(robot, check, state, finding):
+    assert (items(robot)[check].state, items(robot)[check].finding) == (state, finding)
+
+
+@pytest.mark.parametrize("robot", [
+    snapshot(), snapshot(mode=Mode.STARTING), snapshot(mode=Mode.FAULT), snapshot(controlled_by_other=True),
+    snapshot(pose_valid=False), snapshot(pose_valid=False, mode=Mode.READY_TO_MAP_CAR), snapshot(battery_percent=9),
+    snapshot(battery_percent=20), snapshot(LockState.UNKNOWN), snapshot(LockState.UNKNOWN, NO_ADAPTER),
+    snapshot(LockState.UNKNOWN, "No CAN frame."), snapshot(notifications=(Notification("x", 3, "Broken."),)),
+    snapshot(notifications=(Notification("held", 3, "Held."),)),
+    snapshot(notifications=(Notification("no_emergency_stop", 3, "None."),)),
+    snapshot(notifications=(Notification("link_lost", 3, "Lost."),)),
+    snapshot(notifications=(Notification("x", 3, "Stands.", (LIDAR,)),)),
+    snapshot(notifications=(Notification("peripherals_silent", 3, "Silent."),))])
+def test_list_and_status_word_never_contradict_each_other__B10(robot):
+    can_start = readiness_of(robot, 0.1, Phase.IDLE).can_start
+    assert bool(hindrances(checklist(Facts(robot, 0.1, free_bytes=10 ** 11)))) is not can_start
+
+
+@pytest.mark.parametrize("silent_s", [1.6, 60.0])
+def test_silent_robot_leaves_everything_of_it_open(silent_s):
+    shown = items(snapshot(), silent_s)
+    assert shown[Check.LINK].finding is Finding.LINK_SILENT and shown[Check.LINK].numbers == (silent_s,)
+    assert {item.finding for check, item in shown.items()
+            if check not in (Check.LINK, Check.DISK, Check.LIMITS)} == {Finding.UNHEARD}
+    assert items(None)[Check.LINK].state is State.BAD
+
+
+def test_battery_is_measured_by_the_plan():
+    scenario = SCENARIOS["autolock"]
+    plan = plan_of(scenario, scenario.parameters_type(measurements_distance_m=0.3), USUAL_CAR, False)
+    wanted = Wanted(plan)
+    assert items(snapshot(battery_percent=100), wanted=wanted)[Check.BATTERY].finding is Finding.BATTERY_SUFFICES
+    short = items(snapshot(battery_percent=math.ceil(plan.battery_percent) + 10), wanted=wanted)[Check.BATTERY]
+    assert (short.finding, short.numbers[1]) == (Finding.BATTERY_SHORT, plan.battery_percent)
+
+
+@pytest.mark.parametrize(("free", "state"), [
+    (None, State.UNKNOWN), (10_000_000, State.BAD), (400_000_000, State.NOTE), (10 ** 11, State.GOOD)])
+def test_room_on_the_disk(free, state):
+    assert items(snapshot(), free_bytes=free)[Check.DISK].state is state
+
+
+def test_room_is_that_where_the_folder_will_be_made(tmp_path):
+    assert free_bytes(tmp_path / "not" / "there") == pytest.approx(free_bytes(tmp_path), rel=0.05)
+
+
+@pytest.mark.parametrize(("answered_s", "state"), [(None, State.UNKNOWN), (5.0, State.GOOD), (61.0, State.UNKNOWN)])
+def test_key_counts_as_awake_for_as_long_as_it_stays_so(answered_s, state):
+    assert items(snapshot(), answered_s=answered_s)[Check.KEY].state is state
+
+
+def test_limits_are_counted_and_their_fault_is_told():
+    assert items(snapshot(), wanted=Wanted(limits=3))[Check.LIMITS].numbers == (3,)
+    unfit = items(snapshot(), wanted=Wanted(limits=3, limits_problem="No such line."))[Check.LIMITS]
+    assert (unfit.state, unfit.said) == (State.BAD, "No such line.")
+
+
+REST = Heard(False, ReadinessWord.READY, Phase.IDLE, False)
+RUN = Heard(True, ReadinessWord.MEASURING, Phase.MEASURING, False)
+
+
+@pytest.mark.parametrize(("before", "now", "alert"), [
+    (REST, REST, None), (REST, RUN, Alert.MOVES), (RUN, RUN, None),
+    (RUN, Heard(False, ReadinessWord.READY, Phase.FINISHED, False), Alert.DONE),
+    (RUN, Heard(False, ReadinessWord.PAUSED, Phase.PAUSED, False), None),
+    (RUN, Heard(False, ReadinessWord.PAUSED, Phase.PAUSED, True), Alert.TROUBLE),
+    (RUN, dataclasses.replace(RUN, word=ReadinessWord.BLOCKED), Alert.TROUBLE),
+    (RUN, dataclasses.replace(RUN, word=ReadinessWord.LOST), Alert.TROUBLE),
+    (REST, dataclasses.replace(REST, word=ReadinessWord.LOST), None)])
+def test_what_is_to_be_heard(before, now, alert):
+    assert alert_of(before, now) is alert
