@@ -28,7 +28,7 @@ class DataSheet(ParameterSet):
 
     expected_length_m: float = number(4.5, 2.0, 10.0, "m")
     expected_width_m: float = number(1.8, 1.0, 3.0, "m")
-    size_tolerance_m: float = number(1.0, 0.1, 3.0, "m")
+    size_tolerance_m: float = number(1.5, 0.1, 3.0, "m")
     known_length_m: float = number(0.0, 0.0, 10.0, "m")
     known_width_m: float = number(0.0, 0.0, 3.0, "m")
     front_overhang_m: float = number(0.0, 0.0, 2.0, "m")

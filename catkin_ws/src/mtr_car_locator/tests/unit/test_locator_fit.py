@@ -80,10 +80,27 @@ def test_wall_beside_the_car_is_not_its_side(wall):
     assert fit.rectangle.width == pytest.approx(WIDTH_M, abs=0.006)
 
 
-@pytest.mark.parametrize("length, width, name", [(6.5, 1.8, "length"), (3.0, 1.8, "length"), (4.5, 2.7, "width")])
+@pytest.mark.parametrize("length, width, name", [(6.5, 1.8, "length"), (2.7, 1.8, "length"), (4.5, 2.7, "width")])
 def test_thing_of_another_size_is_no_car(length, width, name):
     with pytest.raises(NotLocated):
         fit_car(surfels(box(length=length, width=width)), prior(), PARAMETERS)
+
+
+@pytest.mark.parametrize("length, width", [(3.05, 1.45), (3.57, 1.63), (5.3, 2.0), (5.95, 2.15)])
+@pytest.mark.parametrize("guess", [(0.0, 0.0, 0.0), (0.6, -0.5, 0.1)])
+def test_small_and_large_cars_are_found_without_a_data_sheet(length, width, guess):
+    """Where both ends are seen, an ordinary length from one of them is no second Car."""
+    fit = fit_car(surfels(box(length=length, width=width)), prior(*guess), PARAMETERS)
+    assert error_of(fit)[0] < 0.005
+    assert fit.rectangle.length == pytest.approx(length, abs=0.006)
+    assert fit.rectangle.width == pytest.approx(width, abs=0.006)
+
+
+@pytest.mark.parametrize("length", [6.1, 6.5, 7.5])
+@pytest.mark.parametrize("guess_x", [-0.9, -0.6, 0.0, 0.6, 0.9])
+def test_part_of_a_thing_that_is_too_long_is_no_car(length, guess_x):
+    with pytest.raises(NotLocated):
+        fit_car(surfels(box(length=length, width=2.0)), prior(guess_x), PARAMETERS)
 
 
 def test_car_too_far_from_the_prior_is_not_looked_for():

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
+from typing import Tuple
 
 import numpy as np
 
@@ -18,8 +19,12 @@ from .prior import Prior
 # continued surface that faces outwards beside the outline.
 DEEP_M, BESIDE_M = 0.55, 0.50
 COVER_BIN_M = 0.25
-# Wheels alone cover a quarter to a third of the outline, two sides half of it.
-LENGTH_SPREAD, WIDTH_SPREAD_M = 1.0, 0.4
+# A Car whose sides go on by so much in this stretch beyond one of its ends is longer than that.
+CONTINUED_FROM_M, CONTINUED_TO_M, CONTINUED_M = 0.1, 0.5, 0.3
+# Cars without a data sheet: from a small one to a delivery van each size is as likely, and beyond that soon none is.
+ORDINARY_LENGTH_M, ORDINARY_WIDTH_M = (3.0, 6.0), (1.4, 2.2)
+# What the LiDARs' plane shows of a Car of a known size, or beyond the ordinary ones.
+LENGTH_SPREAD_M, WIDTH_SPREAD_M = 0.3, 0.15
 # The starting place has this 1 sigma in the choice between two that look alike.
 PLACE_SIGMA_M, PLACE_SIGMA_RAD = 0.8, math.radians(12.0)
 
@@ -47,12 +52,10 @@ def score_of(surfels: Surfels, car: Rectangle, prior: Prior, sheet: DataSheet) -
     beside = (outside > BEYOND_M) & (outside < BESIDE_M) & (facing(seen, car) > MIN_OUTWARD_COSINE) & _along(seen, car)
     contradicting = (outside < -DEEP_M) | beside
     good, bad = seen.length[explained].sum(), seen.length[contradicting].sum()
-    if good <= 0.0:
+    if good <= 0.0 or _continued_m(seen, car) > CONTINUED_M:
         return Score(0.0, 0.0, 0.0)
     cover = cover_of(seen.where(explained), car)
-    size = math.exp(-0.5 * ((car.length - sheet.length_m) / LENGTH_SPREAD) ** 2
-                    - 0.5 * ((car.width - sheet.width_m) / WIDTH_SPREAD_M) ** 2)
-    quality = float(cover * good / (good + bad) * size)
+    quality = float(cover * good / (good + bad) * _size_likelihood(car, sheet))
     off_m, off_rad = prior.error_of(car.pose)
     place = math.exp(-0.5 * (off_m / PLACE_SIGMA_M) ** 2 - 0.5 * (off_rad / PLACE_SIGMA_RAD) ** 2)
     return Score(quality, quality * place, cover)
@@ -69,6 +72,26 @@ def cover_of(explained: Surfels, car: Rectangle) -> float:
         counts, _ = np.histogram(along, bins=bins, range=(-half, half))
         covered, total = covered + np.count_nonzero(counts), total + bins
     return covered / total
+
+
+def _size_likelihood(car: Rectangle, sheet: DataSheet) -> float:
+    """1 for a size that a Car may have, less the farther it is from that."""
+    lengths = (sheet.known_length_m,) * 2 if sheet.known_length_m else ORDINARY_LENGTH_M
+    widths = (sheet.known_width_m,) * 2 if sheet.known_width_m else ORDINARY_WIDTH_M
+    return math.exp(-0.5 * (_beyond(car.length, lengths) / LENGTH_SPREAD_M) ** 2
+                    - 0.5 * (_beyond(car.width, widths) / WIDTH_SPREAD_M) ** 2)
+
+
+def _beyond(value: float, limits: Tuple[float, float]) -> float:
+    return max(limits[0] - value, value - limits[1], 0.0)
+
+
+def _continued_m(seen: Surfels, car: Rectangle) -> float:
+    """Surface on the lines of the long sides just beyond their ends, m."""
+    beyond, aside = (np.abs(seen.position) - (0.5 * car.length, 0.5 * car.width)).T
+    faces_out = seen.normal[:, 1] * np.sign(seen.position[:, 1]) > MIN_OUTWARD_COSINE
+    on_line = (beyond > CONTINUED_FROM_M) & (beyond < CONTINUED_TO_M) & (np.abs(aside) < BEYOND_M) & faces_out
+    return float(seen.length[on_line].sum())
 
 
 def _along(seen: Surfels, car: Rectangle) -> BoolArray:

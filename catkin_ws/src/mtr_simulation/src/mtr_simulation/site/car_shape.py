@@ -90,6 +90,7 @@ CAR_SHAPES: Dict[str, CarShape] = {
     "default": CarShape(),
     "hatchback": CarShape(4.28, 1.79, 1.46, 2.63, 0.316, 0.17, 0.0, 2.6, 3.5, 0.02),
     "sedan": CarShape(4.85, 1.85, 1.44, 2.85, 0.33, 0.22, 0.0, 2.8, 3.5, 0.02),
+    "small": CarShape(3.57, 1.63, 1.49, 2.3, 0.29, 0.16, 0.0, 2.4, 3.0, 0.02),
     "van": CarShape(5.1, 1.95, 1.97, 3.15, 0.34, 0.26, 0.08, 3.5, 7.0, 0.01),
     "suv": CarShape(length_m=4.7, width_m=1.9, height_m=1.7, wheel_radius_m=0.36, clearance_m=0.34),
 }
