@@ -25,19 +25,20 @@ constexpr Sentence kImuWentBack{"localization.imu_went_back", "The time of the I
 
 // The position
 constexpr Sentence kLost{"localization.lost", "Position lost: {cause} Map the Car again."};
-constexpr Sentence kSearching{"localization.searching", "Position lost: {cause} Drive or turn it by hand until it knows where it is."};
-constexpr Sentence kOtherView{
-    "localization.other_view",
-    "Position lost: the LiDAR does not see what the map shows here. Drive or turn it by hand until it knows where it is."};
+constexpr Sentence kSearching{"localization.searching",
+                              "Position lost: {cause} Drive or turn it by hand until it knows where it is."};
+constexpr Sentence kOtherView{"localization.other_view",
+                              "Position lost: the LiDAR does not see what the map shows here. Drive or turn it by hand "
+                              "until it knows where it is."};
 constexpr Sentence kOtherViewWhileMapping{
     "localization.other_view_while_mapping",
     "Position lost: the LiDAR does not see what it saw on the way. Unless it does again, map the Car again."};
-constexpr Sentence kOutOfView{
-    "localization.out_of_view",
-    "Position lost: nothing of the map has been in view for too long. Drive or turn it by hand until it knows where it is."};
-constexpr Sentence kElsewhere{
-    "localization.elsewhere",
-    "Position lost: by satellites the robot is {distance_m:.1f} m from there. Drive or turn it by hand until it knows where it is."};
+constexpr Sentence kOutOfView{"localization.out_of_view",
+                              "Position lost: nothing of the map has been in view for too long. Drive or turn it by "
+                              "hand until it knows where it is."};
+constexpr Sentence kElsewhere{"localization.elsewhere",
+                              "Position lost: by satellites the robot is {distance_m:.1f} m from there. Drive or turn "
+                              "it by hand until it knows where it is."};
 constexpr Sentence kWaitingForOther{"localization.waiting_for_other",
                                     "Waiting for map to odom from the other localization."};
 

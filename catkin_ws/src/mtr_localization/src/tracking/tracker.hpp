@@ -58,12 +58,12 @@ class ScanTracker {
   static bool is_enough(const ScanMatch& match);
   /// Notes the figures of a match; true when it is of enough points to correct a pose.
   bool accept(const ScanMatch& match);
-  /// Whether a scan lies exactly on the map at the pose of a step, which may look much like the right one and not be it.
-  /// Knows from then on when the pose is lost.
+  /// Whether a scan lies exactly on the map at the pose of a step, which may look much like the right one and not be
+  /// it. Knows from then on when the pose is lost.
   bool fits(const ScanPoints& scan, const FilterStep& step);
   /// While lost: takes the pose of wheels and gyro up again when what hid the view has gone, else looks for places that
-  /// explain several views; in a growing map the pose of wheels and gyro is the only one that is tried. Returns the pose
-  /// that was found by search.
+  /// explain several views; in a growing map the pose of wheels and gyro is the only one that is tried. Returns the
+  /// pose that was found by search.
   std::optional<Relocalization::Found> relocalize(const ScanSet& set, const ScanPoints& scan,
                                                   const FilterHistory& history);
 

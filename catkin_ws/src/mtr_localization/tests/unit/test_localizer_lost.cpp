@@ -204,10 +204,8 @@ class LocalizerKidnappedTest : public ::testing::TestWithParam<Kidnapping> {};
 
 // In each of these the pose was once taken up at a wrong place, metres off, with a sigma of centimetres.
 INSTANTIATE_TEST_SUITE_P(LocalizerKidnapped, LocalizerKidnappedTest,
-                         ::testing::Values(Kidnapping{"open", {-1.4, 3.7, -1.5}},
-                                           Kidnapping{"open", {-1.0, 0.6, -3.0}},
-                                           Kidnapping{"cones", {-0.9, 2.0, 3.0}},
-                                           Kidnapping{"cones", {-3.2, 4.7, 2.7}},
+                         ::testing::Values(Kidnapping{"open", {-1.4, 3.7, -1.5}}, Kidnapping{"open", {-1.0, 0.6, -3.0}},
+                                           Kidnapping{"cones", {-0.9, 2.0, 3.0}}, Kidnapping{"cones", {-3.2, 4.7, 2.7}},
                                            Kidnapping{"lot", {-1.6, -3.1, 1.1}},
                                            Kidnapping{"lot", {-2.9, -4.3, -1.5}}));
 

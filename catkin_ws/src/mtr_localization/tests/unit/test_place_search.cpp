@@ -13,7 +13,8 @@ namespace {
 /// Walls of a room without symmetry, as surfels that face inwards.
 std::vector<Surfel> room() {
   std::vector<Surfel> surfels;
-  const std::vector<Eigen::Vector2d> corners{{-4.0, -3.0}, {5.0, -3.0}, {5.0, 1.0}, {2.0, 1.0}, {2.0, 4.0}, {-4.0, 4.0}};
+  const std::vector<Eigen::Vector2d> corners{{-4.0, -3.0}, {5.0, -3.0}, {5.0, 1.0},
+                                             {2.0, 1.0},   {2.0, 4.0},  {-4.0, 4.0}};
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector2d side = corners[(i + 1) % corners.size()] - corners[i];
     const Eigen::Vector2d along = side.normalized();
