@@ -21,6 +21,7 @@ COVERED = 0.5
 _DRAWS, _SEED = 400, 1
 # Fewer presses say nothing of how much a field differs from place to place.
 MIN_PRESSES = 6
+_AT_ONCE = 32
 
 
 class ZoneSearch:
@@ -42,7 +43,6 @@ class ZoneSearch:
         """Take a press of another zone, or of before."""
         self._pressed.append(place)
         self._worked.append(float(worked))
-        self._field = None
 
     def add(self, place: FloatArray, worked: bool) -> None:
         """Take a press of this zone."""
@@ -52,10 +52,16 @@ class ZoneSearch:
     @property
     def field(self) -> LatentField:
         """What is possible after the presses so far."""
-        if self._field is None:
-            pressed = np.array(self._pressed).reshape(-1, 4)
-            self._field = LatentField(self._prior, pressed, np.array(self._worked))
-        return self._field
+        pressed, worked = np.array(self._pressed).reshape(-1, 4), np.array(self._worked)
+        field = self._field
+        if field is None:
+            field = LatentField(self._prior, pressed[:_AT_ONCE], worked[:_AT_ONCE])
+        # Of many presses at once the first ones tell which slopes and fadings are worth the others.
+        while field.presses < len(worked):
+            known = min(max(2 * field.presses, _AT_ONCE), len(worked))
+            field = LatentField(self._prior, pressed[:known], worked[:known], field)
+        self._field = field
+        return field
 
     def next_place(self, seconds: Callable[[FloatArray], FloatArray]) -> int:
         """Index of the place to press at; seconds: that a press at each of the places would take.
@@ -64,8 +70,7 @@ class ZoneSearch:
         it, changes no outline (level set estimation: Bryan et al., Active learning for identifying function threshold
         boundaries, 2005).
         """
-        mean, sigma = self.field.smooth_marginals(self.places)
-        covered = ndtr(mean / sigma)
+        covered = self.field.covered(self.places)
         told = self.field.information(self.places) * covered * (1.0 - covered)
         return int(np.argmax(told / seconds(self.places)))
 
@@ -87,8 +92,7 @@ class ZoneSearch:
         """Distance on a ray, from near to far, where half of the presses work for the last time, over the fading of
         the places around; NaN when nowhere.
 
-        places: on the ray. sigmas: of the latent height that are taken off (below 0: added): for a sure boundary.
+        places: on the ray. sigmas: of a normal distribution, for a sure boundary (below 0: a possible one).
         """
-        mean, sigma = self.field.smooth_marginals(places)
-        above = np.flatnonzero(mean - sigmas * sigma >= 0.0)
+        above = np.flatnonzero(self.field.covered(places) >= ndtr(sigmas))
         return float(distances_m[above[-1]]) if len(above) else math.nan

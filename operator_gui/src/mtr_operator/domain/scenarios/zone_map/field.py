@@ -23,9 +23,14 @@ _FINE_M = 0.05
 def search_in(zone: Zone, parameters: ZoneMapParameters, car: CarDimensions,
               results: Sequence[ZoneMapResult]) -> ZoneSearch:
     """Search that knows what was pressed in the other zones."""
-    search = ZoneSearch(FieldPrior(parameters.half_wavelength_m), rows(zone, car), areas_m2(zone, parameters))
+    search = ZoneSearch(prior_of(parameters), rows(zone, car), areas_m2(zone, parameters))
     recall(search, [result for result in results if result.zone != zone.number], car)
     return search
+
+
+def prior_of(parameters: ZoneMapParameters) -> FieldPrior:
+    """What is taken of the field in the map before it is measured."""
+    return FieldPrior(parameters.half_wavelength_m, parameters.minimum_distance_m, parameters.maximum_distance_m)
 
 
 def recall(search: ZoneSearch, results: Sequence[ZoneMapResult], car: CarDimensions) -> None:

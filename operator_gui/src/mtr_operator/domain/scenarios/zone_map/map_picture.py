@@ -6,13 +6,12 @@ from typing import Sequence
 
 import numpy as np
 
-from ...estimation.field.prior import FieldPrior
 from ...estimation.field.zone_search import ZoneSearch
 from ...geometry.radials import radials_around
 from ...results.line_result import LineStatus
 from ...results.picture import Picture, PointRole, PointSet, Stretch
 from ...robot_status import CarDimensions
-from .field import ends_on, recall
+from .field import ends_on, prior_of, recall
 from .parameters import ZoneMapParameters
 from .result import ZoneMapResult
 from .zones import from_outline, zones_around
@@ -36,7 +35,7 @@ def picture_of(parameters: ZoneMapParameters, car: CarDimensions, results: Seque
 def _outlines(parameters: ZoneMapParameters, car: CarDimensions,
               results: Sequence[ZoneMapResult]) -> tuple[PointSet, ...]:
     """On each radial in a measured zone."""
-    search = ZoneSearch(FieldPrior(parameters.half_wavelength_m), np.zeros((0, 4)), np.zeros(0))
+    search = ZoneSearch(prior_of(parameters), np.zeros((0, 4)), np.zeros(0))
     recall(search, results, car)
     sides = {result.side for result in results}
     rays = [from_outline(radial.ray, car) for radial in radials_around(parameters.angle_between_radials_rad)]
