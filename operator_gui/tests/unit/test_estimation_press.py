@@ -12,6 +12,7 @@ from mtr_operator.domain.estimation.interval import UNKNOWN, Interval, differenc
 from mtr_operator.domain.estimation.press.campaign import Campaign
 from mtr_operator.domain.estimation.press.hypotheses import hypotheses_for
 from mtr_operator.domain.estimation.press.information import PressInformation
+from mtr_operator.domain.estimation.press.lattice import Lattice
 from mtr_operator.domain.estimation.press.likelihood import Press, PressLikelihood
 from mtr_operator.domain.estimation.press.plan import RobotTimes, SearchPlan
 from mtr_operator.domain.estimation.press.posterior import RadialPosterior
@@ -20,6 +21,7 @@ from mtr_operator.domain.estimation.press.radial_search import RadialSearch
 from mtr_operator.domain.estimation.press.transition import WIDTH_PER_SCALE
 
 PLAN = SearchPlan(3.0, 10.0, interval_m=0.3)
+LATTICE = Lattice(0.0, 0.35)
 
 
 def measured(plan, works, campaign=None, radial=1):
@@ -34,7 +36,7 @@ def measured(plan, works, campaign=None, radial=1):
 
 def posterior_of(plan, presses):
     grid = plan.hypotheses()
-    likelihood, campaign = PressLikelihood(grid, plan.half_wavelength_m), Campaign(grid)
+    likelihood, campaign = PressLikelihood(grid, plan.lattice), Campaign(grid)
     for press in presses:
         likelihood.add(press)
     return RadialPosterior(grid, likelihood.log, campaign.log_shape_prior(1), campaign.log_place_prior(1))
@@ -55,10 +57,10 @@ def test_interval_without_a_finite_weight_is_unknown_and_holds_nothing(weights):
 
 def test_one_press_counts_as_the_curve_whatever_the_fading():
     grid = hypotheses_for(3.0, 10.0, 0.1)
-    likelihood = PressLikelihood(grid, 0.35)
-    likelihood.add(Press(6.0, True))
+    likelihood = PressLikelihood(grid, LATTICE)
+    likelihood.add(Press(5.95, True))
     width_m = grid.width_m[12]
-    curve = expit((grid.d50_m - 6.0) * WIDTH_PER_SCALE / width_m)
+    curve = expit((grid.d50_m - 5.95) * WIDTH_PER_SCALE / width_m)
     for shared in (0, 1):
         assert np.exp(likelihood.log[shared, 0, 12]) == pytest.approx(np.maximum(curve, 1e-6), abs=2e-7)
 
@@ -67,13 +69,13 @@ def test_one_press_counts_as_the_curve_whatever_the_fading():
 def test_presses_at_one_place_share_its_fading(d50_m):
     """Against a simulation of the fading: eight successes in a place are far likelier than eight independent ones."""
     grid = hypotheses_for(3.0, 10.0, 0.05)
-    likelihood = PressLikelihood(grid, 0.35)
+    likelihood = PressLikelihood(grid, LATTICE)
     for _ in range(8):
-        likelihood.add(Press(6.0, True))
+        likelihood.add(Press(5.95, True))
     column = int(np.argmin(abs(grid.width_m - 3.0)))
     row = int(np.argmin(abs(grid.d50_m - d50_m)))
     shared = grid.shared[1]
-    mean = expit((grid.d50_m[row] - 6.0) * WIDTH_PER_SCALE / grid.width_m[column])
+    mean = expit((grid.d50_m[row] - 5.95) * WIDTH_PER_SCALE / grid.width_m[column])
     faded = np.sqrt(shared) * np.random.default_rng(1).standard_normal(200_000)
     simulated = np.mean(ndtr((ndtri(mean) + faded) / np.sqrt(1.0 - shared)) ** 8)
     assert np.exp(likelihood.log[1, 0, column, row]) == pytest.approx(simulated, abs=0.03)
@@ -82,7 +84,7 @@ def test_presses_at_one_place_share_its_fading(d50_m):
 
 def test_presses_half_a_wavelength_apart_are_independent():
     grid = hypotheses_for(3.0, 10.0, 0.1)
-    both, first, second = (PressLikelihood(grid, 0.35) for _ in range(3))
+    both, first, second = (PressLikelihood(grid, LATTICE) for _ in range(3))
     for likelihood, places in ((both, (5.6, 5.95)), (first, (5.6,)), (second, (5.95,))):
         for place in places:
             likelihood.add(Press(place, place < 5.8))
@@ -91,23 +93,23 @@ def test_presses_half_a_wavelength_apart_are_independent():
 
 def test_press_beside_another_is_independent_for_noise_in_time_only():
     grid = hypotheses_for(3.0, 10.0, 0.1)
-    both, single = PressLikelihood(grid, 0.35), PressLikelihood(grid, 0.35)
+    both, single = PressLikelihood(grid, LATTICE), PressLikelihood(grid, LATTICE)
     both.add(Press(5.6, True))
-    both.add(Press(5.65, True))
-    single.add(Press(5.65, True))
-    assert both.presses_beside(5.6) == 2 and both.place_of(5.6) == both.place_of(5.65)
-    other = PressLikelihood(grid, 0.35)
+    both.add(Press(5.62, True))
+    single.add(Press(5.62, True))
+    assert both.presses_beside(5.6) == 2 and LATTICE.place_of(5.6) == LATTICE.place_of(5.62)
+    other = PressLikelihood(grid, LATTICE)
     other.add(Press(5.6, True))
     assert both.log[0] == pytest.approx(other.log[0] + single.log[0])
 
 
 def test_a_hundred_presses_at_one_place_leave_finite_probabilities():
-    presses = [Press(place, worked) for _ in range(50) for place, worked in ((6.0, True), (6.01, False))]
+    presses = [Press(place, worked) for _ in range(50) for place, worked in ((5.8, True), (5.81, False))]
     assert np.all(np.isfinite(posterior_of(PLAN, presses).probability))
 
 
 def test_press_tells_most_at_the_boundary_and_nothing_far_from_it():
-    presses = [Press(place, place < 6.2) for place in (3.0, 4.0, 5.0, 5.5, 5.9, 6.5, 6.9, 7.5, 9.0)]
+    presses = [Press(place, place < 6.2) for place in 3.0 + 0.35 * np.array([0, 3, 6, 7, 8, 10, 11, 13, 17])]
     works, information = PressInformation(posterior_of(PLAN, presses)).at(np.array([3.1, 6.2, 9.9]))
     assert works[0] > 0.9 and 0.2 < works[1] < 0.8 and works[2] < 0.1
     assert np.argmax(information) == 1 and information[0] < 0.2 * information[1] > information[2]
@@ -240,7 +242,7 @@ def test_intervals_of_a_soft_boundary_hold_it():
 
 
 def test_good_fit_and_bad_fit_are_told_apart():
-    good = [Press(place, place < 6.2) for place in (4.0, 5.0, 5.5, 5.9, 6.5, 6.9, 7.5)]
+    good = [Press(place, place < 6.2) for place in 3.0 + 0.35 * np.array([3, 6, 7, 8, 10, 11, 13])]
     grid = PLAN.hypotheses()
     searches = []
     for presses in (good, [*good, *[Press(3.0 + 0.35 * number, False) for number in range(4)]]):

@@ -1,28 +1,27 @@
 """How well each hypothesis explains the presses of a radial.
 
-Presses half a wavelength apart are independent. Nearer ones share the fading of their place: it moves the boundary
-there by a normal of sigma sqrt(shared) * sigma of the transition, and what is left to time makes a steeper curve of
-scale sqrt(1 - shared) * scale. For a place with several presses that is
+Presses at places half a wavelength apart are independent (lattice). Those at one place share its fading: it moves the
+boundary there by a normal of sigma sqrt(shared) * sigma of the transition, and what is left to time makes a steeper
+curve of scale sqrt(1 - shared) * scale. For a place with several presses that is
 
     L(d50) = integral of  prod_i p_steep(y_i; d50 + f)  N(f; 0, sigma_f)  df,
 
-a convolution along d50; for one press it is the curve itself.
-
-Source: Clarke's model, isotropic scattering: the correlation of the field is sinc(2 pi r / wavelength), zero at half a
-wavelength (R. Clarke, Bell System Technical Journal 47, 1968).
+a convolution along d50; for one press it is the curve itself. A press between the places depends on the fading of
+several: what it tells of the line's own end is in line_boundary, what it would tell of the grid is left out.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import collections
 import math
 from dataclasses import dataclass, field
 
 import numpy as np
-import numpy.typing as npt
 from scipy import fft
 
 from ..interval import FloatArray
 from .hypotheses import Hypotheses
+from .lattice import Lattice
 from .transition import SIGMA_PER_SCALE, WIDTH_PER_SCALE, SingleArray, falling_single
 
 # Of a probability: a transition of 5 cm would make one press at the wrong side refute all else.
@@ -59,32 +58,29 @@ class PressLikelihood:
     """Logarithm of the likelihood over the grid.
 
     Attributes:
+        lattice: places that share no fading.
         log: axes [shared, lapse, width, d50].
     """
 
-    def __init__(self, hypotheses: Hypotheses, half_wavelength_m: float, first_m: float = 0.0):
+    def __init__(self, hypotheses: Hypotheses, lattice: Lattice):
         self._hypotheses = hypotheses
-        self._half_wavelength_m = half_wavelength_m
-        self._first_m = first_m
+        self.lattice = lattice
         self._places: dict[int, _Place] = {}
+        self._between: collections.Counter[int] = collections.Counter()
         self.log: SingleArray = np.zeros((*hypotheses.shape_size, len(hypotheses.d50_m)), np.float32)
-
-    def place_of(self, distance_m: float) -> int:
-        """Number of the half wavelength in whose midst a distance lies, counted from first_m."""
-        return round((distance_m - self._first_m) / self._half_wavelength_m)
-
-    def places_of(self, distances_m: FloatArray) -> npt.NDArray[np.int_]:
-        """The same of many distances."""
-        return np.asarray(np.rint((distances_m - self._first_m) / self._half_wavelength_m).astype(int))
 
     def presses_beside(self, distance_m: float) -> int:
         """Presses so far that share the fading with a distance."""
-        place = self._places.get(self.place_of(distance_m))
-        return 0 if place is None else place.presses
+        number = self.lattice.place_of(distance_m)
+        place = self._places.get(number)
+        return self._between[number] + (0 if place is None else place.presses)
 
     def add(self, press: Press) -> None:
-        """Take a press."""
-        number = self.place_of(press.distance_m)
+        """Take a press; one between the places is only counted."""
+        number = self.lattice.place_of(press.distance_m)
+        if self.lattice.is_between(press.distance_m):
+            self._between[number] += 1
+            return
         # The fading of one press alone is part of the curve.
         alone: SingleArray = np.log(self._factor(press, 1.0))
         place = self._places.get(number)
@@ -100,7 +96,7 @@ class PressLikelihood:
 
     def without(self, distance_m: float) -> SingleArray:
         """The logarithm without the presses that share the fading of a place."""
-        place = self._places.get(self.place_of(distance_m))
+        place = self._places.get(self.lattice.place_of(distance_m))
         return self.log if place is None else self.log - place.log
 
     def _shared_log(self, place: _Place, press: Press, alone: SingleArray, row: int, share: float) -> SingleArray:

@@ -6,23 +6,24 @@ that is nearest to it (antitonic regression), which lies where the sum of what e
     d_level = argmax over D of  integral from 0 to D of  (p(x) - level) dx.
 
 Of each hypothesis (d50 and width of the mean curve, lapse, part of the fading that stays) the line's own curve is
-drawn: fading is normal, known where presses were made as far as they tell it, unknown elsewhere, and half a wavelength
-apart independent. The draws' places of the levels are what is possible. Sources: Barlow et al., Statistical Inference
-under Order Restrictions, 1972; the model of the fading is that of likelihood.
+drawn, with a fading that explains the presses (fading_draws). The draws' places of the levels are what is possible.
+Source: Barlow et al., Statistical Inference under Order Restrictions, 1972.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Mapping, Sequence
+from typing import Sequence
 
 import numpy as np
+import numpy.typing as npt
 from scipy.special import entr, logit
 
 from ..interval import FloatArray, Interval, interval_of_draws
+from .fading_draws import FadingDraws, explaining
+from .lattice import Lattice
 from .likelihood import Press
 from .posterior import RadialPosterior
-from .transition import SIGMA_PER_SCALE, WIDTH_PER_SCALE, SingleArray, falling_single
+from .transition import WIDTH_PER_SCALE, SingleArray, falling_single
 
 HALF, SURE = 0.5, 0.95
 # Nodes of the fading at one place, in its own sigmas, and half their distance.
@@ -33,48 +34,23 @@ SURE_PART = 1.0
 # Parts of equally many draws, by their distance, in which a press's outcome is looked at.
 _PARTS = 20
 _SEED = 1
+# Places beyond the ends of the grid whose fading is drawn too.
+_BEYOND = 4
 _TINY = 1e-9
-
-
-@dataclass(frozen=True)
-class Places:
-    """Places that share no fading, by number; the middle of number 0 lies at first_m, the next one apart_m farther."""
-
-    pressed: Mapping[int, Sequence[Press]]
-    first_m: float
-    apart_m: float
-
-
-@dataclass(frozen=True)
-class _Draws:
-    """Hypotheses; one of each in a row."""
-
-    d50_m: FloatArray
-    width_m: FloatArray
-    lapse: FloatArray
-    shared: FloatArray
-
-    @property
-    def fading_m(self) -> FloatArray:
-        """Sigma of the boundary's displacement by the fading that stays."""
-        return np.asarray(np.sqrt(self.shared) * SIGMA_PER_SCALE * self.width_m / WIDTH_PER_SCALE)
-
-    @property
-    def own_width_m(self) -> FloatArray:
-        """Width of the transition at one place."""
-        return np.asarray(np.sqrt(1.0 - self.shared) * self.width_m)
 
 
 class LineBoundary:
     """Draws of the line's own curve after the presses made; as many as count."""
 
-    def __init__(self, posterior: RadialPosterior, places: Places, count: int):
+    def __init__(self, posterior: RadialPosterior, presses: Sequence[Press], lattice: Lattice, count: int):
         chance = np.random.default_rng(_SEED)
-        draws = _drawn(posterior, count, chance)
         grid = posterior.hypotheses
         self._distances_m = np.arange(grid.edges_m[0], grid.edges_m[-1], grid.step_m)
-        displaced_m = _displacements(draws, places, self._distances_m, chance)
-        beyond_m = draws.d50_m[:, None] + displaced_m - self._distances_m
+        first, last = lattice.place_of(grid.edges_m[0]), lattice.place_of(grid.edges_m[-1])
+        numbers = np.arange(first - _BEYOND, last + _BEYOND + 1)
+        draws = _faded(_drawn(posterior, count, len(numbers), chance), presses, lattice, numbers, chance)
+        displaced = draws.fading.astype(np.float32) @ lattice.weights(self._distances_m, numbers).astype(np.float32)
+        beyond_m = draws.d50_m[:, None] + draws.fading_m.astype(np.float32)[:, None] * displaced - self._distances_m
         self._logits: SingleArray = (beyond_m * WIDTH_PER_SCALE / draws.own_width_m[:, None]).astype(np.float32)
         self._works: SingleArray = np.float32(0.5) + np.float32(0.5) * np.tanh(np.float32(0.5) * self._logits)
         self._sure_of_button = (1.0 - draws.lapse).astype(np.float32)[:, None]
@@ -87,6 +63,10 @@ class LineBoundary:
     def d95(self) -> Interval:
         """Of the distance at which 95 % of them work."""
         return interval_of_draws(self._d95_m)
+
+    def likely_ends_m(self, quantiles: FloatArray) -> FloatArray:
+        """Quantiles of the distance at which half of the presses work."""
+        return np.asarray(np.quantile(self._d50_m, quantiles))
 
     def information(self, places_m: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Probability that a press works, and what it would tell of d50 and d95 in nats, at each place."""
@@ -122,7 +102,7 @@ def _entropy(probability: FloatArray) -> FloatArray:
     return result
 
 
-def _drawn(posterior: RadialPosterior, count: int, chance: np.random.Generator) -> _Draws:
+def _drawn(posterior: RadialPosterior, count: int, places: int, chance: np.random.Generator) -> FadingDraws:
     """Systematic draws, evenly over the distance: of a thousand hypotheses each comes as often as is likely."""
     grid = posterior.hypotheses
     by_place = np.moveaxis(posterior.probability, -1, 0)
@@ -130,26 +110,28 @@ def _drawn(posterior: RadialPosterior, count: int, chance: np.random.Generator) 
     chosen = np.searchsorted(below, (np.arange(count) + 0.5) / count * below[-1])
     place, shared, lapse, width = np.unravel_index(np.minimum(chosen, below.size - 1), by_place.shape)
     within_m = grid.step_m * (chance.random(count) - 0.5)
-    return _Draws(grid.d50_m[place] + within_m, grid.width_m[width], grid.lapse[lapse], grid.shared[shared])
+    return FadingDraws(grid.d50_m[place] + within_m, grid.width_m[width], grid.lapse[lapse], grid.shared[shared],
+                       chance.standard_normal((count, places)))
 
 
-def _displacements(draws: _Draws, places: Places, distances_m: FloatArray, chance: np.random.Generator) -> SingleArray:
-    """Of each draw's boundary by the fading, at each distance; between the middles of places a mixture of theirs."""
-    where = (distances_m - places.first_m) / places.apart_m
-    first = int(np.floor(where[0]))
-    fading = chance.standard_normal((len(draws.d50_m), int(np.floor(where[-1])) - first + 2)).astype(np.float32)
-    for number, presses in places.pressed.items():
-        if 0 <= number - first < fading.shape[1]:
-            fading[:, number - first] = _known_fading(draws, presses, chance)
-    before = np.floor(where).astype(int) - first
-    part = (where - np.floor(where)).astype(np.float32)
-    mixed = (1.0 - part) * fading[:, before] + part * fading[:, before + 1]
-    mixed /= np.sqrt((1.0 - part) ** 2 + part ** 2)
-    mixed *= draws.fading_m.astype(np.float32)[:, None]
-    return np.asarray(mixed)
+def _faded(draws: FadingDraws, presses: Sequence[Press], lattice: Lattice, numbers: npt.NDArray[np.int_],
+           chance: np.random.Generator) -> FadingDraws:
+    """With the fading that explains the presses, those at the places first."""
+    at_places: dict[int, list[Press]] = {}
+    for press in presses:
+        if not lattice.is_between(press.distance_m):
+            at_places.setdefault(lattice.place_of(press.distance_m), []).append(press)
+    for number, beside in at_places.items():
+        if numbers[0] <= number <= numbers[-1]:
+            draws.fading[:, number - numbers[0]] = _known_fading(draws, beside, chance)
+    are_between = [lattice.is_between(press.distance_m) for press in presses]
+    if not any(are_between):
+        return draws
+    weights = lattice.weights(np.array([press.distance_m for press in presses]), numbers)
+    return explaining(draws, presses, are_between, weights, chance)
 
 
-def _known_fading(draws: _Draws, presses: Sequence[Press], chance: np.random.Generator) -> SingleArray:
+def _known_fading(draws: FadingDraws, presses: Sequence[Press], chance: np.random.Generator) -> SingleArray:
     """Of one place, in sigmas, as the presses there leave it possible."""
     likely = np.exp(-0.5 * _NODES.astype(np.float64) ** 2)[None, :]
     moved_m = draws.d50_m[:, None] + draws.fading_m[:, None] * _NODES

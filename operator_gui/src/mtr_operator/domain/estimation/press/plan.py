@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from ..interval import FloatArray
 from .hypotheses import Hypotheses, hypotheses_for
+from .lattice import NEAR, NEAREST, Lattice
 
 # Parts of the interval wanted into which d50 is divided.
 _STEPS_PER_INTERVAL = 4.0
@@ -67,7 +66,16 @@ class SearchPlan:
         """The grid that is fine enough for the interval wanted."""
         return hypotheses_for(self.minimum_m, self.maximum_m, self.interval_m / _STEPS_PER_INTERVAL)
 
+    @property
+    def is_fine(self) -> bool:
+        """True when the interval wanted is below what places half a wavelength apart tell of a sharp end."""
+        return self.interval_m < self.half_wavelength_m / 2.0
+
+    @property
+    def lattice(self) -> Lattice:
+        """Where the fading of one place says nothing of that of the next."""
+        return Lattice(self.minimum_m, self.half_wavelength_m, NEAR if self.is_fine else NEAREST)
+
     def places_m(self) -> FloatArray:
-        """Where the fading of one place says nothing of that of the next, from near to far."""
-        count = int((self.maximum_m - self.minimum_m) / self.half_wavelength_m)
-        return np.asarray(self.minimum_m + self.half_wavelength_m * np.arange(count + 1))
+        """The places of the lattice where presses are allowed, from near to far."""
+        return self.lattice.places_within_m(self.minimum_m, self.maximum_m)

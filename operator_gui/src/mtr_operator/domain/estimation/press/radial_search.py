@@ -17,7 +17,7 @@ from .campaign import Campaign
 from .hypotheses import Hypotheses
 from .information import PressInformation
 from .likelihood import Press, PressLikelihood
-from .line_boundary import LineBoundary, Places
+from .line_boundary import LineBoundary
 from .plan import SearchPlan
 from .posterior import RadialPosterior
 from .transition import SingleArray
@@ -56,7 +56,7 @@ class RadialSearch:
         self._hypotheses = hypotheses
         self._campaign = campaign
         self._radial = radial
-        self._likelihood = PressLikelihood(hypotheses, plan.half_wavelength_m, plan.minimum_m)
+        self._likelihood = PressLikelihood(hypotheses, plan.lattice)
         self._posterior: RadialPosterior | None = None
         self._boundary: LineBoundary | None = None
         self._doubted_m: float | None = None
@@ -99,11 +99,7 @@ class RadialSearch:
         return self._boundary
 
     def _boundary_of(self, draws: int) -> LineBoundary:
-        pressed: dict[int, list[Press]] = {}
-        for press in self.presses:
-            pressed.setdefault(self.place_of(press.distance_m), []).append(press)
-        places = Places(pressed, self._plan.minimum_m, self._plan.half_wavelength_m)
-        return LineBoundary(self.posterior(), places, draws)
+        return LineBoundary(self.posterior(), self.presses, self._likelihood.lattice, draws)
 
     def add(self, press: Press) -> None:
         """Take what a press did."""
@@ -136,7 +132,7 @@ class RadialSearch:
 
     def place_of(self, distance_m: float) -> int:
         """Number of the half wavelength in whose midst a distance lies: presses there count as made at one place."""
-        return self._likelihood.place_of(distance_m)
+        return self._likelihood.lattice.place_of(distance_m)
 
     def recall(self, presses: Sequence[Press]) -> None:
         """Take presses of a radial that has come to its end; nothing is doubted any more."""
@@ -163,7 +159,7 @@ class RadialSearch:
             return proved_m
         posterior = self.posterior()
         places_m = self._candidates(posterior)
-        if posterior.d50().half_width_m <= _WORTH_DRAWING * max(self._plan.interval_m, self._plan.half_wavelength_m):
+        if posterior.d50().half_width_m <= self._worth_drawing_m:
             works, own = self._boundary_so_far().information(places_m)
         else:
             works, own = PressInformation(posterior).at(places_m)
@@ -175,10 +171,16 @@ class RadialSearch:
         return RadialPosterior(self._hypotheses, log_likelihood, self._campaign.log_shape_prior(self._radial),
                                self._campaign.log_place_prior(self._radial))
 
+    @property
+    def _worth_drawing_m(self) -> float:
+        return _WORTH_DRAWING * max(self._plan.interval_m, self._plan.half_wavelength_m)
+
     def _is_narrow(self) -> bool:
         wanted_m = self._plan.interval_m
-        return (self.posterior().d50().half_width_m <= _WORTH_DRAWING * wanted_m
-                and self._boundary_so_far().d50().half_width_m <= wanted_m)
+        if not self._is_end_within(self.posterior(), wanted_m):
+            return False
+        # Few draws are narrow by luck, now and then in so many presses.
+        return not self._plan.is_fine or self.boundary().d50().half_width_m <= wanted_m
 
     def _place_to_prove(self) -> float | None:
         """The nearest place beyond the boundary, as long as it has failed but once: a lapse would be a wrong end."""
@@ -206,10 +208,14 @@ class RadialSearch:
         plan = self._plan
         step_m = plan.half_wavelength_m
         places_m = plan.places_m()
+        if self._plan.is_fine and self._is_end_within(posterior, step_m):
+            inner_m = self._boundary_so_far().likely_ends_m(_QUANTILES)
+            return np.clip(np.concatenate((places_m, inner_m)), plan.minimum_m, plan.maximum_m)
         if posterior.d50().half_width_m > step_m:
-            here = self._likelihood.place_of(self.place_m)
-            return np.asarray(places_m[self._likelihood.places_of(places_m) != here])
-        if plan.interval_m >= step_m / 2.0:
-            return places_m
-        inner = np.interp(_QUANTILES, np.cumsum(posterior.places()), posterior.hypotheses.d50_m)
-        return np.clip(np.concatenate((places_m, inner)), plan.minimum_m, plan.maximum_m)
+            here = self.place_of(self.place_m)
+            return np.asarray(places_m[self._likelihood.lattice.places_of(places_m) != here])
+        return places_m
+
+    def _is_end_within(self, posterior: RadialPosterior, half_width_m: float) -> bool:
+        return (posterior.d50().half_width_m <= self._worth_drawing_m
+                and self._boundary_so_far().d50().half_width_m <= half_width_m)
