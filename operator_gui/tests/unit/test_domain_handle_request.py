@@ -205,7 +205,7 @@ def test_unlock_that_nobody_asked_for_makes_the_axis_invalid(run_scenario, world
     take = world.take
 
     def unlock_on_the_way(desired):
-        if len(output.asked) == 2 and output.released == 2 and world.locked and world.speed_mps > 0.0:
+        if len(output.asked) == 3 and output.released == 3 and world.locked and world.speed_mps > 0.0:
             world.foreign.append((world.time_s, False, PASSIVE_ENTRY))
         take(desired)
 
@@ -276,7 +276,7 @@ def test_result_is_read_back_from_its_document_and_a_miscounted_one_is_not(run_s
 def test_inconclusive_axis_gets_more_requests_and_keeps_its_counts(run_scenario, world, output):
     progress = Progress(SCENARIO.name, ONE_AXIS.to_mapping())
     progress.calibration = load_calibration()
-    progress.limits = Limits((Requirement("zone", "handle", 1.55, None),), 30.0)
+    progress.limits = Limits((Requirement("zone", "handle", 1.45, None),), 30.0)
     check_before_start(progress.limits, SCENARIO, ONE_AXIS)
     first, = run_scenario(SCENARIO, ONE_AXIS)
     world.pressed, world.presses = set(), []
