@@ -14,7 +14,7 @@ from mtr_operator.robot_link.server import ConnectionServer
 from mtr_operator.robot_link.substitute import RobotSubstitute
 
 TIME_FACTOR = 40.0
-PARAMETERS = "maximum_distance_m: 2.0\nminimum_distance_m: 1.0\nmeasurements_distance_m: 10.0\n"
+PARAMETERS = "maximum_distance_m: 3.0\nminimum_distance_m: 1.0\nmeasurements_distance_m: 10.0\n"
 WALL_LIMIT_S = 50.0
 
 

@@ -33,8 +33,12 @@ def test_ctrl_c_stops_the_robot_and_leaves_no_folder_without_results(laptop, sta
     assert "the robot stands still" in said
     assert said.endswith("The test was interrupted.\n")
     assert laptop.look().speed_mps == 0.0
-    # What was measured before the retreat is something, too (C1).
-    assert (laptop.folder / "out").exists() is ("retreat until" in said)
+    # What was measured before the retreat is something, too (C1); the Car may unlock while Ctrl-C is under way.
+    out = laptop.folder / "out"
+    has_points = out.exists() and bool(points_in(out))
+    assert out.exists() is has_points
+    assert has_points or "retreat until" not in said
+    assert "approach until" in said or not has_points
 
 
 def test_ctrl_c_after_a_result_keeps_it_and_the_test_can_be_continued(laptop):
