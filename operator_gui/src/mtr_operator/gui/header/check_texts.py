@@ -94,8 +94,8 @@ def check_advice(item: Item) -> str:
         Finding.OTHER_OPERATOR: translate("Check", "End the other application; control comes here by itself."),
         Finding.STOP_ENGAGED: translate("Check", "Release it when the area is clear."),
         Finding.STOP_ABSENT: translate("Check", "Stay where you reach the button on the robot."),
-        Finding.POSITION_LOST: translate("Check", "Let it see the Car; if it stays lost, map the Car again under "
-                                                  "Calibrate."),
+        Finding.POSITION_LOST: translate("Check", "Drive or turn it by hand where it sees the Car; if it stays lost, "
+                                                  "map the Car again under Calibrate."),
         Finding.BATTERY_SHORT: translate("Check", "Charge it, or measure fewer lines; an interrupted test can be gone "
                                                   "on with."),
         Finding.BATTERY_LOW: translate("Check", "Charge it soon."),

@@ -68,6 +68,6 @@ def advice_text(reason: Reason) -> str:
         Cause.HELD: translate("Status", "Look at the cause; then have the robot go on."),
         Cause.WAY_BLOCKED: translate("Status", "Clear its way; it goes on by itself, or stands until you have it go "
                                                "on."),
-        Cause.POSITION_LOST: translate("Status", "Let it see the Car; if it stays lost, begin a new test, which maps "
-                                                 "the Car again."),
+        Cause.POSITION_LOST: translate("Status", "Drive or turn it by hand where it sees the Car; if it stays lost, "
+                                                 "begin a new test, which maps the Car again."),
     }.get(reason.cause, "")

@@ -550,8 +550,8 @@
     </message>
     <message>
         <location filename="../header/check_texts.py" line="97"/>
-        <source>Let it see the Car; if it stays lost, map the Car again under Calibrate.</source>
-        <translation>Nechte jej vidět auto; pokud polohu nenajde, zmapujte auto znovu v Kalibraci.</translation>
+        <source>Drive or turn it by hand where it sees the Car; if it stays lost, map the Car again under Calibrate.</source>
+        <translation>Popojeďte s ním nebo ho otočte ručně tam, kde vidí auto; pokud polohu nenajde, zmapujte auto znovu v Kalibraci.</translation>
     </message>
     <message>
         <location filename="../header/check_texts.py" line="99"/>
@@ -3676,8 +3676,8 @@
     </message>
     <message>
         <location filename="../header/reasons.py" line="71"/>
-        <source>Let it see the Car; if it stays lost, begin a new test, which maps the Car again.</source>
-        <translation>Umožněte robotu vidět auto; pokud se nenajde, začněte nový test, který auto zmapuje znovu.</translation>
+        <source>Drive or turn it by hand where it sees the Car; if it stays lost, begin a new test, which maps the Car again.</source>
+        <translation>Popojeďte s ním nebo ho otočte ručně tam, kde vidí auto; pokud polohu nenajde, začněte nový test, který auto zmapuje znovu.</translation>
     </message>
     <message>
         <location filename="../header/reasons.py" line="20"/>
