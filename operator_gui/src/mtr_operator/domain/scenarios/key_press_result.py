@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from ..results.carried import CAUSE_DOC, HEADING_DOC, HEIGHT_DOC, LATERAL_DOC, SPEED_DOC
 from ..results.document import Floats, OptionalFloat, Texts
 from ..results.line_result import LineStatus, MeasuredDistance, column, stored
-from .line_search.result import BEYOND, FIT_DOC, HIGH_OF, LOW_OF, OF_D50, OF_D95, UNCONFIRMED_DOC, SearchedResult
+from .line_search.result import SearchColumns, SearchedResult
 
 PRESS = "press"
 # Of another press at the place of one that worked.
 CONFIRMING = "confirming press"
 SCAN, ADAPTIVE = "scan", "adaptive"
-_OF_D50, _OF_D95 = OF_D50.format("presses"), OF_D95.format("presses")
+_SEARCH = SearchColumns("presses", "radials")
 
 
 @dataclass(frozen=True)
@@ -46,18 +46,18 @@ class KeyPressResult(SearchedResult):
     method: str = column("scan: from far to near until a press works; adaptive: search with intervals", default=SCAN)
     reach: str = column("adaptive: where the boundary lies: measured; nearer than the nearest place; farther than the "
                         "farthest one; no_answer: nobody knows", default="")
-    d50_m: OptionalFloat = column(_OF_D50, "m", default=None)
-    d50_sigma_m: OptionalFloat = column(f"1 sigma of the {_OF_D50}", "m", default=None)
-    d50_low_m: OptionalFloat = column(f"{LOW_OF} {_OF_D50}{BEYOND}", "m", default=None)
-    d50_high_m: OptionalFloat = column(f"{HIGH_OF} {_OF_D50}{BEYOND}", "m", default=None)
-    d95_m: OptionalFloat = column(_OF_D95, "m", default=None)
-    d95_low_m: OptionalFloat = column(f"{LOW_OF} {_OF_D95}{BEYOND}", "m", default=None)
-    d95_high_m: OptionalFloat = column(f"{HIGH_OF} {_OF_D95}{BEYOND}", "m", default=None)
+    d50_m: OptionalFloat = _SEARCH.d50_m
+    d50_sigma_m: OptionalFloat = _SEARCH.d50_sigma_m
+    d50_low_m: OptionalFloat = _SEARCH.d50_low_m
+    d50_high_m: OptionalFloat = _SEARCH.d50_high_m
+    d95_m: OptionalFloat = _SEARCH.d95_m
+    d95_low_m: OptionalFloat = _SEARCH.d95_low_m
+    d95_high_m: OptionalFloat = _SEARCH.d95_high_m
     nearest_failure_m: OptionalFloat = column("nearest press that failed", "m", default=None)
     holes_m: str = column("places that failed again and again although farther ones worked", "m", default="")
-    lapse: OptionalFloat = column("share of presses that fail at any distance", default=None)
-    fit_quality: OptionalFloat = column(FIT_DOC.format("radials"), default=None)
-    unconfirmed_m: str = column(UNCONFIRMED_DOC.format("presses"), "m", default="")
+    lapse: OptionalFloat = _SEARCH.lapse
+    fit_quality: OptionalFloat = _SEARCH.fit_quality
+    unconfirmed_m: str = _SEARCH.unconfirmed_m
     worked_at_m: Floats = stored(())
     failed_at_m: Floats = stored(())
     place_sigma_m: OptionalFloat = stored(None)

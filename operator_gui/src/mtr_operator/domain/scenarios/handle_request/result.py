@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from ...results.carried import CAUSE_DOC, HEADING_DOC, LATERAL_DOC
 from ...results.document import Floats, OptionalFloat, Texts
 from ...results.line_result import LineStatus, column, stored
-from ..line_search.result import BEYOND, FIT_DOC, HIGH_OF, LOW_OF, OF_D50, OF_D95, UNCONFIRMED_DOC, SearchedResult
+from ..line_search.result import SearchColumns, SearchedResult
 
 HANDLE_WORD = "handle"
-_OF_D50, _OF_D95 = OF_D50.format("requests"), OF_D95.format("requests")
+_SEARCH = SearchColumns("requests", "axes")
 
 
 @dataclass(frozen=True)
@@ -40,18 +40,18 @@ class HandleRequestResult(SearchedResult):
     cause: str = column(f"what unlocked the Car: {CAUSE_DOC}", default="")
     reach: str = column("where the border lies: measured; nearer than the nearest place; farther than the farthest "
                         "one; no_answer: nobody knows", default="")
-    d50_m: OptionalFloat = column(_OF_D50, "m", default=None)
-    d50_sigma_m: OptionalFloat = column(f"1 sigma of the {_OF_D50}", "m", default=None)
-    d50_low_m: OptionalFloat = column(f"{LOW_OF} {_OF_D50}{BEYOND}", "m", default=None)
-    d50_high_m: OptionalFloat = column(f"{HIGH_OF} {_OF_D50}{BEYOND}", "m", default=None)
-    d95_m: OptionalFloat = column(_OF_D95, "m", default=None)
-    d95_low_m: OptionalFloat = column(f"{LOW_OF} {_OF_D95}{BEYOND}", "m", default=None)
-    d95_high_m: OptionalFloat = column(f"{HIGH_OF} {_OF_D95}{BEYOND}", "m", default=None)
+    d50_m: OptionalFloat = _SEARCH.d50_m
+    d50_sigma_m: OptionalFloat = _SEARCH.d50_sigma_m
+    d50_low_m: OptionalFloat = _SEARCH.d50_low_m
+    d50_high_m: OptionalFloat = _SEARCH.d50_high_m
+    d95_m: OptionalFloat = _SEARCH.d95_m
+    d95_low_m: OptionalFloat = _SEARCH.d95_low_m
+    d95_high_m: OptionalFloat = _SEARCH.d95_high_m
     nearest_failure_m: OptionalFloat = column("nearest request outside", "m", default=None)
     holes_m: str = column("places that were outside again and again although farther ones were inside", default="")
-    lapse: OptionalFloat = column("share of requests that fail at any distance", default=None)
-    fit_quality: OptionalFloat = column(FIT_DOC.format("axes"), default=None)
-    unconfirmed_m: str = column(UNCONFIRMED_DOC.format("requests"), "m", default="")
+    lapse: OptionalFloat = _SEARCH.lapse
+    fit_quality: OptionalFloat = _SEARCH.fit_quality
+    unconfirmed_m: str = _SEARCH.unconfirmed_m
     reason: str = stored("")
     worked_at_m: Floats = stored(())
     failed_at_m: Floats = stored(())

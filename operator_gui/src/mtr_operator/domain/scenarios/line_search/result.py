@@ -3,30 +3,46 @@
 from __future__ import annotations
 
 import re
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ... import limits
 from ...estimation.press.likelihood import Press
 from ...estimation.press.radial_estimate import Reach
 from ...results.document import Floats, OptionalFloat
-from ...results.line_result import BOUNDARY_PERCENT, LineResult, LineStatus, MeasuredDistance
+from ...results.line_result import BOUNDARY_PERCENT, LineResult, LineStatus, MeasuredDistance, column
 
 # Shares of the attempts for whose distances there are intervals; the last is that at d95.
 SHARES = (5, 50, 95)
 SURE_PERCENT = SHARES[-1]
 REACHES = ("", *(reach.value for reach in Reach))
-OF_D50, OF_D95 = "distance at which half of the {} work", "distance at which 95 % of the {} work, lapses apart"
-LOW_OF, HIGH_OF = "lower end of the 95 % interval of the", "upper end of the 95 % interval of the"
-BEYOND = ", empty when it lies beyond the places"
-FIT_DOC = "share of {} on the curve found that would fit worse; below 0.02 the curve does not describe this one"
-UNCONFIRMED_DOC = "places of {} that worked against all expectation, and not again: not counted"
 _NUMBER = re.compile(r"\d+(?:\.\d+)?")
 # Far beyond any attempts_limit.
 _MAX_ATTEMPTS = 1000
 
 
+class SearchColumns:
+    """Fields of what every search finds, in the scenario's words: "requests", "axes"; one of these for each dataclass.
+
+    Where in the file they stand is the dataclass' own order, so that it names them.
+    """
+
+    def __init__(self, attempts: str, lines: str):
+        d50, d95 = (f"distance at which {share} of the {attempts} work" for share in ("half", "95 %"))
+        d95 += ", lapses apart"
+        self.d50_m = _distance(d50)
+        self.d50_sigma_m = _distance(f"1 sigma of the {d50}")
+        self.d50_low_m, self.d50_high_m = _ends_of(d50)
+        self.d95_m = _distance(d95)
+        self.d95_low_m, self.d95_high_m = _ends_of(d95)
+        self.lapse = column(f"share of {attempts} that fail at any distance", default=None)
+        self.fit_quality = column(f"share of {lines} on the curve found that would fit worse; below 0.02 the curve "
+                                  "does not describe this one", default=None)
+        self.unconfirmed_m = column(f"places of {attempts} that worked against all expectation, and not again: not "
+                                    "counted", "m", default="")
+
+
 class SearchedResult(LineResult):
-    """The columns that a search fills; a scenario's dataclass declares each, with the scenario's words.
+    """What a search finds; a scenario's dataclass declares each, those of SearchColumns and three with its own words.
 
     Attributes:
         WORD: what the distance is called, of the scenario's distance_words.
@@ -94,6 +110,17 @@ class SearchedResult(LineResult):
     def holes_nearer_than(self, distance_m: float) -> tuple[float, ...]:
         """See LineResult."""
         return tuple(hole_m for hole_m in map(float, _NUMBER.findall(self.holes_m)) if hole_m < distance_m)
+
+
+def _distance(doc: str) -> Any:
+    return column(doc, "m", default=None)
+
+
+def _ends_of(distance: str) -> tuple[Any, Any]:
+    """Of its 95 % interval."""
+    low, high = (_distance(f"{end} end of the 95 % interval of the {distance}, empty when it lies beyond the places")
+                 for end in ("lower", "upper"))
+    return low, high
 
 
 def _mirrored(half_m: float | None, sure_m: float | None) -> float | None:
