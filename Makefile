@@ -17,6 +17,8 @@ ifeq ($(origin CAR),undefined)
 CAR := gentle
 demo: CAR := honest
 endif
+# For `make demo`, what is run: autolock key_press zone_map handle_request; empty: those that suit the Car.
+SCENARIOS ?=
 # Of demo and sim: fake (simulated in the simulator) or emulated (the flashed firmware on an emulated board).
 PERIPHERALS ?= fake
 # For `make flash`: mega or uno, and its serial port.
@@ -50,8 +52,9 @@ $(STAMPS)/build: $(BUILD_INPUTS) setup/debian-packages.txt setup/python-requirem
 	@setup/build.sh
 	@mv $@.begun $@
 
-demo: setup build $(if $(EMULATED),firmware) ## Run both scenarios on the simulated robot and Car; results in out/demo
-	@$(RUN) python -m mtr_bringup.demo --seed $(SEED) --car $(CAR) --out out/demo $(if $(EMULATED),--firmware $(FIRMWARE_ELF))
+demo: setup build $(if $(EMULATED),firmware) ## Run scenarios on the simulated robot and Car, beside the truth; results in out/demo
+	@$(RUN) python -m mtr_bringup.demo --seed $(SEED) --car $(CAR) --out out/demo $(if $(SCENARIOS),--scenarios $(SCENARIOS)) \
+		$(if $(EMULATED),--firmware $(FIRMWARE_ELF))
 
 sim: setup build $(if $(EMULATED),firmware) ## Start the simulated robot and Car for an application on ports 3333 and 3334 (Ctrl-C ends)
 	@mkdir -p out/sim

@@ -3,7 +3,17 @@
 import pytest
 
 from mtr_bringup import demo
-from mtr_bringup.demo import MIN_LINES, OUTPUTS, DemoOptions, DemoResult, last_event, problems_of, read_rows, run_demo
+from mtr_bringup.demo import (
+    MIN_LINES,
+    OUTPUTS,
+    DemoOptions,
+    DemoResult,
+    last_event,
+    parts_of,
+    problems_of,
+    read_rows,
+    run_demo,
+)
 from mtr_core.errors import ConfigurationError
 
 HEADER = "line,unlock_robot_time_s,lock_robot_time_s\n"
@@ -60,8 +70,27 @@ def test_car_of_a_file_is_found_from_any_folder_and_the_comparison_knows_it(tmp_
 
 
 def test_button_is_tried_with_passive_entry_switched_off_where_a_car_has_it(tmp_path):
-    assert [DemoOptions(tmp_path, car="honest").car_for(name) for name in MIN_LINES] == ["honest", "honest_button"]
+    assert [DemoOptions(tmp_path, car="honest").car_for(name) for name in MIN_LINES] == [
+        "honest", "honest_button", "honest_button", "honest_handle"]
     assert {DemoOptions(tmp_path, car="gentle").car_for(name) for name in MIN_LINES} == {"gentle"}
+
+
+@pytest.mark.parametrize(("car", "asked", "parts"), [
+    ("gentle", (), [("gentle", ["autolock", "key_press"])]),
+    ("honest", (), [("honest", ["autolock"]), ("honest_button", ["key_press"])]),
+    ("honest_handle", (), [("honest_handle", ["handle_request"])]),
+    ("honest", ("key_press", "handle_request", "zone_map"),
+     [("honest_button", ["key_press", "zone_map"]), ("honest_handle", ["handle_request"])]),
+])
+def test_scenarios_that_suit_the_car_are_run_unless_others_are_asked_for_and_each_car_once(tmp_path, car, asked, parts):
+    found = parts_of(DemoOptions(tmp_path, car=car, scenarios=asked))
+    assert [(part.car, names) for part, names in found] == parts
+
+
+def test_scenario_that_does_not_exist_is_refused(capsys):
+    with pytest.raises(SystemExit):
+        demo.main(["--scenarios", "parking"])
+    assert "'parking'" in capsys.readouterr().err
 
 
 def test_unknown_car_is_refused_before_anything_is_deleted(tmp_path):

@@ -19,7 +19,10 @@ AUTOLOCK_HEADER = (
     "unlock_status,unlock_distance_m,unlock_uncertainty_m,unlock_robot_time_s,"
     "lock_status,lock_distance_m,lock_uncertainty_m,lock_robot_time_s"
 )
-HEADER = ["scenario", "line", "event", "true_distance_m", "p50_distance_m", "p95_distance_m", "truth_static_m"]
+HEADER = ["scenario", "line", "event", "true_distance_m", "p50_distance_m", "p95_distance_m", "truth_static_m",
+          "true_border_share", "true_coverage"]
+# So many cells of a line are empty without a Car's model.
+UNKNOWN = 5 * [""]
 KEY_PRESS_HEADER = "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s"
 
 
@@ -61,9 +64,11 @@ def truth(folder):
 def test_log_is_complete_on_disk_after_each_event(tmp_path):
     log = TruthLog(tmp_path / "new" / "folder")
     log.press(1_220_000_000, (1.0, -2.0, 0.95), True)
+    log.handle(2_000_000_000, (0.0, 3.0, 1.0), False)
     assert log.path.read_text(encoding="utf-8").splitlines() == [
         "event,robot_time_s,key_x_m,key_y_m,key_z_m,accepted",
         "press,1.220000000,1.000000,-2.000000,0.950000,1",
+        "handle,2.000000000,0.000000,3.000000,1.000000,0",
     ]
 
 
@@ -117,8 +122,8 @@ def test_autolock_results_give_truth_csv_table_and_errors(folder, capsys):
     assert run(folder, f"# units: m\n{AUTOLOCK_HEADER}\n{line}\n", "--scenario", "autolock") == 0
     assert truth(folder) == [
         HEADER,
-        ["autolock", "0", "unlock", "1.5000", "", "", ""],
-        ["autolock", "0", "lock", "2.5000", "", "", ""],
+        ["autolock", "0", "unlock", "1.5000", *UNKNOWN],
+        ["autolock", "0", "lock", "2.5000", *UNKNOWN],
     ]
     output = capsys.readouterr().out
     assert "2 of 2 distances" in output
@@ -129,7 +134,7 @@ def test_autolock_results_give_truth_csv_table_and_errors(folder, capsys):
 def test_key_press_results_are_recognised_by_their_header(folder, capsys):
     lines = "0,0,not_reached,,,,5,\n1,45,ok,5.1,5.6,0.1,3,40.08"
     assert run(folder, f"{KEY_PRESS_HEADER}\n{lines}\n") == 0
-    assert truth(folder)[1:] == [["key_press", "1", "press", "5.0000", "", "", ""]]
+    assert truth(folder)[1:] == [["key_press", "1", "press", "5.0000", *UNKNOWN]]
     assert "1 of 2 distances" in capsys.readouterr().out
 
 

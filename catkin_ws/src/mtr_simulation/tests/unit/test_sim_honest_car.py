@@ -66,6 +66,11 @@ class Bench:
         with open(self.log.path, newline="", encoding="utf-8") as file:
             return [(row["event"], float(row["robot_time_s"])) for row in csv.DictReader(file)]
 
+    def accepted(self, kind):
+        """Whether the Car took each of the attempts of a kind."""
+        with open(self.log.path, newline="", encoding="utf-8") as file:
+            return [row["accepted"] for row in csv.DictReader(file) if row["event"] == kind]
+
     def frames(self, name):
         """Time in ns and decoded signals of each frame of a message."""
         message = cantools.database.load_file(str(DBC_PATH)).get_message_by_name(name)
@@ -180,6 +185,8 @@ def test_handle_car_waits_for_a_hand_and_looks_where_the_key_is(bench):
     assert bench.car.locks.cause is Cause.HANDLE
     bench.car.request_handle(Command.LOCK)
     assert bench.stays(DOOR, 0.5) is LockState.LOCKED
+    assert [kind for kind, _ in bench.events()] == ["handle", "handle", "unlocked", "handle", "locked"]
+    assert bench.accepted("handle") == ["0", "1", "1"]
 
 
 def test_actuator_on_the_bus_takes_the_handle_once_each_time(bench):

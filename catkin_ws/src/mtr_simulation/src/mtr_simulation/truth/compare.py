@@ -18,16 +18,36 @@ from typing import List, Optional
 from mtr_core.errors import ConfigurationError, RobotError, check_range
 
 from ..car.choice import chosen_car
-from .distance import CarSize, Comparison, compare
+from ..car.reaction.model import ReactionModel
+from .borders import border_table
+from .distance import CarSize, Comparison, Expected, compare
 from .expected import expected
 from .intervals import coverage, interval_table, read_intervals
-from .results import ResultsError, column_names, key_height_m, read_autolock, read_events, read_key_press
+from .results import (
+    FIRST_COLUMN,
+    MeasuredEvent,
+    ResultsError,
+    column_names,
+    key_height_m,
+    read_autolock,
+    read_events,
+    read_handle_request,
+    read_key_press,
+    read_zone_map,
+)
+from .zones import ZoneGrid, true_coverage
 
 RESULTS_NAME = "results.csv"
 TRUTH_NAME = "truth.csv"
-TRUTH_HEADER = ("scenario", "line", "event", "true_distance_m", "p50_distance_m", "p95_distance_m", "truth_static_m")
-_READERS = {"autolock": read_autolock, "key_press": read_key_press}
-_FIRST_COLUMN = {"autolock": "axis", "key_press": "radial"}
+TRUTH_HEADER = ("scenario", "line", "event", "true_distance_m", "p50_distance_m", "p95_distance_m", "truth_static_m",
+                "true_border_share", "true_coverage")
+AUTOLOCK, KEY_PRESS, ZONE_MAP, HANDLE_REQUEST = "autolock", "key_press", "zone_map", "handle_request"
+_READERS = {AUTOLOCK: read_autolock, KEY_PRESS: read_key_press, ZONE_MAP: read_zone_map,
+            HANDLE_REQUEST: read_handle_request}
+# Axes have two scenarios: the second is told by what no other has.
+_TOLD_BY = {HANDLE_REQUEST: "requests", **{name: FIRST_COLUMN[name] for name in (AUTOLOCK, KEY_PRESS, ZONE_MAP)}}
+# Found from many presses, so that none of them is its event.
+_WITHOUT_EVENT = (ZONE_MAP,)
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
@@ -43,18 +63,17 @@ def main(arguments: Optional[List[str]] = None) -> int:
         measured = _READERS[scenario](results)
         comparisons = list(compare(measured, read_events(options.events), size))
         if options.car:
-            model = chosen_car(options.car).reactions(options.seed)
-            height_m = key_height_m(results)
-            comparisons = [each._replace(expected=expected(each.measured, size, model, height_m))
-                           for each in comparisons]
+            comparisons = with_expected(comparisons, size, chosen_car(options.car).reactions(options.seed), results)
         write_truth(options.results / TRUTH_NAME, scenario, comparisons)
     except RobotError as error:
         print(error, file=sys.stderr)
         return 2
     told = read_intervals(results, scenario, comparisons)
-    print("\n".join([*table(comparisons), *interval_table(told), *summary(scenario, comparisons),
+    at_border = border_table(results, comparisons) if scenario == HANDLE_REQUEST else []
+    print("\n".join([*table(comparisons), *interval_table(told), *at_border, *summary(scenario, comparisons),
                      *coverage(scenario, told)]))
-    lost = [c for c in comparisons if c.measured.status == "ok" and c.true_distance_m is None]
+    lost = [c for c in comparisons if c.measured.status == "ok" and c.true_distance_m is None
+            and scenario not in _WITHOUT_EVENT]
     for comparison in lost:
         m = comparison.measured
         print(f"Line {m.line}: no true event for its {m.event} at {m.time_s:.3f} s.", file=sys.stderr)
@@ -64,10 +83,24 @@ def main(arguments: Optional[List[str]] = None) -> int:
 def guess_scenario(results: pathlib.Path) -> str:
     """The scenario whose first column the header has."""
     names = column_names(results)
-    for scenario, column in _FIRST_COLUMN.items():
+    for scenario, column in _TOLD_BY.items():
         if column in names:
             return scenario
     raise ResultsError(f"{results} is of no known scenario; name one with --scenario.")
+
+
+def with_expected(comparisons: List[Comparison], size: CarSize, model: ReactionModel,
+                  results: pathlib.Path) -> List[Comparison]:
+    """With what a perfect measurement of each line would say."""
+    height_m, grid = key_height_m(results), ZoneGrid.of_results(results)
+
+    def of_line(measured: MeasuredEvent) -> Expected:
+        likely = expected(measured, size, model, height_m)
+        if measured.event != "reach":
+            return likely
+        return likely._replace(coverage=true_coverage(measured, size, model, grid))
+
+    return [each._replace(expected=of_line(each.measured)) for each in comparisons]
 
 
 def write_truth(path: pathlib.Path, scenario: str, comparisons: List[Comparison]) -> None:
@@ -81,7 +114,8 @@ def write_truth(path: pathlib.Path, scenario: str, comparisons: List[Comparison]
     writer.writerow(TRUTH_HEADER)
     for measured, true_distance_m, likely in comparisons:
         true_m = math.nan if true_distance_m is None else true_distance_m
-        if math.isfinite(true_m) or math.isfinite(likely.p50_distance_m):
+        told = (true_m, likely.p50_distance_m, likely.border_share, likely.coverage)
+        if any(math.isfinite(value) for value in told):
             writer.writerow((scenario, measured.line, measured.event, *map(_written, (true_m, *likely))))
     temporary = path.with_name(f".{path.name}.{os.getpid()}")
     try:
@@ -106,7 +140,10 @@ def table(comparisons: List[Comparison]) -> List[str]:
 
 
 def summary(scenario: str, comparisons: List[Comparison]) -> List[str]:
-    """Median, 95th percentile and largest of the absolute errors of lines that are ok, and their size in sigma."""
+    """Median, 95th percentile and largest of the absolute errors of lines that are ok, and their size in sigma; empty
+    where a line has no event of its own."""
+    if scenario in _WITHOUT_EVENT:
+        return []
     good = [c for c in comparisons if c.measured.status == "ok" and math.isfinite(c.error_m)]
     count = f"{scenario}: {len(good)} of {len(comparisons)} distances are ok and have their true event"
     if not good:

@@ -8,9 +8,16 @@ from .results import MeasuredEvent, ResultsError, TrueEvent
 # A measurement belongs to the nearest true event of its kind within this time.
 MATCH_WINDOW_S = 0.5
 
-_KINDS = {"unlock": "unlocked", "lock": "locked", "press": "press"}
+_KINDS = {"unlock": "unlocked", "lock": "locked", "press": "press", "handle": "handle"}
+# Of these the Car takes some and others not.
+_ATTEMPTS = ("press", "handle")
 _NORMALS = {"front": (1.0, 0.0), "rear": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
 _CORNERS = {"front_left": (1, 1), "front_right": (1, -1), "rear_left": (-1, 1), "rear_right": (-1, -1)}
+# Zones clockwise from the front, each an eighth of the circle.
+ZONE_SIDES = ("front", "front_right", "right", "rear_right", "rear", "rear_left", "left", "front_left")
+
+# Smaller components of a direction are rounding.
+_PARALLEL = 1e-9
 
 Vector = Tuple[float, float]
 
@@ -28,12 +35,16 @@ class Expected(NamedTuple):
     Attributes:
         p50_distance_m: the Car reacts in half of all trials.
         p95_distance_m: in 95 % of them.
-        static_m: boundary of passive entry for a key that moves infinitely slowly; NaN for a press.
+        static_m: boundary of passive entry for a key that moves infinitely slowly; NaN for all but unlock and lock.
+        border_share: share of handle requests at the nominal border that work; NaN for all others.
+        coverage: part of a zone's area where at least half of the presses work; NaN for all others.
     """
 
     p50_distance_m: float = math.nan
     p95_distance_m: float = math.nan
     static_m: float = math.nan
+    border_share: float = math.nan
+    coverage: float = math.nan
 
 
 class Comparison(NamedTuple):
@@ -58,9 +69,9 @@ def compare(measured: Iterable[MeasuredEvent], truth: Iterable[TrueEvent], size:
 
 
 def find_true(measured: MeasuredEvent, truth: Iterable[TrueEvent]) -> Optional[TrueEvent]:
-    """The nearest true event of the kind; of presses only those that the Car accepted."""
-    kind = _KINDS[measured.event]
-    candidates = [e for e in truth if e.kind == kind and (e.accepted or kind != "press")]
+    """The nearest true event of the kind; of presses and handle requests only those that the Car accepted."""
+    kind = _KINDS.get(measured.event)
+    candidates = [e for e in truth if e.kind == kind and (e.accepted or kind not in _ATTEMPTS)]
     nearest = min(candidates, key=lambda e: abs(e.time_s - measured.time_s), default=None)
     # Written so that a measurement without a time (NaN) finds nothing.
     return nearest if nearest and abs(nearest.time_s - measured.time_s) <= MATCH_WINDOW_S else None
@@ -82,6 +93,8 @@ def start_and_direction(measured: MeasuredEvent, size: CarSize) -> Tuple[Vector,
     """Point of the true Car at which the line's distance is 0, and unit vector along the line, both in frame car."""
     if measured.event == "press":
         return (0.0, 0.0), (math.cos(measured.clockwise_rad), -math.sin(measured.clockwise_rad))
+    if measured.event == "reach":
+        return from_outline(zone_middle_rad(measured), size)
     if measured.side not in _NORMALS:
         return _from_corner(measured, size)
     normal_x, normal_y = _NORMALS[measured.side]
@@ -89,6 +102,20 @@ def start_and_direction(measured: MeasuredEvent, size: CarSize) -> Tuple[Vector,
     start_x = normal_x * size.length_m / 2.0 if normal_x else origin_x
     start_y = normal_y * size.width_m / 2.0 if normal_y else origin_y
     return (start_x, start_y), (normal_x, normal_y)
+
+
+def zone_middle_rad(measured: MeasuredEvent) -> float:
+    """Direction of the middle of a zone, clockwise from the Car's front."""
+    if measured.side not in ZONE_SIDES:
+        raise ResultsError(f"Zone {measured.line} has side {measured.side!r}; allowed are {', '.join(ZONE_SIDES)}.")
+    return ZONE_SIDES.index(measured.side) * 2.0 * math.pi / len(ZONE_SIDES)
+
+
+def from_outline(clockwise_rad: float, size: CarSize) -> Tuple[Vector, Vector]:
+    """Point of the Car's outline on a radial from its centre, and the radial's unit vector."""
+    direction = (math.cos(clockwise_rad), -math.sin(clockwise_rad))
+    along_m = min(whole_m / 2.0 / abs(part) for whole_m, part in zip(size, direction) if abs(part) > _PARALLEL)
+    return (along_m * direction[0], along_m * direction[1]), direction
 
 
 def _from_corner(measured: MeasuredEvent, size: CarSize) -> Tuple[Vector, Vector]:

@@ -16,7 +16,7 @@ from .results import MeasuredEvent
 # Where and how finely p is looked at along a line: passive entry ends within 10 m, buttons work farther.
 _NEAREST_M = 0.1
 _STEP_M = 0.02
-_FARTHEST_M = {"unlock": 10.0, "lock": 10.0, "press": 60.0}
+_FARTHEST_M = {"unlock": 10.0, "lock": 10.0, "handle": 10.0, "press": 60.0, "reach": 60.0}
 
 
 class Line:
@@ -34,11 +34,15 @@ class Line:
 
 
 def expected(event: MeasuredEvent, size: CarSize, model: ReactionModel, key_height_m: float) -> Expected:
-    """Of one line and event."""
-    line = Line(event, size, key_height_m)
-    if event.event == "press":
+    """Of one line and event, at its own height or else at key_height_m."""
+    line = Line(event, size, key_height_m if math.isnan(event.key_height_m) else event.key_height_m)
+    if event.event in ("press", "reach"):
         distances_m, p = line.probability(model.press)
         return Expected(falls_below(distances_m, p, 0.5), falls_below(distances_m, p, 0.95))
+    if event.event == "handle":
+        distances_m, p = line.probability(model.handle)
+        at_border = math.nan if math.isnan(event.border_m) else float(np.interp(event.border_m, distances_m, p))
+        return Expected(falls_below(distances_m, p, 0.5), falls_below(distances_m, p, 0.95), border_share=at_border)
     if event.event == "unlock":
         distances_m, p = line.probability(model.unlock)
         static_m = falls_below(*line.probability(model.unlock_poll), 0.5)

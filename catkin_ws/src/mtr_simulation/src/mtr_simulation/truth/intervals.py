@@ -6,31 +6,47 @@ import statistics
 from typing import Dict, Iterable, List, NamedTuple, Tuple
 
 from .distance import Comparison
-from .results import optional_number, rows_of
+from .results import FIRST_COLUMN, optional_number, rows_of
 
-# Of each scenario and event: what is told, the beginning of its columns, and its truth in Expected.
+_METRES, _PART = "m", ""
+
+
+def _distance(name: str) -> Tuple[str, str, str]:
+    return f"{name}_m", f"{name}_low_m", f"{name}_high_m"
+
+
+# Of each scenario and event: what is told, its columns (value, low and high end), its truth in Expected, and the unit.
 _TOLD = {
-    "autolock": (("unlock", "static", "unlock_static", "static_m"), ("lock", "static", "lock_static", "static_m")),
-    "key_press": (("press", "50 %", "d50", "p50_distance_m"), ("press", "95 %", "d95", "p95_distance_m")),
+    "autolock": (("unlock", "static", _distance("unlock_static"), "static_m", _METRES),
+                 ("lock", "static", _distance("lock_static"), "static_m", _METRES)),
+    "key_press": (("press", "50 %", _distance("d50"), "p50_distance_m", _METRES),
+                  ("press", "95 %", _distance("d95"), "p95_distance_m", _METRES)),
+    "handle_request": (("handle", "50 %", _distance("d50"), "p50_distance_m", _METRES),
+                       ("handle", "95 %", _distance("d95"), "p95_distance_m", _METRES)),
+    "zone_map": (("reach", "50 %", ("distance_m", "low_m", "high_m"), "p50_distance_m", _METRES),
+                 ("reach", "area", ("coverage", "coverage_low", "coverage_high"), "coverage", _PART)),
 }
-_FIRST_COLUMN = {"autolock": "axis", "key_press": "radial"}
 
 
 class Told(NamedTuple):
-    """A distance of a line with its 95 % interval and its truth, in m; an end is infinite where the line has none."""
+    """A figure of a line with its 95 % interval and its truth; an end is infinite where the line has none.
+
+    unit: m of a distance, empty of the part of an area.
+    """
 
     line: str
     event: str
     what: str
-    value_m: float
-    low_m: float
-    high_m: float
-    true_m: float
+    value: float
+    low: float
+    high: float
+    true: float
+    unit: str = _METRES
 
     @property
     def holds(self) -> bool:
         """The truth lies within."""
-        return self.low_m <= self.true_m <= self.high_m
+        return self.low <= self.true <= self.high
 
 
 def read_intervals(path: pathlib.Path, scenario: str, comparisons: Iterable[Comparison]) -> List[Told]:
@@ -38,24 +54,29 @@ def read_intervals(path: pathlib.Path, scenario: str, comparisons: Iterable[Comp
     expected = {(each.measured.line, each.measured.event): each.expected for each in comparisons}
     told = []
     for row in rows_of(path):
-        line = row[_FIRST_COLUMN[scenario]]
-        for event, what, prefix, truth in _TOLD[scenario]:
-            value_m, low_m, high_m = (optional_number(row, f"{prefix}{end}_m", path) for end in ("", "_low", "_high"))
-            true_m = getattr(expected.get((line, event)), truth, math.nan)
-            if math.isfinite(true_m) and (math.isfinite(low_m) or math.isfinite(high_m)):
-                told.append(Told(line, event, what, value_m, -math.inf if math.isnan(low_m) else low_m,
-                                 math.inf if math.isnan(high_m) else high_m, true_m))
+        line = row[FIRST_COLUMN[scenario]]
+        for event, what, columns, name, unit in _TOLD[scenario]:
+            value, low, high = (optional_number(row, column, path) for column in columns)
+            true = getattr(expected.get((line, event)), name, math.nan)
+            if math.isfinite(true) and (math.isfinite(low) or math.isfinite(high)):
+                told.append(Told(line, event, what, value, -math.inf if math.isnan(low) else low,
+                                 math.inf if math.isnan(high) else high, true, unit))
     return told
 
 
 def interval_table(told: List[Told]) -> List[str]:
-    """A line of each interval."""
+    """A line of each interval, those of distances first."""
+    return [line for unit in (_METRES, _PART) for line in _table([each for each in told if each.unit == unit], unit)]
+
+
+def _table(told: List[Told], unit: str) -> List[str]:
     if not told:
         return []
-    lines = ["line event  what     found m  95 % interval m     true m"]
+    lines = ["line event  what     found m  95 % interval m     true m" if unit else
+             "line event  what       found  95 % interval         true"]
     for each in told:
-        ends = f"{each.low_m:.3f} to {each.high_m:.3f}"
-        lines.append(f"{each.line:>4} {each.event:6} {each.what:6} {each.value_m:9.3f}  {ends:18} {each.true_m:7.3f} "
+        ends = f"{each.low:.3f} to {each.high:.3f}"
+        lines.append(f"{each.line:>4} {each.event:6} {each.what:6} {each.value:9.3f}  {ends:18} {each.true:7.3f} "
                      f"{'' if each.holds else ' missed'}".rstrip())
     return lines
 
@@ -72,10 +93,11 @@ def _sentence(scenario: str, event: str, what: str, group: List[Told]) -> str:
     held = sum(each.holds for each in group)
     share = f"{held} of {len(group)} intervals hold the truth ({100 * held // len(group)} %)"
     text = f"{scenario}: {event}, {what}: {share}"
-    errors = [each.value_m - each.true_m for each in group if math.isfinite(each.value_m)]
-    halves = [(each.high_m - each.low_m) / 2.0 for each in group if math.isfinite(each.high_m - each.low_m)]
+    errors = [each.value - each.true for each in group if math.isfinite(each.value)]
+    halves = [(each.high - each.low) / 2.0 for each in group if math.isfinite(each.high - each.low)]
+    unit = f" {group[0].unit}".rstrip()
     if errors:
-        text += f"; error rms {math.sqrt(statistics.fmean(error * error for error in errors)):.3f} m"
+        text += f"; error rms {math.sqrt(statistics.fmean(error * error for error in errors)):.3f}{unit}"
     if halves:
-        text += f", half width median {statistics.median(halves):.3f} m"
+        text += f", half width median {statistics.median(halves):.3f}{unit}"
     return f"{text}."

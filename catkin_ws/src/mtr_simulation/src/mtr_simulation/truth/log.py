@@ -21,6 +21,9 @@ class EventLog(Protocol):
     def press(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
         """A button's contact closed at time_ns."""
 
+    def handle(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
+        """A hand took the driver's handle."""
+
     def close(self) -> None:
         """No more comes."""
 
@@ -34,6 +37,9 @@ class NoTruthLog:
     def press(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
         """Nothing."""
 
+    def handle(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
+        """Nothing."""
+
     def close(self) -> None:
         """Nothing."""
 
@@ -42,7 +48,7 @@ class TruthLog:
     """Appends events to truth_events.csv in a directory, which is made when it is missing.
 
     robot_time_s is the simulation's time of the event, key_* the Remote key in the true Car frame in m, accepted (0 or
-    1, presses only) whether the Car received it.
+    1, presses and handle requests only) whether the Car received it, or found the key in its zone.
     """
 
     def __init__(self, directory: Union[str, pathlib.Path]):
@@ -63,6 +69,10 @@ class TruthLog:
     def press(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
         """A button's contact closed at time_ns."""
         self._write("press", time_ns, key_xyz, int(accepted))
+
+    def handle(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
+        """A hand took the driver's handle."""
+        self._write("handle", time_ns, key_xyz, int(accepted))
 
     def close(self) -> None:
         """Close the file; safe to call twice."""

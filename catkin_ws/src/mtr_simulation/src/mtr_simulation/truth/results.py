@@ -1,4 +1,4 @@
-"""Reads results.csv of both scenarios and truth_events.csv into lines of plain types."""
+"""Reads results.csv of all scenarios and truth_events.csv into lines of plain types."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
 import math
@@ -9,7 +9,12 @@ from typing import Dict, Iterable, Iterator, List, NamedTuple, Tuple
 from mtr_core.errors import RobotError
 
 DEFAULT_KEY_HEIGHT_M = 1.0
-_KEY_HEIGHT = re.compile(r"^# parameter key_height_m: ([0-9.]+) m$", re.MULTILINE)
+
+
+# Of each scenario, the column that numbers its lines; the header of results.csv tells by it whose it is.
+FIRST_COLUMN = {"autolock": "axis", "key_press": "radial", "zone_map": "zone", "handle_request": "axis"}
+# Columns of an axis.
+_AXIS = ("axis", "side", "origin_x_m", "origin_y_m", "direction_x", "direction_y")
 
 
 class ResultsError(RobotError):
@@ -17,7 +22,7 @@ class ResultsError(RobotError):
 
 
 class TrueEvent(NamedTuple):
-    """One line of truth_events.csv; kind is unlocked, locked or press, the key is in the true Car frame."""
+    """One line of truth_events.csv; kind is unlocked, locked, press or handle, the key is in the true Car frame."""
 
     kind: str
     time_s: float
@@ -29,8 +34,10 @@ class TrueEvent(NamedTuple):
 class MeasuredEvent(NamedTuple):
     """One measurement of results.csv. Times and distances are NaN where the cell is empty.
 
-    event is unlock, lock or press; side, direction and origin are those of the axis, empty and 0 for a radial, whose
-    angle is clockwise_rad from the Car's front.
+    event is unlock, lock, press, handle or reach; side, direction and origin are those of the axis, empty and 0 for a
+    radial, whose angle is clockwise_rad from the Car's front. A zone (reach) has a side only, and no event at a time.
+    key_height_m is that of the line; NaN where all lines have the height of the metadata. border_m is the nominal
+    border of handle requests.
     """
 
     line: str
@@ -43,6 +50,8 @@ class MeasuredEvent(NamedTuple):
     direction: Tuple[float, float]
     origin: Tuple[float, float] = (0.0, 0.0)
     clockwise_rad: float = 0.0
+    key_height_m: float = math.nan
+    border_m: float = math.nan
 
 
 def column_names(path: pathlib.Path) -> List[str]:
@@ -69,14 +78,8 @@ def read_autolock(path: pathlib.Path) -> List[MeasuredEvent]:
     """Two events, unlock and lock, for each axis."""
     names = ("status", "distance_m", "uncertainty_m", "robot_time_s")
     columns = [f"{event}_{name}" for event in ("unlock", "lock") for name in names]
-    events = []
-    for row in _rows(path, ("axis", "side", "origin_x_m", "origin_y_m", "direction_x", "direction_y", *columns)):
-        direction = (_number(row, "direction_x", path), _number(row, "direction_y", path))
-        origin = (_number(row, "origin_x_m", path), _number(row, "origin_y_m", path))
-        for event in ("unlock", "lock"):
-            measured = _measured(row, path, row["axis"], event, f"{event}_")
-            events.append(measured._replace(direction=direction, origin=origin))
-    return events
+    return [_on_axis(_measured(row, path, row["axis"], event, f"{event}_"), row, path)
+            for row in _rows(path, (*_AXIS, *columns)) for event in ("unlock", "lock")]
 
 
 def read_key_press(path: pathlib.Path) -> List[MeasuredEvent]:
@@ -86,10 +89,31 @@ def read_key_press(path: pathlib.Path) -> List[MeasuredEvent]:
         clockwise_rad=math.radians(_number(row, "angle_deg", path))) for row in rows]
 
 
+def read_handle_request(path: pathlib.Path) -> List[MeasuredEvent]:
+    """One event, handle, for each axis: the farthest request that unlocked the Car."""
+    names = ("status", "distance_m", "uncertainty_m", "robot_time_s", "key_height_m", "border_m")
+    return [_on_axis(_measured(row, path, row["axis"], "handle", ""), row, path)._replace(
+        key_height_m=_number(row, "key_height_m", path), border_m=_number(row, "border_m", path))
+        for row in _rows(path, (*_AXIS, *names))]
+
+
+def read_zone_map(path: pathlib.Path) -> List[MeasuredEvent]:
+    """Where each zone ends, reach; it is found from many presses, and none of them is its event."""
+    return [MeasuredEvent(row["zone"], "reach", row["status"], math.nan, _number(row, "distance_m", path),
+                          _number(row, "uncertainty_m", path), row["side"], (0.0, 0.0),
+                          key_height_m=_number(row, "height_m", path))
+            for row in _rows(path, ("zone", "side", "height_m", "status", "distance_m", "uncertainty_m"))]
+
+
 def key_height_m(path: pathlib.Path) -> float:
     """The height of the Remote key that the metadata tell, else the scenarios' default."""
-    found = _KEY_HEIGHT.search(_text(path))
-    return float(found.group(1)) if found else DEFAULT_KEY_HEIGHT_M
+    return parameter(path, "key_height_m", DEFAULT_KEY_HEIGHT_M)
+
+
+def parameter(path: pathlib.Path, name: str, default: float) -> float:
+    """A parameter of the test that is a number, from the metadata."""
+    found = re.search(rf"^# parameter {name}: ([0-9.]+)(?: \S+)?$", _text(path), re.MULTILINE)
+    return float(found.group(1)) if found else default
 
 
 def rows_of(path: pathlib.Path) -> Iterator[Dict[str, str]]:
@@ -107,6 +131,12 @@ def _measured(row: Dict[str, str], path: pathlib.Path, line: str, event: str, pr
                                          for name in ("robot_time_s", "distance_m", "uncertainty_m"))
     return MeasuredEvent(line, event, row[f"{prefix}status"], time_s, distance_m, uncertainty_m, row.get("side", ""),
                          (0.0, 0.0))
+
+
+def _on_axis(event: MeasuredEvent, row: Dict[str, str], path: pathlib.Path) -> MeasuredEvent:
+    """With where the axis lies."""
+    return event._replace(direction=(_number(row, "direction_x", path), _number(row, "direction_y", path)),
+                          origin=(_number(row, "origin_x_m", path), _number(row, "origin_y_m", path)))
 
 
 def _rows(path: pathlib.Path, columns: Iterable[str]) -> Iterator[Dict[str, str]]:

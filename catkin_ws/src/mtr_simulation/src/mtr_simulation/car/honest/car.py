@@ -100,7 +100,9 @@ class HonestCar:
             self.request_handle()
         while self._handle_requests:
             command = self._handle_requests.popleft()
-            if self._heard(key_xyz, attitude) is Poll.IN_UNLOCK_ZONE:
+            accepted = self._heard(key_xyz, attitude) is Poll.IN_UNLOCK_ZONE
+            self._truth_log.handle(time_ns, key_xyz, accepted)
+            if accepted:
                 self.locks.command(command, Cause.HANDLE, time_ns)
 
     def _heard(self, key_xyz: Point, attitude: Attitude) -> Poll:

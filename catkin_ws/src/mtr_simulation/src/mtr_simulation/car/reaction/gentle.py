@@ -37,6 +37,10 @@ class GentleReactions:
         """See ReactionModel."""
         return loses_probability(self._lock_db(places), self._passive_parameters.noise_sigma_db, self._polling)
 
+    def handle(self, places: FloatArray, attitude: Attitude) -> FloatArray:
+        """See ReactionModel; this Car has no handle that it looks at."""
+        return np.zeros(places.shape[:-1])
+
     def unlock_poll(self, places: FloatArray, attitude: Attitude) -> FloatArray:
         """See ReactionModel."""
         return single_probability(self._unlock_db(places), self._passive_parameters.noise_sigma_db)

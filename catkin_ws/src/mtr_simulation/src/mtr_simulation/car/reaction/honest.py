@@ -29,10 +29,16 @@ class HonestReactions:
         noise, passive = self._parameters.noise, self._parameters.passive_entry
         if not passive.enabled:
             return np.zeros(places.shape[:-1])
-        margin_db = self._margins.unlock_db(places, attitude)
         if passive.unlock_on == "handle":
-            return single_probability(margin_db, noise.sigma_db, noise.lapse)
-        return finds_probability(margin_db, noise.sigma_db, self._polling())
+            return self.handle(places, attitude)
+        return finds_probability(self._margins.unlock_db(places, attitude), noise.sigma_db, self._polling())
+
+    def handle(self, places: FloatArray, attitude: Attitude) -> FloatArray:
+        """See ReactionModel."""
+        noise = self._parameters.noise
+        if not self._parameters.passive_entry.enabled:
+            return np.zeros(places.shape[:-1])
+        return single_probability(self._margins.unlock_db(places, attitude), noise.sigma_db, noise.lapse)
 
     def lock(self, places: FloatArray, attitude: Attitude) -> FloatArray:
         """See ReactionModel; a delay of the walk-away lock comes on top of the response time."""

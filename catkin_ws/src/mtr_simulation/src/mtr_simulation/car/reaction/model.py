@@ -23,6 +23,9 @@ class ReactionModel(Protocol):
     def lock(self, places: FloatArray, attitude: Attitude) -> FloatArray:
         """Passive entry locks."""
 
+    def handle(self, places: FloatArray, attitude: Attitude) -> FloatArray:
+        """One handle request finds the key in the unlock zone."""
+
     def unlock_poll(self, places: FloatArray, attitude: Attitude) -> FloatArray:
         """A single poll finds the key in the unlock zone, lapses left out: 50 % is the static boundary."""
 
