@@ -19,7 +19,7 @@ from ...results.line_result import LineStatus
 from ...robot_status import CarDimensions
 from ..line_search.attempt import AttemptMade, AttemptsMade
 from ..line_search.campaign import DIGITS
-from ..line_search.search import MAX_SILENT_LINES
+from ..line_search.silence import MAX_SILENT_LINES
 from ..line_search.trial import Trial
 from .parameters import ALL_SIDES, HandleRequestParameters
 from .request import Requester
@@ -82,13 +82,15 @@ class AxisTrial(Trial[HandleRequestResult]):
         inside_m, outside_m = _places(made.counted, worked=True), _places(made.counted, worked=False)
         at_border = made.all[:parameters.border_requests]
         sigma_m = max((each.place.uncertainty_m for each in made.counted), default=math.nan)
+        ray = self.ray
         return HandleRequestResult(
             line.number, line.side, round(line.key_height_m, DIGITS), LineStatus.INVALID, len(made.all),
             len(_places(made.all, worked=True)), len(outside_m),
             parameters.border_distance_m if parameters.border_requests else None,
             len(_places(at_border, worked=True)), len(_places(at_border, worked=False)), self._requested_by,
-            unconfirmed_m=made.unconfirmed_text, reason=reason, worked_at_m=inside_m, failed_at_m=outside_m,
-            place_sigma_m=sigma_m if math.isfinite(sigma_m) else None, evidence=evidence)
+            unconfirmed_m=made.unconfirmed_text, origin_x_m=ray.origin_x, origin_y_m=ray.origin_y,
+            direction_x=ray.direction_x, direction_y=ray.direction_y, reason=reason, worked_at_m=inside_m,
+            failed_at_m=outside_m, place_sigma_m=sigma_m if math.isfinite(sigma_m) else None, evidence=evidence)
 
     def result(self, made: AttemptsMade) -> HandleRequestResult:
         """See Trial."""

@@ -52,6 +52,10 @@ class HandleRequestResult(SearchedResult):
     lapse: OptionalFloat = _SEARCH.lapse
     fit_quality: OptionalFloat = _SEARCH.fit_quality
     unconfirmed_m: str = _SEARCH.unconfirmed_m
+    origin_x_m: OptionalFloat = column("origin of the axis, Car coordinate system", "m", default=None)
+    origin_y_m: OptionalFloat = column("origin of the axis, Car coordinate system", "m", default=None)
+    direction_x: OptionalFloat = column("unit vector of the axis away from the Car", "", 6, None)
+    direction_y: OptionalFloat = column("unit vector of the axis away from the Car", "", 6, None)
     reason: str = stored("")
     worked_at_m: Floats = stored(())
     failed_at_m: Floats = stored(())
