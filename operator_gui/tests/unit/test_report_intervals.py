@@ -12,6 +12,8 @@ from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
+from mtr_operator.domain.scenarios.zone_map.parameters import ZoneMapParameters
+from mtr_operator.domain.scenarios.zone_map.result import ZoneMapResult
 from mtr_operator.domain.verdict.assessment import Assessor
 from mtr_operator.report.protocol_png import protocol_png
 from mtr_operator.report.table import results_table
@@ -78,6 +80,18 @@ def test_picture_of_a_search_has_both_outlines_with_intervals_and_what_is_not_kn
 def test_protocol_is_drawn_with_intervals():
     progress = Progress("key_press", PARAMETERS.to_mapping(), {}, CAR, RESULTS)
     assert protocol_png(KEY_PRESS, PARAMETERS, progress).startswith(b"\x89PNG")
+
+
+def test_lean_of_mast_and_floor_counts_by_the_height_of_the_zone():
+    parameters = ZoneMapParameters(heights=2, highest_key_height_m=1.5)
+    zones = [ZoneMapResult(number, "front", height_m, LineStatus.OK, 16, 3.0, 2.5, 3.5, 0.01, 0.5, 0.4, 0.6)
+             for number, height_m in ((1, 1.0), (9, 1.5))]
+    progress = Progress("zone_map", parameters.to_mapping(), {}, CAR, zones)
+    budgets = Assessor(SCENARIOS["zone_map"], parameters, CAR, load_calibration()).assess(progress).budgets
+    low, high = ({term.name: term.contribution_m for term in budget.terms} for budget in budgets)
+    for name in ("mast_lean_deg", "floor_slope_deg"):
+        assert high[name] == pytest.approx(1.5 * low[name])
+    assert high["key_lever_m"] == low["key_lever_m"]
 
 
 def test_budget_of_an_open_interval_is_not_that_of_none():

@@ -17,6 +17,9 @@ from ..robot_status import CarDimensions
 from ..scenario import AnyScenario, Line, ScenarioParameters
 from .judgement import Circumstances, TestJudgement, judge
 
+# Columns of the Remote key's height: at an event, or of a zone that lies at it.
+_HEIGHTS = ("key_height_m", "height_m")
+
 
 @dataclass(frozen=True)
 class Assessment:
@@ -82,9 +85,10 @@ class Assessor:
 
     def _carriage(self, result: LineResult, word: str) -> Carriage:
         ray: Ray = self._rays[result.number]
-        height_m = _recorded(result, word, "key_height_m")
+        heights_m = (_recorded(result, word, name) for name in _HEIGHTS)
         return Carriage((ray.direction_x, ray.direction_y),
-                        self._parameters.key_height_m if height_m is None else height_m,
+                        next((height_m for height_m in heights_m if height_m is not None),
+                             self._parameters.key_height_m),
                         math.radians(_recorded(result, word, "heading_offset_deg") or 0.0))
 
 
