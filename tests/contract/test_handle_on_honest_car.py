@@ -1,5 +1,6 @@
 """Handle request against the simulated Car that unlocks on its handle only: output, bus and truth, without ROS."""
 # SPDX-License-Identifier: Apache-2.0
+import csv
 import math
 import threading
 
@@ -16,11 +17,13 @@ from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios.handle_request import SCENARIO
 from mtr_operator.domain.scenarios.handle_request.parameters import HandleRequestParameters
+from mtr_operator.report.results_csv import results_csv
 from mtr_operator.robot_link.fake import FakeRobotLink
 from mtr_simulation.car.can_port import MemoryCanPort, SentFrame
 from mtr_simulation.car.choice import chosen_car
 from mtr_simulation.car.honest.radio.key_antenna import Attitude
-from mtr_simulation.truth.log import NoTruthLog
+from mtr_simulation.truth import compare
+from mtr_simulation.truth.log import TruthLog
 
 STEP_NS = 20_000_000
 RELEASED, PRESSED = 1000, 2000
@@ -32,11 +35,12 @@ PARAMETERS = HandleRequestParameters.from_mapping(
 class HonestCarLink(CarLink):
     """The application's bus parts on the simulated Car, which sees the key where the robot's Statuses say it is."""
 
-    def __init__(self, seed):
+    def __init__(self, seed, folder):
         choice = chosen_car("honest_handle")
         profile = load_profile(choice.profile)
         self._port = MemoryCanPort()
-        self._car = choice.car(seed, self._port, NoTruthLog())
+        self.log = TruthLog(folder)
+        self._car = choice.car(seed, self._port, self.log)
         self._profile, self._watch = profile, LockWatch(profile)
         self._handle = BusHandle(profile.handle_output, self._send)
         self._step, self._before = None, None
@@ -97,14 +101,19 @@ class HonestCarLink(CarLink):
 
 
 @pytest.fixture(name="measured", scope="module", params=[1, 2])
-def measured_fixture(request):
-    """Lines, results and truth of a test."""
-    car = HonestCarLink(request.param)
+def measured_fixture(request, tmp_path_factory):
+    """Lines, results and truth of a test; its folder has results.csv and the true events."""
+    folder = tmp_path_factory.mktemp("handle")
+    car = HonestCarLink(request.param, folder)
     robot = FakeRobotLink(request.param)
     robot.connect()
     progress = Progress(SCENARIO.name, PARAMETERS.to_mapping())
     Runner(SCENARIO, PARAMETERS, ControlLoop(robot, car), progress, lambda _: None).run()
-    return SCENARIO.lines(PARAMETERS, progress.measured_car), progress.results, car.truth
+    (folder / "results.csv").write_text(results_csv(SCENARIO, progress), encoding="utf-8")
+    size = progress.measured_car
+    arguments = ["--events", str(car.log.path), "--results", str(folder), "--car-length", str(size.length),
+                 "--car-width", str(size.width), "--car", "honest_handle", "--seed", str(request.param)]
+    return SCENARIO.lines(PARAMETERS, size), progress.results, car.truth, arguments
 
 
 def true_share(truth, line, distance_m):
@@ -114,7 +123,7 @@ def true_share(truth, line, distance_m):
 
 
 def test_every_axis_of_the_drivers_side_is_measured_by_the_output(measured):
-    lines, results, _ = measured
+    lines, results, _, _ = measured
     assert len(results) == len(lines) == 3
     for result in results:
         assert (result.status.value, result.reason) == ("ok", "")
@@ -123,7 +132,23 @@ def test_every_axis_of_the_drivers_side_is_measured_by_the_output(measured):
 
 
 def test_the_border_is_where_half_of_the_requests_work_in_truth(measured):
-    lines, results, truth = measured
+    lines, results, truth, _ = measured
     for line, result in zip(lines, results):
         assert true_share(truth, line, result.d50_low_m) > 0.5 > true_share(truth, line, result.d50_high_m)
         assert true_share(truth, line, max(result.failed_at_m)) < 0.5 < true_share(truth, line, min(result.worked_at_m))
+
+
+def test_results_stand_beside_the_truth_of_the_simulation(measured, capsys):
+    _, results, _, arguments = measured
+    assert compare.main(arguments) == 0
+    told = capsys.readouterr().out
+    with open(f"{arguments[3]}/truth.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [(row["scenario"], row["event"]) for row in rows] == 3 * [("handle_request", "handle")]
+    for row, result in zip(rows, results):
+        assert float(row["true_distance_m"]) == pytest.approx(result.distance_m, abs=0.1)
+        assert result.d50_low_m < float(row["p50_distance_m"]) < result.d50_high_m
+        assert 0.0 <= float(row["true_border_share"]) <= 1.0
+    assert "handle_request: 3 of 3 distances are ok and have their true event" in told
+    assert "handle_request: handle, 50 %: 3 of 3 intervals hold the truth (100 %)" in told
+    assert "inside at border" in told
