@@ -169,7 +169,26 @@ def test_attempts_and_interval_are_told_before_the_start_with_what_an_interval_o
     assert screen.caution.text().startswith("8 presses on each radial reach an interval of ")
     assert "\N{LEFT DOUBLE QUOTATION MARK}Presses at most" in screen.caution.text()
     screen.form.choices["method"].show_word("scan")
-    assert screen.caution.text() == "" and "interval" not in screen.notice.text()
+    assert screen.caution.text() == "" and "Expected 95 % interval" not in screen.notice.text()
+    assert "Attempts on each line: " in screen.notice.text()
+
+
+def test_zone_map_tells_presses_and_coverage_before_the_start_and_what_an_interval_out_of_reach_takes(operator):
+    screen = operator.choose("zone_map")
+    screen.form.fields["presses_limit"].edit.setText("60")
+    screen.form.fields["coverage_percent"].edit.setText("15")
+    assert "Expected 95 % interval of the coverage: \N{PLUS-MINUS SIGN}15 %." in screen.notice.text()
+    assert screen.caution.text() == ""
+    screen.form.fields["presses_limit"].edit.setText("10")
+    assert screen.caution.text().startswith("10 presses in each zone reach an interval of the coverage of ")
+
+
+def test_speed_that_the_connected_cars_cycle_makes_meaningless_is_told_with_its_sigma(operator):
+    screen = operator.choose("autolock")
+    screen.form.fields["passes"].edit.setText("1")
+    told = screen.caution.text()
+    assert "km/h, with a message of the Car every 0.20 s, the distance of a pass has a sigma of " in told
+    assert " Pass at " in told and "m/s" not in told
 
 
 def test_used_parameters_are_remembered(operator, start):

@@ -204,7 +204,7 @@ def test_speeds_that_the_cars_cycle_makes_meaningless_are_told_with_their_sigma(
     run_scenario(SCENARIO, replace(TWO, measuring_speeds_mps=(0.4, 0.3)), observer=actions)
     assert [said for said in actions.said if said.startswith("warning: At")] == [
         "warning: At 0.30 m/s, with a message of the Car every 0.80 s, the static boundary of an axis has a sigma of "
-        "0.419 m; boundary_sigma_m asks for 0.030 m. Pass more slowly."]
+        "0.419 m; boundary_sigma_m asks for 0.030 m. Pass at 0.07 m/s."]
 
 
 def test_passes_at_one_speed_are_told_to_leave_the_reaction_time_inside():

@@ -1,10 +1,12 @@
 """The Key press scenario against a kinematic robot and a Car with a range."""
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
+import math
 from dataclasses import replace
 
 import pytest
 
-from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.errors import InvalidParameter, RobotFailed
 from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, LockFacts
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios.key_press import SCENARIO
@@ -55,12 +57,41 @@ def test_first_place_that_works_has_no_failed_one(run_scenario, world):
     assert result.attempts == 1
 
 
+def works_on(world, *angles_deg):
+    """The Car obeys on some radials only."""
+    def obey(status):
+        clockwise_deg = -math.degrees(math.atan2(status.y, status.x)) % 360.0
+        world.press_range_m = 5.2 if any(abs(clockwise_deg - angle_deg) < 20.0 for angle_deg in angles_deg) else 0.0
+        return status
+    world.spoil = obey
+
+
 def test_no_place_that_works_is_not_reached(run_scenario, world):
-    world.press_range_m = 0.0
+    works_on(world, 90.0, 180.0, 270.0)
     result = run_scenario(SCENARIO, PARAMETERS)[0]
     assert (result.status.value, result.distance_m, result.robot_time_s) == ("not_reached", None, None)
     assert result.failed_distance_m == pytest.approx(3.0)
     assert result.attempts == 7
+
+
+def test_key_that_answers_on_no_radial_is_asked_for(run_scenario, world):
+    world.press_range_m = 0.0
+    with pytest.raises(RobotFailed, match="answered nowhere on 3 radials one after the other; see whether it sleeps"):
+        run_scenario(SCENARIO, PARAMETERS)
+    assert len(run_scenario.progress.results) == 2
+
+
+def test_key_that_stops_to_answer_during_the_test_is_asked_for(run_scenario, world):
+    works_on(world, 0.0)
+    with pytest.raises(RobotFailed, match="answered nowhere on 3 radials"):
+        run_scenario(SCENARIO, PARAMETERS)
+    assert [result.status.value for result in run_scenario.progress.results] == ["ok", "not_reached", "not_reached"]
+
+
+def test_two_radials_without_an_answer_are_a_range_that_ends_nearer(run_scenario, world):
+    works_on(world, 0.0, 270.0)
+    assert [result.status.value for result in run_scenario(SCENARIO, PARAMETERS)] == [
+        "ok", "not_reached", "not_reached", "ok"]
 
 
 def test_each_place_gets_all_its_attempts(run_scenario):
@@ -127,7 +158,7 @@ def test_places_inside_the_car_are_refused_before_the_robot_moves(run_scenario, 
 
 
 def test_last_place_is_exactly_the_minimum_distance(run_scenario, world, robot_link):
-    world.press_range_m = 0.0
+    works_on(world, 180.0)
     run_scenario(SCENARIO, PARAMETERS)
     nearest = min(desired.waypoint.pose.x for _, desired in robot_link.answers
                   if desired.waypoint and desired.waypoint.id <= 8)
@@ -162,8 +193,11 @@ def test_another_keys_button_is_not_taken_for_the_press(run_scenario, world, rob
 def test_late_answer_to_the_press_before_is_not_taken_for_the_next_one(run_scenario, world, reaction_s):
     """The Car answers late to every press: none works in time."""
     world.reaction_s = reaction_s
-    results = run_scenario(SCENARIO, CONFIRMED)
-    assert all(result.distance_m is None for result in results)
+    # On several radials one after the other that looks like a key that does not answer.
+    with contextlib.suppress(RobotFailed):
+        run_scenario(SCENARIO, CONFIRMED)
+    results = run_scenario.progress.results
+    assert len(results) >= 2 and all(result.distance_m is None for result in results)
 
 
 def test_confirmed_place_is_the_first_press_that_worked(run_scenario, world):

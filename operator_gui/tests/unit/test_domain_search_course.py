@@ -204,9 +204,9 @@ def test_prospect_before_the_first_radial_is_from_a_sharp_to_a_soft_end_of_the_r
         (sharp.line_s[0], soft.line_s[1]))
 
 
-def test_scan_has_no_prospect_and_no_cautions_and_its_radials_say_nothing_of_each_other():
+def test_scan_has_no_interval_and_no_cautions_and_its_radials_say_nothing_of_each_other():
     scan = replace(PARAMETERS, method="scan", attempts_limit=6)
-    assert SCENARIO.prospect(scan, LockFacts(), ()) is None and SCENARIO.cautions(scan, LockFacts()) == ()
+    assert SCENARIO.prospect(scan, LockFacts(), ()).interval_m is None and SCENARIO.cautions(scan, LockFacts()) == ()
     assert SCENARIO.concluded(scan, [radial(1, 5.0, 4.0, worked_at_m=(4.0,), failed_at_m=(6.0,))]) == ()
     assert SCENARIO.can_go_on(SCENARIO.lines(scan, CAR)[0], scan, None, None) is False
 

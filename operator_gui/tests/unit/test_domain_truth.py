@@ -12,6 +12,7 @@ from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.fake_message import DemoLockMessage
 from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.profile import PROFILE_FOLDER, load_profile
+from mtr_operator.domain.errors import RobotFailed
 from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, CarLink, LockFacts, LockState
 from mtr_operator.domain.requests import Direction
 from mtr_operator.domain.robot_status import Interventions
@@ -166,9 +167,11 @@ def test_glitch_of_one_frame_is_no_answer_to_a_press(run_scenario, radials_world
         return bytes([(data[0] & ~0x73) | 0x21]) + data[1:] if is_glitch else data
 
     car_link.spoil = spoil
-    results = run_scenario(KEY_PRESS, RADIALS)
+    with pytest.raises(RobotFailed, match="answered nowhere on 3 radials"):
+        run_scenario(KEY_PRESS, RADIALS)
     assert first_of(run_scenario).status.value == "invalid"
-    assert [result.status.value for result in results] == 4 * ["not_reached"]
+    assert [result.status.value for result in run_scenario.progress.results] == [
+        "invalid", "not_reached", "not_reached"]
 
 
 @pytest.mark.parametrize("raw", [0, 3, 5, 7])
@@ -197,7 +200,8 @@ def test_change_between_order_and_press_is_no_answer(run_scenario, radials_world
         take(desired)
 
     world.take = relock_after_the_order
-    run_scenario(KEY_PRESS, RADIALS)
+    with pytest.raises(RobotFailed, match="answered nowhere on 3 radials"):
+        run_scenario(KEY_PRESS, RADIALS)
     assert first_of(run_scenario).status.value == "invalid"
     assert "before the press at 6.00 m, by something else" in first_of(run_scenario).reason
 

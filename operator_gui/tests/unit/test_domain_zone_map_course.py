@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 
 from mtr_operator.domain.actions.observer import RunObserver
+from mtr_operator.domain.errors import RobotFailed
 from mtr_operator.domain.estimation.field.zone_search import ZoneSearch
 from mtr_operator.domain.geometry.radials import radials_around
 from mtr_operator.domain.requests import Direction
 from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.robot_status import CarDimensions, WaypointResult
 from mtr_operator.domain.scenarios.zone_map import SCENARIO
+from mtr_operator.domain.scenarios.zone_map.field import search_in
 from mtr_operator.domain.scenarios.zone_map.parameters import ZoneMapParameters
 from mtr_operator.domain.scenarios.zone_map.zones import areas_m2, from_outline, rows, zones_around
 
@@ -207,13 +209,52 @@ def test_coverage_is_recorded_to_a_millionth(run_scenario, monkeypatch):
         round(part, 6) for part in (found[-1].value_m, found[-1].low_m, found[-1].high_m))
 
 
-def test_car_that_obeys_nowhere_is_not_reached_and_one_that_obeys_everywhere_has_no_end(run_scenario, world):
+def test_key_that_answers_nowhere_is_asked_for_and_no_zone_is_on_record_as_not_covered(run_scenario, world):
     world.press_range_m = 0.0
-    nowhere = run_scenario(SCENARIO, PARAMETERS)[0]
-    assert (nowhere.status, nowhere.distance_m, nowhere.low_m, nowhere.uncertainty_m) == (
-        LineStatus.NOT_REACHED, None, None, None)
-    assert nowhere.coverage < 0.05 and nowhere.worked == ()
-    restart(world)
+    with pytest.raises(RobotFailed, match="answered nowhere in 3 zones one after the other; see whether it sleeps"):
+        run_scenario(SCENARIO, PARAMETERS)
+    first, second = run_scenario.progress.results
+    for result in (first, second):
+        assert (result.status, result.distance_m, result.high_m, result.coverage) == (
+            LineStatus.INVALID, None, None, None)
+        assert result.reason.startswith("No press worked in this zone, not at its nearest places either: ")
+    # The front's only radial begins 2.25 m from the Car's centre.
+    at_nearest = [place for place in first.failed if math.hypot(*place) < 2.25 + PARAMETERS.distances_m[0] + 0.05]
+    assert len(at_nearest) >= 3 and first.presses == len(first.failed) <= PARAMETERS.presses_limit + 3
+
+
+def test_zone_in_which_the_key_slept_says_nothing_of_the_others_and_is_measured_again(run_scenario, world):
+    class Sleeper(RunObserver):
+        """Its key answers from the second zone on."""
+
+        def on_action(self, text):
+            if text.startswith("zone "):
+                world.press_range_m = 0.0 if not begun else 5.2
+                begun.append(text)
+    begun = []
+    results = run_scenario(SCENARIO, PARAMETERS, observer=Sleeper())
+    assert run_scenario.progress.retried == [1]
+    assert all(result.worked and result.status is not LineStatus.INVALID for result in results)
+    silent, second = run_scenario.saved[0][0], run_scenario.saved[1][1]
+    assert silent.is_silent and not second.is_silent
+    alone = search_in(zones_around(PARAMETERS, CAR)[1], PARAMETERS, CAR, [])
+    beside = search_in(zones_around(PARAMETERS, CAR)[1], PARAMETERS, CAR, [silent])
+    assert beside.field.presses == alone.field.presses == 0
+
+
+def test_key_that_wakes_up_in_the_last_moment_leaves_no_doubt(run_scenario, world):
+    world.press_range_m = 0.0
+    take = world.take
+
+    def wake(desired):
+        world.press_range_m = 5.2 if len(world.presses) >= PARAMETERS.presses_limit else 0.0
+        take(desired)
+    world.take = wake
+    first = run_scenario(SCENARIO, PARAMETERS)[0]
+    assert first.status is not LineStatus.INVALID and len(first.worked) == 1
+
+
+def test_car_that_obeys_everywhere_has_no_end(run_scenario, world):
     world.press_range_m = 99.0
     everywhere = run_scenario(SCENARIO, PARAMETERS)[-1]
     assert (everywhere.status, everywhere.distance_m, everywhere.high_m) == (LineStatus.NOT_REACHED, None, None)

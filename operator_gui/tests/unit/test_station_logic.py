@@ -8,14 +8,14 @@ import sys
 
 import pytest
 
-from mtr_operator.domain.absent_car import NO_ADAPTER
-from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.absent_car import NO_ADAPTER, AbsentCarLink
+from mtr_operator.domain.ports import BusTraffic, LockFacts, LockState
 from mtr_operator.domain.robot_status import CarDimensions, Mode, Notification, RobotStatus
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.connection import CanChoice, Connection, RobotChoice
-from mtr_operator.station.estimate import USUAL_CAR, TimeLeft, plan_of
-from mtr_operator.station.events import ActionBegun, RobotSnapshot
-from mtr_operator.station.mailbox import MAX_TRAIL, Mailbox
+from mtr_operator.station.estimate import USUAL_CAR, USUAL_FACTS, TimeLeft, plan_of
+from mtr_operator.station.events import ActionBegun, RobotSnapshot, known_facts
+from mtr_operator.station.mailbox import MAX_TRAIL, Batch, Mailbox
 from mtr_operator.station.number_text import Fault, parse_number, read, shown_number, written
 from mtr_operator.station.readiness import Cause, Phase, ReadinessWord, can_resume, readiness_of
 from mtr_operator.station.settings import Settings
@@ -136,6 +136,31 @@ STATUS = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, pose_valid=True, mod
 
 def snapshot(lock=LockState.LOCKED, problem="", **changes):
     return RobotSnapshot(dataclasses.replace(STATUS, **changes), lock, problem)
+
+
+def test_plan_is_made_with_what_the_connected_cars_profile_tells():
+    model = ViewModel()
+    assert model.facts == USUAL_FACTS
+    model.apply(Batch((), snapshot(), ()))
+    assert model.facts == USUAL_FACTS
+    slow = LockFacts(told_every_s=0.8)
+    model.apply(Batch((), dataclasses.replace(snapshot(), facts=slow), ()))
+    assert model.facts == slow
+    scenario = SCENARIOS["autolock"]
+    for facts, told in ((USUAL_FACTS, "every 0.20 s"), (model.facts, "every 0.80 s")):
+        caution, = plan_of(scenario, scenario.parameters_type(), USUAL_CAR, True, facts).cautions
+        assert told in caution
+
+
+def test_car_without_a_bus_tells_nothing_beforehand():
+    class Bus(AbsentCarLink):
+        """One whose profile is known."""
+        facts = LockFacts(told_every_s=0.8)
+        traffic = None
+    car = Bus()
+    assert known_facts(car) is None
+    Bus.traffic = BusTraffic(0.1, 0.8, 0.8)
+    assert known_facts(car) == LockFacts(told_every_s=0.8)
 
 
 def test_nothing_heard_is_communication_lost():

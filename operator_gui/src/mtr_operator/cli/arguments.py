@@ -29,6 +29,7 @@ def argument_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")
     _add_window(commands.add_parser("window", help="open the window; so does no command at all"))
     _add_params(commands.add_parser("params", help="list the parameters of a scenario"))
+    _add_plan(commands.add_parser("plan", help="say what a test would take and tell, without robot and Car"))
     _add_run(commands.add_parser("run", help="run a test"))
     _add_check(commands.add_parser("check", help="look whether the Car still stands where it was measured"))
     _add_demo(commands.add_parser("demo", help="run a test on a robot and a Car inside the application; needs no file"))
@@ -48,6 +49,14 @@ def _add_window(parser: argparse.ArgumentParser) -> None:
 
 def _add_params(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scenario", choices=list(SCENARIOS), help="one of %(choices)s", metavar="SCENARIO")
+
+
+def _add_plan(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("scenario", choices=list(SCENARIOS), help="one of %(choices)s", metavar="SCENARIO")
+    parser.add_argument("--params", type=pathlib.Path, required=True, metavar="FILE", help="parameters, YAML or JSON")
+    parser.add_argument("--limits", type=pathlib.Path, metavar="FILE", help="limits that have to suit the test, YAML")
+    parser.add_argument("--car-profile", metavar="NAME_OR_PATH",
+                        help="how the Car's bus tells its lock state; default: a message every 0.2 s")
 
 
 def _add_run(parser: argparse.ArgumentParser) -> None:

@@ -16,6 +16,7 @@ from mtr_operator.station.settings import Settings
 from .arguments import argument_parser
 from .checking import check
 from .exit_codes import EXIT_ERROR, EXIT_FAIL, EXIT_INCONCLUSIVE, EXIT_INTERRUPTED, EXIT_PASS
+from .planning import plan
 from .run import CommandLineRun
 from .window import open_window
 
@@ -32,6 +33,8 @@ def run_command(arguments: list[str] | None = None) -> int:
             list_parameters(options)
         elif options.command == "check":
             check(options)
+        elif options.command == "plan":
+            plan(options)
         elif options.command == "demo":
             return run_demo(options)
         elif options.command == "run":

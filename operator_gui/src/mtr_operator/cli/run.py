@@ -38,6 +38,7 @@ from .enter import Enter
 from .handle import HandleQuestion
 from .interrupt import Interrupt
 from .links import car_link, robot_link
+from .planning import Outlook
 from .release import Release
 
 # What results call a robot and a Car inside the application.
@@ -111,9 +112,8 @@ class CommandLineRun:
             loop.person = HandleQuestion(display.say, enter).person
             rejected_before = loop.status.rejected_messages
             self._progress.session[ROBOT_SOFTWARE] = loop.status.software_version
-            prospect = self._scenario.prospect(self._parameters, car.facts, self._progress.results)
-            if prospect is not None:
-                display.say(f"expected: {prospect.text}")
+            display.outlook = Outlook(self._scenario, self._parameters, car.facts, self._progress)
+            display.say(display.outlook.before(loop.status))
             try:
                 Runner(self._scenario, self._parameters, loop, self._progress, lambda _: store.save(),
                        journal=store).run()

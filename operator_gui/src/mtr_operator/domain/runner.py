@@ -62,9 +62,10 @@ class Runner:
         if self._progress.notice:
             self._notebook.add(SESSION, {RECOVERED: self._progress.notice})
         try:
-            prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
+            # Before the robot moves, for mapping too.
             for sentence in self._scenario.cautions(parameters, self._car.facts):
                 self._robot.say(f"warning: {sentence}")
+            prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
             lines = self._lines()
             # Before the robot drives round for the check: the Car and the robot are still as they were.
             half = self._finish_half_line(lines)

@@ -14,11 +14,18 @@ def prospect_text(prospect: Prospect | None) -> str:
     few, many = prospect.attempts
     attempts = translate("Prospect", "Attempts on each line: {count}.").format(
         count=str(few) if few == many else _range(str(few), str(many)))
+    if prospect.coverage_percent is not None:
+        return attempts + " " + translate("Prospect", "Expected 95 % interval of the coverage: {interval} %.").format(
+            interval=_interval(prospect.coverage_percent, 0))
     if prospect.interval_m is None:
         return attempts + " " + translate("Prospect", "The distances will have no 95 % interval.")
-    narrow, wide = (f"\N{PLUS-MINUS SIGN}{number(half_m, 2)}" for half_m in prospect.interval_m)
     return attempts + " " + translate("Prospect", "Expected 95 % interval: {interval} m.").format(
-        interval=narrow if narrow == wide else _range(narrow, wide))
+        interval=_interval(prospect.interval_m, 2))
+
+
+def _interval(halves: tuple[float, float], digits: int) -> str:
+    narrow, wide = (f"\N{PLUS-MINUS SIGN}{number(half, digits)}" for half in halves)
+    return narrow if narrow == wide else _range(narrow, wide)
 
 
 def _range(low: str, high: str) -> str:

@@ -60,8 +60,9 @@ class Plan:
         return battery_percent - self.battery_percent >= RESERVE_PERCENT
 
 
-def plan_of(scenario: AnyScenario, parameters: ScenarioParameters, car: CarDimensions, is_mapped: bool) -> Plan:
-    """Plan of a test; InvalidParameter when the parameters do not suit a Car of this size."""
+def plan_of(scenario: AnyScenario, parameters: ScenarioParameters, car: CarDimensions, is_mapped: bool,
+            facts: LockFacts = USUAL_FACTS) -> Plan:
+    """Plan of a test; InvalidParameter when the parameters do not suit a Car of this size. facts: of this Car."""
     lines = scenario.lines(parameters, car)
     near_m, far_m = scenario.distance_range(parameters)
     rays = [line.ray for line in lines]
@@ -71,7 +72,7 @@ def plan_of(scenario: AnyScenario, parameters: ScenarioParameters, car: CarDimen
         tuple(Stretch(ray.point(near_m), ray.point(far_m), str(line.number)) for line, ray in zip(lines, rays)),
         (0.0 if is_mapped else MAPPING_S) + (SELF_CHECK_S if parameters.self_check else 0.0),
         tuple(own_s + MANOEUVRES_S + way_m / parameters.maximum_speed_mps for way_m in ways),
-        scenario.prospect(parameters, USUAL_FACTS, ()), tuple(scenario.cautions(parameters, USUAL_FACTS)))
+        scenario.prospect(parameters, facts, ()), tuple(scenario.cautions(parameters, facts)))
 
 
 def _ways(rays: Sequence[Ray], near_m: float, far_m: float) -> list[float]:

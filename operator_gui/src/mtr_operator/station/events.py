@@ -6,7 +6,7 @@ import enum
 from dataclasses import dataclass
 from typing import Union
 
-from mtr_operator.domain.ports import BusTraffic, LockState
+from mtr_operator.domain.ports import BusTraffic, CarLink, LockFacts, LockState
 from mtr_operator.domain.requests import Waypoint
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import CarDimensions, RobotStatus
@@ -19,7 +19,7 @@ class RobotSnapshot:
     """The newest Status with the Car's locks at its time; only the newest one counts.
 
     waypoint: where the robot was sent last, None when nowhere. is_secret: the link is encrypted. traffic: of the Car's
-    bus, None where there is no bus to ask.
+    bus, None where there is no bus to ask. facts: what its profile tells beforehand, None without one.
     """
 
     status: RobotStatus
@@ -28,6 +28,12 @@ class RobotSnapshot:
     waypoint: Waypoint | None = None
     is_secret: bool = False
     traffic: BusTraffic | None = None
+    facts: LockFacts | None = None
+
+
+def known_facts(car: CarLink) -> LockFacts | None:
+    """What the profile of the Car behind a link tells; None where there is no bus."""
+    return None if car.traffic is None else car.facts
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Callable
 
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.geometry.pose import Point
-from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.ports import LockFacts, LockState
 from mtr_operator.domain.prospect import Prospect
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import CarDimensions, Notification
@@ -138,7 +138,13 @@ class ViewModel:
     def prospect(self) -> Prospect | None:
         """What each line is likely to take and to tell, with what the lines so far say."""
         test = self.test
-        return None if test is None else test.scenario.prospect(test.parameters, USUAL_FACTS, self.results)
+        return None if test is None else test.scenario.prospect(test.parameters, self.facts, self.results)
+
+    @property
+    def facts(self) -> LockFacts:
+        """Of the connected Car by its profile; of a usual one while none is known."""
+        known = None if self.robot is None else self.robot.facts
+        return USUAL_FACTS if known is None else known
 
     @property
     def percent(self) -> int:
@@ -241,7 +247,8 @@ class ViewModel:
             return
         try:
             is_mapped = self.robot is not None and self.robot.status.car is not None
-            plan = plan_of(test.scenario, test.parameters, self.mapped_car or USUAL_CAR, is_mapped)
+            plan = plan_of(test.scenario, test.parameters, self.mapped_car or USUAL_CAR, is_mapped,
+                           self.facts)
             self._time_left = TimeLeft(plan.lines_s, 0.0 if is_prepared else plan.preparation_s)
         except InvalidParameter:  # the runner will say it
             self._time_left = TimeLeft(())

@@ -26,9 +26,11 @@ from .key_press_parameters import KeyPressParameters
 from .key_press_result import ADAPTIVE, CONFIRMING, PRESS, KeyPressResult
 from .line_search import campaign, prospect, search
 from .line_search.result import SHARES
+from .line_search.silence import ask_when_lasting
 from .press.button import press_once
 from .press.picture import picture_of
-from .press.radial import LIMITS, WIDTHS, RadialTrial
+from .press.radial import LASTING_SILENCE, LIMITS, WIDTHS, RadialTrial
+from .press.scan_prospect import scan_prospect, scan_s
 
 
 @dataclass
@@ -90,9 +92,11 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
         return tuple(prospect.cautions(parameters.search_plan, WIDTHS, LIMITS))
 
     def prospect(self, parameters: KeyPressParameters, facts: LockFacts,
-                 results: Sequence[KeyPressResult]) -> Prospect | None:
+                 results: Sequence[KeyPressResult]) -> Prospect:
         """See Scenario."""
-        return prospect.prospect(parameters.search_plan, WIDTHS, results) if parameters.method == ADAPTIVE else None
+        if parameters.method == ADAPTIVE:
+            return prospect.prospect(parameters.search_plan, WIDTHS, results)
+        return scan_prospect(parameters, results)
 
     def unreached(self, parameters: KeyPressParameters, word: str) -> tuple[float | None, float | None]:
         """See Scenario: the results of a search say themselves to which side they are not bounded."""
@@ -114,12 +118,7 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
         """See Scenario: a scan's Car is taken to react at the middle one of the places."""
         if parameters.method == ADAPTIVE:
             return sum(prospect.prospect(parameters.search_plan, WIDTHS, ()).line_s) / 2.0
-        places = parameters.press_distances_m
-        failed = len(places) // 2
-        way_m = parameters.maximum_distance_m - places[failed]
-        press_s = parameters.settle_time_s + parameters.press_duration_s
-        waited_s = failed * parameters.attempts * (press_s + parameters.response_timeout_s) + press_s
-        return way_m / parameters.maximum_speed_mps + waited_s
+        return scan_s(parameters, len(parameters.press_distances_m) // 2)
 
 
 def _scan(line: Radial, parameters: KeyPressParameters, robot: Robot) -> KeyPressResult:
@@ -140,7 +139,11 @@ def _scan(line: Radial, parameters: KeyPressParameters, robot: Robot) -> KeyPres
             measured.status = LineStatus.NOT_REACHED if measured.success is None else LineStatus.OK
     except LineInvalid as error:
         measured.reason, measured.evidence = str(error), error.evidence
-    return _result(line, measured)
+    result = _result(line, measured)
+    if result.status is LineStatus.NOT_REACHED:
+        earlier = [each for each in robot.results if isinstance(each, KeyPressResult)]
+        ask_when_lasting(line.number, earlier, lambda each: each.status is LineStatus.NOT_REACHED, LASTING_SILENCE)
+    return result
 
 
 def _press_here(radial: Ray, watch: LineWatch, measured: _Measured, parameters: KeyPressParameters,

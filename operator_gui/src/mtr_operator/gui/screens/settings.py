@@ -103,7 +103,8 @@ class SettingsScreen(QWidget):
         """Something of robot or Car is another one."""
         status = self._model.robot.status if self._model.robot else None
         bad = hindrances(self._model.checklist)
-        shown = (self._model.mapped_car, self._model.readiness, status and status.battery_percent, bad)
+        shown = (self._model.mapped_car, self._model.readiness, status and status.battery_percent, bad,
+                 self._model.facts)
         if shown != self._shown:
             self._shown = shown
             self._preview()
@@ -115,7 +116,7 @@ class SettingsScreen(QWidget):
         self._lines.is_visible = False
         if parameters is not None:
             try:
-                self._plan = plan_of(self._scenario, parameters, car, mapped is not None)
+                self._plan = plan_of(self._scenario, parameters, car, mapped is not None, self._model.facts)
                 self.form.show_fault("")
                 self._lines.stretches, self._lines.is_visible = self._plan.stretches, True
             except InvalidParameter as error:

@@ -26,6 +26,16 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The key has answered nowhere on {} radials one after the other; see whether it "
                                   "sleeps, whether its battery is empty and whether it is the Car's key, then continue "
                                   "the test, or begin one with a smaller minimum_distance_m."),
+    QT_TRANSLATE_NOOP("Sentence", "The key has answered nowhere in {} zones one after the other; see whether it "
+                                  "sleeps, whether its battery is empty and whether it is the Car's key, then continue "
+                                  "the test, or begin one with a smaller minimum_distance_m."),
+    QT_TRANSLATE_NOOP("Sentence", "No press worked in this zone, not at its nearest places either: the key sleeps, its "
+                                  "battery is empty, or the Car's range ends nearer; then decrease "
+                                  "minimum_distance_m."),
+    QT_TRANSLATE_NOOP("Sentence", "{} presses in each zone reach an interval of the coverage of {} %; coverage_percent "
+                                  "asks for {} %: allow {} presses (presses_limit), or ask for {} %."),
+    QT_TRANSLATE_NOOP("Sentence", "{} presses in each zone reach an interval of the coverage of {} %; coverage_percent "
+                                  "asks for {} %: ask for {} %."),
     QT_TRANSLATE_NOOP("Sentence", "Parameter minimum_distance_m leaves {} m up to the first press at {} m; the method "
                                   "adaptive needs {} m."),
     QT_TRANSLATE_NOOP("Sentence", "Parameter {} is {}; allowed is {} or {}."),

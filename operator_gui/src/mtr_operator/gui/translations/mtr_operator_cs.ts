@@ -1726,19 +1726,24 @@
         <translation>Pokusů na každé přímce: {count}.</translation>
     </message>
     <message>
-        <location filename="../prospect_text.py" line="18"/>
+        <location filename="../prospect_text.py" line="21"/>
         <source>The distances will have no 95 % interval.</source>
         <translation>Vzdálenosti nebudou mít 95% interval.</translation>
     </message>
     <message>
-        <location filename="../prospect_text.py" line="20"/>
+        <location filename="../prospect_text.py" line="22"/>
         <source>Expected 95 % interval: {interval} m.</source>
         <translation>Očekávaný 95% interval: {interval} m.</translation>
     </message>
     <message>
-        <location filename="../prospect_text.py" line="25"/>
+        <location filename="../prospect_text.py" line="32"/>
         <source>{low} to {high}</source>
         <translation>{low} až {high}</translation>
+    </message>
+    <message>
+        <location filename="../prospect_text.py" line="18"/>
+        <source>Expected 95 % interval of the coverage: {interval} %.</source>
+        <translation>Očekávaný 95% interval pokrytí: {interval} %.</translation>
     </message>
 </context>
 <context>
@@ -3142,11 +3147,6 @@
     </message>
     <message>
         <location filename="../texts/passes.py" line="5"/>
-        <source>At {} m/s, with a message of the Car every {} s, the static boundary of an axis has a sigma of {} m; boundary_sigma_m asks for {} m. Pass more slowly.</source>
-        <translation>Při {} m/s a zprávě vozu každých {} s má statická hranice osy sigma {} m; boundary_sigma_m žádá {} m. Projíždějte pomaleji.</translation>
-    </message>
-    <message>
-        <location filename="../texts/passes.py" line="5"/>
         <source>Parameters measuring_speed_mps and measuring_speeds_mps are both given; give one.</source>
         <translation>Parametry measuring_speed_mps a measuring_speeds_mps jsou zadány oba; zadejte jeden.</translation>
     </message>
@@ -3385,6 +3385,46 @@
         <source>Of a range between two places the nearer one is the farthest press that worked, the other the next one that failed; a range of at least a place worked at the first.</source>
         <translation>U dosahu mezi dvěma místy je bližší nejvzdálenější stisk, který zabral, a druhé nejbližší vzdálenější, který nezabral; dosah nejméně nějaký zabral hned na prvním místě.</translation>
     </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>The key has answered nowhere in {} zones one after the other; see whether it sleeps, whether its battery is empty and whether it is the Car&apos;s key, then continue the test, or begin one with a smaller minimum_distance_m.</source>
+        <translation>Klíč v {} zónách za sebou nikde neodpověděl; zjistěte, zda nespí, zda nemá vybitou baterii a zda patří k autu, pak v testu pokračujte, nebo začněte nový s menší minimum_distance_m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>No press worked in this zone, not at its nearest places either: the key sleeps, its battery is empty, or the Car&apos;s range ends nearer; then decrease minimum_distance_m.</source>
+        <translation>V této zóně nezabral žádný stisk, ani na jejích nejbližších místech: klíč spí, má vybitou baterii, nebo dosah auta končí blíž; pak zmenšete minimum_distance_m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>{} presses in each zone reach an interval of the coverage of {} %; coverage_percent asks for {} %: allow {} presses (presses_limit), or ask for {} %.</source>
+        <translation>{} stisků v každé zóně dosáhne intervalu pokrytí {} %; coverage_percent žádá {} %: povolte {} stisků (presses_limit), nebo žádejte {} %.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>{} presses in each zone reach an interval of the coverage of {} %; coverage_percent asks for {} %: ask for {} %.</source>
+        <translation>{} stisků v každé zóně dosáhne intervalu pokrytí {} %; coverage_percent žádá {} %: žádejte {} %.</translation>
+    </message>
+    <message>
+        <location filename="../texts/passes.py" line="5"/>
+        <source>At {}, with a message of the Car every {} s, the static boundary of an axis has a sigma of {} m; boundary_sigma_m asks for {} m. {}</source>
+        <translation>Při {} a zprávě vozu každých {} s má statická hranice osy sigma {} m; boundary_sigma_m žádá {} m. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/passes.py" line="5"/>
+        <source>At {}, with a message of the Car every {} s, the distance of a pass has a sigma of {} m by that message alone; boundary_sigma_m asks for {} m. {}</source>
+        <translation>Při {} a zprávě vozu každých {} s má vzdálenost průjezdu už jen kvůli této zprávě sigma {} m; boundary_sigma_m žádá {} m. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/passes.py" line="5"/>
+        <source>Pass at {}.</source>
+        <translation>Projíždějte rychlostí {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/passes.py" line="5"/>
+        <source>Ask for {} m, and pass at {}.</source>
+        <translation>Žádejte {} m a projíždějte rychlostí {}.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -3394,22 +3434,22 @@
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="151"/>
+        <location filename="../screens/settings.py" line="152"/>
         <source>{count} lines ({word}), about {time}.</source>
         <translation>Počet přímek ({word}): {count}, asi {time}.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="155"/>
+        <location filename="../screens/settings.py" line="156"/>
         <source>The Car is not measured yet; its size is a guess.</source>
         <translation>Auto ještě není změřeno; jeho rozměry jsou odhad.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="160"/>
+        <location filename="../screens/settings.py" line="161"/>
         <source>The battery, at {percent} %, suffices.</source>
         <translation>Baterie ({percent} %) stačí.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="161"/>
+        <location filename="../screens/settings.py" line="162"/>
         <source>The battery, at {percent} %, may not suffice: the test takes about {need} %.</source>
         <translation>Baterie ({percent} %) nemusí stačit: test spotřebuje asi {need} %.</translation>
     </message>

@@ -10,7 +10,7 @@ from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.requests import DesiredState, Press
 from mtr_operator.domain.robot_status import RobotStatus
 
-from ..events import RobotSnapshot
+from ..events import RobotSnapshot, known_facts
 from .watched_link import WatchedRobotLink
 
 # Wall time for which one step waits for a Status; the desired state is sent again after that.
@@ -86,7 +86,7 @@ class IdleLoop:
         self._desired = replace(self._desired, resume_hold_id=self._resumed_hold(status.hold_id))
         self._robot.send(self._desired)
         return RobotSnapshot(status, self._car.lock_state, self._car.problem, None, self._robot.is_secret,
-                             self._car.traffic)
+                             self._car.traffic, known_facts(self._car))
 
     def _forget_done_press(self, status: RobotStatus) -> None:
         press = self._desired.press

@@ -10,7 +10,7 @@ from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import RobotStatus
 
-from ..events import ActionBegun, LineMeasured, LinesPlanned, RobotSilent, RobotSnapshot
+from ..events import ActionBegun, LineMeasured, LinesPlanned, RobotSilent, RobotSnapshot, known_facts
 from ..mailbox import Mailbox
 from .watched_link import WatchedRobotLink
 
@@ -29,7 +29,7 @@ class Reporter(RunObserver):
     def on_status(self, status: RobotStatus) -> None:
         """See RunObserver."""
         self._mailbox.put_robot(RobotSnapshot(status, self._car.lock_state, self._car.problem, self._robot.waypoint,
-                                              self._robot.is_secret, self._car.traffic))
+                                              self._robot.is_secret, self._car.traffic, known_facts(self._car)))
         self._after_status()
 
     def on_plan(self, done: int, total: int) -> None:

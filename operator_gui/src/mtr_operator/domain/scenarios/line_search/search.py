@@ -7,7 +7,6 @@ from typing import Generic, Sequence
 
 from ...actions.robot import Robot
 from ...actions.trouble import LineInvalid
-from ...errors import RobotFailed
 from ...estimation.press.likelihood import Press
 from ...estimation.press.plan import SearchPlan
 from ...estimation.press.radial_estimate import Reach, answers_nowhere, estimate
@@ -16,10 +15,9 @@ from ...results.line_result import LineStatus
 from .attempt import AttemptMade, AttemptsMade
 from .campaign import LineCampaign, Searched, with_estimate
 from .moves import drive, wake_key
+from .silence import ask_when_lasting
 from .trial import Trial
 
-# So many lines without any answer, one after the other, and the test waits for a person.
-MAX_SILENT_LINES = 3
 # Of a line that is measured further: attempts each time, part of the interval so far that is wanted next, its least,
 # and how many times the attempts allowed it gets in all.
 _FURTHER_ATTEMPTS, _FURTHER_PART, _MIN_INTERVAL_M, _FURTHER_TIMES = 8, 0.5, 0.05, 3
@@ -152,9 +150,7 @@ def _kept(trial: Trial[Searched], robot: Robot) -> list[AttemptMade]:
 def _silent(line: _Line[Searched], robot: Robot) -> Searched:
     """Whether the key sleeps or the Car's range ends nearer, nobody knows: it is asked for, and no range."""
     trial = line.trial
-    before = [result for result in _earlier(trial, robot) if result.number < trial.number]
-    silent = [result.reach for result in before[1 - MAX_SILENT_LINES:]].count(_NO_ANSWER)
-    if silent >= MAX_SILENT_LINES - 1:
-        raise RobotFailed(trial.lasting_silence)
+    ask_when_lasting(trial.number, _earlier(trial, robot), lambda result: result.reach == _NO_ANSWER,
+                     trial.lasting_silence)
     result: Searched = replace(trial.invalid(line.attempts(), trial.silence), reach=_NO_ANSWER)  # type: ignore[type-var]
     return result

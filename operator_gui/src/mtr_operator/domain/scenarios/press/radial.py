@@ -11,7 +11,7 @@ from ..key_press_parameters import KeyPressParameters
 from ..key_press_result import PRESS, KeyPressResult
 from ..line_search.attempt import AttemptMade, AttemptsMade
 from ..line_search.prospect import SearchLimits, UsualWidths
-from ..line_search.search import MAX_SILENT_LINES
+from ..line_search.silence import MAX_SILENT_LINES
 from ..line_search.trial import Trial
 from .button import press_once
 from .record import invalid_result, joined, result_of
@@ -20,6 +20,10 @@ from .record import invalid_result, joined, result_of
 # for which the interval has to be in reach.
 WIDTHS = UsualWidths(0.4, 1.0, 2.2)
 _DECLARED = KeyPressParameters.declarations()
+LASTING_SILENCE = (
+    f"The key has answered nowhere on {MAX_SILENT_LINES} radials one after the other; see whether it sleeps, whether "
+    "its battery is empty and whether it is the Car's key, then continue the test, or begin one with a smaller "
+    "minimum_distance_m.")
 LIMITS = SearchLimits("presses on each radial", int(_DECLARED["attempts_limit"].high), _DECLARED["interval_m"].high)
 
 
@@ -65,6 +69,4 @@ class RadialTrial(Trial[KeyPressResult]):
     @property
     def lasting_silence(self) -> str:
         """See Trial."""
-        return (f"The key has answered nowhere on {MAX_SILENT_LINES} radials one after the other; see whether it "
-                "sleeps, whether its battery is empty and whether it is the Car's key, then continue the test, or "
-                "begin one with a smaller minimum_distance_m.")
+        return LASTING_SILENCE

@@ -24,7 +24,7 @@ def search_in(zone: Zone, parameters: ZoneMapParameters, car: CarDimensions,
               results: Sequence[ZoneMapResult]) -> ZoneSearch:
     """Search that knows what was pressed in the other zones."""
     search = ZoneSearch(prior_of(parameters), rows(zone, car), areas_m2(zone, parameters))
-    recall(search, [result for result in results if result.zone != zone.number], car)
+    recall(search, [result for result in results if result.zone != zone.number and not result.is_silent], car)
     return search
 
 

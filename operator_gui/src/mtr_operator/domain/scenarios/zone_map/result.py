@@ -52,6 +52,11 @@ class ZoneMapResult(LineResult):
         return (MeasuredDistance(REACH, self.status, self.distance_m, self.uncertainty_m, self.low_m, self.high_m),)
 
     @property
+    def is_silent(self) -> bool:
+        """Nothing worked, and nobody knows why: it says nothing of other zones."""
+        return self.status is LineStatus.INVALID and not self.worked_x_m
+
+    @property
     def worked(self) -> tuple[tuple[float, float], ...]:
         """Places at which a press worked, in the Car coordinate system."""
         return tuple(zip(self.worked_x_m, self.worked_y_m))

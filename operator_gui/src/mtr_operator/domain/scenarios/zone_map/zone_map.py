@@ -14,24 +14,34 @@ from ...actions.robot import Robot
 from ...actions.trouble import LineInvalid
 from ...estimation.field.zone_search import ZoneSearch
 from ...estimation.interval import FloatArray
+from ...estimation.press.radial_search import PRESSES_IN_DOUBT
 from ...geometry.pose import Point, Pose
+from ...ports import LockFacts
+from ...prospect import Prospect
 from ...results.document import Texts
 from ...results.line_result import LineStatus
 from ...results.picture import Picture
 from ...robot_status import CarDimensions
 from ...scenario import Scenario
+from ..line_search.silence import MAX_SILENT_LINES, ask_when_lasting
 from ..press.button import press_once
 from .field import boundaries, place_array, search_in
 from .map_picture import picture_of
 from .parameters import ZoneMapParameters
+from .prospect import MOVE_S, cautions_of, press_s, prospect_of
 from .result import REACH, ZoneMapResult
 from .zones import Place, Zone, zones_around
 
 # A place that cannot be reached or pressed at is left out; so many of them, and the zone is measured again.
 _MAX_TROUBLES = 3
-# Of each way beside its length by the speed: turning, speeding up, slowing down; measured in the demo.
-_MOVE_S = 3.0
 _PLACES_DIGITS = 4
+_ROUNDING_M = 1e-6
+_SILENCE = ("No press worked in this zone, not at its nearest places either: the key sleeps, its battery is empty, or "
+            "the Car's range ends nearer; then decrease minimum_distance_m.")
+_LASTING_SILENCE = (
+    f"The key has answered nowhere in {MAX_SILENT_LINES} zones one after the other; see whether it sleeps, whether its "
+    "battery is empty and whether it is the Car's key, then continue the test, or begin one with a smaller "
+    "minimum_distance_m.")
 
 
 @dataclass
@@ -40,12 +50,14 @@ class _Measured:
 
     worked: list[Point] = field(default_factory=list)
     failed: list[Point] = field(default_factory=list)
+    pressed: list[Place] = field(default_factory=list)
     sigma_m: float = 0.0
     reason: str = ""
     evidence: Texts = ()
 
     def take(self, place: Place, made: Distance, worked: bool) -> None:
         """Note a press."""
+        self.pressed.append(place)
         x, y = place.ray.point(made.distance_m)
         (self.worked if worked else self.failed).append((round(x, _PLACES_DIGITS), round(y, _PLACES_DIGITS)))
         self.sigma_m = max(self.sigma_m, made.uncertainty_m)
@@ -76,21 +88,31 @@ class ZoneMap(Scenario[ZoneMapParameters, Zone, ZoneMapResult]):
             _search(search, line, measured, (parameters, robot, car))
         except LineInvalid as error:
             measured.reason, measured.evidence = str(error), error.evidence
+        else:
+            if not measured.worked:
+                ask_when_lasting(line.number, earlier, lambda result: result.is_silent, _LASTING_SILENCE)
+                measured.reason = _SILENCE
         return _result(line, measured, search, parameters, car.dimensions())
 
     def picture(self, parameters: ZoneMapParameters, car: CarDimensions, results: Sequence[ZoneMapResult]) -> Picture:
         """See picture_of."""
         return picture_of(parameters, car, results)
 
+    def cautions(self, parameters: ZoneMapParameters, facts: LockFacts) -> Sequence[str]:
+        """See Scenario."""
+        return tuple(cautions_of(parameters))
+
+    def prospect(self, parameters: ZoneMapParameters, facts: LockFacts, results: Sequence[ZoneMapResult]) -> Prospect:
+        """See Scenario."""
+        return prospect_of(parameters, results)
+
     def judged_shares(self, parameters: ZoneMapParameters) -> tuple[int, ...]:
         """See Scenario."""
         return (50,)
 
     def expected_line_s(self, parameters: ZoneMapParameters) -> float:
-        """See Scenario: half of the presses work, and ways are a quarter of the map's depth."""
-        way_m = (parameters.maximum_distance_m - parameters.minimum_distance_m) / 4.0
-        press_s = parameters.settle_time_s + parameters.press_duration_s + parameters.response_timeout_s / 2.0
-        return parameters.presses_limit * (way_m / parameters.maximum_speed_mps + _MOVE_S + press_s)
+        """See Scenario: no zone takes more presses than allowed, and few take fewer."""
+        return parameters.presses_limit * press_s(parameters)
 
 
 def _search(search: ZoneSearch, zone: Zone, measured: _Measured,
@@ -98,8 +120,13 @@ def _search(search: ZoneSearch, zone: Zone, measured: _Measured,
     parameters, robot, car = means
     troubles = 0
     left_out: set[int] = set()
-    while not search.is_finished(parameters.coverage_percent / 100.0, parameters.presses_limit):
-        index = search.next_place(lambda places: _seconds(places, left_out, parameters, robot))
+    while True:
+        if not search.is_finished(parameters.coverage_percent / 100.0, parameters.presses_limit):
+            index = search.next_place(lambda places: _seconds(places, left_out, parameters, robot))
+        elif measured.worked or not _is_in_doubt(zone, measured, left_out):
+            return
+        else:
+            index = _nearest_places(zone, measured, left_out)[0]
         place = zone.places[index]
         try:
             made, worked = _press_at(place, parameters, robot, len(measured.worked) + len(measured.failed) + 1)
@@ -111,6 +138,21 @@ def _search(search: ZoneSearch, zone: Zone, measured: _Measured,
             continue
         measured.take(place, made, worked)
         search.add(place_array(place.ray, made.distance_m, zone.height_m, car.dimensions()), worked)
+
+
+def _is_in_doubt(zone: Zone, measured: _Measured, left_out: set[int]) -> bool:
+    """True while a zone in which nothing worked has not been pressed in often enough at its nearest places."""
+    nearest = _nearest_places(zone, measured, left_out)
+    pressed = sum(measured.pressed.count(zone.places[index]) for index in nearest)
+    return bool(nearest) and pressed < PRESSES_IN_DOUBT
+
+
+def _nearest_places(zone: Zone, measured: _Measured, left_out: set[int]) -> list[int]:
+    """Indices of those that can be reached, the ones pressed at least often first."""
+    nearest_m = min(place.distance_m for place in zone.places)
+    nearest = [index for index, place in enumerate(zone.places)
+               if place.distance_m <= nearest_m + _ROUNDING_M and index not in left_out]
+    return sorted(nearest, key=lambda index: measured.pressed.count(zone.places[index]))
 
 
 def _press_at(place: Place, parameters: ZoneMapParameters, robot: Robot, number: int) -> tuple[Distance, bool]:
@@ -129,8 +171,8 @@ def _seconds(places: FloatArray, left_out: set[int], parameters: ZoneMapParamete
     status = robot.status
     key_x, key_y = Pose(status.x, status.y, status.heading).apply((status.key_x, status.key_y))
     ways_m = np.hypot(places[:, 0] - key_x, places[:, 1] - key_y)
-    press_s = parameters.settle_time_s + parameters.press_duration_s + parameters.response_timeout_s
-    seconds = ways_m / parameters.maximum_speed_mps + (ways_m > 0.0) * _MOVE_S + press_s
+    tried_s = parameters.settle_time_s + parameters.press_duration_s + parameters.response_timeout_s
+    seconds = ways_m / parameters.maximum_speed_mps + (ways_m > 0.0) * MOVE_S + tried_s
     seconds[sorted(left_out)] = math.inf
     return np.asarray(seconds)
 
