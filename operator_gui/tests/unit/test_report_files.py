@@ -46,8 +46,9 @@ HEADERS = {
     "handle_request": "axis,side,key_height_m,status,requests,inside,outside,border_m,inside_at_border,"
                       "outside_at_border,requested_by,distance_m,uncertainty_m,robot_time_s,lateral_offset_m,"
                       "heading_offset_deg,cause,reach,d50_m,d50_sigma_m,d50_low_m,d50_high_m,d95_m,d95_low_m,"
-                      "d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,unconfirmed_m,handle_own_sigma_m,"
-                      "handle_common_sigma_m,handle_expanded_m,verdict,verdict_reason",
+                      "d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,unconfirmed_m,origin_x_m,origin_y_m,"
+                      "direction_x,direction_y,handle_own_sigma_m,handle_common_sigma_m,handle_expanded_m,verdict,"
+                      "verdict_reason",
 }
 
 
