@@ -1,6 +1,7 @@
 """Every screen fits every screen: nothing is cut or elided, what has no room scrolls, and Stop is always inside."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
+import pathlib
 import re
 
 import pytest
@@ -18,6 +19,8 @@ from PyQt5.QtWidgets import (
     QWidget,
 )
 
+from mtr_operator.domain.identity.identity import TITLES
+from mtr_operator.domain.identity.laboratory import laboratory_from
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import CarCheck, CarDimensions, Mode, Notification, RobotStatus
@@ -237,6 +240,21 @@ def test_choices_and_parameters_fit__B5(application, main, monkeypatch, name):
     application.flow.show(Step.TYPE)
     if name != "type":
         main.types.chosen.emit(name)
+    assert_fits(main, monkeypatch, WANTED)
+
+
+def test_identity_fits_with_what_is_missing(application, main, monkeypatch):
+    main.types.chosen.emit("key_press")
+    form = main.settings["key_press"].identity
+    form.propose(application.flow.store)
+    form._laboratory = laboratory_from({"required": list(TITLES)})
+    form.more.setChecked(True)
+    form.fields["key_battery_v"].show_text("75")
+    form.fields["equipment"].show_text("multimeter; 77; soon")
+    form.photos.show_paths((pathlib.Path("/photos/a_photo_of_the_car_from_the_front_left.jpg"),))
+    assert form.fault.isVisible() and form.fields["equipment"].note.isVisible()
+    assert_fits(main, monkeypatch, WANTED)
+    form.more.setChecked(False)
     assert_fits(main, monkeypatch, WANTED)
 
 

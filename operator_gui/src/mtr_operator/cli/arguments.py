@@ -69,6 +69,11 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
                         help="limits that the lines are judged by, YAML; exit code 3 is fail, 4 inconclusive")
     parser.add_argument("--calibration", type=pathlib.Path, metavar="FILE",
                         help="calibration record of the robot, YAML; default: that of the design")
+    parser.add_argument("--identity", type=pathlib.Path, metavar="FILE",
+                        help="car, key, operator, place, notes, photos and equipment of this test, YAML")
+    parser.add_argument("--laboratory", type=pathlib.Path, metavar="FILE",
+                        help="what the laboratory requires of each identity, YAML; default: laboratory.yaml beside the "
+                             "window's settings, if there is one")
     _add_robot(parser)
     car = parser.add_argument_group("Car")
     car.add_argument("--can-interface", default="pcan", metavar="NAME",
@@ -92,7 +97,8 @@ def _add_demo(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--limits", type=pathlib.Path, metavar="FILE", help="limits that the lines are judged by, YAML")
     parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",
                         help="of the substitutes' random numbers, default %(default)s")
-    parser.set_defaults(params=None, continued=None, calibration=None, simulated_robot=True, simulated_car=True)
+    parser.set_defaults(params=None, continued=None, calibration=None, identity=None, laboratory=None,
+                        simulated_robot=True, simulated_car=True)
 
 
 def _add_check(parser: argparse.ArgumentParser) -> None:

@@ -36,6 +36,7 @@ from mtr_operator.storage.store import Store
 from .display import Display
 from .enter import Enter
 from .handle import HandleQuestion
+from .identity import RunIdentity
 from .interrupt import Interrupt
 from .links import car_link, robot_link
 from .planning import Outlook
@@ -59,6 +60,7 @@ class CommandLineRun:
         self._given = Given(options.limits, options.calibration)
         if self._given.limits is not None:
             check_before_start(self._given.limits, self._scenario, self._parameters)
+        self._identity = RunIdentity(options)
         self._progress = self._begin()
         self._car = car_link(options)
         self._robot = robot_link(options)
@@ -68,6 +70,7 @@ class CommandLineRun:
         with contextlib.closing(self._display()) as display, Interrupt() as interrupt:
             with output_folder(self._options.out), Store(self._path, self._progress) as store:
                 try:
+                    self._identity.keep(store, self._progress)
                     self._measure(display, interrupt, store)
                     display.close()
                     store.save()
@@ -92,14 +95,18 @@ class CommandLineRun:
         if continued is None:
             progress = Progress(self._scenario.name, parameters, _session_record(self._options))
             self._given.give(progress)
+            self._identity.give(progress)
             return progress
         progress = progress_file.load_progress(continued, self._scenario, parameters)
         self._given.compare(progress)
+        self._identity.compare(progress)
         progress.session[CONTINUED] = written(now())
         return progress
 
     def _measure(self, display: Display, interrupt: Interrupt, store: Store) -> None:
-        for notice in (self._progress.notice, calibration_of(self._progress).warning(now().date())):
+        today = now().date()
+        outdated = [] if self._progress.identity is None else self._progress.identity.warnings(today)
+        for notice in (self._progress.notice, calibration_of(self._progress).warning(today), *outdated):
             if notice:
                 display.say(notice)
         with contextlib.closing(self._car) as car, contextlib.closing(self._robot) as robot:
@@ -124,6 +131,7 @@ class CommandLineRun:
         """After a test that did not come to its end: keep what it has measured."""
         store.discard_if_empty()
         if not self._progress.has_findings:
+            self._identity.discard_photos(self._path)
             return
         try:
             if store.has_changed:

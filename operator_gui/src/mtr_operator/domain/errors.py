@@ -4,6 +4,7 @@ OperatorError
 ├── InvalidParameter     a scenario or connection parameter is out of range
 ├── InvalidLimits        a limits file is damaged, contradicts itself or does not suit the test
 ├── InvalidCalibration   a calibration record of the robot is damaged
+├── InvalidIdentity      what is said of car, key, operator or equipment is wrong, or lacks what is required
 ├── ConnectionFailed     robot or Car cannot be reached, or the port or adapter is wrong
 ├── LinkLost             robot or Car fell silent during a test
 ├── RobotFailed          the robot is there, and cannot do what the test needs
@@ -28,6 +29,10 @@ class InvalidLimits(OperatorError):
 
 class InvalidCalibration(OperatorError):
     """A calibration record of the robot is damaged."""
+
+
+class InvalidIdentity(OperatorError):
+    """What is said of car, key, operator or equipment is wrong, or lacks what the laboratory requires."""
 
 
 class ConnectionFailed(OperatorError):

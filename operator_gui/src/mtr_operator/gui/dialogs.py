@@ -30,6 +30,14 @@ def ask_yaml_file(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.P
     return _chosen_file(parent, title, start, "YAML (*.yaml *.yml)")
 
 
+def ask_files(parent: QWidget, title: str, start: pathlib.Path, patterns: str) -> list[pathlib.Path]:
+    """Files that the Operator chooses, of names that fit patterns such as "*.jpg *.png"; none when he does not."""
+    dialog = QFileDialog(parent, title, str(start), f"({patterns})")
+    dialog.setFileMode(QFileDialog.FileMode.ExistingFiles)
+    dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
+    return list(map(pathlib.Path, dialog.selectedFiles())) if _run(dialog) == QDialog.DialogCode.Accepted else []
+
+
 def show_message(parent: QWidget, title: str, sentence: str) -> None:
     """Show a sentence until the Operator has read it."""
     _run(QMessageBox(QMessageBox.Icon.Warning, title, sentence, QMessageBox.StandardButton.Ok, parent))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import datetime
 import enum
 import pathlib
 from typing import Sequence
@@ -25,12 +26,14 @@ from mtr_operator.station.events import (
     RunEnded,
     StationEvent,
 )
+from mtr_operator.station.identity_entry import check_begin, remembering
 from mtr_operator.station.links.idle_loop import CalibrationRequest, CarRequest
 from mtr_operator.station.links.worker import Worker
 from mtr_operator.station.readiness import Phase
 from mtr_operator.station.settings_file import SettingsStore
-from mtr_operator.station.test import Test, new_test, note_continued, open_test
+from mtr_operator.station.test import NOTHING_SAID, Test, new_test, note_continued, open_test
 from mtr_operator.storage.given_files import Given, GivenPaths
+from mtr_operator.storage.identity_file import GivenIdentity
 
 from .bridge import Bridge
 
@@ -132,9 +135,12 @@ class Flow(QObject):
 
     # Test
 
-    def start(self, scenario: AnyScenario, parameters: ScenarioParameters, paths: GivenPaths = NO_PATHS) -> None:
-        """Begin a test; failed follows when a file that is given does not suit it any more."""
+    def start(self, scenario: AnyScenario, parameters: ScenarioParameters, paths: GivenPaths = NO_PATHS,
+              who: GivenIdentity = NOTHING_SAID) -> None:
+        """Begin a test; failed follows when a file that is given does not suit it any more, or the laboratory requires
+        more."""
         try:
+            check_begin(self.store, who)
             given = Given(*paths)
             if given.limits is not None:
                 check_before_start(given.limits, scenario, parameters)
@@ -143,8 +149,8 @@ class Flow(QObject):
             return
         settings = self.store.settings.with_parameters(scenario.name, parameters.to_mapping())
         settings = settings.with_given(scenario.name, paths)
-        self.store.change(settings)
-        self.model.take_up(new_test(scenario, parameters, settings.progress_folder, self.connection, given))
+        self.store.change(remembering(settings, who.identity, datetime.date.today()))
+        self.model.take_up(new_test(scenario, parameters, settings.progress_folder, self.connection, given, who=who))
         self.resume()
         self.show(Step.MEASUREMENT)
 

@@ -64,6 +64,11 @@ def locks_text(locks: LockState) -> str:
             LockState.UNKNOWN: translate("Locks", "not known")}[locks]
 
 
+def identity_title(title: str) -> str:
+    """Name of a part of a test's identity, see domain/identity."""
+    return translate("Identity", title)
+
+
 def domain_word(word: str) -> str:
     """Translation of one of the domain's words: "axis", "unlock", "not reached", "front left"."""
     return translate("Word", word)

@@ -12,6 +12,7 @@ from mtr_operator.domain.errors import OutputError
 from mtr_operator.report import budget_json, results_csv
 from mtr_operator.storage import progress_file
 from mtr_operator.storage.atomic import output_folder, write_bytes
+from mtr_operator.storage.photos import copy_photos, photo_folder
 
 from .pictures import export
 from .pictures.protocol_picture import Protocol
@@ -30,9 +31,12 @@ class ReportWriter(QThread):
     refused = pyqtSignal(str)
     _running: ClassVar[set[ReportWriter]] = set()
 
-    def __init__(self, protocol: Protocol, folder: pathlib.Path, kinds: Sequence[str], parent: QObject | None = None):
+    def __init__(self, protocol: Protocol, record: pathlib.Path, folder: pathlib.Path, kinds: Sequence[str],
+                 parent: QObject | None = None):
+        """record: progress file of the test, beside which its photos are."""
         super().__init__(parent)
         self._protocol = protocol
+        self._record = record
         self._folder = folder
         self._kinds = tuple(kinds)
         self._running.add(self)
@@ -64,7 +68,10 @@ class ReportWriter(QThread):
             write_bytes(path, text.encode("utf-8"))
             budgets = budget_json.budget_json(protocol.progress, protocol.assessment)
             write_bytes(self._folder / budget_json.FILE_NAME, budgets.encode("utf-8"))
-            progress_file.save_progress(self._folder / progress_file.FILE_NAME, protocol.progress)
+            copy = self._folder / progress_file.FILE_NAME
+            progress_file.save_progress(copy, protocol.progress)
+            if protocol.progress.identity is not None:
+                copy_photos(protocol.progress.identity.photos, photo_folder(self._record), photo_folder(copy))
             return path
         path = self._folder / f"protocol.{kind}"
         write_bytes(path, _PICTURES[kind](ProtocolSheet(protocol)))

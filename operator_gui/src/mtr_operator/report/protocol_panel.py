@@ -11,11 +11,15 @@ from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
 
+from .identity.identity_rows import short_rows
+from .identity.signature import DATE, SIGNATURE, signatories
 from .protocol_rows import Row, assessment_rows, date_text, parameter_rows, session_rows, summary_rows
 
 INK = "#263238"
 # Height of a row of the tables, if there is room for all, and of the margin below them; parts of the sheet's.
-_ROW, _BOTTOM = 0.0235, 0.02
+_ROW, _BOTTOM = 0.0235, 0.105
+# Of the signatures below them: height of each, and where name, date and signature begin and end.
+_SIGN_ROW, _SIGN_COLUMNS = 0.042, ((0.69, 0.805), (0.815, 0.88), (0.89, 0.985))
 _TEXT_POINTS = 8.5
 BAR = {"linewidth": 5.0, "alpha": 0.3, "solid_capstyle": "butt"}
 INTERVAL = {"linewidth": 1.6, "solid_capstyle": "butt"}
@@ -43,19 +47,33 @@ def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Pro
                            fontsize=10, labelcolor=INK, handletextpad=0.4)
     legend.set_in_layout(False)
     height = top - 0.12 - 0.032 * max(len(labels), 1)
-    tables = (("Result", summary_rows(scenario, progress) + assessment_rows(assessment)),
-              ("Parameters", parameter_rows(scenario, progress)), ("Test", session_rows(progress)))
+    known = (("Result", summary_rows(scenario, progress) + assessment_rows(assessment)),
+             ("Identity", short_rows(progress.identity)),
+             ("Parameters", parameter_rows(scenario, progress)), ("Test", session_rows(progress)))
+    tables = [(heading, rows) for heading, rows in known if rows]
     # Each table has its heading, and a gap of a row below it.
     row = min(_ROW, (height - _BOTTOM) / sum(len(rows) + 2 for _, rows in tables))
     for heading, rows in tables:
         height = _write_table(figure, heading, rows, (left, height), row) - row
+    _write_signatures(figure, progress)
+
+
+def _write_signatures(figure: Figure, progress: Progress) -> None:
+    """A line to sign on for whoever measured, and for whoever checks it."""
+    bottom = 0.02
+    for signatory in reversed(signatories(progress.identity)):
+        for (left, right), text in zip(_SIGN_COLUMNS, (signatory.role, DATE, SIGNATURE)):
+            figure.add_artist(Line2D((left, right), (bottom + 0.014, bottom + 0.014), color=INK, linewidth=0.6))
+            figure.text(left, bottom + 0.011, text, fontsize=6.5, color="#546e7a", va="top")
+        figure.text(_SIGN_COLUMNS[0][0], bottom + 0.018, signatory.name, fontsize=8, color=INK, va="bottom")
+        bottom += _SIGN_ROW
 
 
 def _write_table(figure: Figure, heading: str, rows: list[Row], corner: tuple[float, float], row: float) -> float:
     """Write rows of a height below each other; the height at which the table ends."""
     left, top = corner
     size = _TEXT_POINTS * row / _ROW
-    figure.text(left, top, heading, fontsize=10, fontweight="bold", color=INK, va="top")
+    figure.text(left, top, heading, fontsize=size + 1.5, fontweight="bold", color=INK, va="top")
     for name, value in rows:
         top -= row
         figure.text(left, top, name, fontsize=size, color="#546e7a", va="top")

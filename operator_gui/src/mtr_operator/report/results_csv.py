@@ -14,6 +14,7 @@ from mtr_operator.domain.verdict.assessment import Assessment
 
 from .assessed_columns import AssessedColumns
 from .figures import meanings
+from .identity.identity_rows import identity_lines
 from .table import line_text
 
 FILE_NAME = "results.csv"
@@ -38,6 +39,7 @@ def _metadata(scenario: AnyScenario, progress: Progress) -> Iterator[str]:
     yield f"scenario: {scenario.title}"
     for name, entry in progress.session.items():
         yield f"{name}: {_one_line(entry)}"
+    yield from identity_lines(progress.identity)
     car = progress.car
     if car is not None:
         yield f"Car length: {car.length:.3f} m (sigma {car.length_sigma:.3f} m)"

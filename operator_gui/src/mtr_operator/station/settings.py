@@ -7,6 +7,9 @@ import pathlib
 from dataclasses import dataclass, field
 from typing import Any
 
+from mtr_operator.domain.errors import InvalidIdentity
+from mtr_operator.domain.identity.identity import NOBODY, Identity
+from mtr_operator.domain.identity.identity_document import identity_from
 from mtr_operator.domain.results.document import read_record
 from mtr_operator.storage.given_files import GivenPaths
 
@@ -38,6 +41,7 @@ class Settings:
         limits: last used limits files by scenario. calibration: record of the robot, None for that of the design.
         unfinished: progress file of a test that has not come to its end.
         has_sounds: the application beeps where the Operator has to hear something.
+        identity: of the test before, as far as the next one may have it in common. identity_day: when it was typed.
     """
 
     connection: Connection = Connection()
@@ -51,6 +55,8 @@ class Settings:
     limits: dict[str, pathlib.Path] = field(default_factory=dict)
     calibration: pathlib.Path | None = None
     has_sounds: bool = True
+    identity: Identity = NOBODY
+    identity_day: str = ""
 
     def with_connection(self, connection: Connection) -> Settings:
         """Settings after a success with this connection."""
@@ -79,7 +85,8 @@ class Settings:
             "result_folder": str(self.result_folder), "progress_folder": str(self.progress_folder),
             "unfinished": None if self.unfinished is None else str(self.unfinished),
             "limits": {name: str(path) for name, path in self.limits.items()},
-            "calibration": None if self.calibration is None else str(self.calibration)}
+            "calibration": None if self.calibration is None else str(self.calibration),
+            "identity": self.identity.to_document()}
 
 
 def settings_from_document(document: Any) -> Settings:
@@ -99,8 +106,9 @@ def settings_from_document(document: Any) -> Settings:
             _path_or_none(document["unfinished"]),
             # An earlier version kept none of these.
             {str(name): _path(path) for name, path in document.get("limits", {}).items()},
-            _path_or_none(document.get("calibration")), _flag(document.get("has_sounds", True)))
-    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError):
+            _path_or_none(document.get("calibration")), _flag(document.get("has_sounds", True)),
+            identity_from(document.get("identity", {})), _text(document.get("identity_day", "")))
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError, InvalidIdentity):
         raise NotSettings("They are damaged.") from None
 
 
@@ -122,6 +130,12 @@ def _remembered(values: Any) -> dict[str, Any]:
                or (isinstance(value, str) and len(value) <= _LONGEST) for value in each):
         raise TypeError("parameters")
     return known
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError("text")
+    return value
 
 
 def _flag(value: Any) -> bool:

@@ -13,6 +13,7 @@ import platformdirs
 
 from mtr_operator.domain.errors import OutputError
 from mtr_operator.storage.atomic import write_bytes
+from mtr_operator.storage.identity_file import LABORATORY_NAME
 
 from .settings import NotSettings, Settings, settings_from_document
 
@@ -24,6 +25,11 @@ _MAX_BYTES = 256 * 1024
 def default_path() -> pathlib.Path:
     """Where the system keeps what a person has set; it follows the person to another computer on Windows."""
     return platformdirs.user_config_path(FOLDER_NAME, appauthor=False, roaming=True) / FILE_NAME
+
+
+def laboratory_path(settings: pathlib.Path | None = None) -> pathlib.Path:
+    """Where a laboratory writes what it requires of each test: beside these settings."""
+    return (settings or default_path()).with_name(LABORATORY_NAME)
 
 
 def former_path() -> pathlib.Path:
@@ -75,6 +81,11 @@ class SettingsStore:
         except OSError:
             return former
         return self._path
+
+    @property
+    def laboratory_path(self) -> pathlib.Path:
+        """The laboratory's file for these settings."""
+        return laboratory_path(self._path)
 
     def change(self, settings: Settings) -> None:
         """Use these from now on, and write them; a failure stands in `problem` and stops nobody."""

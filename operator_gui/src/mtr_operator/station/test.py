@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import itertools
 import os
 import pathlib
 from dataclasses import dataclass, field
 from typing import Iterator
 
+from mtr_operator.domain.identity.identity import Identity, Photo
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import CONTINUED, now, session_record, written
 from mtr_operator.domain.robot_status import CarDimensions
@@ -16,7 +18,9 @@ from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.atomic import output_folder
 from mtr_operator.storage.given_files import Given
+from mtr_operator.storage.identity_file import GivenIdentity
 from mtr_operator.storage.journal_file import journal_path
+from mtr_operator.storage.photos import copy_photos, discard_photos, keep_photos, photo_folder
 from mtr_operator.storage.progress_file import FILE_NAME, holds_no_other, open_progress
 from mtr_operator.storage.recovery import progress_path
 from mtr_operator.storage.store import Store
@@ -24,6 +28,7 @@ from mtr_operator.storage.store import Store
 from .connection import SIMULATED, CanChoice, Connection
 from .estimate import USUAL_CAR
 
+NOTHING_SAID = GivenIdentity()
 _MOMENT = "%Y-%m-%d_%H-%M-%S"
 
 
@@ -31,7 +36,7 @@ _MOMENT = "%Y-%m-%d_%H-%M-%S"
 class Test:
     """What is measured, and where its progress is written. While it runs, progress belongs to the links' thread.
 
-    again: measured lines that are to be measured once more.
+    again: measured lines that are to be measured once more. photos: files that are to be kept with the test.
     """
 
     # The name would make pytest collect it.
@@ -42,7 +47,9 @@ class Test:
     progress: Progress
     path: pathlib.Path
     again: tuple[int, ...] = ()
+    photos: tuple[pathlib.Path, ...] = ()
     _store: Store | None = field(default=None, init=False, compare=False)
+    _sources: tuple[pathlib.Path, ...] = field(default=(), init=False, compare=False)
 
     @property
     def name(self) -> str:
@@ -84,19 +91,41 @@ class Test:
             return
         if self._store.path != self.path:
             with output_folder(self.path.parent):
+                former = photo_folder(self._store.path)
                 self._store.move(self.path)
+                copy_photos(self._kept_photos, former, photo_folder(self.path))
         self._store.save()
+
+    @property
+    def _kept_photos(self) -> tuple[Photo, ...]:
+        return () if self.progress.identity is None else self.progress.identity.photos
+
+    def keep_photos(self) -> None:
+        """Copy those that are waiting beside the progress file; an OperatorError says why that fails."""
+        if self.photos:
+            identity = self.progress.identity or Identity()
+            photos = keep_photos(self.photos, photo_folder(self.path))
+            self.progress.identity = dataclasses.replace(identity, photos=photos)
+            self._sources, self.photos = self.photos, ()
+
+    def discard_photos(self) -> None:
+        """Nothing was measured: leave no copies; the photos wait for the next run."""
+        if self._sources and self.progress.identity is not None:
+            discard_photos(photo_folder(self.path))
+            self.progress.identity = dataclasses.replace(self.progress.identity, photos=())
+            self._sources, self.photos = (), self._sources
 
 
 def new_test(scenario: AnyScenario, parameters: ScenarioParameters, folder: pathlib.Path,
-             connection: Connection, given: Given | None = None) -> Test:
+             connection: Connection, given: Given | None = None, *, who: GivenIdentity = NOTHING_SAID) -> Test:
     """A test that has measured nothing yet; without anything given it has no limits and the design's calibration."""
     started = now()
     session = session_record(started, connection.robot.host, profile_name(connection.can))
     path = _free(folder / f"{scenario.name}_{started.strftime(_MOMENT)}.json")
     progress = Progress(scenario.name, parameters.to_mapping(), session)
     (given or Given()).give(progress)
-    return Test(scenario, parameters, progress, path)
+    progress.identity = None if who.identity.is_empty else who.identity
+    return Test(scenario, parameters, progress, path, photos=who.photos)
 
 
 def report_folder(folder: pathlib.Path, test: Test) -> pathlib.Path:

@@ -10,6 +10,7 @@ from mtr_operator.domain.results.journal import (
     BEGUN,
     DECISION,
     EVENT,
+    IDENTITY,
     LINE_BEGUN,
     POINT,
     SESSION,
@@ -22,7 +23,7 @@ from .journal_file import FORMAT, VERSION, Entry, JournalFile, Recovered, journa
 from .second_place import open_second_place
 
 # Kinds that measure nothing: until something else comes they are not worth a file.
-_REMARKS = (SESSION, EVENT, DECISION)
+_REMARKS = (SESSION, EVENT, DECISION, IDENTITY)
 _Finding = tuple[str, Mapping[str, Any]]
 
 

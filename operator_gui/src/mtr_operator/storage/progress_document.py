@@ -6,8 +6,15 @@ import json
 import pathlib
 from typing import Any, Callable, Mapping, NoReturn, Sequence, TypeVar
 
-from mtr_operator.domain.errors import InvalidCalibration, InvalidLimits, InvalidParameter, ProgressFileError
+from mtr_operator.domain.errors import (
+    InvalidCalibration,
+    InvalidIdentity,
+    InvalidLimits,
+    InvalidParameter,
+    ProgressFileError,
+)
 from mtr_operator.domain.estimation.budget.calibration_document import calibration_from
+from mtr_operator.domain.identity.identity_document import identity_from
 from mtr_operator.domain.results.document import read_record
 from mtr_operator.domain.results.frame_record import record_from
 from mtr_operator.domain.results.line_result import LineResult, result_from_document
@@ -66,10 +73,11 @@ def progress_from_document(document: Any, scenario: AnyScenario, parameters: dic
                             _retried_from(document["retried"]),
                             record_from(document.get("frame_record")), mark_in(document),
                             limits=_given(document, "limits", limits_from),
-                            calibration=_given(document, "calibration", calibration_from))
+                            calibration=_given(document, "calibration", calibration_from),
+                            identity=_given(document, "identity", identity_from))
         _check_lines(progress, scenario)
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError, InvalidLimits,
-            InvalidCalibration):
+            InvalidCalibration, InvalidIdentity):
         raise ProgressFileError(DAMAGED) from None
     return progress
 

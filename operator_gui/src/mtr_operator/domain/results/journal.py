@@ -15,6 +15,8 @@ BEGUN, SESSION, CAR, CHECK = "begun", "session", "car", "check"
 LINE_BEGUN, LINE_RESUMED, POINT, SUPERSEDED, LINE = "line_begun", "line_resumed", "point", "superseded", "line"
 REVISED, FURTHER = "revised", "further"
 EVENT, PRESS, DECISION = "event", "press", "decision"
+# What was said of car, key and operator after the test had begun.
+IDENTITY = "identity"
 
 
 class Journal:

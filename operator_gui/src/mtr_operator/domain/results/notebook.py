@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Any, Mapping
 
+from ..errors import InvalidIdentity
+from ..identity.identity import Identity
+from ..identity.identity_document import identity_from
 from .document import read_record
 from .frame_history import frame_from
 from .frame_record import CheckEntry
@@ -11,6 +14,7 @@ from .journal import (
     CAR,
     CHECK,
     FURTHER,
+    IDENTITY,
     LINE,
     LINE_BEGUN,
     POINT,
@@ -42,8 +46,8 @@ class Notebook(Journal):
 
 def apply(progress: Progress, result_type: type[LineResult], kind: str, values: Mapping[str, Any]) -> None:
     """Grow the progress by an entry; KeyError, TypeError or ValueError when the entry is damaged."""
-    if kind == SESSION:
-        progress.session.update({str(name): str(text) for name, text in values.items()})
+    if kind in (SESSION, IDENTITY):
+        _apply_words(progress, kind, values)
     elif kind == CAR:
         progress.car = car_from(values)
     elif kind == CHECK:
@@ -61,3 +65,18 @@ def apply(progress: Progress, result_type: type[LineResult], kind: str, values: 
         progress.record(result_from_document(result_type, values["result"]), frame_from(values["frame"]))
     elif kind == REVISED:
         progress.revise(result_from_document(result_type, values["result"]))
+
+
+def _apply_words(progress: Progress, kind: str, values: Mapping[str, Any]) -> None:
+    """What a person said of the test, or was told."""
+    if kind == SESSION:
+        progress.session.update({str(name): str(text) for name, text in values.items()})
+    else:
+        progress.identity = _identity(values)
+
+
+def _identity(values: Mapping[str, Any]) -> Identity:
+    try:
+        return identity_from(values)
+    except InvalidIdentity as error:
+        raise ValueError(str(error)) from None

@@ -9,6 +9,7 @@ from typing import Any, Mapping
 from .. import limits
 from ..errors import ProgressFileError
 from ..estimation.budget.calibration import CalibrationRecord
+from ..identity.identity import Identity
 from ..limits import first_violation
 from ..robot_status import CarDimensions
 from ..verdict.limits import Limits
@@ -48,6 +49,8 @@ class Progress:
         points: what was measured on it, by word; the journal alone holds them until the line is complete.
         limits: that the lines are judged by, None without.
         calibration: record of the robot with which it was measured, None in a file from before there was one.
+        identity: whose car and key, who measured where with what; None in a file from before there was one, or when
+            nobody said anything.
         notice: what a person has to know of how it was recovered; empty when nothing was lost.
     """
 
@@ -63,13 +66,15 @@ class Progress:
     points: dict[str, KeptPoint] = field(default_factory=dict)
     limits: Limits | None = None
     calibration: CalibrationRecord | None = None
+    identity: Identity | None = None
     notice: str = field(default="", compare=False)
 
     def to_document(self) -> dict[str, Any]:
         """Plain values for a file."""
         kept = {} if self.kept is None else {"journal": dataclasses.asdict(self.kept)}
-        given = {name: part.to_document() for name, part in (("limits", self.limits), ("calibration", self.calibration))
-                 if part is not None}
+        given = {name: part.to_document()
+                 for name, part in (("limits", self.limits), ("calibration", self.calibration),
+                                    ("identity", self.identity)) if part is not None}
         return {"format": FORMAT, "version": VERSION, "scenario": self.scenario, "parameters": self.parameters,
                 "session": self.session, "car": None if self.car is None else dataclasses.asdict(self.car),
                 "results": [result.to_document() for result in self.results], "retried": self.retried,

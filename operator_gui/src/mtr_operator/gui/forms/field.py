@@ -47,11 +47,16 @@ class Field(QWidget):
         layout.addWidget(self.label)
         layout.addLayout(row)
         layout.addWidget(self.note)
+        self.note.setVisible(bool(hint))
 
     @property
     def text(self) -> str:
         """What was typed."""
         return self.edit.text()
+
+    def show_text(self, text: str) -> None:
+        """Show another text."""
+        self.edit.setText(text)
 
     @property
     def fault(self) -> str:
@@ -63,6 +68,7 @@ class Field(QWidget):
         if sentence == self.fault:
             return
         self.note.setText(sentence or self._hint)
+        self.note.setVisible(bool(sentence or self._hint))
         self.edit.setAccessibleDescription(sentence or self._hint)
         show_state(self.note, "role", "error" if sentence else "hint")
         show_state(self.edit, "faulty", bool(sentence))

@@ -18,6 +18,7 @@ from ..i18n import decimal_sign, translate
 from ..names import choice_title, choice_word, domain_word, flag_title, parameter_title, scenario_title, yes_or_no
 from ..sentences import translated
 from ..theme.palette import LIGHT
+from .identity_tables import identity_table, signed, subtitle
 from .layers.layer import Canvas, paint_all
 from .legend import ROW_PX, legend_texts, paint_entry
 from .protocol_picture import Protocol, ProtocolPicture
@@ -47,7 +48,7 @@ class ProtocolSheet:
 
     def __init__(self, protocol: Protocol):
         self._protocol = protocol
-        self._tables = pages_of(table_rows(protocol), _ROWS)
+        self._tables = signed(pages_of([*identity_table(protocol), *table_rows(protocol)], _ROWS), protocol, _ROWS)
         self.picture = ProtocolPicture(protocol)
         self.pages = 1 + len(self._tables)
 
@@ -99,6 +100,11 @@ class ProtocolSheet:
             painter.setPen(QColor(LIGHT.ink))
             painter.drawText(QRectF(left, top, _PANEL, pixels + 8), _LEFT, text)
             top += pixels + 10
+        who = subtitle(progress.identity)
+        if who:
+            painter.drawText(QRectF(left, top, _PANEL, _ROW), _LEFT,
+                             painter.fontMetrics().elidedText(who, Qt.TextElideMode.ElideRight, round(_PANEL)))
+            top += _ROW + 6
         painter.setFont(canvas.font(14.0))
         sets = protocol.picture.point_sets
         for index in range(len(legend_texts(sets))):

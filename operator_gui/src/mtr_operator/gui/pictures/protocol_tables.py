@@ -27,7 +27,7 @@ _LONGEST = 150
 # Part of the width, and whether it holds figures.
 Columns = Sequence[Tuple[float, bool]]
 _SIDE_COLUMNS = ((0.2, False), (0.08, True), (0.17, True), (0.17, True), (0.17, True), (0.1, True), (0.11, True))
-_WHOLE = ((1.0, False),)
+WHOLE = ((1.0, False),)
 _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
@@ -36,11 +36,12 @@ _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 class Row:
     """One row of a page: cells with the parts of the width that they take, each with its alignment.
 
-    is_head: bold, with a line below.
+    is_head: bold, with a line below. is_signed: a line below each cell, to write on.
     """
 
     cells: tuple[tuple[str, float, bool], ...]
     is_head: bool = False
+    is_signed: bool = False
 
 
 def table_rows(protocol: Protocol) -> list[Row]:
@@ -70,6 +71,8 @@ def paint_rows(canvas: Canvas, rows: Sequence[Row], area: QRectF) -> None:
         for text, part, is_right in row.cells:
             width = part * area.width()
             painter.drawText(QRectF(left, top, width - 6.0, ROW), _RIGHT if is_right else _LEFT, text)
+            if row.is_signed:
+                painter.drawLine(QPointF(left, top + ROW), QPointF(left + width - 18.0, top + ROW))
             left += width
         if row.is_head:
             painter.setPen(QColor(LIGHT.border))
@@ -85,11 +88,11 @@ def _sides(protocol: Protocol) -> Iterator[Row]:
                     translate("Protocol", "Minimum [m]"), translate("Protocol", "Mean [m]"),
                     translate("Protocol", "Maximum [m]"), translate("Protocol", "Worst line"),
                     "" if judgement is None else domain_word("verdict").capitalize())
-        yield _row(headings, _SIDE_COLUMNS, is_head=True)
+        yield table_row(headings, _SIDE_COLUMNS, is_head=True)
         for summary in summaries:
             if summary.word == word:
-                yield _row(_side_cells(summary), _SIDE_COLUMNS)
-        yield _row((), _WHOLE)
+                yield table_row(_side_cells(summary), _SIDE_COLUMNS)
+        yield table_row((), WHOLE)
 
 
 def _side_cells(summary: SideSummary) -> tuple[str, ...]:
@@ -109,17 +112,17 @@ def _lines(protocol: Protocol) -> Iterator[Row]:
     for word in words:
         heads += [f"{domain_word(word).capitalize()} [m]", sigma_heading(results),
                   *([f"{INTERVAL} [m]"] if shows_intervals else [])]
-    yield _row((*heads, "" if judgement is None else domain_word("verdict").capitalize()), columns, is_head=True)
+    yield table_row((*heads, "" if judgement is None else domain_word("verdict").capitalize()), columns, is_head=True)
     for result in results:
         cells = [str(result.number), domain_word(result.place)]
         for distance, figure in zip(result.distances, figures_of(protocol.scenario, protocol.parameters, result)):
             cells += [cell_text(figure, distance.uncertainty_m), sigma_text(distance.uncertainty_m),
                       *([interval_text(distance)] if shows_intervals else [])]
         verdict = "" if judgement is None else domain_word(judgement.of_line(result.number).word.replace("_", " "))
-        yield _row((*cells, verdict), columns)
+        yield table_row((*cells, verdict), columns)
     for sentence in meanings(results):
-        yield from _sentence(translated(sentence))
-    yield _row((), _WHOLE)
+        yield from sentence_rows(translated(sentence))
+    yield table_row((), WHOLE)
 
 
 def _history(protocol: Protocol) -> Iterator[Row]:
@@ -130,21 +133,22 @@ def _history(protocol: Protocol) -> Iterator[Row]:
     rows += [f"{domain_word(name)}: {translated(value)}" for name, value in progress.session.items()
              if name not in ("units", "coordinates")]
     rows += list(progress.frame_record.sentences())
-    yield _row((translate("Protocol", "Course of the test"),), _WHOLE, is_head=True)
+    yield table_row((translate("Protocol", "Course of the test"),), WHOLE, is_head=True)
     for text in rows:
-        yield from _sentence(text)
+        yield from sentence_rows(text)
 
 
-def _sentence(text: str) -> Iterator[Row]:
-    """A sentence in as many rows as it takes."""
+def sentence_rows(text: str, longest: int = _LONGEST) -> Iterator[Row]:
+    """A sentence in as many rows of so many letters as it takes."""
     words, line = text.split(), ""
     for word in words:
-        if line and len(line) + 1 + len(word) > _LONGEST:
-            yield _row((line,), _WHOLE)
+        if line and len(line) + 1 + len(word) > longest:
+            yield table_row((line,), WHOLE)
             line = ""
         line = f"{line} {word}".strip()
-    yield _row((line,), _WHOLE)
+    yield table_row((line,), WHOLE)
 
 
-def _row(texts: Sequence[str], columns: Columns, is_head: bool = False) -> Row:
+def table_row(texts: Sequence[str], columns: Columns, is_head: bool = False) -> Row:
+    """A row of texts in these columns."""
     return Row(tuple((text, part, is_right) for text, (part, is_right) in zip(texts, columns)), is_head)

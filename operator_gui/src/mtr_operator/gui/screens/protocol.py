@@ -220,7 +220,7 @@ class ProtocolScreen(QWidget):
         self._set_saving(True)
         self._kinds = kinds
         # No child of the screen, and no lambda: it may outlive both when the window closes or is made anew.
-        self._writer = ReportWriter(self.protocol, folder, kinds)
+        self._writer = ReportWriter(self.protocol, self._flow.model.current_test.path, folder, kinds)
         self._writer.written.connect(self._show_written)
         self._writer.refused.connect(self._show_refused)
         self._writer.start()

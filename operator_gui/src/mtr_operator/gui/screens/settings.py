@@ -16,6 +16,7 @@ from mtr_operator.station.view_model import ViewModel
 from ..fitting.scroller import Scroller
 from ..forms.given_form import GivenForm
 from ..forms.hold_button import HoldButton
+from ..forms.identity_form import IdentityForm
 from ..forms.parameter_form import ParameterForm
 from ..header.check_texts import check_text
 from ..i18n import duration
@@ -31,14 +32,15 @@ from ..theme.scale import L, M, S
 
 
 class SettingsScreen(QWidget):
-    """Attributes: form: the parameters. given: files that go with them. picture: preview. start: the button.
+    """Attributes: form: the parameters. given: files that go with them. identity: car, key and who measures.
+    picture: preview. start: the button.
 
     notice: sentence on duration and battery. caution: what the parameters cannot give.
 
-    Signals: started(parameters, paths of the files given), back.
+    Signals: started(parameters, paths of the files given, what is said of the identity), back.
     """
 
-    started = pyqtSignal(object, object)
+    started = pyqtSignal(object, object, object)
     back = pyqtSignal()
 
     def __init__(self, scenario: AnyScenario, model: ViewModel, appearance: Appearance, parent: QWidget | None = None):
@@ -52,6 +54,7 @@ class SettingsScreen(QWidget):
         self._lines = LinesLayer()
         self.form = ParameterForm(scenario.parameters_type)
         self.given = GivenForm(scenario)
+        self.identity = IdentityForm()
         self.picture = PicturePanel(appearance)
         self.notice = QLabel()
         self.notice.setWordWrap(True)
@@ -67,6 +70,7 @@ class SettingsScreen(QWidget):
         self._lay_out()
         self.form.changed.connect(self._preview)
         self.given.changed.connect(self._preview)
+        self.identity.changed.connect(self._judge)
         self._preview()
 
     def _lay_out(self) -> None:
@@ -74,6 +78,7 @@ class SettingsScreen(QWidget):
         title.setProperty("role", "heading")
         given = QVBoxLayout()
         given.setSpacing(M)
+        given.addWidget(self.identity)
         given.addWidget(self.form, 1)
         given.addWidget(self.given)
         back = QPushButton(self.tr("Back"))
@@ -168,7 +173,8 @@ class SettingsScreen(QWidget):
         missing = [item for item in hindrances(self._model.checklist) if item.check is not Check.LIMITS]
         self._hindrance.setText(" ".join(map(check_text, missing)))
         is_given_well = self.given.judge(None if self._plan is None else self.form.parameters)
-        self.start.setEnabled(self._plan is not None and is_given_well and readiness.can_start and not missing)
+        is_well = is_given_well and not self.identity.problem
+        self.start.setEnabled(self._plan is not None and is_well and readiness.can_start and not missing)
 
     def _start(self) -> None:
-        self.started.emit(self.form.parameters, self.given.paths)
+        self.started.emit(self.form.parameters, self.given.paths, self.identity.given)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
-from . import figures, handle, keeping, limits, passes
+from . import figures, handle, identity, keeping, limits, passes
 
 SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "wait for robot and Car"),
@@ -103,7 +103,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "It was measured with other parameters: {} was {}, now it is {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is larger than {} MiB."),
     *keeping.SENTENCES,
-    *limits.SENTENCES,
+    *limits.SENTENCES, *identity.SENTENCES,
     *handle.SENTENCES, *passes.SENTENCES, *figures.SENTENCES,
     QT_TRANSLATE_NOOP("Sentence", "It cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is truncated or not a JSON file."),

@@ -83,4 +83,8 @@ WORDS = (
     QT_TRANSLATE_NOOP("Word", "messages of the robot that were not used"),
     QT_TRANSLATE_NOOP("Word", "messages that the robot refused"),
     QT_TRANSLATE_NOOP("Word", "frames of the Car that were not believed"),
+    QT_TRANSLATE_NOOP("Word", "measured by"),
+    QT_TRANSLATE_NOOP("Word", "checked by"),
+    QT_TRANSLATE_NOOP("Word", "date"),
+    QT_TRANSLATE_NOOP("Word", "signature"),
 )

@@ -66,6 +66,10 @@ QPushButton[word="paused"] { background: $warning; border-color: $warning; }
 QPushButton[word]:hover, QPushButton[word]:focus { border-color: $ink; }
 QLineEdit, QComboBox { background: $surface; border: 1px solid $border; border-radius: 6px; padding: 6px 10px;
     min-height: ${field_height}px; selection-background-color: $accent; selection-color: $on_accent; }
+QPlainTextEdit { background: $surface; border: 1px solid $border; border-radius: 6px; padding: 4px 8px;
+    selection-background-color: $accent; selection-color: $on_accent; }
+QPlainTextEdit:focus { border: 2px solid $accent; padding: 3px 7px; }
+QPlainTextEdit[faulty="true"] { border: 2px solid $danger; padding: 3px 7px; }
 QLineEdit:focus, QComboBox:focus { border: 2px solid $accent; padding: 5px 9px; }
 QLineEdit[faulty="true"], QComboBox[faulty="true"] { border: 2px solid $danger; padding: 5px 9px; }
 QLineEdit:read-only { background: $window; border: 1px solid $line; }

@@ -834,6 +834,92 @@
     </message>
 </context>
 <context>
+    <name>Identity</name>
+    <message>
+        <location filename="../texts/identity.py" line="5"/>
+        <source>Car&apos;s VIN</source>
+        <translation>VIN auta</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="5"/>
+        <source>Car&apos;s model</source>
+        <translation>Model auta</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="5"/>
+        <source>Car&apos;s software</source>
+        <translation>Software auta</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="5"/>
+        <source>Key&apos;s serial number</source>
+        <translation>Výrobní číslo klíče</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="5"/>
+        <source>Key&apos;s type</source>
+        <translation>Typ klíče</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="5"/>
+        <source>Key&apos;s battery</source>
+        <translation>Baterie klíče</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="5"/>
+        <source>Operator</source>
+        <translation>Operátor</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="5"/>
+        <source>Place</source>
+        <translation>Místo</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="5"/>
+        <source>Weather</source>
+        <translation>Počasí</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="5"/>
+        <source>Notes</source>
+        <translation>Poznámky</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="5"/>
+        <source>Equipment</source>
+        <translation>Měřidla</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="5"/>
+        <source>Photos</source>
+        <translation>Fotografie</translation>
+    </message>
+</context>
+<context>
+    <name>IdentityForm</name>
+    <message>
+        <location filename="../forms/identity_form.py" line="46"/>
+        <source>One a line: name; serial number; calibrated; valid until</source>
+        <translation>Jedno na řádek: název; výrobní číslo; kalibrováno; platí do</translation>
+    </message>
+    <message>
+        <location filename="../forms/identity_form.py" line="132"/>
+        <source>Nothing is said of car, key and operator.</source>
+        <translation>O autu, klíči a operátorovi není nic zadáno.</translation>
+    </message>
+    <message>
+        <location filename="../forms/identity_form.py" line="143"/>
+        <source>The laboratory requires: {names}.</source>
+        <translation>Laboratoř vyžaduje: {names}.</translation>
+    </message>
+    <message>
+        <location filename="../forms/identity_form.py" line="149"/>
+        <source>Car, key and operator</source>
+        <translation>Auto, klíč a operátor</translation>
+    </message>
+</context>
+<context>
     <name>LanguageBox</name>
     <message>
         <location filename="../forms/language_box.py" line="18"/>
@@ -903,39 +989,39 @@
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="160"/>
+        <location filename="../windows/main_window.py" line="161"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="143"/>
-        <source>Continue test</source>
-        <translation>Pokračovat v testu</translation>
-    </message>
-    <message>
-        <location filename="../windows/main_window.py" line="163"/>
+        <location filename="../windows/main_window.py" line="164"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="165"/>
+        <location filename="../windows/main_window.py" line="166"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="180"/>
+        <location filename="../windows/main_window.py" line="181"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="184"/>
+        <location filename="../windows/main_window.py" line="185"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="184"/>
+        <location filename="../windows/main_window.py" line="185"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
+    </message>
+    <message>
+        <location filename="../windows/main_window.py" line="144"/>
+        <source>Continue test</source>
+        <translation>Pokračovat v testu</translation>
     </message>
 </context>
 <context>
@@ -1660,6 +1746,29 @@
     </message>
 </context>
 <context>
+    <name>PhotosRow</name>
+    <message>
+        <location filename="../forms/photos_row.py" line="31"/>
+        <source>Add photos</source>
+        <translation>Přidat fotografie</translation>
+    </message>
+    <message>
+        <location filename="../forms/photos_row.py" line="33"/>
+        <source>Without</source>
+        <translation>Bez nich</translation>
+    </message>
+    <message>
+        <location filename="../forms/photos_row.py" line="34"/>
+        <source>Without photos</source>
+        <translation>Bez fotografií</translation>
+    </message>
+    <message>
+        <location filename="../forms/photos_row.py" line="65"/>
+        <source>none</source>
+        <translation>žádné</translation>
+    </message>
+</context>
+<context>
     <name>Picture</name>
     <message>
         <location filename="../pictures/layers/car_layer.py" line="84"/>
@@ -1749,59 +1858,64 @@
 <context>
     <name>Protocol</name>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="95"/>
+        <location filename="../pictures/protocol_sheet.py" line="96"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="108"/>
+        <location filename="../pictures/protocol_sheet.py" line="114"/>
         <source>Result</source>
         <translation>Výsledek</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="108"/>
+        <location filename="../pictures/protocol_sheet.py" line="114"/>
         <source>Parameters</source>
         <translation>Parametry</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="108"/>
+        <location filename="../pictures/protocol_sheet.py" line="114"/>
         <source>Test</source>
         <translation>Test</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="66"/>
+        <location filename="../pictures/protocol_sheet.py" line="67"/>
         <source>page {page} of {count}</source>
         <translation>strana {page} z {count}</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_tables.py" line="84"/>
+        <location filename="../pictures/protocol_tables.py" line="87"/>
         <source>Lines</source>
         <translation>Přímky</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_tables.py" line="84"/>
+        <location filename="../pictures/protocol_tables.py" line="87"/>
         <source>Minimum [m]</source>
         <translation>Minimum [m]</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_tables.py" line="84"/>
+        <location filename="../pictures/protocol_tables.py" line="87"/>
         <source>Mean [m]</source>
         <translation>Průměr [m]</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_tables.py" line="84"/>
+        <location filename="../pictures/protocol_tables.py" line="87"/>
         <source>Maximum [m]</source>
         <translation>Maximum [m]</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_tables.py" line="84"/>
+        <location filename="../pictures/protocol_tables.py" line="87"/>
         <source>Worst line</source>
         <translation>Nejhorší</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_tables.py" line="133"/>
+        <location filename="../pictures/protocol_tables.py" line="136"/>
         <source>Course of the test</source>
         <translation>Průběh testu</translation>
+    </message>
+    <message>
+        <location filename="../pictures/identity_tables.py" line="37"/>
+        <source>Identity</source>
+        <translation>Identita</translation>
     </message>
 </context>
 <context>
@@ -3425,36 +3539,146 @@
         <source>Ask for {} m, and pass at {}.</source>
         <translation>Žádejte {} m a projíždějte rychlostí {}.</translation>
     </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>The test does not start: the laboratory requires {}.</source>
+        <translation>Test nezačne: laboratoř vyžaduje {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>The test was begun with another {}, {}; now it is {}. Continue it with that one, or begin a new test.</source>
+        <translation>Test začal s jiným {}, {}; teď je to {}. Pokračujte s původním, nebo začněte nový test.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>The calibration of {} was valid until {}. Calibrate it again, or take another one.</source>
+        <translation>Kalibrace {} platila do {}. Zkalibrujte znovu, nebo vezměte jiné měřidlo.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>{}{} is unknown; did you mean {}?</source>
+        <translation>{}{} není známo; mělo to být {}?</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>{} is a number; write it in quotes, so that its zeros are kept.</source>
+        <translation>{} je číslo; napište je do uvozovek, aby zůstaly nuly.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>{} has to be a text of at most {} characters in one line.</source>
+        <translation>{} musí být text nejvýše {} znaků na jednom řádku.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>notes has to be a text of at most {} characters.</source>
+        <translation>notes musí být text nejvýše {} znaků.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>{} has to be a list of at most {} entries.</source>
+        <translation>{} musí být seznam nejvýše {} položek.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>{}name is missing.</source>
+        <translation>{}chybí name.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>{}valid_until, {}, is before calibrated, {}.</source>
+        <translation>{}valid_until, {}, je před calibrated, {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>{} has to be a day such as 2026-03-01.</source>
+        <translation>{} musí být den, např. 2026-03-01.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>photos has to be a list of files with name and sha256.</source>
+        <translation>photos musí být seznam souborů s name a sha256.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>photos has to be a list of at most {} paths.</source>
+        <translation>photos musí být seznam nejvýše {} cest.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>equipment {}: it has {} parts between semicolons; allowed are name; serial number; calibrated; valid until.</source>
+        <translation>měřidlo {}: má {} částí mezi středníky; smí být název; výrobní číslo; kalibrováno; platí do.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>required has to be a list of keys, such as [car_vin, operator].</source>
+        <translation>required musí být seznam klíčů, např. [car_vin, operator].</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>key_battery_v is no number; allowed is 0 to 60 V.</source>
+        <translation>key_battery_v není číslo; povoleno je 0 až 60 V.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>key_battery_v is {} V; allowed is 0 to 60 V.</source>
+        <translation>key_battery_v je {} V; povoleno je 0 až 60 V.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>There are {} photos; at most {} are kept with a test.</source>
+        <translation>Fotografií je {}; s testem se jich uchová nejvýše {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>The file {} is no photo; kept are {}.</source>
+        <translation>Soubor {} není fotografie; uchovávají se {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>The photo {} cannot be read: {}.</source>
+        <translation>Fotografii {} nelze přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>The photo {} is no file of at most {} MiB.</source>
+        <translation>Fotografie {} není soubor nejvýše {} MiB.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>The photo {} cannot be copied: {}.</source>
+        <translation>Fotografii {} nelze zkopírovat: {}.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
     <message>
-        <location filename="../screens/settings.py" line="79"/>
+        <location filename="../screens/settings.py" line="84"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="152"/>
+        <location filename="../screens/settings.py" line="157"/>
         <source>{count} lines ({word}), about {time}.</source>
         <translation>Počet přímek ({word}): {count}, asi {time}.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="156"/>
+        <location filename="../screens/settings.py" line="161"/>
         <source>The Car is not measured yet; its size is a guess.</source>
         <translation>Auto ještě není změřeno; jeho rozměry jsou odhad.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="161"/>
+        <location filename="../screens/settings.py" line="166"/>
         <source>The battery, at {percent} %, suffices.</source>
         <translation>Baterie ({percent} %) stačí.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="162"/>
+        <location filename="../screens/settings.py" line="167"/>
         <source>The battery, at {percent} %, may not suffice: the test takes about {need} %.</source>
         <translation>Baterie ({percent} %) nemusí stačit: test spotřebuje asi {need} %.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="61"/>
+        <location filename="../screens/settings.py" line="64"/>
         <source>Hold to start</source>
         <translation>Podržením spustit</translation>
     </message>
@@ -3835,16 +4059,6 @@
         <translation>Vyberte scénář a parametry a nechte robot měřit.</translation>
     </message>
     <message>
-        <location filename="../screens/welcome.py" line="33"/>
-        <source>Continue test</source>
-        <translation>Pokračovat v testu</translation>
-    </message>
-    <message>
-        <location filename="../screens/welcome.py" line="33"/>
-        <source>Go on with a test whose progress was saved to a file.</source>
-        <translation>Pokračujte v testu, jehož průběh byl uložen do souboru.</translation>
-    </message>
-    <message>
         <location filename="../screens/welcome.py" line="34"/>
         <source>Calibrate</source>
         <translation>Kalibrovat</translation>
@@ -3868,6 +4082,16 @@
         <location filename="../screens/welcome.py" line="78"/>
         <source>Not now</source>
         <translation>Teď ne</translation>
+    </message>
+    <message>
+        <location filename="../screens/welcome.py" line="33"/>
+        <source>Continue test</source>
+        <translation>Pokračovat v testu</translation>
+    </message>
+    <message>
+        <location filename="../screens/welcome.py" line="33"/>
+        <source>Go on with a test whose progress was saved to a file.</source>
+        <translation>Pokračujte v testu, jehož průběh byl uložen do souboru.</translation>
     </message>
 </context>
 <context>
@@ -4271,6 +4495,26 @@
         <location filename="../texts/words.py" line="5"/>
         <source>frames of the Car that were not believed</source>
         <translation>rámce auta, kterým se nevěří</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>measured by</source>
+        <translation>měřil</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>checked by</source>
+        <translation>zkontroloval</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>date</source>
+        <translation>datum</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>signature</source>
+        <translation>podpis</translation>
     </message>
 </context>
 </TS>

@@ -106,7 +106,7 @@ class MainWindow(QMainWindow):
         for name, screen in self.settings.items():
             screen.back.connect(lambda: flow.show(Step.TYPE))
             screen.started.connect(
-                lambda parameters, paths, name=name: flow.start(SCENARIOS[name], parameters, paths))
+                lambda parameters, paths, who, name=name: flow.start(SCENARIOS[name], parameters, paths, who))
         self.measurement.resume_wanted.connect(flow.resume)
         self.measurement.release_wanted.connect(flow.release_hold)
         self.measurement.handle_taken.connect(flow.answer_handle)
@@ -136,6 +136,7 @@ class MainWindow(QMainWindow):
         settings = self._flow.store.settings
         screen.form.show_mapping(settings.parameters.get(name, {}))
         screen.given.show_paths(settings.given(name))
+        screen.identity.propose(self._flow.store)
         self._screens.setCurrentWidget(screen)
         screen.show_model()
 

@@ -57,6 +57,7 @@ class MeasurementRun:
         try:
             with self._test.opened() as store:
                 try:
+                    self._test.keep_photos()
                     self._measure(store, is_cancelled, after_status)
                 finally:
                     self._keep(store)
@@ -74,6 +75,8 @@ class MeasurementRun:
 
     def _keep(self, store: Store) -> None:
         store.discard_if_empty()
+        if not self._test.progress.has_findings:
+            self._test.discard_photos()
         if store.has_changed and self._test.progress.has_findings:
             store.save()
 

@@ -1,0 +1,110 @@
+"""Identity of a test: car, key, operator, place, weather, notes, photos and equipment, as it stands in the record."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import dataclasses
+import datetime
+from dataclasses import dataclass
+from typing import Any
+
+from ..limits import Limit
+
+MAX_TEXT = 120
+MAX_NOTES = 4000
+MAX_EQUIPMENT = 40
+MAX_PHOTOS = 20
+# From a button cell to the supply of a lorry.
+BATTERY_V = Limit("key_battery_v", 0.0, 60.0, "V")
+
+
+@dataclass(frozen=True)
+class Equipment:
+    """One instrument. calibrated: day of its calibration; valid_until: last day on which that counts, None for ever."""
+
+    name: str
+    serial: str = ""
+    calibrated: datetime.date | None = None
+    valid_until: datetime.date | None = None
+
+    def warning(self, today: datetime.date) -> str:
+        """A sentence when its calibration has run out, else empty."""
+        if self.valid_until is None or today <= self.valid_until:
+            return ""
+        return (f"The calibration of {self.name} was valid until {self.valid_until.isoformat()}. Calibrate it again, "
+                "or take another one.")
+
+
+@dataclass(frozen=True)
+class Photo:
+    """A picture that is kept beside the record: name of its file, and the check sum by which a change is noticed."""
+
+    name: str
+    sha256: str
+
+
+@dataclass(frozen=True)
+class Identity:
+    """What is empty, or None, is not known. key_battery_v: voltage of the key's battery before the test."""
+
+    car_vin: str = ""
+    car_model: str = ""
+    car_software: str = ""
+    key_serial: str = ""
+    key_type: str = ""
+    key_battery_v: float | None = None
+    operator: str = ""
+    place: str = ""
+    weather: str = ""
+    notes: str = ""
+    equipment: tuple[Equipment, ...] = ()
+    photos: tuple[Photo, ...] = ()
+
+    @property
+    def is_empty(self) -> bool:
+        """True when nothing is known."""
+        return self == NOBODY
+
+    def to_document(self) -> dict[str, Any]:
+        """Plain values for a file: only what is known."""
+        document = {name: getattr(self, name) for name in TEXTS if getattr(self, name)}
+        if self.key_battery_v is not None:
+            document["key_battery_v"] = self.key_battery_v
+        if self.equipment:
+            document["equipment"] = [_plain(each) for each in self.equipment]
+        if self.photos:
+            document["photos"] = [dataclasses.asdict(photo) for photo in self.photos]
+        return document
+
+    def of_another_test(self, is_same_day: bool) -> Identity:
+        """What the next test is likely to have in common with this one: not its notes and photos, and on another day
+        neither weather nor battery."""
+        kept = dataclasses.replace(self, notes="", photos=())
+        return kept if is_same_day else dataclasses.replace(kept, **{name: getattr(NOBODY, name) for name in OF_A_DAY})
+
+    def filled_from(self, other: Identity) -> Identity:
+        """This one, with what it does not know from another."""
+        unknown = {field.name: getattr(other, field.name) for field in dataclasses.fields(self)
+                   if getattr(self, field.name) == getattr(NOBODY, field.name)}
+        return dataclasses.replace(self, **unknown)
+
+    def warnings(self, today: datetime.date) -> list[str]:
+        """Sentences on equipment whose calibration has run out."""
+        return [text for each in self.equipment if (text := each.warning(today))]
+
+
+NOBODY = Identity()
+# Keys of files in the order of a protocol, and their names for a person.
+TITLES = {
+    "car_vin": "Car's VIN", "car_model": "Car's model", "car_software": "Car's software",
+    "key_serial": "Key's serial number", "key_type": "Key's type", "key_battery_v": "Key's battery",
+    "operator": "Operator", "place": "Place", "weather": "Weather", "notes": "Notes", "equipment": "Equipment",
+    "photos": "Photos"}
+TEXTS = tuple(name for name in TITLES if isinstance(getattr(NOBODY, name), str))
+# Not true any more on another day.
+OF_A_DAY = ("key_battery_v", "weather")
+
+
+def _plain(equipment: Equipment) -> dict[str, str]:
+    values = dataclasses.asdict(equipment)
+    return {name: value.isoformat() if isinstance(value, datetime.date) else value
+            for name, value in values.items() if value}

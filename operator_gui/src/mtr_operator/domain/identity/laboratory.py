@@ -1,0 +1,63 @@
+"""What a laboratory wants to know of each test, and what all of its tests have in common.
+
+    required: [car_vin, key_serial, operator, equipment]    # keys of an identity; default: none
+    defaults:                                               # an identity; what nobody says otherwise
+      place: Hall 2
+      equipment:
+        - {name: multimeter, serial: "77", calibrated: 2026-03-01, valid_until: 2027-03-01}
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Sequence
+
+from ..errors import InvalidIdentity
+from .identity import NOBODY, TITLES, Identity
+from .identity_document import check_table, identity_from
+
+
+@dataclass(frozen=True)
+class Laboratory:
+    """required: keys of Identity without which no test starts. defaults: what holds unless somebody says otherwise."""
+
+    required: tuple[str, ...] = ()
+    defaults: Identity = NOBODY
+
+    def missing(self, identity: Identity, photo_count: int | None = None) -> list[str]:
+        """Keys that are required and empty. photo_count: of photos that will be kept; None counts the identity's.
+
+        Required equipment needs its day of calibration.
+        """
+        missing = [name for name in self.required if getattr(identity, name) == getattr(NOBODY, name)]
+        if photo_count and "photos" in missing:
+            missing.remove("photos")
+        if "equipment" in self.required and any(each.calibrated is None for each in identity.equipment):
+            missing.append("equipment")
+        return missing
+
+    def check(self, identity: Identity, photo_count: int) -> None:
+        """Raise InvalidIdentity when something required is missing."""
+        missing = self.missing(identity, photo_count)
+        if missing:
+            raise InvalidIdentity(missing_sentence(missing))
+
+
+def missing_sentence(missing: Sequence[str]) -> str:
+    """Why a test does not start."""
+    names = ", ".join(f"{TITLES[name]} ({name})" for name in missing)
+    day = " with the day of its calibration" if "equipment" in missing else ""
+    return f"The test does not start: the laboratory requires {names}{day}."
+
+
+def laboratory_from(document: Any) -> Laboratory:
+    """A laboratory's wishes in a document, None for an empty one; InvalidIdentity says what is wrong where."""
+    if document is None:
+        return Laboratory()
+    check_table(document, ("required", "defaults"), "")
+    required = document.get("required") or []
+    if not isinstance(required, list) or not all(isinstance(name, str) for name in required):
+        raise InvalidIdentity("required has to be a list of keys, such as [car_vin, operator].")
+    check_table(dict.fromkeys(required), tuple(TITLES), "required: ")
+    defaults = document.get("defaults")
+    return Laboratory(tuple(dict.fromkeys(required)), NOBODY if defaults is None else identity_from(defaults))

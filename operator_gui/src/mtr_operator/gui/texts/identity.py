@@ -1,0 +1,44 @@
+"""Parts of a test's identity, see domain/identity, and the sentences on them."""
+# SPDX-License-Identifier: Apache-2.0
+from PyQt5.QtCore import QT_TRANSLATE_NOOP
+
+TITLES = (
+    QT_TRANSLATE_NOOP("Identity", "Car's VIN"),
+    QT_TRANSLATE_NOOP("Identity", "Car's model"),
+    QT_TRANSLATE_NOOP("Identity", "Car's software"),
+    QT_TRANSLATE_NOOP("Identity", "Key's serial number"),
+    QT_TRANSLATE_NOOP("Identity", "Key's type"),
+    QT_TRANSLATE_NOOP("Identity", "Key's battery"),
+    QT_TRANSLATE_NOOP("Identity", "Operator"),
+    QT_TRANSLATE_NOOP("Identity", "Place"),
+    QT_TRANSLATE_NOOP("Identity", "Weather"),
+    QT_TRANSLATE_NOOP("Identity", "Notes"),
+    QT_TRANSLATE_NOOP("Identity", "Equipment"),
+    QT_TRANSLATE_NOOP("Identity", "Photos"),
+)
+SENTENCES = (
+    QT_TRANSLATE_NOOP("Sentence", "The test does not start: the laboratory requires {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The test was begun with another {}, {}; now it is {}. Continue it with that one, or "
+                                  "begin a new test."),
+    QT_TRANSLATE_NOOP("Sentence", "The calibration of {} was valid until {}. Calibrate it again, or take another one."),
+    QT_TRANSLATE_NOOP("Sentence", "{}{} is unknown; did you mean {}?"),
+    QT_TRANSLATE_NOOP("Sentence", "{} is a number; write it in quotes, so that its zeros are kept."),
+    QT_TRANSLATE_NOOP("Sentence", "{} has to be a text of at most {} characters in one line."),
+    QT_TRANSLATE_NOOP("Sentence", "notes has to be a text of at most {} characters."),
+    QT_TRANSLATE_NOOP("Sentence", "{} has to be a list of at most {} entries."),
+    QT_TRANSLATE_NOOP("Sentence", "{}name is missing."),
+    QT_TRANSLATE_NOOP("Sentence", "{}valid_until, {}, is before calibrated, {}."),
+    QT_TRANSLATE_NOOP("Sentence", "{} has to be a day such as 2026-03-01."),
+    QT_TRANSLATE_NOOP("Sentence", "photos has to be a list of files with name and sha256."),
+    QT_TRANSLATE_NOOP("Sentence", "photos has to be a list of at most {} paths."),
+    QT_TRANSLATE_NOOP("Sentence", "equipment {}: it has {} parts between semicolons; allowed are name; serial number; "
+                                  "calibrated; valid until."),
+    QT_TRANSLATE_NOOP("Sentence", "required has to be a list of keys, such as [car_vin, operator]."),
+    QT_TRANSLATE_NOOP("Sentence", "key_battery_v is no number; allowed is 0 to 60 V."),
+    QT_TRANSLATE_NOOP("Sentence", "key_battery_v is {} V; allowed is 0 to 60 V."),
+    QT_TRANSLATE_NOOP("Sentence", "There are {} photos; at most {} are kept with a test."),
+    QT_TRANSLATE_NOOP("Sentence", "The file {} is no photo; kept are {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The photo {} cannot be read: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The photo {} is no file of at most {} MiB."),
+    QT_TRANSLATE_NOOP("Sentence", "The photo {} cannot be copied: {}."),
+)

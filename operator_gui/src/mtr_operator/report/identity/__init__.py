@@ -1,0 +1,2 @@
+"""Identity and signature in a report."""
+# SPDX-License-Identifier: Apache-2.0

@@ -1,0 +1,22 @@
+"""The signature block of a protocol: who signs what."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from mtr_operator.domain.identity.identity import Identity
+
+MEASURED_BY, CHECKED_BY = "measured by", "checked by"
+DATE, SIGNATURE = "date", "signature"
+
+
+class Signatory(NamedTuple):
+    """One of those who sign. name: empty where it is written by hand."""
+
+    role: str
+    name: str
+
+
+def signatories(identity: Identity | None) -> tuple[Signatory, Signatory]:
+    """Who measured, and who checks it."""
+    return Signatory(MEASURED_BY, "" if identity is None else identity.operator), Signatory(CHECKED_BY, "")

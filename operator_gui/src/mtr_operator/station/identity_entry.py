@@ -1,0 +1,81 @@
+"""What the Operator types of a test's identity: read, checked by the laboratory, and remembered for the next test."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import dataclasses
+import datetime
+from typing import Any, Mapping
+
+from mtr_operator.domain.errors import InvalidIdentity
+from mtr_operator.domain.identity.equipment_text import equipment_from_text, equipment_text
+from mtr_operator.domain.identity.identity import TEXTS, TITLES, Identity
+from mtr_operator.domain.identity.identity_document import identity_from
+from mtr_operator.storage.identity_file import GivenIdentity, load_laboratory
+from mtr_operator.storage.photos import check_photos
+
+from .number_text import parse_number, written
+from .settings import Settings
+from .settings_file import SettingsStore
+
+# Fields with a text each; photos are files.
+FIELDS = tuple(name for name in TITLES if name != "photos")
+
+
+def typed(identity: Identity, decimal_sign: str = ".") -> dict[str, str]:
+    """An identity as it stands in the fields."""
+    texts = {name: getattr(identity, name) for name in TEXTS}
+    return {**texts, "key_battery_v": written(identity.key_battery_v, decimal_sign),
+            "equipment": equipment_text(identity.equipment)}
+
+
+def read(texts: Mapping[str, str]) -> tuple[Identity, dict[str, str]]:
+    """The identity in the fields, and a sentence for each field that is not right; that one counts as empty."""
+    values: dict[str, Any] = {}
+    faults: dict[str, str] = {}
+    for name, text in texts.items():
+        try:
+            if text.strip():
+                values[name] = _value(name, text)
+        except InvalidIdentity as error:
+            faults[name] = str(error)
+    return Identity(**values), faults
+
+
+def _value(name: str, text: str) -> Any:
+    if name == "key_battery_v":
+        return _battery(text)
+    if name == "equipment":
+        return equipment_from_text(text)
+    return getattr(identity_from({name: text}), name)
+
+
+def _battery(text: str) -> float | None:
+    number = parse_number(text)
+    if number is None:
+        raise InvalidIdentity("key_battery_v is no number; allowed is 0 to 60 V.")
+    return identity_from({"key_battery_v": number}).key_battery_v
+
+
+def proposed(store: SettingsStore, today: datetime.date, former: Identity | None = None) -> Identity:
+    """What the fields begin with: what a former test has, else what was typed last; where that says nothing, what the
+    laboratory says of all its tests."""
+    settings = store.settings
+    last = settings.identity.of_another_test(settings.identity_day == today.isoformat())
+    if former is not None:
+        last = former.of_another_test(is_same_day=False)
+    try:
+        return last.filled_from(load_laboratory(store.laboratory_path).defaults)
+    except InvalidIdentity:  # beginning a test says it
+        return last
+
+
+def check_begin(store: SettingsStore, given: GivenIdentity) -> None:
+    """Raise InvalidIdentity when no test may begin with this; what the laboratory requires is read anew."""
+    load_laboratory(store.laboratory_path).check(given.identity, len(given.photos))
+    check_photos(given.photos)
+
+
+def remembering(settings: Settings, identity: Identity, today: datetime.date) -> Settings:
+    """Settings that know an identity for the next test."""
+    return dataclasses.replace(settings, identity=dataclasses.replace(identity, notes="", photos=()),
+                               identity_day=today.isoformat())
