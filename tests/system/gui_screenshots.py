@@ -25,6 +25,7 @@ def main(folder: pathlib.Path) -> int:
             take_beginning(person, folder)
             take_autolock(person, folder)
             take_key_press(person, folder)
+            take_history(person, folder)
         status = run(script, prepare(work), LIMIT_S)
     print(f"{len(list(folder.glob('*.png')))} pictures are in {folder}.")
     return status
@@ -96,6 +97,15 @@ def take_key_press(person: Person, folder: pathlib.Path) -> None:
     person.look(folder, "13_key_press_measurement")
     person.wait_for("Key press protocol", MEASURING_LIMIT_S)
     person.look(folder, "14_key_press_protocol")
+    person.click("New test")
+
+
+def take_history(person: Person, folder: pathlib.Path) -> None:
+    """The tests of before, and one of them repeated."""
+    person.click("Tests so far")
+    person.wait_for("2 tests, 2 of them shown.")
+    person.look(folder, "15_history")
+    person.click("Back")
 
 
 if __name__ == "__main__":

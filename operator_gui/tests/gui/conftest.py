@@ -130,6 +130,12 @@ def short_hold(monkeypatch):
     monkeypatch.setattr(HoldButton, "HOLD_MS", 20)
 
 
+@pytest.fixture(autouse=True)
+def own_cache(monkeypatch, tmp_path):
+    """The list of tests is kept with the test."""
+    monkeypatch.setattr("mtr_operator.gui.history.history_screen.cache_path", lambda _: tmp_path / "history_cache.json")
+
+
 @pytest.fixture
 def opener():
     """Links of the application."""

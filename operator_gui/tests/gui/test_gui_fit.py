@@ -19,22 +19,28 @@ from PyQt5.QtWidgets import (
     QWidget,
 )
 
-from mtr_operator.domain.identity.identity import TITLES
+from mtr_operator.domain.identity.identity import TITLES, Identity
 from mtr_operator.domain.identity.laboratory import laboratory_from
 from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import CarCheck, CarDimensions, Mode, Notification, RobotStatus
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
 from mtr_operator.gui.app import Application
 from mtr_operator.gui.fitting import place
 from mtr_operator.gui.flow import Step
 from mtr_operator.gui.header.step_bar import StepBar
 from mtr_operator.gui.header.stop_button import StopButton
 from mtr_operator.gui.header.symbols import BatterySymbol
+from mtr_operator.gui.history.comparison_window import ComparisonWindow
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
 from mtr_operator.gui.windows.connection_window import ConnectionWindow
 from mtr_operator.gui.windows.main_window import MainWindow
 from mtr_operator.gui.windows.settings_window import SettingsWindow
+from mtr_operator.history.comparison import compare
+from mtr_operator.history.entry import TestEntry
+from mtr_operator.history.line_pairs import Side
 from mtr_operator.station.connection import Connection
 from mtr_operator.station.events import ActionBegun, LinesPlanned, RobotSnapshot
 from mtr_operator.station.mailbox import Batch
@@ -256,6 +262,37 @@ def test_identity_fits_with_what_is_missing(application, main, monkeypatch):
     assert_fits(main, monkeypatch, WANTED)
     form.more.setChecked(False)
     assert_fits(main, monkeypatch, WANTED)
+
+
+ENTRIES = [TestEntry(f"/tests/{number}.json", "", str(number), 9, f"2026-11-{number:02d}T15:36:43+01:00", "key_press",
+                     "Golf VIII Variant WVWZZZ1KZAW000001", "K-0042-A", "Nov\u00e1kov\u00e1", "Hall 2, row 4", 8, 8, 0,
+                     True, "inconclusive", "x") for number in range(1, 25)]
+
+
+def test_history_fits(application, main, monkeypatch):
+    monkeypatch.setattr(main.history, "read", lambda _: None)
+    main.welcome.history.emit()
+    path = f"/home/operator{8 * '/a_folder_of_tests'}/broken.json"
+    broken = TestEntry(path, f"The test cannot be continued from {path}. It is damaged: parts of it are missing or of "
+                       "the wrong kind.")
+    main.history._learn_all([*ENTRIES, broken])
+    main.history.table.selectRow(0)
+    assert main.screen is main.history and len(main.history.shown) == 24
+    assert_fits(main, monkeypatch, WANTED)
+
+
+def test_comparison_fits_and_has_its_stop_in_sight(application, main, show, monkeypatch):
+    scenario = SCENARIOS["key_press"]
+    parameters = scenario.parameters_type(method="adaptive")
+    sides = [Side(scenario, parameters, Progress(
+        scenario.name, parameters.to_mapping(), {"started": f"2026-11-2{day}T15:36:43+01:00"}, CAR,
+        [KeyPressResult(number, 45.0 * (number - 1), LineStatus.OK, far_m, None, 0.01, 9, 1.0, "", method="adaptive",
+                        reach="measured", d50_m=far_m, d50_sigma_m=0.1, d50_low_m=far_m - 0.2, d50_high_m=far_m + 0.2)
+         for number in range(1, 9)], identity=Identity("WVWZZZ1KZAW000001", f"Golf {day}")))
+        for day, far_m in ((1, 4.0), (2, 6.0))]
+    window = show(lambda: ComparisonWindow(compare(*sides), application.appearance, main))
+    assert visible(window, StopButton) and window.table.model().rowCount() == 8
+    assert_fits(window, monkeypatch, QSize(1300, 760))
 
 
 def take_up(application, tmp_path, phase):

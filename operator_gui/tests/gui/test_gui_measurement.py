@@ -230,6 +230,7 @@ def test_finished_test_from_a_file_shows_its_protocol(operator, monkeypatch):
     operator.click(operator.window.protocol.done)
     monkeypatch.setattr("mtr_operator.gui.windows.main_window.ask_progress_file", lambda *_: path)
     operator.click(operator.window.welcome.open)
+    operator.click(operator.window.history.file)
     assert operator.window.screen is operator.window.protocol
     assert operator.window.protocol.table.model().rowCount() == LINES
 
@@ -251,9 +252,10 @@ def test_bad_progress_file_is_one_sentence_and_changes_nothing(operator, monkeyp
     path.with_suffix(".journal").unlink()
     monkeypatch.setattr("mtr_operator.gui.windows.main_window.ask_progress_file", lambda *_: path)
     operator.click(operator.window.welcome.open)
+    operator.click(operator.window.history.file)
     operator.wait(lambda: notice)
     assert part in notice[0]
-    assert operator.window.screen is operator.window.welcome
+    assert operator.window.screen is operator.window.history
     assert operator.model.test is None
     assert path.read_text(encoding="utf-8") == spoilt
 
@@ -266,6 +268,7 @@ def test_truncated_progress_file_is_recovered_from_its_journal_and_said(operator
     path.write_text(path.read_text(encoding="utf-8")[:1000], encoding="utf-8")
     monkeypatch.setattr("mtr_operator.gui.windows.main_window.ask_progress_file", lambda *_: path)
     operator.click(operator.window.welcome.open)
+    operator.click(operator.window.history.file)
     operator.wait(lambda: notice)
     assert "was recovered from its journal" in notice[0]
     assert operator.window.protocol.table.model().rowCount() == LINES

@@ -23,7 +23,7 @@ GUI = SOURCE / "gui"
 CATALOGUE = FOLDER / "mtr_operator_cs.ts"
 PLACEHOLDER = re.compile(r"\{[^}]*\}")
 # Where sentences for the Operator are raised or told.
-LAYERS = ("domain", "storage", "station", "car_link")
+LAYERS = ("domain", "storage", "station", "car_link", "history")
 LINK_FILES = ("address.py", "client.py", "probe.py", "sockets.py")
 # Raised within a layer, and caught there.
 INTERNAL = ("LookupError", "ValueError", "TypeError", "BadYaml", "OSError")

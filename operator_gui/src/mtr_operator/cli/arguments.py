@@ -33,6 +33,8 @@ def argument_parser() -> argparse.ArgumentParser:
     _add_run(commands.add_parser("run", help="run a test"))
     _add_check(commands.add_parser("check", help="look whether the Car still stands where it was measured"))
     _add_demo(commands.add_parser("demo", help="run a test on a robot and a Car inside the application; needs no file"))
+    _add_history(commands.add_parser("history", help="list the tests that were measured before"))
+    _add_compare(commands.add_parser("compare", help="compare two tests, distance by distance, with intervals"))
     return parser
 
 
@@ -99,6 +101,25 @@ def _add_demo(parser: argparse.ArgumentParser) -> None:
                         help="of the substitutes' random numbers, default %(default)s")
     parser.set_defaults(params=None, continued=None, calibration=None, identity=None, laboratory=None,
                         simulated_robot=True, simulated_car=True)
+
+
+def _add_history(parser: argparse.ArgumentParser) -> None:
+    parser.description = ("Lists tests, newest first, in which each of the words occurs; files that cannot be read are "
+                          "named on stderr.")
+    parser.add_argument("words", nargs="*", metavar="WORD", help="such as a VIN, a key, a day, an operator")
+    parser.add_argument("--folder", action="append", type=pathlib.Path, metavar="DIR",
+                        help="where tests are; may be given more than once; default: the window's folders")
+    for name in ("car", "key", "verdict"):
+        parser.add_argument(f"--{name}", default="", metavar="TEXT", help=f"only tests of exactly this {name}")
+    parser.add_argument("--json", action="store_true", help="print JSON")
+
+
+def _add_compare(parser: argparse.ArgumentParser) -> None:
+    parser.description = ("Compares two tests of one scenario. A distance is called different only where the 95 % "
+                          "interval of its difference does not hold zero.")
+    for name in ("first", "second"):
+        parser.add_argument(name, type=pathlib.Path, metavar=name.upper(), help="progress.json, or the folder with it")
+    parser.add_argument("--json", action="store_true", help="print JSON")
 
 
 def _add_check(parser: argparse.ArgumentParser) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from typing import Callable
 
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OperatorError
@@ -16,6 +17,7 @@ from mtr_operator.station.settings import Settings
 from .arguments import argument_parser
 from .checking import check
 from .exit_codes import EXIT_ERROR, EXIT_FAIL, EXIT_INCONCLUSIVE, EXIT_INTERRUPTED, EXIT_PASS
+from .history import compare_tests, list_history
 from .planning import plan
 from .run import CommandLineRun
 from .window import open_window
@@ -29,25 +31,18 @@ def run_command(arguments: list[str] | None = None) -> int:
     _accept_any_character()
     options = argument_parser().parse_args(arguments)
     try:
-        if options.command == "params":
-            list_parameters(options)
-        elif options.command == "check":
-            check(options)
-        elif options.command == "plan":
-            plan(options)
-        elif options.command == "demo":
-            return run_demo(options)
-        elif options.command == "run":
-            return _EXIT_CODES[CommandLineRun(options).run()]
-        else:
-            return open_window(options)
+        return _COMMANDS.get(options.command, open_window)(options) or EXIT_PASS
     except OperatorError as error:
         print(error, file=sys.stderr)
         return EXIT_ERROR
     except Cancelled as reason:
         print(reason, file=sys.stderr)
         return EXIT_INTERRUPTED
-    return EXIT_PASS
+
+
+def run_test(options: argparse.Namespace) -> int:
+    """A test; the exit code."""
+    return _EXIT_CODES[CommandLineRun(options).run()]
 
 
 def run_demo(options: argparse.Namespace) -> int:
@@ -55,7 +50,7 @@ def run_demo(options: argparse.Namespace) -> int:
     if options.out is None:
         moment = now().strftime("%Y-%m-%d_%H-%M-%S")
         options.out = Settings().result_folder / f"demo_{options.scenario}_{moment}"
-    return _EXIT_CODES[CommandLineRun(options).run()]
+    return run_test(options)
 
 
 def list_parameters(options: argparse.Namespace) -> None:
@@ -79,3 +74,9 @@ def _accept_any_character() -> None:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
+
+
+# What each command calls; an exit code, or None when it has done what was asked for.
+_COMMANDS: dict[str, Callable[[argparse.Namespace], int | None]] = {
+    "params": list_parameters, "check": check, "history": list_history, "compare": compare_tests, "plan": plan,
+    "demo": run_demo, "run": run_test}

@@ -19,6 +19,7 @@ from .bridge import Bridge
 from .defects import Defects
 from .flow import Flow
 from .header.stop_button import add_stop
+from .history.history_reader import HistoryReader
 from .i18n import Language
 from .report_writer import ReportWriter
 from .sounds import Sounds
@@ -66,6 +67,7 @@ class Application:
         self.flow.close()
         self.stopping.remove()
         ReportWriter.finish_all()
+        HistoryReader.finish_all()
         self.defects.remove()
 
     def _show_main(self) -> None:

@@ -15,7 +15,7 @@ from ..results.line_result import LineResult, MeasuredDistance
 from ..results.progress import Progress
 from ..robot_status import CarDimensions
 from ..scenario import AnyScenario, Line, ScenarioParameters
-from .judgement import Circumstances, TestJudgement, judge
+from .judgement import Circumstances, TestJudgement, guarded, judge
 
 # Columns of the Remote key's height: at an event, or of a zone that lies at it.
 _HEIGHTS = ("key_height_m", "height_m")
@@ -58,6 +58,13 @@ class Assessor:
             judgement = judge(progress.limits, self._lines, progress.results,
                               Circumstances(self._guard_sigma, self._unreached))
         return Assessment(budgets, judgement)
+
+    def interval(self, result: LineResult, distance: MeasuredDistance) -> tuple[float, float] | None:
+        """Ends of the 95 % interval of a boundary with all its errors, in m, infinite where one is open; None where the
+        measurement does not say how sure it is."""
+        if distance.low_m is None and distance.high_m is None:
+            return None
+        return guarded(distance, SIGMAS_OF_LEVEL * self._guard_sigma(result, distance.word))
 
     def _budget(self, result: LineResult, distance: MeasuredDistance) -> DistanceBudget:
         attempts_m = _attempts_sigma(distance)

@@ -115,7 +115,7 @@ def _judge_line(requirement: Requirement, result: LineResult, alive: set[str],
     obstacle = _obstacle(requirement, result, distance, alive)
     if distance is None or obstacle:
         return Judgement(requirement, result.number, Verdict.INCONCLUSIVE, obstacle)
-    low_m, high_m = _guarded(distance, SIGMAS_OF_LEVEL * circumstances.guard_sigma_m(result, distance.word))
+    low_m, high_m = guarded(distance, SIGMAS_OF_LEVEL * circumstances.guard_sigma_m(result, distance.word))
     wanted = f"Wanted is {requirement.text}"
     if requirement.at_least_m is not None:
         holes_m = result.holes_nearer_than(requirement.at_least_m)
@@ -155,8 +155,8 @@ def _obstacle(requirement: Requirement, result: LineResult, distance: MeasuredDi
     return ""
 
 
-def _guarded(distance: MeasuredDistance, guard_m: float) -> tuple[float, float]:
-    """Ends of the interval, each moved outwards by what it does not hold."""
+def guarded(distance: MeasuredDistance, guard_m: float) -> tuple[float, float]:
+    """Ends of the interval in m, each moved outwards by what it does not hold; infinite where one is open."""
     low_m = -math.inf if distance.low_m is None else distance.low_m
     high_m = math.inf if distance.high_m is None else distance.high_m
     middle_m = distance.distance_m

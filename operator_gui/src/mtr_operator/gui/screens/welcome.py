@@ -16,10 +16,10 @@ _WIDTH = 620
 
 
 class WelcomeScreen(QWidget):
-    """Signals: new_test, continue_test, calibrate; go_on, dismiss: what to do with the unfinished test."""
+    """Signals: new_test, history, calibrate; go_on, dismiss: what to do with the unfinished test."""
 
     new_test = pyqtSignal()
-    continue_test = pyqtSignal()
+    history = pyqtSignal()
     calibrate = pyqtSignal()
     go_on = pyqtSignal()
     dismiss = pyqtSignal()
@@ -30,9 +30,9 @@ class WelcomeScreen(QWidget):
         title = QLabel(self.tr("What would you like to do?"))
         title.setProperty("role", "title")
         self.new = Tile(self.tr("New test"), self.tr("Choose scenario and parameters, and let the robot measure."))
-        self.open = Tile(self.tr("Continue test"), self.tr("Go on with a test whose progress was saved to a file."))
+        self.open = Tile(self.tr("Tests so far"), self.tr("Open, continue, repeat or compare tests of before."))
         self.calibration = Tile(self.tr("Calibrate"), self.tr("Try lift and buttons of the robot."))
-        for tile, signal in ((self.new, self.new_test), (self.open, self.continue_test),
+        for tile, signal in ((self.new, self.new_test), (self.open, self.history),
                              (self.calibration, self.calibrate)):
             tile.clicked.connect(signal)
         self.offer = self._make_offer()

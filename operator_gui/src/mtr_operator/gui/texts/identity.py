@@ -17,6 +17,12 @@ TITLES = (
     QT_TRANSLATE_NOOP("Identity", "Photos"),
 )
 SENTENCES = (
+    QT_TRANSLATE_NOOP("Sentence", "A test of the scenario {} and one of {} cannot be compared; choose two of one "
+                                  "scenario."),
+    QT_TRANSLATE_NOOP("Sentence", "A test that has measured nothing cannot be compared."),
+    QT_TRANSLATE_NOOP("Sentence", "It is invalid in test {}."),
+    QT_TRANSLATE_NOOP("Sentence", "Test {} does not say how sure this distance is."),
+    QT_TRANSLATE_NOOP("Sentence", "The test in {} cannot be read: {}: {}"),
     QT_TRANSLATE_NOOP("Sentence", "The test does not start: the laboratory requires {}."),
     QT_TRANSLATE_NOOP("Sentence", "The test was begun with another {}, {}; now it is {}. Continue it with that one, or "
                                   "begin a new test."),

@@ -648,6 +648,110 @@
     </message>
 </context>
 <context>
+    <name>Comparison</name>
+    <message>
+        <location filename="../history/comparison_model.py" line="68"/>
+        <source>farther</source>
+        <translation>dále</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_model.py" line="68"/>
+        <source>nearer</source>
+        <translation>blíže</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_model.py" line="69"/>
+        <source>no difference shown</source>
+        <translation>rozdíl neprokázán</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_model.py" line="70"/>
+        <source>not known</source>
+        <translation>není známo</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_picture.py" line="25"/>
+        <source>First test</source>
+        <translation>První test</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_picture.py" line="27"/>
+        <source>Second test</source>
+        <translation>Druhý test</translation>
+    </message>
+</context>
+<context>
+    <name>ComparisonModel</name>
+    <message>
+        <location filename="../history/comparison_model.py" line="54"/>
+        <source>First [m]</source>
+        <translation>První [m]</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_model.py" line="54"/>
+        <source>Second [m]</source>
+        <translation>Druhý [m]</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_model.py" line="54"/>
+        <source>Difference [m]</source>
+        <translation>Rozdíl [m]</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_model.py" line="54"/>
+        <source>Second test</source>
+        <translation>Druhý test</translation>
+    </message>
+</context>
+<context>
+    <name>ComparisonWindow</name>
+    <message>
+        <location filename="../history/comparison_window.py" line="44"/>
+        <source>Two tests compared</source>
+        <translation>Porovnání dvou testů</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="47"/>
+        <source>Distance</source>
+        <translation>Vzdálenost</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="54"/>
+        <source>Difference of each distance</source>
+        <translation>Rozdíl každé vzdálenosti</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="72"/>
+        <source>Close</source>
+        <translation>Zavřít</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="114"/>
+        <source>First: {test}</source>
+        <translation>První: {test}</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="115"/>
+        <source>Second: {test}</source>
+        <translation>Druhý: {test}</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="117"/>
+        <source>{counts}. By chance alone about {expected} would differ.</source>
+        <translation>{counts}. Jen náhodou by se jich lišilo asi {expected}.</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="119"/>
+        <source>A distance is called farther or nearer in the second test only where the whole 95 % interval of its difference is on that side of zero.</source>
+        <translation>Vzdálenost je v druhém testu označena dále nebo blíže jen tam, kde celý 95% interval rozdílu leží na té straně nuly.</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="123"/>
+        <source>Lines of one test only: {first} of the first, {second} of the second.</source>
+        <translation>Přímky jen jednoho testu: {first} prvního, {second} druhého.</translation>
+    </message>
+</context>
+<context>
     <name>ConnectionWindow</name>
     <message>
         <location filename="../windows/connection_window.py" line="33"/>
@@ -826,6 +930,137 @@
     </message>
 </context>
 <context>
+    <name>HistoryModel</name>
+    <message>
+        <location filename="../history/history_model.py" line="56"/>
+        <source>Begun</source>
+        <translation>Začátek</translation>
+    </message>
+    <message>
+        <location filename="../history/history_model.py" line="56"/>
+        <source>Scenario</source>
+        <translation>Scénář</translation>
+    </message>
+    <message>
+        <location filename="../history/history_model.py" line="56"/>
+        <source>Lines</source>
+        <translation>Přímky</translation>
+    </message>
+    <message>
+        <location filename="../history/history_model.py" line="56"/>
+        <source>Verdict</source>
+        <translation>Verdikt</translation>
+    </message>
+    <message>
+        <location filename="../history/history_model.py" line="56"/>
+        <source>Car</source>
+        <translation>Auto</translation>
+    </message>
+    <message>
+        <location filename="../history/history_model.py" line="56"/>
+        <source>Key</source>
+        <translation>Klíč</translation>
+    </message>
+    <message>
+        <location filename="../history/history_model.py" line="56"/>
+        <source>Operator</source>
+        <translation>Operátor</translation>
+    </message>
+    <message>
+        <location filename="../history/history_model.py" line="56"/>
+        <source>Place</source>
+        <translation>Místo</translation>
+    </message>
+</context>
+<context>
+    <name>HistoryScreen</name>
+    <message>
+        <location filename="../history/history_screen.py" line="63"/>
+        <source>Search: VIN, key, day, operator, note</source>
+        <translation>Hledat: VIN, klíč, den, operátor, poznámka</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="64"/>
+        <source>Search</source>
+        <translation>Hledat</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="67"/>
+        <source>Car</source>
+        <translation>Auto</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="68"/>
+        <source>Key</source>
+        <translation>Klíč</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="69"/>
+        <source>Verdict</source>
+        <translation>Verdikt</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="208"/>
+        <source>Open</source>
+        <translation>Otevřít</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="75"/>
+        <source>Repeat</source>
+        <translation>Opakovat</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="76"/>
+        <source>A new test with the same parameters, car and key</source>
+        <translation>Nový test se stejnými parametry, autem a klíčem</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="77"/>
+        <source>Compare two</source>
+        <translation>Porovnat dva</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="78"/>
+        <source>Open a file</source>
+        <translation>Otevřít soubor</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="79"/>
+        <source>Back</source>
+        <translation>Zpět</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="95"/>
+        <source>Tests; choose one to open it, or two to compare them</source>
+        <translation>Testy; vyberte jeden k otevření, nebo dva k porovnání</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="118"/>
+        <source>Tests so far</source>
+        <translation>Dosavadní testy</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="145"/>
+        <source>The folders are being read.</source>
+        <translation>Složky se čtou.</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="183"/>
+        <source>{count} tests, {shown} of them shown.</source>
+        <translation>Testů: {count}, zobrazeno: {shown}.</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="186"/>
+        <source>{count} more files cannot be read.</source>
+        <translation>Dalších {count} souborů nelze přečíst.</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="208"/>
+        <source>Continue</source>
+        <translation>Pokračovat</translation>
+    </message>
+</context>
+<context>
     <name>HoldButton</name>
     <message>
         <location filename="../forms/hold_button.py" line="30"/>
@@ -984,44 +1219,44 @@
 <context>
     <name>MainWindow</name>
     <message>
-        <location filename="../windows/main_window.py" line="38"/>
+        <location filename="../windows/main_window.py" line="42"/>
         <source>Mobile testing robot</source>
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="161"/>
+        <location filename="../windows/main_window.py" line="190"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="164"/>
+        <location filename="../windows/main_window.py" line="193"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="166"/>
+        <location filename="../windows/main_window.py" line="195"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="181"/>
+        <location filename="../windows/main_window.py" line="210"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="185"/>
+        <location filename="../windows/main_window.py" line="214"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="185"/>
+        <location filename="../windows/main_window.py" line="214"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="144"/>
-        <source>Continue test</source>
-        <translation>Pokračovat v testu</translation>
+        <location filename="../windows/main_window.py" line="173"/>
+        <source>Open a test</source>
+        <translation>Otevřít test</translation>
     </message>
 </context>
 <context>
@@ -3541,6 +3776,31 @@
     </message>
     <message>
         <location filename="../texts/identity.py" line="19"/>
+        <source>A test of the scenario {} and one of {} cannot be compared; choose two of one scenario.</source>
+        <translation>Test scénáře {} nelze porovnat s testem scénáře {}; vyberte dva téhož scénáře.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>A test that has measured nothing cannot be compared.</source>
+        <translation>Test, který nic nezměřil, nelze porovnat.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>It is invalid in test {}.</source>
+        <translation>V testu {} je neplatná.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>Test {} does not say how sure this distance is.</source>
+        <translation>Test {} neříká, jak jistá tato vzdálenost je.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>The test in {} cannot be read: {}: {}</source>
+        <translation>Test v {} nelze přečíst: {}: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
         <source>The test does not start: the laboratory requires {}.</source>
         <translation>Test nezačne: laboratoř vyžaduje {}.</translation>
     </message>
@@ -4085,13 +4345,13 @@
     </message>
     <message>
         <location filename="../screens/welcome.py" line="33"/>
-        <source>Continue test</source>
-        <translation>Pokračovat v testu</translation>
+        <source>Tests so far</source>
+        <translation>Dosavadní testy</translation>
     </message>
     <message>
         <location filename="../screens/welcome.py" line="33"/>
-        <source>Go on with a test whose progress was saved to a file.</source>
-        <translation>Pokračujte v testu, jehož průběh byl uložen do souboru.</translation>
+        <source>Open, continue, repeat or compare tests of before.</source>
+        <translation>Otevřít, dokončit, opakovat nebo porovnat dřívější testy.</translation>
     </message>
 </context>
 <context>

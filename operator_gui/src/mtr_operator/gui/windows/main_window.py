@@ -10,12 +10,16 @@ from PyQt5.QtGui import QCloseEvent
 from PyQt5.QtWidgets import QDialog, QMainWindow, QStackedWidget, QVBoxLayout, QWidget
 
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.history.comparison import Comparison
+from mtr_operator.history.line_pairs import Side
 from mtr_operator.station.readiness import RUNNING
 
 from ..dialogs import ask_folder, ask_progress_file, confirm, show_message
 from ..fitting.place import open_within
 from ..flow import Flow, Step
 from ..header.header_bar import HeaderBar
+from ..history.comparison_window import ComparisonWindow
+from ..history.history_screen import HistoryScreen
 from ..screens.measurement import MeasurementScreen
 from ..screens.measurement_type import MeasurementTypeScreen
 from ..screens.protocol import ProtocolScreen
@@ -31,7 +35,7 @@ _SIZE = QSize(1360, 860)
 
 
 class MainWindow(QMainWindow):
-    """Attributes: header; welcome, types, settings (by scenario), measurement, protocol: the screens."""
+    """Attributes: header; welcome, types, settings (by scenario), measurement, protocol, history: the screens."""
 
     def __init__(self, flow: Flow, appearance: Appearance, stopping: Stopping):
         super().__init__()
@@ -46,8 +50,10 @@ class MainWindow(QMainWindow):
         self.settings = {name: SettingsScreen(scenario, flow.model, appearance) for name, scenario in SCENARIOS.items()}
         self.measurement = MeasurementScreen(flow.model, appearance)
         self.protocol = ProtocolScreen(flow, appearance)
+        self.history = HistoryScreen()
         self._screens = QStackedWidget()
-        for screen in (self.welcome, self.types, *self.settings.values(), self.measurement, self.protocol):
+        for screen in (self.welcome, self.types, *self.settings.values(), self.measurement, self.protocol,
+                       self.history):
             self._screens.addWidget(screen)
         page = QWidget()
         page.setObjectName("page")
@@ -97,7 +103,7 @@ class MainWindow(QMainWindow):
         flow.folder_wanted.connect(self._want_progress_folder)
         self.header.settings_wanted.connect(self.show_settings)
         self.welcome.new_test.connect(lambda: flow.show(Step.TYPE))
-        self.welcome.continue_test.connect(self._open)
+        self.welcome.history.connect(self._show_history)
         self.welcome.calibrate.connect(self._show_calibration)
         self.welcome.go_on.connect(flow.open_unfinished)
         self.welcome.dismiss.connect(self._dismiss)
@@ -114,6 +120,11 @@ class MainWindow(QMainWindow):
         self.measurement.leave_wanted.connect(flow.to_welcome)
         self.measurement.answered.connect(self.header.stop.setFocus)
         self.protocol.closed.connect(flow.to_welcome)
+        self.history.closed.connect(flow.to_welcome)
+        self.history.open_wanted.connect(flow.open)
+        self.history.file_wanted.connect(self._open)
+        self.history.repeat_wanted.connect(self._repeat)
+        self.history.compare_wanted.connect(self._show_comparison)
 
     def _show_model(self) -> None:
         self.header.show_model(self._flow.model)
@@ -140,8 +151,26 @@ class MainWindow(QMainWindow):
         self._screens.setCurrentWidget(screen)
         screen.show_model()
 
+    def _show_history(self) -> None:
+        settings = self._flow.store.settings
+        self.history.read((settings.progress_folder, settings.result_folder))
+        self._screens.setCurrentWidget(self.history)
+        self.history.search.setFocus()
+
+    def _repeat(self, side: Side) -> None:
+        """Offer a new test with the parameters of one of before."""
+        self._show_settings(side.scenario.name)
+        screen = self.settings[side.scenario.name]
+        screen.form.show_mapping(side.parameters.to_mapping())
+        screen.identity.propose(self._flow.store, side.progress.identity)
+
+    def _show_comparison(self, comparison: Comparison) -> None:
+        window = ComparisonWindow(comparison, self._appearance, self)
+        window.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        window.show()
+
     def _open(self) -> None:
-        path = ask_progress_file(self, self.tr("Continue test"), self._flow.store.settings.progress_folder)
+        path = ask_progress_file(self, self.tr("Open a test"), self._flow.store.settings.progress_folder)
         if path is not None:
             self._flow.open(path)
 

@@ -1,0 +1,70 @@
+"""The commands that list tests of before, and compare two of them."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import argparse
+import json
+import pathlib
+import sys
+from typing import Sequence
+
+from mtr_operator.history.comparison import compare
+from mtr_operator.history.comparison_text import comparison_document, comparison_lines
+from mtr_operator.history.entry import TestEntry
+from mtr_operator.history.index import Index, cache_path
+from mtr_operator.history.line_pairs import Side, open_side
+from mtr_operator.history.search import matching, problems_of
+from mtr_operator.station.settings_file import SettingsStore, default_path
+from mtr_operator.storage.progress_file import FILE_NAME
+
+_HEADINGS = ("started", "scenario", "lines", "verdict", "car", "key", "file")
+_GAP = "  "
+
+
+def list_history(options: argparse.Namespace) -> None:
+    """Print the tests that fit, and on stderr a sentence for each file that cannot be read."""
+    folders = options.folder or _usual_folders()
+    entries = Index(folders, cache_path(folders)).refresh()
+    found = matching(entries, " ".join(options.words), car=options.car, key=options.key, verdict=options.verdict)
+    for problem in problems_of(entries):
+        print(problem, file=sys.stderr)
+    if options.json:
+        print(json.dumps([_document(entry) for entry in found], indent=1, ensure_ascii=False))
+    else:
+        for line in _table(found):
+            print(line)
+
+
+def compare_tests(options: argparse.Namespace) -> None:
+    """Print the differences of two tests."""
+    comparison = compare(_side(options.first), _side(options.second))
+    if options.json:
+        print(json.dumps(comparison_document(comparison), indent=1, ensure_ascii=False))
+    else:
+        for line in comparison_lines(comparison):
+            print(line)
+
+
+def _side(path: pathlib.Path) -> Side:
+    """path: a progress file or journal, or the folder with one."""
+    return open_side(path / FILE_NAME if path.is_dir() else path)
+
+
+def _usual_folders() -> list[pathlib.Path]:
+    """Those of the window."""
+    store = SettingsStore(default_path())
+    store.load()
+    return [store.settings.progress_folder, store.settings.result_folder]
+
+
+def _document(entry: TestEntry) -> dict[str, object]:
+    return {name: getattr(entry, name) for name in (
+        "path", "started", "scenario", "car", "key", "operator", "place", "done", "total", "invalid", "is_complete",
+        "verdict")}
+
+
+def _table(entries: Sequence[TestEntry]) -> list[str]:
+    rows = [_HEADINGS, *((entry.moment, entry.scenario, f"{entry.done}/{entry.total}", entry.verdict or "-",
+                          entry.car or "-", entry.key or "-", entry.path) for entry in entries)]
+    widths = [max(len(row[column]) for row in rows) for column in range(len(_HEADINGS))]
+    return [_GAP.join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows]

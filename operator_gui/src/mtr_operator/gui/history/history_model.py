@@ -1,0 +1,63 @@
+"""Tests of before as a table."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Any, Sequence
+
+from PyQt5.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt
+
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.history.entry import TestEntry
+
+from ..names import domain_word, scenario_title
+
+_LINES = 2
+
+
+class HistoryModel(QAbstractTableModel):
+    """When, which scenario, how many lines, verdict, car, key, operator, place. Attributes: entries: a row each."""
+
+    def __init__(self, parent: QObject | None = None):
+        super().__init__(parent)
+        self.entries: Sequence[TestEntry] = ()
+
+    def show_entries(self, entries: Sequence[TestEntry]) -> None:
+        """Show these."""
+        self.beginResetModel()
+        self.entries = tuple(entries)
+        self.endResetModel()
+
+    def rowCount(self, parent: QModelIndex = QModelIndex()) -> int:  # noqa: B008
+        """See QAbstractItemModel."""
+        return 0 if parent.isValid() else len(self.entries)
+
+    def columnCount(self, parent: QModelIndex = QModelIndex()) -> int:  # noqa: B008
+        """See QAbstractItemModel."""
+        return 0 if parent.isValid() else len(self._headings())
+
+    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        """See QAbstractItemModel."""
+        if role != Qt.ItemDataRole.DisplayRole or orientation != Qt.Orientation.Horizontal:
+            return None
+        return self._headings()[section]
+
+    def data(self, index: QModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        """See QAbstractItemModel."""
+        entry = self.entries[index.row()]
+        if role == Qt.ItemDataRole.DisplayRole:
+            return self._texts(entry)[index.column()]
+        if role == Qt.ItemDataRole.ToolTipRole:
+            return entry.path
+        if role == Qt.ItemDataRole.TextAlignmentRole and index.column() == _LINES:
+            return int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        return None
+
+    def _headings(self) -> tuple[str, ...]:
+        return (self.tr("Begun"), self.tr("Scenario"), self.tr("Lines"), self.tr("Verdict"), self.tr("Car"),
+                self.tr("Key"), self.tr("Operator"), self.tr("Place"))
+
+    @staticmethod
+    def _texts(entry: TestEntry) -> tuple[str, ...]:
+        return (entry.moment, scenario_title(SCENARIOS[entry.scenario]), f"{entry.done}/{entry.total or '?'}",
+                domain_word(entry.verdict) if entry.verdict else "\N{EN DASH}", entry.car, entry.key, entry.operator,
+                entry.place)

@@ -1,0 +1,80 @@
+"""Which line of one test is which of another one."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+import pathlib
+from dataclasses import dataclass
+
+from mtr_operator.domain.geometry.ray import Ray
+from mtr_operator.domain.results.line_result import LineResult
+from mtr_operator.domain.results.progress import SAME_CAR_M, Progress
+from mtr_operator.domain.scenario import AnyScenario, Line, ScenarioParameters
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.report.table import line_name
+from mtr_operator.storage.progress_file import open_progress
+
+# At 5 m this is as far as Cars may differ in size.
+_SAME_DIRECTION_RAD = math.radians(2.0)
+_SAME_HEIGHT_M = 0.05
+
+
+@dataclass(frozen=True)
+class Side:
+    """One of two tests."""
+
+    scenario: AnyScenario
+    parameters: ScenarioParameters
+    progress: Progress
+
+
+def open_side(path: pathlib.Path) -> Side:
+    """The test in a progress file; ProgressFileError says what is wrong with the file."""
+    return Side(*open_progress(path, SCENARIOS))
+
+
+@dataclass(frozen=True)
+class LinePair:
+    """The results of one line, and where it lies in the first test."""
+
+    first: LineResult
+    second: LineResult
+    ray: Ray
+
+    @property
+    def number(self) -> int:
+        """In the first test."""
+        return self.first.number
+
+
+def line_pairs(first: Side, second: Side) -> tuple[list[LinePair], tuple[str, ...], tuple[str, ...]]:
+    """Lines at the same place in both tests, and names of the others of the first and of the second one."""
+    of_first, of_second = _lines(first), _lines(second)
+    pairs: list[LinePair] = []
+    alone: list[str] = []
+    for result, line in of_first:
+        # The same number first: where the parameters are the same it is the one.
+        other = next((other for other in sorted(of_second, key=lambda other: other[0].number != result.number)
+                      if _is_same(line, other[1])), None)
+        if other is None:
+            alone.append(line_name(first.scenario, result))
+        else:
+            of_second.remove(other)
+            pairs.append(LinePair(result, other[0], line.ray))
+    return pairs, tuple(alone), tuple(line_name(second.scenario, result) for result, _ in of_second)
+
+
+def _lines(side: Side) -> list[tuple[LineResult, Line]]:
+    lines = {line.number: line for line in side.scenario.lines(side.parameters, side.progress.measured_car)}
+    return [(result, lines[result.number]) for result in side.progress.results]
+
+
+def _is_same(line: Line, other: Line) -> bool:
+    mine, its = line.ray, other.ray
+    apart_m = math.dist((mine.origin_x, mine.origin_y), (its.origin_x, its.origin_y))
+    across = mine.direction_x * its.direction_y - mine.direction_y * its.direction_x
+    along = mine.direction_x * its.direction_x + mine.direction_y * its.direction_y
+    # Only zones have a height of their own.
+    heights = getattr(line, "height_m", 0.0), getattr(other, "height_m", 0.0)
+    return (apart_m <= SAME_CAR_M and abs(math.atan2(across, along)) <= _SAME_DIRECTION_RAD
+            and abs(heights[0] - heights[1]) <= _SAME_HEIGHT_M)

@@ -1,0 +1,51 @@
+"""A test's entry from its files."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import pathlib
+
+from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.identity.identity import NOBODY
+from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.results.session_record import STARTED
+from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.report.assessed import assess
+from mtr_operator.report.identity.identity_rows import identity_rows
+from mtr_operator.storage.progress_file import open_progress
+
+from .entry import TestEntry
+
+
+def read_entry(path: pathlib.Path) -> TestEntry:
+    """The entry of the test in a progress file or journal; one with a problem where there is none."""
+    try:
+        scenario, parameters, progress = open_progress(path, SCENARIOS)
+        return _entry(path, scenario, parameters, progress)
+    except OperatorError as error:
+        return TestEntry(str(path), str(error))
+    # One file must not keep the others from being seen, whatever is in it.
+    except Exception as error:
+        return TestEntry(str(path), f"The test in {path} cannot be read: {type(error).__name__}: {error}")
+
+
+def _entry(path: pathlib.Path, scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress) -> TestEntry:
+    identity, results = progress.identity or NOBODY, progress.results
+    total = 0 if progress.car is None else len(scenario.lines(parameters, progress.car))
+    started = progress.session.get(STARTED, "")
+    known = [value for _, value in identity_rows(identity)]
+    words = (path.stem, path.parent.name, scenario.title, started.replace("T", " "), *progress.session.values(), *known)
+    return TestEntry(
+        str(path), "", f"{scenario.name} {started}" if progress.kept is None else progress.kept.id,
+        len(results) if progress.kept is None else progress.kept.entries, started, scenario.name,
+        " ".join(filter(None, (identity.car_model, identity.car_vin))), identity.key_serial, identity.operator,
+        identity.place, len(results), total, sum(1 for result in results if result.invalid_count),
+        0 < total == len(results) and not progress.to_retry(), _verdict(scenario, parameters, progress),
+        "\n".join(words).lower())
+
+
+def _verdict(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress) -> str:
+    if progress.limits is None or progress.car is None:
+        return ""
+    judgement = assess(scenario, parameters, progress).judgement
+    return "" if judgement is None else judgement.verdict.word

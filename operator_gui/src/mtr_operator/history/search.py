@@ -1,0 +1,48 @@
+"""Which tests a person looks for, and in which order they are listed."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Iterable, Sequence
+
+from mtr_operator.storage.progress_file import FILE_NAME
+
+from .entry import TestEntry
+
+
+def listed(entries: Iterable[TestEntry]) -> list[TestEntry]:
+    """One entry for each test, the copy that reaches farthest, newest first; then what cannot be read, by its path."""
+    tests: dict[str, TestEntry] = {}
+    broken = []
+    for entry in entries:
+        if entry.problem:
+            broken.append(entry)
+        elif entry.test_id not in tests or _reach(entry) > _reach(tests[entry.test_id]):
+            tests[entry.test_id] = entry
+    return [*sorted(tests.values(), key=lambda entry: (entry.started, entry.path), reverse=True),
+            *sorted(broken, key=lambda entry: entry.path)]
+
+
+def matching(entries: Sequence[TestEntry], text: str = "", *, car: str = "", key: str = "",
+             verdict: str = "") -> list[TestEntry]:
+    """Tests in which each word of a text occurs, of this car, key and verdict; an empty text fits all. What cannot be
+    read fits nothing."""
+    words = text.lower().split()
+    wanted = {name: value for name, value in (("car", car), ("key", key), ("verdict", verdict)) if value}
+    return [entry for entry in entries if not entry.problem
+            and all(word in entry.words or word in entry.verdict for word in words)
+            and all(getattr(entry, name) == value for name, value in wanted.items())]
+
+
+def values_of(entries: Sequence[TestEntry], name: str) -> list[str]:
+    """Values of car, key or verdict that there are, sorted."""
+    return sorted({getattr(entry, name) for entry in entries} - {""})
+
+
+def problems_of(entries: Sequence[TestEntry]) -> list[str]:
+    """A sentence for each file that cannot be read."""
+    return [entry.problem for entry in entries if entry.problem]
+
+
+def _reach(entry: TestEntry) -> tuple[int, bool]:
+    """A copy beside a report has the name of a file, and no journal to go on with: of equals the other one counts."""
+    return entry.entries, entry.file.name != FILE_NAME

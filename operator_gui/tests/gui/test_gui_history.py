@@ -1,0 +1,117 @@
+"""The tests of before in the window: listed, searched, opened, continued, repeated, compared."""
+# SPDX-License-Identifier: Apache-2.0
+import dataclasses
+
+import pytest
+
+from mtr_operator.domain.identity.identity import Identity
+from mtr_operator.domain.results.progress import JournalMark
+from mtr_operator.gui.header.stop_button import StopButton
+from mtr_operator.gui.history.comparison_window import ComparisonWindow
+from mtr_operator.storage.progress_file import save_progress
+
+
+@pytest.fixture
+def lab(operator):
+    """An operator with three tests: one measured now, one of another car, and the half of one."""
+    operator.begin("key_press")
+    operator.click(operator.finish().done)
+    folder = operator.application.flow.store.settings.progress_folder
+    [record] = folder.glob("*.json")
+    progress = operator.application.flow.open(record) or operator.model.current_test.progress
+    operator.application.flow.to_welcome()
+    for number, (vin, results) in enumerate((("OTHER", progress.results), ("", progress.results[:2])), start=1):
+        session = {**progress.session, "started": f"2020-01-0{number}T10:00:00+01:00"}
+        save_progress(folder / f"{number}.json", dataclasses.replace(
+            progress, session=session, results=list(results), kept=JournalMark(str(number), 5), frame_record=type(
+                progress.frame_record)(), identity=Identity(vin) if vin else None))
+    return operator
+
+
+def show(operator, count=3):
+    """The history, when it is read."""
+    history = operator.window.history
+    operator.click(operator.window.welcome.open)
+    operator.wait(lambda: len(history.shown) == count and "tests" in history.notice.text())
+    return history
+
+
+def test_tests_are_listed_newest_first_and_searched(lab):
+    history = show(lab)
+    assert [entry.started[:4] for entry in history.shown][1:] == ["2020", "2020"]
+    history.search.setText("other")
+    assert [entry.car for entry in history.shown] == ["OTHER"]
+    history.search.setText("")
+    history.car.setCurrentIndex(history.car.findData("OTHER"))
+    assert len(history.shown) == 1
+
+
+def test_finished_test_opens_as_protocol_and_half_a_test_is_continued(lab):
+    history = show(lab)
+    assert not history.open.isEnabled()
+    history.table.selectRow(0)
+    assert history.open.text() == "Open"
+    lab.click(history.open)
+    assert lab.window.screen is lab.window.protocol
+    lab.click(lab.window.protocol.done)
+    history = show(lab)
+    history.table.selectRow(1)
+    assert history.open.text() == "Continue"
+    lab.click(history.open)
+    assert lab.window.screen is lab.window.measurement and lab.model.done == 2
+
+
+def test_test_is_repeated_with_its_parameters_and_its_car(lab):
+    history = show(lab)
+    history.search.setText("other")
+    history.table.selectRow(0)
+    lab.click(history.repeat)
+    screen = lab.window.settings["key_press"]
+    assert lab.window.screen is screen
+    assert screen.form.fields["angle_between_radials_rad"].text == "90"
+    assert screen.identity.fields["car_vin"].text == "OTHER"
+
+
+def test_two_tests_are_compared_with_stop_in_sight(lab):
+    history = show(lab)
+    history.table.selectAll()
+    assert not history.compare.isEnabled() and not history.repeat.isEnabled()
+    history.search.setText("2020-01")
+    history.table.selectAll()
+    lab.click(history.compare)
+    [window] = lab.window.findChildren(ComparisonWindow)
+    assert window.isVisible() and window.findChildren(StopButton) and not window.isModal()
+    model = window.table.model()
+    assert model.rowCount() == 2
+    # The oldest is the first; the same figures show no difference.
+    assert model.data(model.index(0, 3)) == "+0.00"
+    assert model.data(model.index(0, 2)) in ("no difference shown", "not known")
+    window.table.selectRow(1)
+    assert "Car's VIN: OTHER / \N{EN DASH}" in window.summary.text()
+    window.close()
+
+
+def test_broken_record_is_named_and_skipped(lab):
+    folder = lab.application.flow.store.settings.progress_folder
+    (folder / "broken.json").write_bytes(b"{")
+    history = show(lab)
+    lab.wait(lambda: "broken.json" in history.notice.text())
+    assert history.notice.text().startswith("3 tests, 3 of them shown.")
+
+
+def test_file_that_changes_between_list_and_click_is_said(lab):
+    history = show(lab)
+    history.search.setText("other")
+    history.table.selectRow(0)
+    history.shown[0].file.write_bytes(b"{")
+    lab.click(history.repeat)
+    assert "truncated or not a JSON file" in history.notice.text()
+    assert lab.window.screen is history
+
+
+def test_choice_stays_while_more_tests_are_found(lab):
+    history = show(lab)
+    history.table.selectRow(1)
+    chosen = history.chosen
+    history._learn(list(history._entries))
+    assert history.chosen == chosen and history.open.isEnabled()
