@@ -35,6 +35,7 @@ def argument_parser() -> argparse.ArgumentParser:
     _add_demo(commands.add_parser("demo", help="run a test on a robot and a Car inside the application; needs no file"))
     _add_history(commands.add_parser("history", help="list the tests that were measured before"))
     _add_compare(commands.add_parser("compare", help="compare two tests, distance by distance, with intervals"))
+    commands.add_parser("doctor", help="say what this computer lacks; exit code 2 when something is missing")
     return parser
 
 

@@ -6,6 +6,7 @@ import argparse
 import sys
 from typing import Callable
 
+from mtr_operator.doctor.command_line import doctor
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.results.session_record import now
@@ -79,4 +80,4 @@ def _accept_any_character() -> None:
 # What each command calls; an exit code, or None when it has done what was asked for.
 _COMMANDS: dict[str, Callable[[argparse.Namespace], int | None]] = {
     "params": list_parameters, "check": check, "history": list_history, "compare": compare_tests, "plan": plan,
-    "demo": run_demo, "run": run_test}
+    "demo": run_demo, "run": run_test, "doctor": lambda _: EXIT_PASS if doctor() else EXIT_ERROR}

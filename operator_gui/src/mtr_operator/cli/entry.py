@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import sys
 
-from .exit_codes import EXIT_INTERRUPTED
+from mtr_operator.doctor.computer import Computer, computer_findings
+from mtr_operator.doctor.finding import State
+
+from .exit_codes import EXIT_ERROR, EXIT_INTERRUPTED
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -15,3 +18,16 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("Interrupted.", file=sys.stderr)
         return EXIT_INTERRUPTED
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.startswith("mtr_operator"):
+            raise
+        return _say_missing(error.name)
+
+
+def _say_missing(module: str) -> int:
+    """Which packages are not installed; the exit code."""
+    print(f"The package {module} is not installed.", file=sys.stderr)
+    for finding in computer_findings(Computer()):
+        if finding.state is State.MISSING:
+            print(finding.sentence, file=sys.stderr)
+    return EXIT_ERROR

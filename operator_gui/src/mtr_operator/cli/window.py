@@ -7,11 +7,9 @@ import os
 import sys
 from typing import Mapping
 
+from mtr_operator.doctor.computer import display_problem
 from mtr_operator.domain.errors import OperatorError
 
-# On these platforms of Qt, the first of which is whatever suits the desktop, a window needs a display.
-_NEEDS_DISPLAY = ("", "xcb", "wayland")
-_DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")
 # Options of the command line by the name of what they fill in.
 _ROBOT = {"host": "robot", "subscriber_port": "subscriber_port", "publisher_port": "publisher_port"}
 _CAN = {"interface": "can_interface", "channel": "can_channel", "bitrate_bps": "can_bitrate", "profile": "car_profile"}
@@ -31,13 +29,9 @@ def open_window(options: argparse.Namespace) -> int:
 
 
 def _check_display(environment: Mapping[str, str], platform: str) -> None:
-    """Qt ends the process with a signal where there is no display."""
-    wanted = environment.get("QT_QPA_PLATFORM", "").partition(":")[0]
-    if platform != "linux" or wanted not in _NEEDS_DISPLAY:
-        return
-    if not any(environment.get(name) for name in _DISPLAYS):
-        raise OperatorError("There is no display for the window (neither DISPLAY nor WAYLAND_DISPLAY is set); start it "
-                            "on the laptop's desktop, or use the command run.")
+    problem = display_problem(environment, platform)
+    if problem:
+        raise OperatorError(problem)
 
 
 def _given(options: argparse.Namespace, names: dict[str, str]) -> dict[str, object]:

@@ -1,0 +1,114 @@
+"""What the computer itself has: packages, display, drivers and permissions of CAN adapters.
+
+Nothing but the standard library is imported, for this has to tell which of the other packages is missing.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import glob
+import importlib.util
+import os
+import pathlib
+import sys
+from dataclasses import dataclass, field
+from typing import Callable, Iterator, Mapping
+
+from .finding import Finding, State
+
+# Modules by the package that brings them, all but the contract with the robot on package indexes.
+PACKAGES = {"zmq": "pyzmq", "google.protobuf": "protobuf", "can": "python-can", "cantools": "cantools",
+            "serial": "pyserial", "numpy": "numpy", "scipy": "scipy", "matplotlib": "matplotlib",
+            "uncertainties": "uncertainties", "yaml": "pyyaml", "tqdm": "tqdm", "platformdirs": "platformdirs"}
+_SERIAL_PORTS = ("dev/ttyACM*", "dev/ttyUSB*")
+_NETWORKS = "sys/class/net/*can*"
+_DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")
+# On these platforms of Qt, the first of which is whatever suits the desktop, a window needs a display.
+_NEEDS_DISPLAY = ("", "xcb", "wayland")
+
+
+def _is_installed(module: str) -> bool:
+    try:
+        return importlib.util.find_spec(module) is not None
+    except (ImportError, ValueError):
+        return False
+
+
+def _may_use(path: str) -> bool:
+    return os.access(path, os.R_OK | os.W_OK)
+
+
+@dataclass(frozen=True)
+class Computer:
+    """What is asked of the computer. root: folder of the devices. is_installed, may_use: of a module, of a device."""
+
+    environment: Mapping[str, str] = field(default_factory=lambda: os.environ)
+    platform: str = sys.platform
+    root: pathlib.Path = pathlib.Path("/")
+    is_installed: Callable[[str], bool] = _is_installed
+    may_use: Callable[[str], bool] = _may_use
+
+
+def computer_findings(computer: Computer) -> Iterator[Finding]:
+    """In the order in which it is mended."""
+    yield from _packages(computer)
+    yield _display(computer)
+    yield from _adapters(computer)
+
+
+def display_problem(environment: Mapping[str, str], platform: str) -> str:
+    """Why no window can open, a sentence; empty when one can. Qt ends the process where there is no display."""
+    wanted = environment.get("QT_QPA_PLATFORM", "").partition(":")[0]
+    if platform != "linux" or wanted not in _NEEDS_DISPLAY or any(environment.get(name) for name in _DISPLAYS):
+        return ""
+    return ("There is no display for the window (neither DISPLAY nor WAYLAND_DISPLAY is set); start it on the laptop's "
+            "desktop, or use the command run.")
+
+
+def _packages(computer: Computer) -> Iterator[Finding]:
+    missing = [package for module, package in PACKAGES.items() if not computer.is_installed(module)]
+    if missing:
+        yield Finding("packages", State.MISSING, f"Not installed: {', '.join(missing)}; pip install them.")
+    else:
+        yield Finding("packages", State.GOOD, "All that a test needs are installed.")
+    if not computer.is_installed("mtr_proto"):
+        yield Finding("contract", State.MISSING, "The package mtr_proto, the contract with the robot, is not installed;"
+                      " pip install the folder proto of the project.")
+    if not computer.is_installed("PyQt5"):
+        yield Finding("window", State.MISSING, "The window needs PyQt5, which is not installed; pip install PyQt5, or "
+                      "use the command run.")
+
+
+def _display(computer: Computer) -> Finding:
+    problem = display_problem(computer.environment, computer.platform)
+    return Finding("display", State.MISSING if problem else State.GOOD, problem or "The window can open.")
+
+
+def _adapters(computer: Computer) -> Iterator[Finding]:
+    if computer.platform != "linux":
+        yield Finding("CAN adapter", State.NOTE, "Its driver comes from its vendor; whether it works is seen when the "
+                      "window connects.")
+        return
+    ports = sorted(path for pattern in _SERIAL_PORTS for path in glob.glob(str(computer.root / pattern)))
+    for path in ports:
+        if computer.may_use(path):
+            yield Finding("serial port", State.GOOD, f"{path} can be used.")
+        else:
+            yield Finding("serial port", State.MISSING, f"{path} is there, and you may not use it; sudo usermod -aG "
+                          "dialout $USER, then log in again.")
+    networks = [pathlib.Path(path) for path in sorted(glob.glob(str(computer.root / _NETWORKS)))]
+    for network in networks:
+        yield _network(network)
+    if not ports and not networks:
+        yield Finding("CAN adapter", State.NOTE, "None is plugged in: no serial port and no CAN network; without one "
+                      "only the simulated Car can be tested.")
+
+
+def _network(network: pathlib.Path) -> Finding:
+    try:
+        state = (network / "operstate").read_text(encoding="utf-8").strip()
+    except OSError:
+        state = "unknown"
+    if state == "down":
+        return Finding("CAN network", State.MISSING, f"{network.name} is down; sudo ip link set {network.name} up type "
+                       "can bitrate 500000, with the Car's bit rate.")
+    return Finding("CAN network", State.GOOD, f"{network.name} is up.")
