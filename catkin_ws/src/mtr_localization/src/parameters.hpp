@@ -78,7 +78,8 @@ struct TrackingParameters {
   double min_agreement = 0.55;
   double lost_after_s = 0.6;
   /// The same while most of it is hidden by something nearer, which says less: a person, or the Car's body above its
-  /// tyres while the robot brakes and pitches, which takes 1 s.
+  /// tyres while the robot brakes and pitches, which takes 1 s. On level ground a view of which little more than half
+  /// agrees may be chance: while it lasts this falls to `lost_after_s`, and to 0 where it looks through surfaces.
   double lost_hidden_after_s = 1.5;
   /// A position less certain than this, 1 sigma in the worst direction, is lost.
   double lost_sigma_m = 0.3;

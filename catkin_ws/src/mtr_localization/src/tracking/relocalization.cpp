@@ -35,6 +35,9 @@ constexpr std::size_t kMaxViews = 6;
 constexpr std::size_t kMaxHypotheses = 40;
 // A place that explains less of the view that led to it is no rival.
 constexpr double kMinShare = 0.25;
+// Returns that lie off the surfaces by more than so many of their sigmas, rms over all views, are of a place that only
+// looks like it: 8 m away what agrees may be 0.3 m off. At the right one they are 1.0, on slopes of 1 degree 2.
+constexpr double kMaxResidual = 2.5;
 // A place so near to the end of the search has neighbours that were not tried.
 constexpr double kRimM = 0.5;
 
@@ -186,10 +189,10 @@ std::optional<Relocalization::Found> Relocalization::decide(const View& view) {
   std::optional<Found> found;
   if (views_.size() >= kViewsToDecide && !hypotheses_.empty()) {
     const Hypothesis& best = hypotheses_.front();
-    const PoseVector pose = matched(view, compose(best.map_from_odom, view.odom), kFineSigmaM, kFineSigmaRad);
-    if (best.least() >= parameters_.found_agreement && is_alone(best) && !is_at_rim(pose) &&
-        share_at(view, pose) >= parameters_.found_agreement) {
-      found = {pose, pose_covariance(kFineSigmaM, kFineSigmaRad)};
+    const Found here = settled(view, compose(best.map_from_odom, view.odom));
+    if (best.least() >= parameters_.found_agreement && is_alone(best) && is_exact(best, here.pose, view) &&
+        !is_at_rim(here.pose) && share_at(view, here.pose) >= parameters_.found_agreement) {
+      found = here;
     }
   }
   // What is seen changes, and wheels and gyro drift: old views are forgotten.
@@ -211,6 +214,31 @@ bool Relocalization::is_alone(const Hypothesis& best) const {
   });
 }
 
+bool Relocalization::is_exact(const Hypothesis& best, const PoseVector& pose, const View& view) const {
+  double squares = 0.0;
+  for (const View& seen : views_) {
+    const ScanMatch match = fit(seen, compose(best.map_from_odom, seen.odom), kFineSigmaM, kFineSigmaRad);
+    if (agreement_of(seen, match.pose, map_.surfaces, kToleranceM).seen < kMinSeen) {
+      // Of a rival so little is enough.
+      return false;
+    }
+    squares += match.residual_rms * match.residual_rms;
+  }
+  if (extent_ == Extent::kReckonedOnly) {
+    // There is no other place, and a half-made map is not exact yet.
+    return true;
+  }
+  const bool lies_on_surfaces = squares <= static_cast<double>(views_.size()) * kMaxResidual * kMaxResidual;
+  return lies_on_surfaces && is_same_place(pose, compose(best.map_from_odom, view.odom));
+}
+
+Relocalization::Found Relocalization::settled(const View& view, const PoseVector& pose) const {
+  // As far as places are one; what the view leaves open of that stays in the covariance.
+  const ScanMatch match = fit(view, pose, kSamePlaceM, kSameHeadingRad);
+  const Eigen::Matrix3d open = pose_covariance(kSamePlaceM, kSameHeadingRad);
+  return {match.pose, open * (Eigen::Matrix3d::Identity() + match.correction.information * open).inverse()};
+}
+
 bool Relocalization::is_at_rim(const PoseVector& pose) const {
   return extent_ == Extent::kEverywhere &&
          (pose - *around_).head<2>().cwiseAbs().maxCoeff() > parameters_.search_radius_m - kRimM;
@@ -218,13 +246,16 @@ bool Relocalization::is_at_rim(const PoseVector& pose) const {
 
 double Relocalization::share_at(const View& view, const PoseVector& pose) const {
   // Both count: a place must explain what is seen, and show what it lets expect.
-  const Agreement agreement = agreement_of(view, pose, map_.surfaces, kToleranceM);
-  return agreement.seen < kMinSeen ? 0.0 : agreement.share_of_both();
+  return agreement_of(view, pose, map_.surfaces, kToleranceM).share_of_both();
 }
 
 PoseVector Relocalization::matched(const View& view, const PoseVector& pose, double sigma_m, double sigma_rad) const {
+  return fit(view, pose, sigma_m, sigma_rad).pose;
+}
+
+ScanMatch Relocalization::fit(const View& view, const PoseVector& pose, double sigma_m, double sigma_rad) const {
   const Eigen::Matrix3d covariance = pose_covariance(sigma_m, sigma_rad);
-  return matcher_.match(view.scan, map_, {pose, covariance, covariance}).pose;
+  return matcher_.match(view.scan, map_, {pose, covariance, covariance});
 }
 
 }  // namespace mtr_localization

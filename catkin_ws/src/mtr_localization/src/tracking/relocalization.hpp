@@ -19,7 +19,8 @@ namespace mtr_localization {
 ///
 /// Search: from each new view all places round the pose that was lost are tried, without regard to those found before.
 /// Compare: each place that was ever found, and the pose that wheels and gyro led to, is laid on the surfaces in each
-/// view. Decide: one place explains all of at least kViewsToDecide views, and every other place explains them less.
+/// view. Decide: one place explains all of at least kViewsToDecide views, every other place explains them less, and
+/// there the returns lie on the surfaces as exactly as they are measured.
 class Relocalization {
  public:
   struct Found {
@@ -53,12 +54,15 @@ class Relocalization {
   void compare();
   std::optional<Found> decide(const View& view);
   bool is_alone(const Hypothesis& best) const;
+  bool is_exact(const Hypothesis& best, const PoseVector& pose, const View& view) const;
+  Found settled(const View& view, const PoseVector& pose) const;
   bool is_at_rim(const PoseVector& pose) const;
   bool is_new(const View& view) const;
   void add(const PoseVector& pose);
   Hypothesis laid(const PoseVector& pose) const;
   double share_at(const View& view, const PoseVector& pose) const;
   PoseVector matched(const View& view, const PoseVector& pose, double sigma_m, double sigma_rad) const;
+  ScanMatch fit(const View& view, const PoseVector& pose, double sigma_m, double sigma_rad) const;
 
   TrackingParameters parameters_;
   const ReferenceMap& map_;

@@ -28,8 +28,13 @@ constexpr double kMinInformation = 1e-6;
 constexpr double kMaxBridgedM = 2.0;
 // A robot that moved less since the view agreed was carried, or something stands before it.
 constexpr double kStoodM = 0.05;
-// What hid the view has gone when, near the place where it agreed last, so much of it is seen for so long.
-constexpr double kUncoveredShare = 0.75;
+// A view of which so much agrees is the expected one: at a wrong place nearly nothing does, and chance gives seldom
+// more than half.
+constexpr double kExpectedShare = 0.75;
+// On steeper ground, or braking, a LiDAR looks over and under what is expected, and half of it is what a right pose
+// shows: 1 cm a metre.
+constexpr double kLevelSlope = 0.01;
+// What hid the view has gone when, near the place where it agreed last, the expected one is seen for so long.
 constexpr std::int64_t kUncoveredNs = 1'000'000'000;
 constexpr double kUncoveredWithinM = 1.0;
 constexpr double kUncoveredWithinRad = 0.5;
@@ -52,6 +57,11 @@ double position_sigma_m(const PoseFilter& filter) {
   const Eigen::Matrix2d covariance = filter.pose_covariance().topLeftCorner<2, 2>();
   return std::sqrt(
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+}
+
+/// More than chance gives.
+bool is_expected_view(const Agreement& all) {
+  return all.expected() >= kMinEvidence && all.share_of_both() >= kExpectedShare;
 }
 
 /// Surfaces are not where the map has them.
@@ -88,9 +98,9 @@ int ScanTracker::enter(const AdjustedMap& adjusted, const FilterStep& here) {
   search_.reset();
   map_ = std::move(map);
   state_ = State::kLocalized;
-  agreed_ns_ = here.stamp_ns;
-  agreed_odom_ = here.odom;
+  note_agreement(here);
   fitted_ns_ = here.stamp_ns;
+  patience_s_ = parameters_.lost_hidden_after_s;
   // The constant error of the range is one more.
   return map_->sources.count + 1;
 }
@@ -110,10 +120,17 @@ void ScanTracker::lose_sight(const mtr_core::Problem& reason) {
 void ScanTracker::find(const FilterStep& step) {
   lost_reason_ = {};
   is_contradicted_ = false;
+  note_agreement(step);
+  fitted_ns_ = step.stamp_ns;
+  // A place on the map where nothing has been seen yet bears little that hides it.
+  patience_s_ = state_ == State::kMapping ? parameters_.lost_hidden_after_s : parameters_.lost_after_s;
+  search_.reset();
+}
+
+void ScanTracker::note_agreement(const FilterStep& step) {
+  has_agreed_ = true;
   agreed_ns_ = step.stamp_ns;
   agreed_odom_ = step.odom;
-  fitted_ns_ = step.stamp_ns;
-  search_.reset();
 }
 
 Judgement ScanTracker::judge(const ScanSet& set, const FilterHistory& history) {
@@ -125,16 +142,19 @@ Judgement ScanTracker::judge(const ScanSet& set, const FilterHistory& history) {
   }
   const FilterStep& step = history.at(set.step);
   const double tolerance_m = kToleranceM + 3.0 * position_sigma_m(history.newest().filter);
-  const Agreement all = agreement_of(view_of(set, {}, history), step.filter.pose(), map_->surfaces, tolerance_m);
+  const View view = view_of(set, {}, history);
+  const Agreement all = agreement_of(view, step.filter.pose(), map_->surfaces, tolerance_m);
   const bool is_right = agrees(all);
-  if (is_right) {
-    agreed_ns_ = step.stamp_ns;
-    agreed_odom_ = step.odom;
+  const bool is_open = is_unanswered(all);
+  if (is_right && !is_open) {
+    patience_s_ = patience_after(all, view.slope, step);
+    note_agreement(step);
     is_contradicted_ = false;
-  } else {
+  } else if (!is_right) {
     fitted_ns_ = step.stamp_ns;
   }
-  if (!is_right && is_beyond_patience(all, step)) {
+  has_agreed_ = is_right && !is_open;
+  if (!has_agreed_ && is_beyond_patience(all, step)) {
     // Nobody searches while mapping: beside a Car alone a map of half a way round has places that look alike.
     lose_sight(state_ == State::kMapping ? problems::kOtherViewWhileMapping() : problems::kOtherView());
   }
@@ -165,13 +185,29 @@ bool ScanTracker::is_unexplained(const Agreement& all) const {
          all.share_of_returns() < parameters_.min_agreement;
 }
 
+bool ScanTracker::is_unanswered(const Agreement& all) const {
+  return state_ == State::kLocalized && !has_agreed_ && all.expected() < kMinEvidence;
+}
+
+double ScanTracker::patience_after(const Agreement& all, const Eigen::Vector2d& slope, const FilterStep& step) const {
+  if (state_ == State::kMapping || is_expected_view(all)) {
+    return parameters_.lost_hidden_after_s;
+  }
+  if (slope.norm() > kLevelSlope) {
+    return patience_s_;
+  }
+  const double since_s = static_cast<double>(step.stamp_ns - agreed_ns_) * 1e-9;
+  return std::max(patience_s_ - since_s, contradicts(all) ? 0.0 : parameters_.lost_after_s);
+}
+
 bool ScanTracker::is_beyond_patience(const Agreement& all, const FilterStep& step) const {
   const double bridged_m = relative(agreed_odom_, step.odom).head<2>().norm();
   if (state_ == State::kMapping && bridged_m > kStoodM) {
     return bridged_m > kMaxBridgedM;
   }
-  const bool is_hidden = is_unexplained(all) || all.hidden > all.beyond + all.missing + all.passed;
-  const double patience_s = is_hidden ? parameters_.lost_hidden_after_s : parameters_.lost_after_s;
+  const bool is_hidden =
+      is_unexplained(all) || is_unanswered(all) || all.hidden > all.beyond + all.missing + all.passed;
+  const double patience_s = is_hidden ? patience_s_ : std::min(patience_s_, parameters_.lost_after_s);
   return static_cast<double>(step.stamp_ns - agreed_ns_) * 1e-9 >= patience_s;
 }
 
@@ -234,8 +270,7 @@ bool ScanTracker::is_uncovered(const View& view, const FilterHistory& history, c
   const PoseVector way = relative(agreed_odom_, step.odom);
   const bool is_near = way.head<2>().norm() <= kUncoveredWithinM && std::abs(way.z()) <= kUncoveredWithinRad;
   const bool is_known = position_sigma_m(history.newest().filter) <= parameters_.lost_sigma_m;
-  const bool is_seen = all.expected() >= kMinEvidence && all.share_of_both() >= kUncoveredShare;
-  if (!is_reckoned_ || is_contradicted_ || !is_near || !is_known || !is_seen) {
+  if (!is_reckoned_ || is_contradicted_ || !is_near || !is_known || !is_expected_view(all)) {
     uncovered_ns_.reset();
     return false;
   }

@@ -70,8 +70,12 @@ class ScanTracker {
  private:
   void lose_sight(const mtr_core::Problem& reason);
   void find(const FilterStep& step);
+  void note_agreement(const FilterStep& step);
   bool agrees(const Agreement& all);
   bool is_unexplained(const Agreement& all) const;
+  /// The view disagreed, and now there is nothing to see that could tell.
+  bool is_unanswered(const Agreement& all) const;
+  double patience_after(const Agreement& all, const Eigen::Vector2d& slope, const FilterStep& step) const;
   bool is_beyond_patience(const Agreement& all, const FilterStep& step) const;
   bool is_uncovered(const View& view, const FilterHistory& history, const FilterStep& step);
 
@@ -87,9 +91,13 @@ class ScanTracker {
   bool is_reckoned_ = false;
   /// Since the view agreed last, surfaces were not where the map has them; not only hidden by something nearer.
   bool is_contradicted_ = false;
+  /// The last view agreed, or nothing spoke against it.
+  bool has_agreed_ = false;
   /// When and where the view agreed last.
   std::int64_t agreed_ns_ = 0;
   PoseVector agreed_odom_ = PoseVector::Zero();
+  /// For how long the view may disagree from then on while something nearer hides it.
+  double patience_s_ = 0.0;
   /// When returns lay exactly on the map, or there were too few to tell.
   std::int64_t fitted_ns_ = 0;
   /// While lost: since when the view is the expected one again.

@@ -102,6 +102,33 @@ TEST_F(RelocalizationTest, TwoPlacesThatLookAlikeAreNotGuessedBetween) {
   EXPECT_FALSE(found_from(views, {2.0, 0.0, M_PI}));
 }
 
+TEST_F(RelocalizationTest, PlaceWhereReturnsLieBesideTheSurfacesIsNone) {
+  // Another room that is larger by a twentieth: at 4 m what lies 0.2 m beside a surface still agrees with it.
+  add_surfaces(room());
+  synthetic::World larger = room();
+  for (synthetic::Segment& side : larger) {
+    side = {1.05 * side.from, 1.05 * side.to};
+  }
+  std::vector<View> views;
+  for (const double turn : {0.0, 1.0, 2.0, 3.0}) {
+    views.push_back(view_from(larger, {0.5, 0.3, turn}));
+  }
+  EXPECT_FALSE(found_from(views, {-1.0, -1.0, 0.0}));
+}
+
+TEST_F(RelocalizationTest, FoundPlaceIsAsSureAsTheViewMakesIt) {
+  add_surfaces(room());
+  std::vector<View> views;
+  for (const double turn : {0.0, 1.0, 2.0}) {
+    views.push_back(view_from(room(), {0.5, 0.3, turn}));
+  }
+  const auto found = found_from(views, {-1.0, -1.0, 0.0});
+  ASSERT_TRUE(found);
+  // Two walls at right angles, a hundred beams each of 1 cm.
+  EXPECT_LT(found->covariance.diagonal().head(2).sum(), 0.01 * 0.01);
+  EXPECT_LT(found->covariance(2, 2), 0.005 * 0.005);
+}
+
 TEST_F(RelocalizationTest, PlaceAtTheRimOfTheSearchMayHaveABetterOneBeyond) {
   add_surfaces(room());
   const double rim_m = TrackingParameters{}.search_radius_m - 0.2;
