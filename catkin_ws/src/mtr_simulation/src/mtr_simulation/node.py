@@ -1,12 +1,13 @@
 """The simulator as a ROS node: publishes sensors and /clock, listens to the base's and the firmware's topics."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
+import math
 import threading
 from typing import Any, Callable, Deque, Iterable, List, Set, Tuple
 
 import rosgraph
 import rospy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Pose2D, Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from rospy.exceptions import TransportException
@@ -16,6 +17,7 @@ from std_msgs.msg import Bool, Header
 from mtr_core import names
 from mtr_core.lockstep import direct_publisher, run_node
 from mtr_core.schedule import CLOCK_STEP, LIDAR, SIMULATION_START_NS, slot
+from mtr_core.se2 import Pose2
 from mtr_description.robot_description import described_robot
 
 from . import conversions
@@ -89,6 +91,7 @@ class SimulatorNode:
         sim = self._world.sim
         self._listen(names.WHEEL_COMMAND, Twist, lambda twist: sim.command(twist.linear.x, twist.angular.z))
         self._listen(names.SIM_HANDLE_REQUEST, Bool, lambda request: self._world.request_handle(locks=request.data))
+        self._listen(names.SIM_KIDNAP, Pose2D, self._kidnap)
         for topic, message_type, handle in self._firmware.subscriptions:
             self._listen(topic, message_type, handle)
         rospy.Subscriber(names.SIM_HOLD, Header, self._hold, tcp_nodelay=True)
@@ -99,6 +102,14 @@ class SimulatorNode:
             self._received.append(lambda: handle(message))
             self._barrier.message(message._connection_header["callerid"])
         rospy.Subscriber(topic, message_type, take, tcp_nodelay=True)
+
+    def _kidnap(self, there: Pose2D) -> None:
+        if not all(map(math.isfinite, (there.x, there.y, there.theta))):
+            rospy.logwarn("The robot was not carried away: %s is no pose in the Car's frame.", there)
+            return
+        self._world.kidnap(Pose2(there.x, there.y, there.theta))
+        rospy.loginfo("The robot was carried to x %.2f m, y %.2f m, heading %.0f deg in the Car's frame.", there.x,
+                      there.y, math.degrees(there.theta))
 
     def _hold(self, message: Header) -> None:
         self._barrier.hold(message.frame_id, message.stamp.to_nsec(), message.seq)

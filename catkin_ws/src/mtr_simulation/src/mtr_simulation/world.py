@@ -3,6 +3,7 @@
 from typing import Any, Optional, Set
 
 from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS
+from mtr_core.se2 import Pose2
 
 from .car.choice import Car, chosen_car
 from .car.ecu import Command
@@ -30,6 +31,7 @@ class World:
     def __init__(self, parameters: SimulatorParameters, firmware: Optional[Any] = None,
                  robot: Optional[RobotModel] = None):
         scenario = named_scenario(parameters.scenario)
+        self._world_from_car = scenario.world_from_car
         self.sim = Sim(parameters.seed, scenario, SimParameters(rear_lidar=parameters.rear_lidar), robot)
         # The firmware's clock is the simulated one; that of a real board starts anywhere.
         self.firmware = firmware or SimulatedFirmware(clock_start_us=SIMULATION_START_NS // 1000)
@@ -60,6 +62,10 @@ class World:
         """A hand takes the Car's handle, to lock or to open it."""
         if self._car:
             self._car.request_handle(Command.LOCK if locks else Command.UNLOCK)
+
+    def kidnap(self, car_from_base: Pose2) -> None:
+        """Somebody lifts the robot and puts it down elsewhere, in the Car's frame."""
+        self.sim.kidnap(self._world_from_car @ car_from_base)
 
     def close(self) -> None:
         """Take the CAN adapter away, end the firmware, and close the truth's file."""
