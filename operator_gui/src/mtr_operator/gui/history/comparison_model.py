@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Sequence
 
-from PyQt5.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt
+from PyQt5.QtCore import QModelIndex, QObject, Qt
 
 from mtr_operator.history.comparison import Change, Comparison, Difference
 
@@ -13,31 +13,21 @@ from ..figure_text import cell_text
 from ..i18n import number, translate
 from ..names import domain_word
 from ..sentences import translated
+from .table_model import TableModel
 
 # Columns of words; after them come figures.
 _WORDS = 3
 
 
-class ComparisonModel(QAbstractTableModel):
+class ComparisonModel(TableModel):
     """Line, distance, what may be said of it; second test less first, its 95 % interval, and what both tests say."""
 
     def __init__(self, comparison: Comparison, parent: QObject | None = None):
         super().__init__(parent)
         self._comparison = comparison
 
-    def rowCount(self, parent: QModelIndex = QModelIndex()) -> int:  # noqa: B008
-        """See QAbstractItemModel."""
-        return 0 if parent.isValid() else len(self._comparison.differences)
-
-    def columnCount(self, parent: QModelIndex = QModelIndex()) -> int:  # noqa: B008
-        """See QAbstractItemModel."""
-        return 0 if parent.isValid() else len(self._headings())
-
-    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        """See QAbstractItemModel."""
-        if role != Qt.ItemDataRole.DisplayRole or orientation != Qt.Orientation.Horizontal:
-            return None
-        return self._headings()[section]
+    def _rows(self) -> Sequence[Difference]:
+        return self._comparison.differences
 
     def data(self, index: QModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """See QAbstractItemModel."""

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from typing import Any, Sequence
 
-from PyQt5.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt
+from PyQt5.QtCore import QModelIndex, QObject, Qt
 
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.history.entry import TestEntry
 
 from ..names import domain_word, scenario_title
+from .table_model import TableModel
 
 _LINES = 2
 
 
-class HistoryModel(QAbstractTableModel):
+class HistoryModel(TableModel):
     """When, which scenario, how many lines, verdict, car, key, operator, place. Attributes: entries: a row each."""
 
     def __init__(self, parent: QObject | None = None):
@@ -27,19 +28,8 @@ class HistoryModel(QAbstractTableModel):
         self.entries = tuple(entries)
         self.endResetModel()
 
-    def rowCount(self, parent: QModelIndex = QModelIndex()) -> int:  # noqa: B008
-        """See QAbstractItemModel."""
-        return 0 if parent.isValid() else len(self.entries)
-
-    def columnCount(self, parent: QModelIndex = QModelIndex()) -> int:  # noqa: B008
-        """See QAbstractItemModel."""
-        return 0 if parent.isValid() else len(self._headings())
-
-    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        """See QAbstractItemModel."""
-        if role != Qt.ItemDataRole.DisplayRole or orientation != Qt.Orientation.Horizontal:
-            return None
-        return self._headings()[section]
+    def _rows(self) -> Sequence[TestEntry]:
+        return self.entries
 
     def data(self, index: QModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """See QAbstractItemModel."""
