@@ -133,10 +133,10 @@ void count(const ExpectedView& view, const SurfelMap& map, const Beam& beam, dou
     ++agreement.seen;
   } else if (beam.is_off_plane_at(std::min(beam.shown, expected))) {
     // It looks over or under what is expected, or at the ground before it.
-    return;
+    ++agreement.excused;
   } else if (beam.shown > expected && view.is_at_new_height(beam.bin, beam.climb)) {
     // The same, by less: bumpers and sills end a few centimetres beside the LiDAR's plane.
-    return;
+    ++agreement.excused;
   } else if (beam.shown < expected) {
     ++agreement.hidden;
   } else if (around.has_gap) {
@@ -155,6 +155,7 @@ Agreement& Agreement::operator+=(const Agreement& other) {
   missing += other.missing;
   passed += other.passed;
   unknown += other.unknown;
+  excused += other.excused;
   return *this;
 }
 

@@ -24,6 +24,8 @@ struct Agreement {
   int passed = 0;
   /// Something where the map has nothing.
   int unknown = 0;
+  /// Not the expected surface, but as the robot leans the LiDAR looks over or under it: it says nothing.
+  int excused = 0;
 
   Agreement& operator+=(const Agreement& other);
   /// Beams that meet what the map shows, or should.

@@ -186,7 +186,8 @@ bool ScanTracker::is_unexplained(const Agreement& all) const {
 }
 
 bool ScanTracker::is_unanswered(const Agreement& all) const {
-  return state_ == State::kLocalized && !has_agreed_ && all.expected() < kMinEvidence;
+  const bool has_nothing_to_see = all.expected() + all.excused < kMinEvidence;
+  return state_ == State::kLocalized && all.expected() < kMinEvidence && !(has_agreed_ && has_nothing_to_see);
 }
 
 double ScanTracker::patience_after(const Agreement& all, const Eigen::Vector2d& slope, const FilterStep& step) const {

@@ -73,7 +73,7 @@ class ScanTracker {
   void note_agreement(const FilterStep& step);
   bool agrees(const Agreement& all);
   bool is_unexplained(const Agreement& all) const;
-  /// The view disagreed, and now there is nothing to see that could tell.
+  /// Nothing tells whether the pose is right, although the view disagreed before, or surfaces should be in view.
   bool is_unanswered(const Agreement& all) const;
   double patience_after(const Agreement& all, const Eigen::Vector2d& slope, const FilterStep& step) const;
   bool is_beyond_patience(const Agreement& all, const FilterStep& step) const;
