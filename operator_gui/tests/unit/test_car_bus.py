@@ -159,10 +159,11 @@ def test_observe_waits_no_longer_than_the_limit(adapter, link):
 
 def test_adapter_without_stamps_is_read_by_arrival():
     adapter = Adapter(stamps=False, answer=b"\a")
-    link = CanCarLink("slcan", adapter.path)
+    # Arrivals on the wall clock in lock-step would be those of a robot whose clock races and stalls.
+    link = CanCarLink("slcan", adapter.path, clock=lambda: course.now_s)
+    course = Course(link, adapter.send)
     try:
         link.connect()
-        course = Course(link, adapter.send)
         course.run(4.0)
         assert link.problem == ""
         assert [event.lock_state for event in course.run(1.0, UNLOCKED)] == [LockState.UNLOCKED]
@@ -280,14 +281,14 @@ def test_link_that_is_not_connected_says_so(adapter):
 
 
 def test_any_other_driver_of_python_can_works_too():
-    link = CanCarLink("virtual", "mtr-test")
+    link = CanCarLink("virtual", "mtr-test", clock=lambda: course.now_s)
     with can.Bus(interface="virtual", channel="mtr-test") as car:
         def send(data, _time_s):
             car.send(can.Message(arbitration_id=LOCK_ID, data=data, is_extended_id=False))
 
+        course = Course(link, send)
         link.connect()
         try:
-            course = Course(link, send)
             course.run(4.0)
             assert link.problem == ""
             assert [event.lock_state for event in course.run(1.0, UNLOCKED)] == [LockState.UNLOCKED]

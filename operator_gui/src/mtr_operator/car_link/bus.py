@@ -6,7 +6,7 @@ import math
 import threading
 import time
 from dataclasses import replace
-from typing import Any
+from typing import Any, Callable
 
 import can
 
@@ -33,6 +33,7 @@ class CanCarLink(CarLink, FrameSink):
     """Watches the locks on the CAN bus.
 
     profile: name of a shipped car profile, or path of a YAML file. options: passed to python-can's driver.
+    clock: the laptop's, monotonic, in s.
 
     Attributes:
         profile: the loaded car profile, None before connect().
@@ -40,9 +41,10 @@ class CanCarLink(CarLink, FrameSink):
     """
 
     def __init__(self, interface: str, channel: str, bitrate: int = 500_000, profile: str = "mtr_demo_car",
-                 options: dict[str, Any] | None = None):
+                 options: dict[str, Any] | None = None, clock: Callable[[], float] = time.monotonic):
         self._settings = AdapterSettings(interface, str(channel), bitrate, dict(options or {}))
         self._profile_name = str(profile)
+        self._clock = clock
         self._watch: LockWatch | None = None
         self._reader: CanReader | None = None
         self._changed = threading.Condition()
@@ -61,7 +63,7 @@ class CanCarLink(CarLink, FrameSink):
             return
         self.profile = load_profile(self._profile_name)
         self._watch = LockWatch(self.profile)
-        reader = CanReader(lambda: open_adapter(self._settings), self, self._settings.interface)
+        reader = CanReader(lambda: open_adapter(self._settings), self, self._settings.interface, self._clock)
         reader.start()
         self._reader = reader
         output = self.profile.handle_output
@@ -69,7 +71,7 @@ class CanCarLink(CarLink, FrameSink):
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
         """See CarLink."""
-        arrival_s = time.monotonic()
+        arrival_s = self._clock()
         watch = self._watch
         if self._reader is None or watch is None:
             raise ConnectionFailed(_NOT_CONNECTED)
@@ -83,7 +85,7 @@ class CanCarLink(CarLink, FrameSink):
             elif self._suspect_until_s > status.stamp_s + _ERROR_FRAME_EFFECT_S:
                 # The robot's clock was set back.
                 self._suspect_until_s = -math.inf
-            return watch.release(time.monotonic())
+            return watch.release(self._clock())
 
     @property
     def lock_state(self) -> LockState:
@@ -107,7 +109,7 @@ class CanCarLink(CarLink, FrameSink):
         with self._changed:
             if self.profile is None or self._watch is None:
                 return None
-            now = self._traffic.traffic(time.monotonic(), self.profile.cycle_time_s)
+            now = self._traffic.traffic(self._clock(), self.profile.cycle_time_s)
             return replace(now, clock_problem=self._watch.clock_problem)
 
     @property

@@ -44,12 +44,17 @@ class FrameSink(ABC):
 
 
 class CanReader:
-    """Owns the bus between start() and stop(). interface: python-can's word, which tells how frames are stamped."""
+    """Owns the bus between start() and stop().
 
-    def __init__(self, open_bus: Callable[[], can.BusABC], sink: FrameSink, interface: str = ""):
+    interface: python-can's word, which tells how frames are stamped. clock: the laptop's, monotonic, in s.
+    """
+
+    def __init__(self, open_bus: Callable[[], can.BusABC], sink: FrameSink, interface: str = "",
+                 clock: Callable[[], float] = time.monotonic):
         self._open_bus = open_bus
         self._sink = sink
         self._interface = interface
+        self._clock = clock
         self._bus: can.BusABC | None = None
         self._stopping = threading.Event()
         self._outgoing: queue.SimpleQueue[tuple[can.Message, threading.Event]] = queue.SimpleQueue()
@@ -107,7 +112,7 @@ class CanReader:
     def _read(self, bus: can.BusABC) -> None:
         self._send_all()
         message = bus.recv(_POLL_S)
-        now = time.monotonic()
+        now = self._clock()
         if message is not None and message.is_error_frame:
             self._sink.error_frame()
         elif message is not None and not message.is_remote_frame:

@@ -62,7 +62,6 @@ class HistoryScreen(QWidget):
         self.search = QLineEdit()
         self.search.setPlaceholderText(self.tr("Search: VIN, key, day, operator, note"))
         self.search.setAccessibleName(self.tr("Search"))
-        self.search.setClearButtonEnabled(True)
         self.search.textChanged.connect(self._show)
         self.car = self._box(self.tr("Car"))
         self.key = self._box(self.tr("Key"))
