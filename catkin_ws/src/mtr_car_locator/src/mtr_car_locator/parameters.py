@@ -7,6 +7,9 @@ from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import ParameterSet, number
 from mtr_core.se2 import Pose2
 
+# A body may stand back so far in the LiDARs' plane behind its widest or foremost part, on each side and at each end.
+MAX_INSET_M = 0.06
+
 
 @dataclass(frozen=True)
 class DataSheet(ParameterSet):
@@ -23,7 +26,9 @@ class DataSheet(ParameterSet):
         wheelbase_m: distance of the axles, from the data sheet; used when only the wheels are seen.
         side_inset_m: how far the surfaces in the LiDAR's plane lie inside of the Car's widest part, on each side; used
             when the width is not known.
-        side_inset_sigma_m: 1 sigma of that.
+        side_inset_sigma_m: 1 sigma of what side_inset_m leaves out, of sides and of ends, as long as their size is
+            not known. By default that of an inset of which nothing is known but that it is 0 to MAX_INSET_M: the root
+            of the mean square, for the mean is not corrected (docs/accuracy.md, Limits).
     """
 
     expected_length_m: float = number(4.5, 2.0, 10.0, "m")
@@ -34,7 +39,7 @@ class DataSheet(ParameterSet):
     front_overhang_m: float = number(0.0, 0.0, 2.0, "m")
     wheelbase_m: float = number(0.0, 0.0, 4.0, "m")
     side_inset_m: float = number(0.0, 0.0, 0.2, "m")
-    side_inset_sigma_m: float = number(0.01, 0.0, 0.1, "m")
+    side_inset_sigma_m: float = number(round(MAX_INSET_M / math.sqrt(3.0), 3), 0.0, 0.1, "m")
 
     @property
     def length_m(self) -> float:

@@ -46,6 +46,15 @@ def test_ordinary_inset_is_not_warned_of(more_m):
     assert not fit_with(known_length_m=LENGTH_M + more_m, known_width_m=WIDTH_M + more_m).warning
 
 
+@pytest.mark.parametrize("sheet, unsure", [({}, ("length", "width")), ({"known_width_m": WIDTH_M}, ("length",)),
+                                           ({"known_length_m": LENGTH_M}, ("width",))])
+def test_what_no_data_sheet_says_is_unsure_by_what_may_be_wider_above_the_plane(sheet, unsure):
+    fit = fit_with(**sheet)
+    # A side that stands back by anything from 0 to 60 mm, the other alike: twice its root of the mean square.
+    assert {name: getattr(fit, f"{name}_sigma") for name in unsure} == pytest.approx(
+        dict.fromkeys(unsure, 2.0 * 0.06 / np.sqrt(3.0)), rel=0.02)
+
+
 def test_end_that_was_not_seen_is_not_compared():
     fit = fit_with(sides=("front", "left", "right"), known_length_m=LENGTH_M + 0.3)
     assert fit.in_plane.length is None and not fit.warning

@@ -52,7 +52,8 @@ def test_car_is_located_within_1_cm_and_its_size_within_2_cm(name):
     assert abs(math.degrees(heading)) < 0.2
     assert abs(length) < 0.02
     assert abs(width) < 0.02
-    assert max(estimate.length_sigma, estimate.width_sigma) < 0.02
+    plane = estimate.fit.in_plane
+    assert max(plane.length_sigma, plane.width_sigma) < 0.01
     assert (estimate.map_car_id, estimate.revision) == (7, 1)
 
 

@@ -3,12 +3,10 @@
 from dataclasses import replace
 from typing import Optional
 
-from ..parameters import DataSheet
+from ..parameters import MAX_INSET_M, DataSheet
 from .car_fit import CarFit, PlaneSize
 from .wheels import DATA_SHEET_SIGMA_M
 
-# A body may be so much narrower, or shorter, in the LiDARs' plane than over its widest parts, both sides together.
-MAX_INSET_M = 0.12
 # What is measured beyond this is no chance.
 SIGMAS = 3.0
 
@@ -37,7 +35,7 @@ def _disagreement(name: str, measured_m: Optional[float], sigma_m: float, known_
     if not measured_m or not known_m:
         return ""
     over_m, allowed_m = measured_m - known_m, SIGMAS * (sigma_m + DATA_SHEET_SIGMA_M)
-    if -MAX_INSET_M - allowed_m <= over_m <= allowed_m:
+    if -2.0 * MAX_INSET_M - allowed_m <= over_m <= allowed_m:
         return ""
     return (f"The Car is {measured_m:.3f} m {name} at the LiDARs' height, {100.0 * abs(over_m):.1f} cm "
             f"{'more' if over_m > 0.0 else 'less'} than its data sheet says; check which car stands there.")

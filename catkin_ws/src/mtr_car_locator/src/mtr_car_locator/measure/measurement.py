@@ -159,7 +159,8 @@ def _pair_sigmas(pair: Tuple[str, str], extents: Dict[str, SideExtent], known_m:
                  sheet: DataSheet) -> Tuple[float, float]:
     """1 sigma of the middle between two opposite sides and of their distance."""
     found = [extents[name].sigma for name in pair if name in extents]
-    inset = math.sqrt(2.0) * sheet.side_inset_sigma_m
+    # A body is symmetric: both sides stand back alike, and both ends in the same direction.
+    inset = 2.0 * sheet.side_inset_sigma_m
     if len(found) == 2:
         own = math.hypot(*found)
         return 0.5 * own, math.hypot(own, inset)
