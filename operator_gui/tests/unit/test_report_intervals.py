@@ -1,5 +1,6 @@
 """How intervals are shown: in the table, and in the picture of a search for Key press."""
 # SPDX-License-Identifier: Apache-2.0
+import csv
 from dataclasses import replace
 
 import pytest
@@ -16,6 +17,7 @@ from mtr_operator.domain.scenarios.zone_map.parameters import ZoneMapParameters
 from mtr_operator.domain.scenarios.zone_map.result import ZoneMapResult
 from mtr_operator.domain.verdict.assessment import Assessor
 from mtr_operator.report.protocol_png import protocol_png
+from mtr_operator.report.results_csv import results_csv
 from mtr_operator.report.table import results_table
 from mtr_operator.storage.given_files import load_calibration
 
@@ -92,6 +94,20 @@ def test_lean_of_mast_and_floor_counts_by_the_height_of_the_zone():
     for name in ("mast_lean_deg", "floor_slope_deg"):
         assert high[name] == pytest.approx(1.5 * low[name])
     assert high["key_lever_m"] == low["key_lever_m"]
+
+
+@pytest.mark.parametrize(("outline", "shortest_m"), [
+    # The recorded distance counts from the centre, the outline's front lies 2.2 m before it.
+    (((2.2, -0.9), (2.2, 0.9), (-2.2, 0.9), (-2.2, -0.9)), MEASURED.distances[0].distance_m - 2.2), ((), None)])
+def test_distance_from_the_outline_that_was_seen_is_offered_too(outline, shortest_m):
+    car = replace(CAR, outline=outline)
+    progress = Progress("key_press", PARAMETERS.to_mapping(), {}, car, [MEASURED])
+    assessment = Assessor(KEY_PRESS, PARAMETERS, car, load_calibration()).assess(progress)
+    assert assessment.to_outline_m.get((1, "press")) == (shortest_m if shortest_m is None
+                                                         else pytest.approx(shortest_m, abs=1e-3))
+    row = list(csv.DictReader(line for line in results_csv(KEY_PRESS, progress, assessment).splitlines()
+                              if not line.startswith("#")))[0]
+    assert row["press_to_outline_m"] == ("" if shortest_m is None else f"{shortest_m:.4f}")
 
 
 def test_budget_of_an_open_interval_is_not_that_of_none():

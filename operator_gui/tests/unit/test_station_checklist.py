@@ -7,7 +7,7 @@ import pytest
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.ports import BusTraffic, LockState
-from mtr_operator.domain.robot_status import EmergencyStop, Mode, Notification, Problem, RobotStatus
+from mtr_operator.domain.robot_status import CarDimensions, EmergencyStop, Mode, Notification, Problem, RobotStatus
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.alert import Alert, Heard, alert_of
 from mtr_operator.station.checks.checklist import Facts, Wanted, checklist, hindrances
@@ -35,7 +35,7 @@ def test_each_thing_is_looked_at_in_its_order():
     shown = checklist(Facts(snapshot(), 0.1, free_bytes=10 ** 11))
     assert [item.check for item in shown] == list(Check)
     assert {item.check for item in shown if item.state is not State.GOOD} == {
-        Check.ENCRYPTION, Check.KEY, Check.LIMITS}
+        Check.ENCRYPTION, Check.SIZE, Check.KEY, Check.LIMITS}
     assert not hindrances(shown)
 
 
@@ -53,6 +53,9 @@ def test_each_thing_is_looked_at_in_its_order():
     (snapshot(emergency_stop=EmergencyStop.UNKNOWN), Check.EMERGENCY_STOP, State.UNKNOWN, Finding.STOP_UNKNOWN),
     (snapshot(pose_valid=False), Check.POSITION, State.BAD, Finding.POSITION_LOST),
     (snapshot(pose_valid=False, mode=Mode.READY_TO_MAP_CAR), Check.POSITION, State.GOOD, Finding.POSITION_TO_COME),
+    (snapshot(), Check.SIZE, State.UNKNOWN, Finding.SIZE_TO_COME),
+    (snapshot(car=CarDimensions(4.5, 1.8, 0.005, 0.005)), Check.SIZE, State.GOOD, Finding.SIZE_KNOWN),
+    (snapshot(car=CarDimensions(4.5, 1.8, 0.005, 0.07)), Check.SIZE, State.NOTE, Finding.SIZE_OF_PLANE),
     (snapshot(notifications=(Notification("fault", 3, "Stands.", (LIDAR,)),)), Check.LIDARS, State.GOOD,
      Finding.LIDARS_FINE),
     (snapshot(notifications=(Notification("mode", 2, "Stands.", (LIDAR,)),)), Check.LIDARS, State.NOTE,

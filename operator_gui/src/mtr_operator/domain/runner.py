@@ -6,6 +6,7 @@ import contextlib
 from typing import Any, Callable, Sequence
 
 from .actions.car import Car
+from .actions.car_size import size_cautions
 from .actions.control_loop import ControlLoop
 from .actions.preparation import check_car, prepare
 from .actions.robot import Robot
@@ -120,6 +121,8 @@ class Runner:
         lines: Sequence[Line] = self._scenario.lines(self._parameters, self._progress.measured_car)
         if self._progress.limits is not None:
             check_lines(self._progress.limits, lines, self._scenario.line_word)
+        for sentence in size_cautions([line.ray for line in lines], self._progress.measured_car):
+            self._robot.say(f"warning: {sentence}")
         return lines
 
     def _frame(self) -> Any:

@@ -18,7 +18,8 @@ class AssessedColumns:
         self._assessment = assessment
         self.columns = (*(column for word in self._words for column in _of_distance(word)),
                         Column("verdict", "", "pass, inconclusive or fail by the limits; not_set without"),
-                        Column("verdict_reason", "", "why the line did not pass"))
+                        Column("verdict_reason", "", "why the line did not pass"),
+                        *(_to_outline(word) for word in self._words))
 
     def metadata(self) -> Iterator[str]:
         """Lines above the table."""
@@ -41,7 +42,9 @@ class AssessedColumns:
                        else [budget.own_sigma_m, budget.common_sigma_m, budget.expanded_m])
         judgement = None if assessment is None else assessment.judgement
         verdict = Verdict.NOT_SET if judgement is None else judgement.of_line(result.number)
-        return [*values, verdict.word, "" if judgement is None else judgement.reason_of(result.number)]
+        outlines = {} if assessment is None else assessment.to_outline_m
+        return [*values, verdict.word, "" if judgement is None else judgement.reason_of(result.number),
+                *(outlines.get((result.number, word)) for word in self._words)]
 
 
 def _of_distance(word: str) -> tuple[Column, ...]:
@@ -49,3 +52,8 @@ def _of_distance(word: str) -> tuple[Column, ...]:
             Column(f"{word}_common_sigma_m", "m", "1 sigma of the errors that the other lines have too"),
             Column(f"{word}_expanded_m", "m", "expanded uncertainty, 95 % coverage, of all that budget.json lists; "
                    "it holds what other attempts would do only where the method gives an interval"))
+
+
+def _to_outline(word: str) -> Column:
+    return Column(f"{word}_to_outline_m", "m", "shortest distance of the key from the Car's outline in the plane of "
+                  "the LiDARs, which is grown to the data sheet's size where the robot was given one")

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Sequence
 
+from mtr_operator.domain.actions.car_size import size_cautions
 from mtr_operator.domain.geometry.pose import wrap_angle
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.ports import LockFacts
@@ -72,7 +73,7 @@ def plan_of(scenario: AnyScenario, parameters: ScenarioParameters, car: CarDimen
         tuple(Stretch(ray.point(near_m), ray.point(far_m), str(line.number)) for line, ray in zip(lines, rays)),
         (0.0 if is_mapped else MAPPING_S) + (SELF_CHECK_S if parameters.self_check else 0.0),
         tuple(own_s + MANOEUVRES_S + way_m / parameters.maximum_speed_mps for way_m in ways),
-        scenario.prospect(parameters, facts, ()), tuple(scenario.cautions(parameters, facts)))
+        scenario.prospect(parameters, facts, ()), (*scenario.cautions(parameters, facts), *size_cautions(rays, car)))
 
 
 def _ways(rays: Sequence[Ray], near_m: float, far_m: float) -> list[float]:

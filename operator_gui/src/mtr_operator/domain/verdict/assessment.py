@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Sequence
+from dataclasses import dataclass, field
+from typing import Mapping, Sequence
 
 from ..estimation.budget.calibration import CalibrationRecord
 from ..estimation.budget.distance_budget import DistanceBudget
 from ..estimation.budget.terms import Carriage, Measurement, terms_of
 from ..estimation.interval import SIGMAS_OF_LEVEL
+from ..geometry.polygon import distance_to_polygon
+from ..geometry.pose import Point
 from ..geometry.ray import Ray
 from ..results.line_result import LineResult, MeasuredDistance
 from ..results.progress import Progress
@@ -23,10 +25,15 @@ _HEIGHTS = ("key_height_m", "height_m")
 
 @dataclass(frozen=True)
 class Assessment:
-    """Attributes: budgets: one per distance that there is. judgement: None without limits."""
+    """Attributes: budgets: one per distance that there is. judgement: None without limits.
+
+    to_outline_m: of lines and words, how far the key was from the nearest point of the Car's outline as the robot's
+    LiDARs saw it; empty where the robot did not say one.
+    """
 
     budgets: tuple[DistanceBudget, ...]
     judgement: TestJudgement | None
+    to_outline_m: Mapping[tuple[int, str], float] = field(default_factory=dict)
 
     def undecided(self) -> list[int]:
         """Numbers of the lines that more measurements may decide."""
@@ -57,7 +64,7 @@ class Assessor:
         if progress.limits is not None:
             judgement = judge(progress.limits, self._lines, progress.results,
                               Circumstances(self._guard_sigma, self._unreached))
-        return Assessment(budgets, judgement)
+        return Assessment(budgets, judgement, self._to_outline(progress))
 
     def interval(self, result: LineResult, distance: MeasuredDistance) -> tuple[float, float] | None:
         """Ends of the 95 % interval of a boundary with all its errors, in m, infinite where one is open; None where the
@@ -73,6 +80,21 @@ class Assessor:
                                   self._outline(result), timing_m, distance.word)
         return DistanceBudget(result.number, distance.word, distance.distance_m or 0.0,
                               terms_of(measurement, self._carriage(result, distance.word), self._record))
+
+    def _to_outline(self, progress: Progress) -> dict[tuple[int, str], float]:
+        if not self._car.outline:
+            return {}
+        return {(result.number, distance.word): distance_to_polygon(self._key(result, distance.word, distance_m),
+                                                                    self._car.outline)
+                for result in progress.results for distance in result.distances
+                if (distance_m := distance.distance_m) is not None}
+
+    def _key(self, result: LineResult, word: str, distance_m: float) -> Point:
+        """Where the key was, in the Car coordinate system: beside its line where that was recorded."""
+        ray = self._rays[result.number]
+        x, y = ray.point(distance_m)
+        left_m = _recorded(result, word, "lateral_offset_m") or 0.0
+        return x - left_m * ray.direction_y, y + left_m * ray.direction_x
 
     def _guard_sigma(self, result: LineResult, word: str) -> float:
         """All but what repeated attempts show."""

@@ -18,8 +18,9 @@ def check_title(check: Check) -> str:
     return {
         Check.LINK: translate("Check", "Link"), Check.ENCRYPTION: translate("Check", "Encryption"),
         Check.ROBOT: translate("Check", "Robot"), Check.EMERGENCY_STOP: translate("Check", "Emergency stop"),
-        Check.POSITION: translate("Check", "Position"), Check.LIDARS: translate("Check", "LiDARs"),
-        Check.BOARD: translate("Check", "Lift and buttons"), Check.BATTERY: translate("Check", "Battery"),
+        Check.POSITION: translate("Check", "Position"), Check.SIZE: translate("Check", "Car's size"),
+        Check.LIDARS: translate("Check", "LiDARs"), Check.BOARD: translate("Check", "Lift and buttons"),
+        Check.BATTERY: translate("Check", "Battery"),
         Check.BUS: translate("Check", "CAN bus"), Check.LOCKS: translate("Check", "Car's locks"),
         Check.CLOCK: translate("Check", "Clocks"), Check.KEY: translate("Check", "Remote key"),
         Check.DISK: translate("Check", "Disk"), Check.LIMITS: translate("Check", "Limits"),
@@ -51,6 +52,10 @@ def check_text(item: Item) -> str:
         if item.numbers else translate("Check", "Known beside the Car."),
         Finding.POSITION_TO_COME: translate("Check", "Not known yet: a test begins with a drive around the Car."),
         Finding.POSITION_LOST: said or translate("Check", "The robot does not know its position."),
+        Finding.SIZE_KNOWN: translate("Check", "The robot has it from the data sheet."),
+        Finding.SIZE_OF_PLANE: translate("Check", "Only as the LiDARs see it at their height: distances from the Car's "
+                                                  "outline may be up to {first} cm too long."),
+        Finding.SIZE_TO_COME: translate("Check", "Not known before the Car is mapped."),
         Finding.LIDARS_FINE: translate("Check", "The robot reports nothing against them."),
         Finding.BOARD_FINE: translate("Check", "The robot reports nothing against them."),
         Finding.BATTERY_FINE: translate("Check", "At {first} %; what a test takes is told when it is chosen."),
@@ -96,6 +101,10 @@ def check_advice(item: Item) -> str:
         Finding.STOP_ABSENT: translate("Check", "Stay where you reach the button on the robot."),
         Finding.POSITION_LOST: translate("Check", "Drive or turn it by hand where it sees the Car; if it stays lost, "
                                                   "map the Car again under Calibrate."),
+        Finding.SIZE_OF_PLANE: translate("Check", "Start the robot with length and width of the data sheet (car_file), "
+                                                  "and map the Car again."),
+        Finding.SIZE_TO_COME: translate("Check", "Have length and width of the Car's data sheet ready: the robot is "
+                                                 "started with them (car_file)."),
         Finding.BATTERY_SHORT: translate("Check", "Charge it, or measure fewer lines; an interrupted test can be gone "
                                                   "on with."),
         Finding.BATTERY_LOW: translate("Check", "Charge it soon."),
@@ -118,7 +127,7 @@ def _shown(item: Item, value: float, index: int = 0) -> str:
     """A number in the unit of its sentence."""
     if math.isnan(value):
         return ""
-    if item.check is Check.POSITION:
+    if item.check in (Check.POSITION, Check.SIZE):
         return number(value * _CM_PER_M, 1)
     if item.check is Check.BUS and (index or item.finding is Finding.BUS_SLOW):
         return number(value * _MS_PER_S, 0)

@@ -183,6 +183,9 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "check where the Car stands"),
     QT_TRANSLATE_NOOP("Sentence", "warning: the robot's software is too old to check where the Car stands; it is "
                                   "taken as it is"),
+    QT_TRANSLATE_NOOP("Sentence", "Without length and width of the Car's data sheet the distances may be up to {} cm "
+                                  "too long: the Car may be wider above the height at which the LiDARs see it. Start "
+                                  "the robot with car_file, and map the Car again."),
     QT_TRANSLATE_NOOP("Sentence", "The robot has not found the Car yet, so there is nothing to check; a test begins"
                                   " with it."),
     QT_TRANSLATE_NOOP("Sentence", "The robot's software is too old to check where the Car stands."),

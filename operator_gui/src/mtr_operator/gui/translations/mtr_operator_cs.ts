@@ -264,7 +264,7 @@
         <translation>Poloha</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="21"/>
+        <location filename="../header/check_texts.py" line="22"/>
         <source>LiDARs</source>
         <translation>Lidary</translation>
     </message>
@@ -274,342 +274,342 @@
         <translation>Zdvih a tlačítka</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="22"/>
+        <location filename="../header/check_texts.py" line="23"/>
         <source>Battery</source>
         <translation>Baterie</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="23"/>
+        <location filename="../header/check_texts.py" line="24"/>
         <source>CAN bus</source>
         <translation>Sběrnice CAN</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="23"/>
+        <location filename="../header/check_texts.py" line="24"/>
         <source>Car&apos;s locks</source>
         <translation>Zámky auta</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="24"/>
+        <location filename="../header/check_texts.py" line="25"/>
         <source>Clocks</source>
         <translation>Hodiny</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="24"/>
+        <location filename="../header/check_texts.py" line="25"/>
         <source>Remote key</source>
         <translation>Klíč</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="25"/>
+        <location filename="../header/check_texts.py" line="26"/>
         <source>Disk</source>
         <translation>Disk</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="25"/>
+        <location filename="../header/check_texts.py" line="26"/>
         <source>Limits</source>
         <translation>Meze</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="34"/>
+        <location filename="../header/check_texts.py" line="35"/>
         <source>Not known while the robot is silent.</source>
         <translation>Dokud robot mlčí, není známo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="35"/>
+        <location filename="../header/check_texts.py" line="36"/>
         <source>The robot&apos;s newest message is {first} s old.</source>
         <translation>Nejnovější zpráva robotu je stará {first} s.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="36"/>
+        <location filename="../header/check_texts.py" line="37"/>
         <source>The robot has not answered for {first} s.</source>
         <translation>Robot už {first} s neodpovídá.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="37"/>
+        <location filename="../header/check_texts.py" line="38"/>
         <source>The link to the robot is encrypted.</source>
         <translation>Spojení s robotem je šifrované.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="38"/>
+        <location filename="../header/check_texts.py" line="39"/>
         <source>The link is not encrypted: whoever is in its network can listen and send.</source>
         <translation>Spojení není šifrované: kdo je v jeho síti, může poslouchat i vysílat.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="40"/>
+        <location filename="../header/check_texts.py" line="41"/>
         <source>It takes orders, and reports nothing against a test.</source>
         <translation>Přijímá pokyny a nehlásí nic, co by bránilo testu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="41"/>
+        <location filename="../header/check_texts.py" line="42"/>
         <source>The robot is still starting.</source>
         <translation>Robot se ještě spouští.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="42"/>
+        <location filename="../header/check_texts.py" line="43"/>
         <source>The robot reports a fault.</source>
         <translation>Robot hlásí poruchu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="43"/>
+        <location filename="../header/check_texts.py" line="44"/>
         <source>Another application controls the robot.</source>
         <translation>Robot ovládá jiná aplikace.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="46"/>
+        <location filename="../header/check_texts.py" line="47"/>
         <source>The one by hand is heard, and released.</source>
         <translation>Ruční ovladač je slyšet a je uvolněný.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="47"/>
+        <location filename="../header/check_texts.py" line="48"/>
         <source>The one by hand is engaged: the robot stands.</source>
         <translation>Na ručním ovladači je stisknuto: robot stojí.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="48"/>
+        <location filename="../header/check_texts.py" line="49"/>
         <source>The robot has none by hand.</source>
         <translation>Robot nemá ruční ovladač.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="49"/>
+        <location filename="../header/check_texts.py" line="50"/>
         <source>The robot does not say whether it has one by hand.</source>
         <translation>Robot neříká, zda má ruční ovladač.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="51"/>
+        <location filename="../header/check_texts.py" line="52"/>
         <source>Known beside the Car.</source>
         <translation>Vůči autu známa.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="52"/>
+        <location filename="../header/check_texts.py" line="53"/>
         <source>Not known yet: a test begins with a drive around the Car.</source>
         <translation>Zatím neznámá: test začíná objetím auta.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="53"/>
+        <location filename="../header/check_texts.py" line="54"/>
         <source>The robot does not know its position.</source>
         <translation>Robot nezná svou polohu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="55"/>
+        <location filename="../header/check_texts.py" line="60"/>
         <source>The robot reports nothing against them.</source>
         <translation>Robot nehlásí nic, co by jim vadilo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="56"/>
+        <location filename="../header/check_texts.py" line="61"/>
         <source>At {first} %; what a test takes is told when it is chosen.</source>
         <translation>Na {first} %; kolik test spotřebuje, se ukáže po jeho zvolení.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="57"/>
+        <location filename="../header/check_texts.py" line="62"/>
         <source>At {first} %; the test takes about {second} %.</source>
         <translation>Na {first} %; test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="58"/>
+        <location filename="../header/check_texts.py" line="63"/>
         <source>At {first} % it may not suffice: the test takes about {second} %.</source>
         <translation>Na {first} % nemusí stačit: test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="59"/>
+        <location filename="../header/check_texts.py" line="64"/>
         <source>Low: {first} %.</source>
         <translation>Slabá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="60"/>
+        <location filename="../header/check_texts.py" line="65"/>
         <source>Nearly empty: {first} %.</source>
         <translation>Téměř vybitá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="61"/>
+        <location filename="../header/check_texts.py" line="66"/>
         <source>The robot does not say its charge.</source>
         <translation>Robot neříká, jak je nabitá.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="62"/>
+        <location filename="../header/check_texts.py" line="67"/>
         <source>Load {first} %, lock message every {second} ms.</source>
         <translation>Vytížení {first} %, zpráva o zámcích každých {second} ms.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="63"/>
+        <location filename="../header/check_texts.py" line="68"/>
         <source>Load {first} %, no lock message yet.</source>
         <translation>Vytížení {first} %, zpráva o zámcích zatím nepřišla.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="64"/>
+        <location filename="../header/check_texts.py" line="69"/>
         <source>There is none: the Car is a substitute inside the application.</source>
         <translation>Žádná není: auto je náhrada uvnitř aplikace.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="65"/>
+        <location filename="../header/check_texts.py" line="70"/>
         <source>Load {first} %: messages may be late, and so the time of events.</source>
         <translation>Vytížení {first} %: zprávy se mohou opožďovat, a s nimi čas událostí.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="66"/>
+        <location filename="../header/check_texts.py" line="71"/>
         <source>The lock message comes every {first} ms; the profile says {second} ms.</source>
         <translation>Zpráva o zámcích chodí každých {first} ms; profil uvádí {second} ms.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="67"/>
+        <location filename="../header/check_texts.py" line="72"/>
         <source>No CAN adapter is chosen.</source>
         <translation>Není zvolen žádný adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="68"/>
+        <location filename="../header/check_texts.py" line="73"/>
         <source>The Car says: {said}.</source>
         <translation>Auto hlásí: {said}.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="69"/>
+        <location filename="../header/check_texts.py" line="74"/>
         <source>The Car does not say whether it is locked.</source>
         <translation>Auto neříká, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="70"/>
+        <location filename="../header/check_texts.py" line="75"/>
         <source>Events of the Car have a time on the robot&apos;s clock.</source>
         <translation>Události auta mají čas na hodinách robotu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="71"/>
+        <location filename="../header/check_texts.py" line="76"/>
         <source>Not known without an adapter.</source>
         <translation>Bez adaptéru není známo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="72"/>
+        <location filename="../header/check_texts.py" line="77"/>
         <source>The Car has reacted {first} s ago: the key is awake.</source>
         <translation>Auto reagovalo před {first} s: klíč je vzhůru.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="73"/>
+        <location filename="../header/check_texts.py" line="78"/>
         <source>Whether it is awake nobody knows before the Car reacts to it.</source>
         <translation>Zda je vzhůru, se pozná, až na něj auto zareaguje.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="74"/>
+        <location filename="../header/check_texts.py" line="79"/>
         <source>{first} GB are free.</source>
         <translation>Volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="75"/>
+        <location filename="../header/check_texts.py" line="80"/>
         <source>Only {first} GB are free.</source>
         <translation>Volných je jen {first} GB.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="76"/>
+        <location filename="../header/check_texts.py" line="81"/>
         <source>Nearly full: {first} GB are free.</source>
         <translation>Téměř plný: volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="77"/>
+        <location filename="../header/check_texts.py" line="82"/>
         <source>The system does not say how much room there is.</source>
         <translation>Systém neříká, kolik je na něm místa.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="78"/>
+        <location filename="../header/check_texts.py" line="83"/>
         <source>Limits loaded: {first}.</source>
         <translation>Načtené meze: {first}.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="79"/>
+        <location filename="../header/check_texts.py" line="84"/>
         <source>None: the lines get no verdict.</source>
         <translation>Žádné: přímky nebudou hodnoceny.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="87"/>
+        <location filename="../header/check_texts.py" line="92"/>
         <source>Check the Wi-Fi and that the robot is on; the link comes back by itself.</source>
         <translation>Zkontrolujte Wi-Fi a že je robot zapnutý; spojení se obnoví samo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="89"/>
+        <location filename="../header/check_texts.py" line="94"/>
         <source>This version has no encryption yet; use a network of the robot&apos;s own.</source>
         <translation>Tato verze šifrování ještě nemá; použijte vlastní síť robotu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="91"/>
+        <location filename="../header/check_texts.py" line="96"/>
         <source>Wait a moment.</source>
         <translation>Chvíli počkejte.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="92"/>
+        <location filename="../header/check_texts.py" line="97"/>
         <source>Make sure that nothing blocks the robot; if the fault stays, switch it off and on.</source>
         <translation>Ujistěte se, že robotu nic nebrání; pokud porucha trvá, vypněte jej a zapněte.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="94"/>
+        <location filename="../header/check_texts.py" line="99"/>
         <source>End the other application; control comes here by itself.</source>
         <translation>Ukončete druhou aplikaci; řízení sem přejde samo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="95"/>
+        <location filename="../header/check_texts.py" line="100"/>
         <source>Release it when the area is clear.</source>
         <translation>Uvolněte je, až bude prostor volný.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="96"/>
+        <location filename="../header/check_texts.py" line="101"/>
         <source>Stay where you reach the button on the robot.</source>
         <translation>Zůstaňte tam, kde dosáhnete na tlačítko na robotu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="97"/>
+        <location filename="../header/check_texts.py" line="102"/>
         <source>Drive or turn it by hand where it sees the Car; if it stays lost, map the Car again under Calibrate.</source>
         <translation>Popojeďte s ním nebo ho otočte ručně tam, kde vidí auto; pokud polohu nenajde, zmapujte auto znovu v Kalibraci.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="99"/>
+        <location filename="../header/check_texts.py" line="108"/>
         <source>Charge it, or measure fewer lines; an interrupted test can be gone on with.</source>
         <translation>Nabijte ji, nebo změřte méně přímek; v přerušeném testu lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="101"/>
+        <location filename="../header/check_texts.py" line="110"/>
         <source>Charge it soon.</source>
         <translation>Brzy ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="102"/>
+        <location filename="../header/check_texts.py" line="111"/>
         <source>Charge it before the test.</source>
         <translation>Před testem ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="103"/>
+        <location filename="../header/check_texts.py" line="112"/>
         <source>Check bit rate and other testers on the bus.</source>
         <translation>Zkontrolujte rychlost a další testery na sběrnici.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="104"/>
+        <location filename="../header/check_texts.py" line="113"/>
         <source>Check whether the profile is that of this Car.</source>
         <translation>Zkontrolujte, zda profil patří tomuto autu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="105"/>
+        <location filename="../header/check_texts.py" line="114"/>
         <source>Choose one under Settings, CAN adapter.</source>
         <translation>Zvolte jej v Nastavení, Adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="106"/>
+        <location filename="../header/check_texts.py" line="115"/>
         <source>If the adapter is the wrong one, choose another under Settings.</source>
         <translation>Pokud je to jiný adaptér, zvolte správný v Nastavení.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="107"/>
+        <location filename="../header/check_texts.py" line="116"/>
         <source>Wake the Car, e.g. open a door; check the car profile.</source>
         <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="108"/>
+        <location filename="../header/check_texts.py" line="117"/>
         <source>Press one of its buttons under Calibrate; a test notices a key that sleeps.</source>
         <translation>Stiskněte v Kalibraci některé jeho tlačítko; test pozná, že klíč spí.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="111"/>
+        <location filename="../header/check_texts.py" line="120"/>
         <source>Make room, or choose another folder under Settings.</source>
         <translation>Uvolněte místo, nebo zvolte v Nastavení jinou složku.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="112"/>
+        <location filename="../header/check_texts.py" line="121"/>
         <source>Choose a limits file below the parameters if there are limits.</source>
         <translation>Jsou-li předepsané meze, zvolte pod parametry jejich soubor.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="113"/>
+        <location filename="../header/check_texts.py" line="122"/>
         <source>Choose another file below the parameters, or none.</source>
         <translation>Zvolte pod parametry jiný soubor, nebo žádný.</translation>
     </message>
@@ -634,9 +634,39 @@
         <translation>brání testu</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="50"/>
+        <location filename="../header/check_texts.py" line="51"/>
         <source>Known beside the Car to {first} cm (1 sigma).</source>
         <translation>Vůči autu známa na {first} cm (1 sigma).</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="21"/>
+        <source>Car&apos;s size</source>
+        <translation>Rozměry auta</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="55"/>
+        <source>The robot has it from the data sheet.</source>
+        <translation>Robot je zná z technického listu.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="56"/>
+        <source>Only as the LiDARs see it at their height: distances from the Car&apos;s outline may be up to {first} cm too long.</source>
+        <translation>Jen tak, jak je vidí LiDARy ve své výšce: vzdálenosti od obrysu auta mohou být až o {first} cm delší.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="58"/>
+        <source>Not known before the Car is mapped.</source>
+        <translation>Neznámé, dokud není auto zmapováno.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="104"/>
+        <source>Start the robot with length and width of the data sheet (car_file), and map the Car again.</source>
+        <translation>Spusťte robot s délkou a šířkou z technického listu (car_file) a zmapujte auto znovu.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="106"/>
+        <source>Have length and width of the Car&apos;s data sheet ready: the robot is started with them (car_file).</source>
+        <translation>Mějte po ruce délku a šířku z technického listu auta: robot se s nimi spouští (car_file).</translation>
     </message>
 </context>
 <context>
@@ -650,22 +680,22 @@
 <context>
     <name>Comparison</name>
     <message>
-        <location filename="../history/comparison_model.py" line="68"/>
+        <location filename="../history/comparison_model.py" line="58"/>
         <source>farther</source>
         <translation>dále</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="68"/>
+        <location filename="../history/comparison_model.py" line="58"/>
         <source>nearer</source>
         <translation>blíže</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="69"/>
+        <location filename="../history/comparison_model.py" line="59"/>
         <source>no difference shown</source>
         <translation>rozdíl neprokázán</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="70"/>
+        <location filename="../history/comparison_model.py" line="60"/>
         <source>not known</source>
         <translation>není známo</translation>
     </message>
@@ -683,22 +713,22 @@
 <context>
     <name>ComparisonModel</name>
     <message>
-        <location filename="../history/comparison_model.py" line="54"/>
+        <location filename="../history/comparison_model.py" line="44"/>
         <source>First [m]</source>
         <translation>První [m]</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="54"/>
+        <location filename="../history/comparison_model.py" line="44"/>
         <source>Second [m]</source>
         <translation>Druhý [m]</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="54"/>
+        <location filename="../history/comparison_model.py" line="44"/>
         <source>Difference [m]</source>
         <translation>Rozdíl [m]</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="54"/>
+        <location filename="../history/comparison_model.py" line="44"/>
         <source>Second test</source>
         <translation>Druhý test</translation>
     </message>
@@ -932,42 +962,42 @@
 <context>
     <name>HistoryModel</name>
     <message>
-        <location filename="../history/history_model.py" line="56"/>
+        <location filename="../history/history_model.py" line="46"/>
         <source>Begun</source>
         <translation>Začátek</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="56"/>
+        <location filename="../history/history_model.py" line="46"/>
         <source>Scenario</source>
         <translation>Scénář</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="56"/>
+        <location filename="../history/history_model.py" line="46"/>
         <source>Lines</source>
         <translation>Přímky</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="56"/>
+        <location filename="../history/history_model.py" line="46"/>
         <source>Verdict</source>
         <translation>Verdikt</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="56"/>
+        <location filename="../history/history_model.py" line="46"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="56"/>
+        <location filename="../history/history_model.py" line="46"/>
         <source>Key</source>
         <translation>Klíč</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="56"/>
+        <location filename="../history/history_model.py" line="46"/>
         <source>Operator</source>
         <translation>Operátor</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="56"/>
+        <location filename="../history/history_model.py" line="46"/>
         <source>Place</source>
         <translation>Místo</translation>
     </message>
@@ -985,77 +1015,77 @@
         <translation>Hledat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="67"/>
+        <location filename="../history/history_screen.py" line="66"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="68"/>
+        <location filename="../history/history_screen.py" line="67"/>
         <source>Key</source>
         <translation>Klíč</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="69"/>
+        <location filename="../history/history_screen.py" line="68"/>
         <source>Verdict</source>
         <translation>Verdikt</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="208"/>
+        <location filename="../history/history_screen.py" line="207"/>
         <source>Open</source>
         <translation>Otevřít</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="75"/>
+        <location filename="../history/history_screen.py" line="74"/>
         <source>Repeat</source>
         <translation>Opakovat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="76"/>
+        <location filename="../history/history_screen.py" line="75"/>
         <source>A new test with the same parameters, car and key</source>
         <translation>Nový test se stejnými parametry, autem a klíčem</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="77"/>
+        <location filename="../history/history_screen.py" line="76"/>
         <source>Compare two</source>
         <translation>Porovnat dva</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="78"/>
+        <location filename="../history/history_screen.py" line="77"/>
         <source>Open a file</source>
         <translation>Otevřít soubor</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="79"/>
+        <location filename="../history/history_screen.py" line="78"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="95"/>
+        <location filename="../history/history_screen.py" line="94"/>
         <source>Tests; choose one to open it, or two to compare them</source>
         <translation>Testy; vyberte jeden k otevření, nebo dva k porovnání</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="118"/>
+        <location filename="../history/history_screen.py" line="117"/>
         <source>Tests so far</source>
         <translation>Dosavadní testy</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="145"/>
+        <location filename="../history/history_screen.py" line="144"/>
         <source>The folders are being read.</source>
         <translation>Složky se čtou.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="183"/>
+        <location filename="../history/history_screen.py" line="182"/>
         <source>{count} tests, {shown} of them shown.</source>
         <translation>Testů: {count}, zobrazeno: {shown}.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="186"/>
+        <location filename="../history/history_screen.py" line="185"/>
         <source>{count} more files cannot be read.</source>
         <translation>Dalších {count} souborů nelze přečíst.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="208"/>
+        <location filename="../history/history_screen.py" line="207"/>
         <source>Continue</source>
         <translation>Pokračovat</translation>
     </message>
@@ -3908,6 +3938,11 @@
         <location filename="../texts/identity.py" line="19"/>
         <source>The photo {} cannot be copied: {}.</source>
         <translation>Fotografii {} nelze zkopírovat: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>Without length and width of the Car&apos;s data sheet the distances may be up to {} cm too long: the Car may be wider above the height at which the LiDARs see it. Start the robot with car_file, and map the Car again.</source>
+        <translation>Bez délky a šířky z technického listu auta mohou být vzdálenosti až o {} cm delší: nad výškou, ve které auto vidí LiDARy, může být širší. Spusťte robot s car_file a zmapujte auto znovu.</translation>
     </message>
 </context>
 <context>

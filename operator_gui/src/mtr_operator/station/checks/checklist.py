@@ -71,6 +71,7 @@ def _of_robot(robot: RobotSnapshot, facts: Facts) -> Iterator[Item]:
     yield from robot_checks.condition(status)
     yield robot_checks.emergency_stop(status.emergency_stop)
     yield robot_checks.position(status)
+    yield robot_checks.size(status.car)
     yield from robot_checks.parts(status)
     yield robot_checks.battery(status.battery_percent, facts.wanted.plan)
     yield from car_checks.bus(robot)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import Iterator
 
-from mtr_operator.domain.robot_status import EmergencyStop, Mode, Notification, RobotStatus
+from mtr_operator.domain.actions.car_size import size_excess
+from mtr_operator.domain.robot_status import CarDimensions, EmergencyStop, Mode, Notification, RobotStatus
 
 from ..estimate import Plan
 from ..readiness import EMPTY_BATTERY_PERCENT, ERROR, LOW_BATTERY_PERCENT, MODE_CODES, NOT_BLOCKING, WARNING
@@ -62,6 +63,15 @@ def position(status: RobotStatus) -> Item:
         return Item(Check.POSITION, State.GOOD, Finding.POSITION_TO_COME)
     said = next((each.text for each in status.notifications if each.code == "not_localized"), "")
     return Item(Check.POSITION, State.BAD, Finding.POSITION_LOST, said)
+
+
+def size(car: CarDimensions | None) -> Item:
+    """Whether a data sheet said how large the Car is; distances count from its widest parts."""
+    if car is None:
+        return Item(Check.SIZE, State.UNKNOWN, Finding.SIZE_TO_COME)
+    excess_m = size_excess(car)
+    return (Item(Check.SIZE, State.NOTE, Finding.SIZE_OF_PLANE, numbers=(excess_m,)) if excess_m
+            else Item(Check.SIZE, State.GOOD, Finding.SIZE_KNOWN))
 
 
 def parts(status: RobotStatus) -> Iterator[Item]:
