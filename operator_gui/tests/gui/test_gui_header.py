@@ -106,19 +106,20 @@ def test_padlock_is_that_of_the_car__B15(qtbot, locks, is_stale, text):
     symbol = LocksSymbol(Appearance())
     qtbot.addWidget(symbol)
     symbol.show_locks(locks, is_stale)
-    assert (symbol.toolTip(), symbol.accessibleName()) == (text, text)
+    assert symbol.accessibleName() == text
+    assert symbol.toolTip().startswith(text)
 
 
 def test_header_of_a_silent_robot_shows_the_age_of_what_it_said__B1(operator, opener):
     header = operator.window.header
     opener.spoil_with(battery_percent=63, notifications=(LOW,))
     operator.wait(lambda: header.battery.toolTip().endswith("63 %") and header.warning.isVisible())
-    operator.wait(lambda: header.locks.toolTip() == "The Car is locked.")
+    operator.wait(lambda: header.locks.accessibleName() == "The Car is locked.")
     opener.is_silent = True
     operator.wait(lambda: header.battery.toolTip().endswith(" s ago)"))
     assert header.battery.toolTip().startswith("Battery of the robot: 63 % (")
     assert header.warning.toolTip().startswith("The robot said ")
-    assert header.locks.toolTip() == "Whether the Car is locked is not known."
+    assert header.locks.accessibleName() == "Whether the Car is locked is not known."
     opener.is_silent = False
     operator.wait(lambda: header.battery.toolTip() == "Battery of the robot: 63 %")
     assert header.warning.toolTip() == LOW.text

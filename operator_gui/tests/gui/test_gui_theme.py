@@ -4,6 +4,7 @@ import pytest
 from PyQt5.QtCore import Qt
 from PyQt5.QtWidgets import QAbstractButton, QComboBox, QLineEdit, QTableView
 
+from mtr_operator.gui.bus.bus_window import BusWindow
 from mtr_operator.gui.theme.palette import THEMES, contrast
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
 from mtr_operator.gui.windows.settings_window import SettingsWindow
@@ -45,9 +46,9 @@ def controls(window):
             if not isinstance(widget.parent(), (QComboBox, QTableView))]
 
 
-def assert_reachable(window):
+def assert_reachable(window, least=4):
     found = controls(window)
-    assert len(found) > 3
+    assert len(found) >= least
     for control in found:
         name = control.accessibleName() or (control.text() if isinstance(control, QAbstractButton) else "")
         assert name.strip(), f"{control} of {window} has no name"
@@ -56,11 +57,12 @@ def assert_reachable(window):
 
 def test_every_control_has_a_name_and_is_reached_with_the_keyboard(operator, qtbot):
     flow, appearance = operator.application.flow, operator.application.appearance
-    windows = [operator.window, CalibrationWindow(flow), SettingsWindow(flow, appearance)]
+    windows = [operator.window, CalibrationWindow(flow), SettingsWindow(flow, appearance),
+               BusWindow(flow, appearance)]
     for window in windows[1:]:
         qtbot.addWidget(window)
     for window in windows:
-        assert_reachable(window)
+        assert_reachable(window, 2 if isinstance(window, BusWindow) else 4)
 
 
 def test_connection_window_is_usable_with_the_keyboard_alone(newcomer):

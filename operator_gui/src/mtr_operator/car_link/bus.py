@@ -11,13 +11,23 @@ from typing import Any, Callable
 import can
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import BusTraffic, CarEvent, CarLink, HandlePort, LockFacts, LockState, Refused
+from mtr_operator.domain.ports import (
+    BusMessages,
+    BusTraffic,
+    CarEvent,
+    CarLink,
+    HandlePort,
+    LockFacts,
+    LockState,
+    Refused,
+)
 from mtr_operator.domain.robot_status import RobotStatus
 
 from .adapter import AdapterSettings, open_adapter
 from .can_frame import CanFrame
 from .handle import BusHandle
 from .lock_watch import LockWatch
+from .message_table import MessageTable
 from .profile import CarProfile, load_profile
 from .reader import CanReader, FrameSink
 from .traffic import TrafficMeter
@@ -53,6 +63,7 @@ class CanCarLink(CarLink, FrameSink):
         self._suspect_until_s = -math.inf
         self._stamp_s = -math.inf
         self._traffic = TrafficMeter(bitrate)
+        self._table = MessageTable()
         self._handle: HandlePort | None = None
         self.profile: CarProfile | None = None
         self.frames_received = 0
@@ -63,6 +74,7 @@ class CanCarLink(CarLink, FrameSink):
             return
         self.profile = load_profile(self._profile_name)
         self._watch = LockWatch(self.profile)
+        self._table = MessageTable(self.profile.message_names)
         reader = CanReader(lambda: open_adapter(self._settings), self, self._settings.interface, self._clock)
         reader.start()
         self._reader = reader
@@ -113,6 +125,12 @@ class CanCarLink(CarLink, FrameSink):
             return replace(now, clock_problem=self._watch.clock_problem)
 
     @property
+    def messages(self) -> BusMessages | None:
+        """See CarLink."""
+        with self._changed:
+            return self._table.messages(self._clock())
+
+    @property
     def refused(self) -> Refused:
         """See CarLink."""
         with self._changed:
@@ -144,6 +162,7 @@ class CanCarLink(CarLink, FrameSink):
             if self._watch is not None:
                 self._watch.frame(frame)
                 self._traffic.frame(frame, self._watch.is_lock_message)
+            self._table.frame(frame)
             self.frames_received += 1
             self._changed.notify_all()
 

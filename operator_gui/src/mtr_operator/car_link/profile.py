@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import pathlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Mapping, NamedTuple
 
 import cantools
@@ -62,6 +62,7 @@ class CarProfile:
     min_state_s: shortest time between two changes. relock_after_s: time after which the car locks by itself when it was
     unlocked and not opened, None when it does not.
     handle_output: the message that has an actuator take the handle, None when a person has to.
+    message_names: of all messages of the database, by identifier and whether it is an extended one.
     """
 
     name: str
@@ -79,6 +80,7 @@ class CarProfile:
     min_state_s: float = _MIN_STATE_S
     relock_after_s: float | None = None
     handle_output: HandleOutput | None = None
+    message_names: Mapping[tuple[int, bool], str] = field(default_factory=dict)
 
     @property
     def facts(self) -> LockFacts:
@@ -122,7 +124,8 @@ def load_profile(name_or_path: str) -> CarProfile:
     states = _table(path, content, "states", _STATES)
     if not {LockState.LOCKED, LockState.UNLOCKED} <= set(states.values()):
         raise ConnectionFailed(f"Car profile {path}: states must name a value for locked and one for unlocked.")
-    message = _message(path, content["database"], content["message"])
+    database = _database(path, content["database"])
+    message = _message(path, content, database, content["message"])
     return CarProfile(
         name=path.stem, description=str(content.get("description", "")), message=message,
         signal=_signal(path, content, "signal", message), states=states,
@@ -133,7 +136,8 @@ def load_profile(name_or_path: str) -> CarProfile:
         **{key: _signal(path, content, key, message) for key in _WITNESSES if key in content},
         min_state_s=_duration(path, content, "min_state_s", (0.0, _MAX_CYCLE_S), _MIN_STATE_S),
         relock_after_s=_duration(path, content, "relock_after_s", (1.0, _MAX_RELOCK_S)),
-        handle_output=_handle_output(path, content) if "handle_request" in content else None)
+        handle_output=_handle_output(path, content, database) if "handle_request" in content else None,
+        message_names={(each.frame_id, each.is_extended_frame): each.name for each in database.messages})
 
 
 def profile_names() -> tuple[str, ...]:
@@ -204,7 +208,7 @@ def _duration(path: pathlib.Path, content: dict[str, Any], key: str, limits_s: t
     return float(time_s)
 
 
-def _handle_output(path: pathlib.Path, content: dict[str, Any]) -> HandleOutput:
+def _handle_output(path: pathlib.Path, content: dict[str, Any], database: Any) -> HandleOutput:
     table = content["handle_request"]
     if not isinstance(table, dict) or set(table) != set(_HANDLE_KEYS):
         raise ConnectionFailed(f"Car profile {path}: handle_request must be a table of {', '.join(_HANDLE_KEYS)}.")
@@ -215,28 +219,33 @@ def _handle_output(path: pathlib.Path, content: dict[str, Any]) -> HandleOutput:
     if table["taken"] == table["released"]:
         raise ConnectionFailed(f"Car profile {path}: taken and released of handle_request are both {table['taken']}; "
                                "give two values.")
-    message = _message(path, content["database"], table["message"])
+    message = _message(path, content, database, table["message"])
     signal = _signal(path, {**content, "signal": table["signal"]}, "signal", message)
     return handle_output(message, signal, table["taken"], table["released"])
 
 
-def _message(path: pathlib.Path, database_name: Any, message_name: Any) -> Any:
-    database_path = path.parent / str(database_name)
+def _message(path: pathlib.Path, content: dict[str, Any], database: Any, name: Any) -> Any:
+    try:
+        return database.get_message_by_name(str(name))
+    except KeyError:
+        database_path = path.parent / str(content["database"])
+        raise ConnectionFailed(f"CAN database {database_path} has no message {name}.") from None
+
+
+def _database(path: pathlib.Path, name: Any) -> Any:
+    """One of CAN messages; of another kind an empty one, in which no message is found."""
+    database_path = path.parent / str(name)
     try:
         if database_path.stat().st_size > _MAX_DATABASE_BYTES:
             raise ConnectionFailed(f"CAN database {database_path} is larger than {_MAX_DATABASE_BYTES // 1024} KiB; "
                                    "leave the messages that the profile does not name out of it.")
         database = cantools.database.load_file(str(database_path), strict=False)
-        if not isinstance(database, cantools.database.can.Database):
-            raise KeyError(message_name)
-        return database.get_message_by_name(str(message_name))
-    except KeyError:
-        raise ConnectionFailed(f"CAN database {database_path} has no message {message_name}.") from None
     except (OSError, UnicodeDecodeError, cantools.database.errors.Error) as error:
         raise ConnectionFailed(f"CAN database {database_path} cannot be read: {_one_line(error)}.") from None
     # The library's readers of some five formats raise whatever a damaged file leads them to.
     except (ValueError, TypeError, AttributeError, LookupError, ArithmeticError, RecursionError):
         raise ConnectionFailed(f"CAN database {database_path} cannot be read: it is damaged.") from None
+    return database if isinstance(database, cantools.database.can.Database) else cantools.database.can.Database()
 
 
 def _signal(path: pathlib.Path, content: dict[str, Any], key: str, message: Any) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import random
 
+from mtr_operator.domain.actions.distance import gap_to_outline
 from mtr_operator.domain.ports import OUTPUT, CarEvent, CarLink, HandlePort, LockState
 from mtr_operator.domain.robot_status import CarDimensions, PressReport, RobotStatus
 
@@ -78,7 +79,7 @@ class SimulatedCarLink(CarLink):
         if not self._is_active:
             return []
         car, before = status.car or _NOBODY, self._robot
-        self._robot = (status.stamp_s, _key(status)) if status.pose_valid else None
+        self._robot = (status.stamp_s, status.key_place) if status.pose_valid else None
         events = self._presses(status) + self._requests(status, car)
         if self._is_passive and status.car is not None and before is not None and self._robot is not None:
             events += self._polls(before, self._robot, car)
@@ -107,7 +108,7 @@ class SimulatedCarLink(CarLink):
         if self._robot is None or self._state is LockState.UNLOCKED:
             return []
         place = self._robot[1]
-        if not self._works(_gap(place, car), HANDLE_M * self._part(place), _HANDLE_WIDTH_M):
+        if not self._works(gap_to_outline(place, car), HANDLE_M * self._part(place), _HANDLE_WIDTH_M):
             return []
         # Later than what was observed before, and not in the future.
         self._answered_s = max(self._answered_s, status.stamp_s)
@@ -122,7 +123,7 @@ class SimulatedCarLink(CarLink):
         while self._poll_s <= end_s - _REACTION_S:
             part = (self._poll_s - start_s) / max(end_s - start_s, 1e-9)
             place = (start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1]))
-            gap_m = _gap(place, car) + self._chance.gauss(0.0, _POLL_NOISE_M)
+            gap_m = gap_to_outline(place, car) + self._chance.gauss(0.0, _POLL_NOISE_M)
             is_other = gap_m < UNLOCK_M * self._part(place) if self._state is LockState.LOCKED else \
                 gap_m > LOCK_M * self._part(place)
             self._agreed = self._agreed + 1 if is_other else 0
@@ -164,14 +165,3 @@ class SimulatedCarLink(CarLink):
     def close(self) -> None:
         """See CarLink."""
         self._is_active = False
-
-
-def _key(status: RobotStatus) -> tuple[float, float]:
-    """The Remote key in the Car's frame."""
-    cos, sin = math.cos(status.heading), math.sin(status.heading)
-    return (status.x + cos * status.key_x - sin * status.key_y, status.y + sin * status.key_x + cos * status.key_y)
-
-
-def _gap(place: tuple[float, float], car: CarDimensions) -> float:
-    """From the Car's outline."""
-    return math.hypot(max(abs(place[0]) - car.length / 2.0, 0.0), max(abs(place[1]) - car.width / 2.0, 0.0))

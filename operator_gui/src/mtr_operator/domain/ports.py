@@ -88,6 +88,31 @@ class BusTraffic:
     clock_problem: str = ""
 
 
+@dataclass(frozen=True)
+class BusMessage:
+    """One message of the Car's bus as it came last.
+
+    name: by the car's database, empty where it has none. count: frames since the connection. cycle_s: mean of the
+    newest ones, None before the second. age_s: of the newest one, by the laptop's clock; data: its bytes.
+    """
+
+    can_id: int
+    is_extended: bool
+    name: str
+    count: int
+    cycle_s: float | None
+    age_s: float
+    data: bytes
+
+
+@dataclass(frozen=True)
+class BusMessages:
+    """What has come over the Car's bus, by identifier. others: frames of messages beyond those that are kept."""
+
+    messages: tuple[BusMessage, ...] = ()
+    others: int = 0
+
+
 @dataclass
 class LinkStatistics:
     """Counts since the connection was made. implausible: messages with a number beyond domain.limits, not used."""
@@ -195,6 +220,11 @@ class CarLink(ABC):
     @property
     def traffic(self) -> BusTraffic | None:
         """What comes over the bus; None where there is none to ask."""
+        return None
+
+    @property
+    def messages(self) -> BusMessages | None:
+        """Each message of the bus; None where there is no bus to ask. May be asked from any thread."""
         return None
 
     @property

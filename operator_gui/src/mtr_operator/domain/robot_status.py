@@ -10,6 +10,8 @@ import math
 from dataclasses import dataclass
 from typing import Iterator
 
+from .geometry.pose import Point, Pose
+
 
 class Mode(enum.Enum):
     """High-level state of the robot."""
@@ -225,6 +227,11 @@ class RobotStatus:
     emergency_stop: EmergencyStop = EmergencyStop.UNKNOWN
     motion_source: MotionSource = MotionSource.UNKNOWN
     hold_id: int = 0
+
+    @property
+    def key_place(self) -> Point:
+        """The Remote key in the Car coordinate system, while the pose is valid."""
+        return Pose(self.x, self.y, self.heading).apply((self.key_x, self.key_y))
 
     def problems(self) -> Iterator[tuple[Problem, ...]]:
         """Every sentence of this Status with its causes, as far as the robot gives codes."""

@@ -13,6 +13,7 @@ from PyQt5.QtCore import QObject, pyqtSignal
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.verdict.suitability import check_before_start
+from mtr_operator.station.bus.bus_view import BusView
 from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
 from mtr_operator.station.disk_watch import DiskWatch
 from mtr_operator.station.events import (
@@ -175,6 +176,10 @@ class Flow(QObject):
             self._worker.stop()
             self.model.order_stop()
             self.bridge.changed.emit()
+
+    def bus_view(self) -> BusView:
+        """What comes over the Car's bus now, and what its locks did; nothing before a connection."""
+        return BusView() if self._worker is None else self._worker.bus_view()
 
     def release_hold(self) -> None:
         """Have a robot go on that is held."""

@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..geometry.pose import wrap_angle
+from ..geometry.pose import Point, wrap_angle
 from ..geometry.ray import Ray
 from ..robot_status import CarDimensions
 from .pose_history import PoseSample
@@ -75,5 +75,9 @@ def outline_sigma(ray: Ray, car: CarDimensions) -> float:
 
 def distance_to_outline(ray: Ray, distance_m: float, car: CarDimensions) -> float:
     """Distance of a point on the ray from the Car's rectangle, 0 inside."""
-    x, y = ray.point(distance_m)
-    return math.hypot(max(abs(x) - car.length / 2.0, 0.0), max(abs(y) - car.width / 2.0, 0.0))
+    return gap_to_outline(ray.point(distance_m), car)
+
+
+def gap_to_outline(point: Point, car: CarDimensions) -> float:
+    """Distance of a point of the Car coordinate system from the Car's rectangle, in m; 0 inside."""
+    return math.hypot(max(abs(point[0]) - car.length / 2.0, 0.0), max(abs(point[1]) - car.width / 2.0, 0.0))

@@ -26,10 +26,11 @@ class HeaderBar(QWidget):
     """Attributes: stop: on the left, where no window that hangs over the screen's edge hides it. blocked: why the robot
     does not go on; hidden while it does.
 
-    Signals: settings_wanted.
+    Signals: settings_wanted, bus_wanted.
     """
 
     settings_wanted = pyqtSignal()
+    bus_wanted = pyqtSignal()
 
     def __init__(self, appearance: Appearance, stopping: Stopping, parent: QWidget | None = None):
         super().__init__(parent)
@@ -41,6 +42,7 @@ class HeaderBar(QWidget):
         self.warning = WarningSymbol(appearance, stopping)
         self.status = StatusWord(stopping)
         self.locks = LocksSymbol(appearance)
+        self.locks.clicked.connect(self.bus_wanted)
         self.link = LinkSymbol(appearance)
         self.battery = BatterySymbol(appearance)
         self.settings = CogwheelButton(appearance)

@@ -69,8 +69,8 @@ class BatterySymbol(QWidget):
         painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
 
 
-class LocksSymbol(QWidget):
-    """A padlock that is as the Car's locks are: closed, open, or dashed when nobody knows."""
+class LocksSymbol(QToolButton):
+    """A padlock that is as the Car's locks are: closed, open, or dashed when nobody knows; opens the bus view."""
 
     def __init__(self, appearance: Appearance, parent: QWidget | None = None):
         super().__init__(parent)
@@ -86,14 +86,20 @@ class LocksSymbol(QWidget):
         if shown == self._shown:
             return
         self._shown = shown
-        text = {LockState.LOCKED: self.tr("The Car is locked."), LockState.UNLOCKED: self.tr("The Car is unlocked."),
-                LockState.UNKNOWN: self.tr("Whether the Car is locked is not known.")}[shown[0]]
-        self.setAccessibleName(text)
-        self.setToolTip(text)
+        state = {LockState.LOCKED: self.tr("The Car is locked."), LockState.UNLOCKED: self.tr("The Car is unlocked."),
+                 LockState.UNKNOWN: self.tr("Whether the Car is locked is not known.")}[shown[0]]
+        self.setAccessibleName(state)
+        self.setAccessibleDescription(self.tr("A click opens the live bus view."))
+        self.setToolTip(f"{state} {self.accessibleDescription()}")
         self.update()
 
-    def paintEvent(self, _event: QPaintEvent) -> None:
+    def sizeHint(self) -> QSize:
         """See QWidget."""
+        return QSize(_SIZE, _SIZE)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """See QWidget."""
+        super().paintEvent(event)
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         locks = self._shown[0] if self._shown else LockState.UNKNOWN

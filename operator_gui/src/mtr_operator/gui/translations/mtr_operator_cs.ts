@@ -58,6 +58,69 @@
     </message>
 </context>
 <context>
+    <name>BusWindow</name>
+    <message>
+        <location filename="../bus/bus_window.py" line="47"/>
+        <source>Live bus view</source>
+        <translation>Živý pohled na sběrnici</translation>
+    </message>
+    <message>
+        <location filename="../bus/bus_window.py" line="67"/>
+        <source>Messages of the bus</source>
+        <translation>Zprávy sběrnice</translation>
+    </message>
+    <message>
+        <location filename="../bus/bus_window.py" line="80"/>
+        <source>Close</source>
+        <translation>Zavřít</translation>
+    </message>
+    <message>
+        <location filename="../bus/bus_window.py" line="83"/>
+        <source>The Car&apos;s locks, and below them the key&apos;s distance from the Car&apos;s outline</source>
+        <translation>Zámky auta a pod nimi vzdálenost klíče od obrysu auta</translation>
+    </message>
+    <message>
+        <location filename="../bus/bus_window.py" line="125"/>
+        <source>There is no bus: the Car is a substitute inside the application.</source>
+        <translation>Žádná sběrnice tu není: auto je náhradou uvnitř aplikace.</translation>
+    </message>
+    <message>
+        <location filename="../bus/bus_window.py" line="129"/>
+        <source>Load {load} %, {count} messages.</source>
+        <translation>Zatížení {load} %, zpráv: {count}.</translation>
+    </message>
+    <message>
+        <location filename="../bus/bus_window.py" line="132"/>
+        <source>{count} frames of further messages are not shown.</source>
+        <translation>Rámce dalších zpráv, které se nezobrazují: {count}.</translation>
+    </message>
+    <message>
+        <location filename="../bus/bus_window.py" line="138"/>
+        <source>Nothing is known of the locks yet.</source>
+        <translation>O zámcích zatím není nic známo.</translation>
+    </message>
+    <message>
+        <location filename="../bus/bus_window.py" line="140"/>
+        <source>Now: {locks}.</source>
+        <translation>Nyní: {locks}.</translation>
+    </message>
+    <message>
+        <location filename="../bus/bus_window.py" line="141"/>
+        <source>Now: {locks}, key at {distance} m.</source>
+        <translation>Nyní: {locks}, klíč ve vzdálenosti {distance} m.</translation>
+    </message>
+    <message>
+        <location filename="../bus/bus_window.py" line="146"/>
+        <source>Last change {age} s ago: {locks}.</source>
+        <translation>Poslední změna před {age} s: {locks}.</translation>
+    </message>
+    <message>
+        <location filename="../bus/bus_window.py" line="146"/>
+        <source>Last change {age} s ago: {locks}, key at {distance} m.</source>
+        <translation>Poslední změna před {age} s: {locks}, klíč ve vzdálenosti {distance} m.</translation>
+    </message>
+</context>
+<context>
     <name>CalibrationWindow</name>
     <message>
         <location filename="../windows/calibration_window.py" line="43"/>
@@ -672,7 +735,7 @@
 <context>
     <name>CogwheelButton</name>
     <message>
-        <location filename="../header/symbols.py" line="157"/>
+        <location filename="../header/symbols.py" line="163"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
@@ -939,22 +1002,22 @@
 <context>
     <name>HeaderBar</name>
     <message>
-        <location filename="../header/header_bar.py" line="39"/>
+        <location filename="../header/header_bar.py" line="40"/>
         <source>Welcome</source>
         <translation>Úvod</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="39"/>
+        <location filename="../header/header_bar.py" line="40"/>
         <source>Measurement type</source>
         <translation>Typ měření</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="39"/>
+        <location filename="../header/header_bar.py" line="40"/>
         <source>Measurement</source>
         <translation>Měření</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="39"/>
+        <location filename="../header/header_bar.py" line="40"/>
         <source>Protocol</source>
         <translation>Protokol</translation>
     </message>
@@ -1200,12 +1263,12 @@
 <context>
     <name>LinkSymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="130"/>
+        <location filename="../header/symbols.py" line="136"/>
         <source>The link to the robot is encrypted.</source>
         <translation>Spojení s robotem je šifrované.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="131"/>
+        <location filename="../header/symbols.py" line="137"/>
         <source>The link to the robot is not encrypted.</source>
         <translation>Spojení s robotem není šifrované.</translation>
     </message>
@@ -1245,46 +1308,51 @@
         <source>Whether the Car is locked is not known.</source>
         <translation>Zda je auto zamčené, není známo.</translation>
     </message>
+    <message>
+        <location filename="../header/symbols.py" line="92"/>
+        <source>A click opens the live bus view.</source>
+        <translation>Kliknutím se otevře živý pohled na sběrnici.</translation>
+    </message>
 </context>
 <context>
     <name>MainWindow</name>
     <message>
-        <location filename="../windows/main_window.py" line="42"/>
+        <location filename="../windows/main_window.py" line="43"/>
         <source>Mobile testing robot</source>
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="190"/>
+        <location filename="../windows/main_window.py" line="195"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="193"/>
+        <location filename="../windows/main_window.py" line="198"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="195"/>
+        <location filename="../windows/main_window.py" line="200"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="210"/>
+        <location filename="../windows/main_window.py" line="215"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="214"/>
+        <location filename="../windows/main_window.py" line="219"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="214"/>
+        <location filename="../windows/main_window.py" line="219"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="173"/>
+        <location filename="../windows/main_window.py" line="178"/>
         <source>Open a test</source>
         <translation>Otevřít test</translation>
     </message>
@@ -1411,6 +1479,39 @@
         <location filename="../screens/measurement_type.py" line="43"/>
         <source>Back</source>
         <translation>Zpět</translation>
+    </message>
+</context>
+<context>
+    <name>MessageModel</name>
+    <message>
+        <location filename="../bus/message_model.py" line="58"/>
+        <source>Identifier</source>
+        <translation>Identifikátor</translation>
+    </message>
+    <message>
+        <location filename="../bus/message_model.py" line="58"/>
+        <source>Message</source>
+        <translation>Zpráva</translation>
+    </message>
+    <message>
+        <location filename="../bus/message_model.py" line="58"/>
+        <source>Frames</source>
+        <translation>Rámce</translation>
+    </message>
+    <message>
+        <location filename="../bus/message_model.py" line="58"/>
+        <source>Cycle [ms]</source>
+        <translation>Perioda [ms]</translation>
+    </message>
+    <message>
+        <location filename="../bus/message_model.py" line="58"/>
+        <source>Age [s]</source>
+        <translation>Stáří [s]</translation>
+    </message>
+    <message>
+        <location filename="../bus/message_model.py" line="58"/>
+        <source>Newest data</source>
+        <translation>Nejnovější data</translation>
     </message>
 </context>
 <context>
@@ -4316,6 +4417,14 @@
         <location filename="../header/stop_button.py" line="27"/>
         <source>Stops the robot. While it may move, Space and Esc do so from everywhere.</source>
         <translation>Zastaví robot. Dokud se může pohybovat, zastaví ho odkudkoli i mezerník a Esc.</translation>
+    </message>
+</context>
+<context>
+    <name>TimeLineView</name>
+    <message>
+        <location filename="../bus/time_line_view.py" line="70"/>
+        <source>The Car&apos;s locks and the key&apos;s distance over the last minute</source>
+        <translation>Zámky auta a vzdálenost klíče za poslední minutu</translation>
     </message>
 </context>
 <context>

@@ -14,6 +14,7 @@ from mtr_operator.history.comparison import Comparison
 from mtr_operator.history.line_pairs import Side
 from mtr_operator.station.readiness import RUNNING
 
+from ..bus.bus_window import BusWindow
 from ..dialogs import ask_folder, ask_progress_file, confirm, show_message
 from ..fitting.place import open_within
 from ..flow import Flow, Step
@@ -79,6 +80,9 @@ class MainWindow(QMainWindow):
     def _show_calibration(self) -> None:
         self._open_beside(CalibrationWindow, lambda: CalibrationWindow(self._flow, self))
 
+    def _show_bus(self) -> None:
+        self._open_beside(BusWindow, lambda: BusWindow(self._flow, self._appearance, self))
+
     def _open_beside(self, kind: type[QDialog], make: Callable[[], QDialog]) -> None:
         """Open a window of a kind, or show the one that is open; this one stays alive, and its Stop."""
         dialog = self._opened.get(kind)
@@ -102,6 +106,7 @@ class MainWindow(QMainWindow):
         flow.saved.connect(self._say_saved)
         flow.folder_wanted.connect(self._want_progress_folder)
         self.header.settings_wanted.connect(self.show_settings)
+        self.header.bus_wanted.connect(self._show_bus)
         self.welcome.new_test.connect(lambda: flow.show(Step.TYPE))
         self.welcome.history.connect(self._show_history)
         self.welcome.calibrate.connect(self._show_calibration)

@@ -12,6 +12,9 @@ from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.errors import InvalidParameter, OperatorError
 from mtr_operator.domain.ports import CarLink
 
+from ..bus.bus_view import BusView
+from ..bus.time_line import TimeLine
+from ..bus.watched_car import WatchedCarLink
 from ..connection import CanChoice, Connection, LinkOpener
 from ..events import CarLinkOpened, HandleWanted, LinkRefused, LinksOpened, ProgressSaved, RobotSilent
 from ..handle_prompt import AskedPerson
@@ -44,6 +47,7 @@ class Worker:
         self._person = AskedPerson(lambda prompt: self._mailbox.put(HandleWanted(prompt)))
         self._thread = threading.Thread(target=self._run, name="links", daemon=True)
         self._robot: WatchedRobotLink | None = None
+        self._time_line = TimeLine()
         self._car: CarLink = AbsentCarLink()
         self._idle: IdleLoop | None = None
 
@@ -92,6 +96,11 @@ class Worker:
             self.stop()
         else:
             self._order(lambda idle: idle.request_car(request))
+
+    def bus_view(self) -> BusView:
+        """What comes over the Car's bus now, and what its locks did."""
+        car = self._car
+        return BusView(car.messages, car.traffic, car.problem, *self._time_line.recent())
 
     def use_can(self, choice: CanChoice | None) -> None:
         """Change the CAN adapter; CarLinkOpened or Refused comes into the mailbox."""
@@ -144,7 +153,7 @@ class Worker:
     def _open(self) -> bool:
         part = "car"
         try:
-            self._car = self._opener.car(self._connection.can)
+            self._car = self._watched(self._connection.can)
             part = "robot"
             self._robot = self._new_robot()
             self._robot.connect()
@@ -158,6 +167,9 @@ class Worker:
             return False
         self._idle = IdleLoop(self._robot, self._car, self._released)
         return True
+
+    def _watched(self, choice: CanChoice | None) -> CarLink:
+        return WatchedCarLink(self._opener.car(choice), self._time_line)
 
     def _new_robot(self) -> WatchedRobotLink:
         return WatchedRobotLink(self._opener.robot(self._connection.robot), self._stop)
@@ -178,7 +190,7 @@ class Worker:
         self._car.close()
         self._car = self._opener.car(None)
         try:
-            car = self._opener.car(choice)
+            car = self._watched(choice)
             car.connect()
         except OperatorError as error:
             self._mailbox.put(LinkRefused("car", str(error)))

@@ -1,0 +1,23 @@
+"""Everything that the live view of the Car's bus shows, at one instant."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mtr_operator.domain.ports import BusMessages, BusTraffic
+
+from .time_line import LockEvent, Moment
+
+
+@dataclass(frozen=True)
+class BusView:
+    """messages, traffic: None where there is no bus to ask. problem: of the bus, one sentence or empty.
+
+    moments, events: the locks beside the key's distance, see TimeLine.
+    """
+
+    messages: BusMessages | None = None
+    traffic: BusTraffic | None = None
+    problem: str = ""
+    moments: tuple[Moment, ...] = ()
+    events: tuple[LockEvent, ...] = ()

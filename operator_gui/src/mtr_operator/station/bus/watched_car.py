@@ -1,0 +1,74 @@
+"""A Car link whose locks are kept in a time line as they are observed."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from mtr_operator.domain.ports import (
+    BusMessages,
+    BusTraffic,
+    CarEvent,
+    CarLink,
+    HandlePort,
+    LockFacts,
+    LockState,
+    Refused,
+)
+from mtr_operator.domain.robot_status import RobotStatus
+
+from .time_line import TimeLine
+
+
+class WatchedCarLink(CarLink):
+    """Hands everything on."""
+
+    def __init__(self, link: CarLink, time_line: TimeLine):
+        self._link = link
+        self._time_line = time_line
+
+    def connect(self) -> None:
+        """See CarLink."""
+        self._link.connect()
+
+    def observe(self, status: RobotStatus) -> list[CarEvent]:
+        """See CarLink."""
+        events = self._link.observe(status)
+        self._time_line.learn(status, events, self._link.lock_state)
+        return events
+
+    @property
+    def lock_state(self) -> LockState:
+        """See CarLink."""
+        return self._link.lock_state
+
+    @property
+    def facts(self) -> LockFacts:
+        """See CarLink."""
+        return self._link.facts
+
+    @property
+    def handle(self) -> HandlePort | None:
+        """See CarLink."""
+        return self._link.handle
+
+    @property
+    def traffic(self) -> BusTraffic | None:
+        """See CarLink."""
+        return self._link.traffic
+
+    @property
+    def messages(self) -> BusMessages | None:
+        """See CarLink."""
+        return self._link.messages
+
+    @property
+    def refused(self) -> Refused:
+        """See CarLink."""
+        return self._link.refused
+
+    @property
+    def problem(self) -> str:
+        """See CarLink."""
+        return self._link.problem
+
+    def close(self) -> None:
+        """See CarLink."""
+        self._link.close()

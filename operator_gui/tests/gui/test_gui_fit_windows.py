@@ -1,0 +1,61 @@
+"""Windows beside the main one fit every screen, and their Stop is always inside."""
+# SPDX-License-Identifier: Apache-2.0
+from fit_checks import CAR, assert_fits, faults, visible
+from PyQt5.QtCore import QSize
+from PyQt5.QtWidgets import QLabel, QWidget
+
+from mtr_operator.domain.identity.identity import Identity
+from mtr_operator.domain.results.line_result import LineStatus
+from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
+from mtr_operator.gui.header.stop_button import StopButton
+from mtr_operator.gui.history.comparison_window import ComparisonWindow
+from mtr_operator.gui.windows.calibration_window import CalibrationWindow
+from mtr_operator.gui.windows.connection_window import ConnectionWindow
+from mtr_operator.gui.windows.settings_window import SettingsWindow
+from mtr_operator.history.comparison import compare
+from mtr_operator.history.line_pairs import Side
+from mtr_operator.station.connection import Connection
+
+
+def test_connection_window_fits__B6(application, show, monkeypatch):
+    window = show(lambda: ConnectionWindow(application.flow, Connection()))
+    assert_fits(window, monkeypatch)
+    window.can.interface.setCurrentIndex(1)
+    window._show_refusal("robot", "No answer from the subscriber port 3334 of 192.168.0.10; is the robot on?")
+    assert_fits(window, monkeypatch)
+
+
+def test_calibration_fits_and_has_its_stop_in_sight__B6(application, main, show, monkeypatch):
+    window = show(lambda: CalibrationWindow(application.flow, main))
+    assert visible(window, StopButton)
+    assert_fits(window, monkeypatch, window.wanted_size())
+
+
+def test_settings_fit_and_have_their_stop_in_sight__B6(application, main, show, monkeypatch):
+    window = show(lambda: SettingsWindow(application.flow, application.appearance, main))
+    assert visible(window, StopButton)
+    assert_fits(window, monkeypatch)
+
+
+def test_comparison_fits_and_has_its_stop_in_sight(application, main, show, monkeypatch):
+    scenario = SCENARIOS["key_press"]
+    parameters = scenario.parameters_type(method="adaptive")
+    sides = [Side(scenario, parameters, Progress(
+        scenario.name, parameters.to_mapping(), {"started": f"2026-11-2{day}T15:36:43+01:00"}, CAR,
+        [KeyPressResult(number, 45.0 * (number - 1), LineStatus.OK, far_m, None, 0.01, 9, 1.0, "", method="adaptive",
+                        reach="measured", d50_m=far_m, d50_sigma_m=0.1, d50_low_m=far_m - 0.2, d50_high_m=far_m + 0.2)
+         for number in range(1, 9)], identity=Identity("WVWZZZ1KZAW000001", f"Golf {day}")))
+        for day, far_m in ((1, 4.0), (2, 6.0))]
+    window = show(lambda: ComparisonWindow(compare(*sides), application.appearance, main))
+    assert visible(window, StopButton) and window.table.model().rowCount() == 8
+    assert_fits(window, monkeypatch, QSize(1300, 760))
+
+
+def test_text_that_is_cut_is_noticed(show):
+    label = QLabel("A sentence that has no room.")
+    holder = QWidget()
+    holder.resize(40, 20)
+    label.setParent(holder)
+    assert len(faults(show(lambda: holder))) == 1
