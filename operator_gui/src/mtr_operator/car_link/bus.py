@@ -51,7 +51,7 @@ class CanCarLink(CarLink, FrameSink):
     """
 
     def __init__(self, interface: str, channel: str, bitrate: int = 500_000, profile: str = "mtr_demo_car",
-                 options: dict[str, Any] | None = None, clock: Callable[[], float] = time.monotonic):
+                 options: dict[str, Any] | None = None, *, clock: Callable[[], float] = time.monotonic):
         self._settings = AdapterSettings(interface, str(channel), bitrate, dict(options or {}))
         self._profile_name = str(profile)
         self._clock = clock
