@@ -58,8 +58,14 @@ def preflight_files() -> Iterator[pathlib.Path]:
     yield from (path for path in sorted(files) if path.name not in ("command_line.py", "listening.py"))
 
 
-@pytest.mark.parametrize("path", list(preflight_files()), ids=ids)
-def test_checks_of_the_preflight_import_no_ros(path):
+def calibration_files() -> Iterator[pathlib.Path]:
+    """Guided calibration, without the file that listens to the robot and the one that starts it."""
+    files = (TOP / "launch" / "src" / "mtr_bringup" / "calibration").rglob("*.py")
+    yield from (path for path in sorted(files) if path.name not in ("command_line.py", "robot.py"))
+
+
+@pytest.mark.parametrize("path", [*preflight_files(), *calibration_files()], ids=ids)
+def test_checks_and_calibration_import_no_ros(path):
     assert not imports(path) & (ROS | ROS_MESSAGES | ROS_OF_CORE)
 
 

@@ -12,6 +12,9 @@ SENTENCES = (
                                   "without this file, or begin a new test."),
     QT_TRANSLATE_NOOP("Sentence", "The robot's calibration record of {} is {} days old; it was valid for {} days. "
                                   "Calibrate the robot again, or doubt the uncertainties."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot's {} was measured {} days ago; it was valid for {} days. Calibrate the "
+                                  "robot again."),
+    QT_TRANSLATE_NOOP("Sentence", "checks has to be a list of at most {} entries."),
     QT_TRANSLATE_NOOP("Sentence", "valid_days has to be a whole number of days from 1 to 3650, or null."),
     QT_TRANSLATE_NOOP("Sentence", "{}distribution has to be one of {}."),
     QT_TRANSLATE_NOOP("Sentence", "{}it has to consist of lines of the form 'name: value'."),

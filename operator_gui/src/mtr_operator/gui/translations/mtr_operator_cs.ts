@@ -4045,6 +4045,16 @@
         <source>Without length and width of the Car&apos;s data sheet the distances may be up to {} cm too long: the Car may be wider above the height at which the LiDARs see it. Start the robot with car_file, and map the Car again.</source>
         <translation>Bez délky a šířky z technického listu auta mohou být vzdálenosti až o {} cm delší: nad výškou, ve které auto vidí LiDARy, může být širší. Spusťte robot s car_file a zmapujte auto znovu.</translation>
     </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The robot&apos;s {} was measured {} days ago; it was valid for {} days. Calibrate the robot again.</source>
+        <translation>Hodnota {} robotu byla změřena před {} dny; platila {} dní. Robot znovu zkalibrujte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>checks has to be a list of at most {} entries.</source>
+        <translation>checks musí být seznam nejvýše {} položek.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>

@@ -52,10 +52,32 @@ class CalibratedTerm:
 
 
 @dataclass(frozen=True)
+class RobotCheck:
+    """One thing that was measured at the robot, in the unit that its name ends with; scales have none.
+
+    Attributes:
+        name: of a term, or of what is in no budget: wheel_scale, gyro_scale, lift_height_m, press_force_n.
+        made: date. by: who. uncertainty: 1 sigma. source: how it was found.
+    """
+
+    name: str
+    made: datetime.date
+    by: str
+    value: float
+    uncertainty: float
+    source: str
+
+    def to_document(self) -> dict[str, Any]:
+        """Plain values as in the file."""
+        return {"name": self.name, "date": self.made.isoformat(), "by": self.by, "value": self.value,
+                "uncertainty": self.uncertainty, "source": self.source}
+
+
+@dataclass(frozen=True)
 class CalibrationRecord:
     """Attributes: robot: which one. made: date. by: who. valid_days: None without end. key_ahead_m: of base_link.
 
-    terms: by their names, all of TERM_NAMES.
+    terms: by their names, all of TERM_NAMES. checks: what was measured when, as far as the record says.
     """
 
     robot: str
@@ -64,6 +86,7 @@ class CalibrationRecord:
     valid_days: int | None
     key_ahead_m: float
     terms: dict[str, CalibratedTerm]
+    checks: tuple[RobotCheck, ...] = ()
 
     def warning(self, today: datetime.date) -> str:
         """Sentence when the record is not of today's robot any more, else empty."""
@@ -71,7 +94,14 @@ class CalibrationRecord:
         if self.valid_days is not None and age_days > self.valid_days:
             return (f"The robot's calibration record of {self.made.isoformat()} is {age_days} days old; it was valid "
                     f"for {self.valid_days} days. Calibrate the robot again, or doubt the uncertainties.")
-        return ""
+        return next((sentence for check in self.checks if (sentence := self._overdue(check, today))), "")
+
+    def _overdue(self, check: RobotCheck, today: datetime.date) -> str:
+        age_days = (today - check.made).days
+        if self.valid_days is None or age_days <= self.valid_days:
+            return ""
+        return (f"The robot's {check.name} was measured {age_days} days ago; it was valid for {self.valid_days} days. "
+                "Calibrate the robot again.")
 
     def to_document(self) -> dict[str, Any]:
         """Plain values as in the file."""
@@ -81,5 +111,6 @@ class CalibrationRecord:
             if math.isinf(term.degrees_of_freedom):
                 del values["degrees_of_freedom"]
             terms[name] = values
-        return {"robot": self.robot, "date": self.made.isoformat(), "by": self.by, "valid_days": self.valid_days,
-                "key_ahead_m": self.key_ahead_m, "terms": terms}
+        document = {"robot": self.robot, "date": self.made.isoformat(), "by": self.by, "valid_days": self.valid_days,
+                    "key_ahead_m": self.key_ahead_m, "terms": terms}
+        return {**document, "checks": [check.to_document() for check in self.checks]} if self.checks else document

@@ -10,6 +10,8 @@
       floor_slope_deg: {value: 0, uncertainty: 0.5, distribution: rectangular, source: survey of the hall}
       key_lever_m: {value: 0, uncertainty: 0.002, distribution: rectangular, source: rule}
       lidar_yaw_deg: {value: 0, uncertainty: 0.3, distribution: normal, source: wall test}
+    checks:                       # may be missing: what was measured when, also what is in no budget
+      - {name: wheel_scale, date: 2026-03-01, by: J. Novak, value: 1.002, uncertainty: 0.0003, source: tape of 10 m}
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -20,10 +22,13 @@ from typing import Any, Mapping
 
 from ...errors import InvalidCalibration
 from ...limits import Limit
-from .calibration import TERM_NAMES, CalibratedTerm, CalibrationRecord, Distribution
+from .calibration import TERM_NAMES, CalibratedTerm, CalibrationRecord, Distribution, RobotCheck
 
 _KEYS = ("robot", "date", "by", "valid_days", "key_ahead_m", "terms")
 _TERM_KEYS = ("value", "uncertainty", "distribution", "degrees_of_freedom", "source")
+_CHECK_KEYS = ("name", "date", "by", "value", "uncertainty", "source")
+_MAX_CHECKS = 50
+_CHECK_VALUE, _CHECK_UNCERTAINTY = Limit("value", -1e4, 1e4), Limit("uncertainty", 0.0, 1e4)
 _MAX_TEXT = 200
 _VALID_DAYS = Limit("valid_days", 1, 3650, "days")
 _KEY_AHEAD = Limit("key_ahead_m", -3.0, 3.0, "m")
@@ -34,7 +39,7 @@ _LARGEST = {"deg": 10.0, "m": 0.1}
 
 def calibration_from(document: Any) -> CalibrationRecord:
     """Record in a document; InvalidCalibration says what is wrong where."""
-    _check_table(document, _KEYS, "")
+    _check_table({"checks": None, **document} if isinstance(document, Mapping) else document, (*_KEYS, "checks"), "")
     valid_days = document["valid_days"]
     if valid_days is not None and (not isinstance(valid_days, int) or not _VALID_DAYS.allows(valid_days)):
         raise InvalidCalibration("valid_days has to be a whole number of days from 1 to 3650, or null.")
@@ -42,7 +47,22 @@ def calibration_from(document: Any) -> CalibrationRecord:
     _check_table(terms, TERM_NAMES, "terms: ")
     return CalibrationRecord(_text(document["robot"], "robot"), _date(document["date"]), _text(document["by"], "by"),
                              valid_days, _number(_KEY_AHEAD, document["key_ahead_m"], ""),
-                             {name: _term(name, terms[name]) for name in TERM_NAMES})
+                             {name: _term(name, terms[name]) for name in TERM_NAMES}, _checks(document))
+
+
+def _checks(document: Mapping[str, Any]) -> tuple[RobotCheck, ...]:
+    entries = document.get("checks", [])
+    if not isinstance(entries, list) or len(entries) > _MAX_CHECKS:
+        raise InvalidCalibration(f"checks has to be a list of at most {_MAX_CHECKS} entries.")
+    return tuple(_check(entry, f"checks {number}: ") for number, entry in enumerate(entries, 1))
+
+
+def _check(entry: Any, place: str) -> RobotCheck:
+    _check_table(entry, _CHECK_KEYS, place)
+    return RobotCheck(_text(entry["name"], f"{place}name"), _date(entry["date"]), _text(entry["by"], f"{place}by"),
+                      _number(_CHECK_VALUE, entry["value"], place),
+                      _number(_CHECK_UNCERTAINTY, entry["uncertainty"], place),
+                      _text(entry["source"], f"{place}source"))
 
 
 def _term(name: str, table: Any) -> CalibratedTerm:
