@@ -5,6 +5,7 @@ from PyQt5.QtCore import Qt
 from PyQt5.QtWidgets import QAbstractButton, QComboBox, QLineEdit, QTableView
 
 from mtr_operator.gui.bus.bus_window import BusWindow
+from mtr_operator.gui.calibration.guide_window import GuideWindow
 from mtr_operator.gui.theme.palette import THEMES, contrast
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
 from mtr_operator.gui.windows.settings_window import SettingsWindow
@@ -58,7 +59,7 @@ def assert_reachable(window, least=4):
 def test_every_control_has_a_name_and_is_reached_with_the_keyboard(operator, qtbot):
     flow, appearance = operator.application.flow, operator.application.appearance
     windows = [operator.window, CalibrationWindow(flow), SettingsWindow(flow, appearance),
-               BusWindow(flow, appearance)]
+               BusWindow(flow, appearance), GuideWindow(flow)]
     for window in windows[1:]:
         qtbot.addWidget(window)
     for window in windows:

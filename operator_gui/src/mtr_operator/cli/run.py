@@ -106,7 +106,8 @@ class CommandLineRun:
     def _measure(self, display: Display, interrupt: Interrupt, store: Store) -> None:
         today = now().date()
         outdated = [] if self._progress.identity is None else self._progress.identity.warnings(today)
-        for notice in (self._progress.notice, calibration_of(self._progress).warning(today), *outdated):
+        cautions = calibration_of(self._progress).cautions(self._parameters, today)
+        for notice in (self._progress.notice, *cautions, *outdated):
             if notice:
                 display.say(notice)
         with contextlib.closing(self._car) as car, contextlib.closing(self._robot) as robot:

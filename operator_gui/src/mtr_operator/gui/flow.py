@@ -62,6 +62,7 @@ class Flow(QObject):
         step_changed(Step): another screen is due.
         failed(text): the Operator has to know this sentence.
         saved(text): the progress was written there.
+        stopped: the Operator has stopped the robot.
         language_changed(code): the Operator wants another language, see settings.LANGUAGES.
         folder_wanted(text): the folder of the progress cannot be written, for this reason; see use_progress_folder.
     """
@@ -75,6 +76,7 @@ class Flow(QObject):
     saved = pyqtSignal(str)
     folder_wanted = pyqtSignal(str)
     language_changed = pyqtSignal(str)
+    stopped = pyqtSignal()
 
     def __init__(self, bridge: Bridge, store: SettingsStore, opener: LinkOpener):
         super().__init__()
@@ -175,6 +177,7 @@ class Flow(QObject):
         if self._worker is not None:
             self._worker.stop()
             self.model.order_stop()
+            self.stopped.emit()
             self.bridge.changed.emit()
 
     def bus_view(self) -> BusView:

@@ -40,6 +40,13 @@ def parse_number(text: str) -> float | None:
     return float(text.replace(",", ".")) if _NUMBER.fullmatch(text) else None
 
 
+def parse_numbers(text: str) -> list[float] | None:
+    """Several of them, with a semicolon or a blank between; None when one is none."""
+    numbers = [parse_number(part) for part in _BETWEEN_NUMBERS.split(text.strip(" ;")) if part]
+    known = [number for number in numbers if number is not None]
+    return known if len(known) == len(numbers) else None
+
+
 def read(declared: Declaration, text: str) -> Reading:
     """What stands in the field of a parameter, in the unit that a person reads."""
     if not text.strip():

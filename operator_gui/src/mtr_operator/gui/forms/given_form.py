@@ -50,10 +50,10 @@ class GivenForm(QWidget):
         """The chosen files."""
         return GivenPaths(self.limits.path, self.calibration.path)
 
-    @property
-    def caution(self) -> str:
-        """A sentence when the record is not of today's robot any more, else empty."""
-        return "" if self._record is None else translated(self._record.warning(datetime.date.today()))
+    def cautions(self, parameters: ScenarioParameters | None) -> tuple[str, ...]:
+        """Sentences on a record that is not of today's robot any more, and on parameters that it speaks against."""
+        record = self._record
+        return () if record is None else record.cautions(parameters, datetime.date.today())
 
     @property
     def limit_count(self) -> int:

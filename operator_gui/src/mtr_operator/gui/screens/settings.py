@@ -129,8 +129,8 @@ class SettingsScreen(QWidget):
         self.picture.view.show_layers([GridLayer(), self._lines, CarLayer(car, mapped is not None), ScaleLayer()])
         self.notice.setText(self._forecast(mapped is not None))
         cautions = [in_window_words(sentence, self._scenario.parameters_type)
-                    for sentence in (self._plan.cautions if self._plan else ())]
-        self.caution.setText(" ".join(filter(None, (*cautions, self.given.caution))))
+                    for sentence in (*(self._plan.cautions if self._plan else ()), *self.given.cautions(parameters))]
+        self.caution.setText(" ".join(cautions))
         self.caution.setVisible(bool(self.caution.text()))
         self._judge()
         if self.isVisible():

@@ -14,6 +14,15 @@ SENTENCES = (
                                   "Calibrate the robot again, or doubt the uncertainties."),
     QT_TRANSLATE_NOOP("Sentence", "The robot's {} was measured {} days ago; it was valid for {} days. Calibrate the "
                                   "robot again."),
+    QT_TRANSLATE_NOOP("Sentence", "Parameter press_strength is {}; at the calibration of {} the Car answered from {} "
+                                  "on. Press at least as strongly, or calibrate again."),
+    QT_TRANSLATE_NOOP("Sentence", "There are {} readings; give at least {}."),
+    QT_TRANSLATE_NOOP("Sentence", "There are {} readings to the front axle and {} to the rear one; give as many of "
+                                  "both."),
+    QT_TRANSLATE_NOOP("Sentence", "The readings differ by {} mm; allowed is {} mm. Read them again."),
+    QT_TRANSLATE_NOOP("Sentence", "The distance between the axles differs by {} mm between the readings; allowed is {} "
+                                  "mm. Read them again."),
+    QT_TRANSLATE_NOOP("Sentence", "The heights are {} cm apart; give some that are at least {} cm apart."),
     QT_TRANSLATE_NOOP("Sentence", "checks has to be a list of at most {} entries."),
     QT_TRANSLATE_NOOP("Sentence", "valid_days has to be a whole number of days from 1 to 3650, or null."),
     QT_TRANSLATE_NOOP("Sentence", "{}distribution has to be one of {}."),

@@ -123,84 +123,94 @@
 <context>
     <name>CalibrationWindow</name>
     <message>
-        <location filename="../windows/calibration_window.py" line="43"/>
+        <location filename="../windows/calibration_window.py" line="48"/>
         <source>Calibration</source>
         <translation>Kalibrace</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="51"/>
+        <location filename="../windows/calibration_window.py" line="56"/>
         <source>Lock</source>
         <translation>Zamknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="51"/>
+        <location filename="../windows/calibration_window.py" line="56"/>
         <source>Unlock</source>
         <translation>Odemknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="57"/>
+        <location filename="../windows/calibration_window.py" line="65"/>
         <source>Send</source>
         <translation>Odeslat</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="97"/>
+        <location filename="../windows/calibration_window.py" line="106"/>
         <source>Wanted</source>
         <translation>Požadováno</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="100"/>
+        <location filename="../windows/calibration_window.py" line="109"/>
         <source>Buttons to press</source>
         <translation>Tlačítka ke stisknutí</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="112"/>
+        <location filename="../windows/calibration_window.py" line="121"/>
         <source>Key height</source>
         <translation>Výška klíče</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="112"/>
+        <location filename="../windows/calibration_window.py" line="121"/>
         <source>Buttons pressed</source>
         <translation>Stisknutá tlačítka</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="74"/>
+        <location filename="../windows/calibration_window.py" line="82"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="149"/>
+        <location filename="../windows/calibration_window.py" line="158"/>
         <source>none</source>
         <translation>žádné</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="166"/>
+        <location filename="../windows/calibration_window.py" line="175"/>
         <source>Pressed for {duration} s.</source>
         <translation>Stisknuto po dobu {duration} s.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="184"/>
+        <location filename="../windows/calibration_window.py" line="193"/>
         <source>Sent.</source>
         <translation>Odesláno.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="111"/>
+        <location filename="../windows/calibration_window.py" line="120"/>
         <source>Reported by robot and Car</source>
         <translation>Hlásí robot a auto</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="113"/>
+        <location filename="../windows/calibration_window.py" line="122"/>
         <source>The Car&apos;s locks</source>
         <translation>Zámky auta</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="167"/>
+        <location filename="../windows/calibration_window.py" line="176"/>
         <source>The Car has answered: {locks}.</source>
         <translation>Auto odpovědělo: {locks}.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="168"/>
+        <location filename="../windows/calibration_window.py" line="177"/>
         <source>The Car has not answered.</source>
         <translation>Auto neodpovědělo.</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="62"/>
+        <source>Guided calibration</source>
+        <translation>Kalibrace krok za krokem</translation>
+    </message>
+    <message>
+        <location filename="../windows/calibration_window.py" line="63"/>
+        <source>Press strength, key height and key&apos;s lever, kept with their date.</source>
+        <translation>Síla stisku, výška klíče a rameno klíče; uchovají se s datem.</translation>
     </message>
 </context>
 <context>
@@ -1000,6 +1010,212 @@
     </message>
 </context>
 <context>
+    <name>Guide</name>
+    <message>
+        <location filename="../calibration/height_card.py" line="36"/>
+        <source>Key height</source>
+        <translation>Výška klíče</translation>
+    </message>
+    <message>
+        <location filename="../calibration/height_card.py" line="36"/>
+        <source>Send the key to a height, measure from the floor to its middle, and take the reading; at three heights or more, low ones and high ones.</source>
+        <translation>Pošlete klíč do výšky, změřte od podlahy k jeho středu a odečet převezměte; ve třech nebo více výškách, nízkých i vysokých.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/height_card.py" line="43"/>
+        <source>Send the key there</source>
+        <translation>Poslat tam klíč</translation>
+    </message>
+    <message>
+        <location filename="../calibration/height_card.py" line="44"/>
+        <source>Tape measure</source>
+        <translation>Svinovací metr</translation>
+    </message>
+    <message>
+        <location filename="../calibration/height_card.py" line="45"/>
+        <source>Take the reading</source>
+        <translation>Převzít odečet</translation>
+    </message>
+    <message>
+        <location filename="../calibration/height_card.py" line="46"/>
+        <source>Forget the readings</source>
+        <translation>Zapomenout odečty</translation>
+    </message>
+    <message>
+        <location filename="../calibration/height_card.py" line="68"/>
+        <source>This is not a number.</source>
+        <translation>Není to číslo.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/height_card.py" line="88"/>
+        <source>{tape} cm for {reported} cm</source>
+        <translation>{tape} cm místo {reported} cm</translation>
+    </message>
+    <message>
+        <location filename="../calibration/height_card.py" line="91"/>
+        <source>Readings: {taken}.</source>
+        <translation>Odečty: {taken}.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/height_card.py" line="100"/>
+        <source>The key is {offset} mm higher than the robot reports ({sigma} mm, 1 sigma).</source>
+        <translation>Klíč je o {offset} mm výš, než robot hlásí ({sigma} mm, 1 sigma).</translation>
+    </message>
+    <message>
+        <location filename="../calibration/lever_card.py" line="23"/>
+        <source>Key&apos;s lever</source>
+        <translation>Rameno klíče</translation>
+    </message>
+    <message>
+        <location filename="../calibration/lever_card.py" line="23"/>
+        <source>Let a plumb line down from the key. Along the robot, read how far it hangs ahead of the front axle&apos;s hub, and of the rear axle&apos;s; three times or more, with a new look at each.</source>
+        <translation>Spusťte od klíče olovnici. Podél robotu odečtěte, jak daleko visí před nábojem přední nápravy a před nábojem zadní; třikrát nebo vícekrát, pokaždé znovu.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/lever_card.py" line="28"/>
+        <source>Readings with a blank between them; negative behind the axle.</source>
+        <translation>Odečty oddělené mezerou; za nápravou záporné.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/lever_card.py" line="29"/>
+        <source>Key ahead of the front axle</source>
+        <translation>Klíč před přední nápravou</translation>
+    </message>
+    <message>
+        <location filename="../calibration/lever_card.py" line="30"/>
+        <source>Key ahead of the rear axle</source>
+        <translation>Klíč před zadní nápravou</translation>
+    </message>
+    <message>
+        <location filename="../calibration/lever_card.py" line="45"/>
+        <source>These are not numbers with a blank between them.</source>
+        <translation>Nejsou to čísla oddělená mezerou.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/lever_card.py" line="56"/>
+        <source>The key is {lever} cm ahead of the robot&apos;s middle ({sigma} mm, 1 sigma); the robot computes with {stated} cm.</source>
+        <translation>Klíč je {lever} cm před středem robotu ({sigma} mm, 1 sigma); robot počítá s {stated} cm.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/lever_card.py" line="60"/>
+        <source>What lies between counts in full until the robot&apos;s description is put right.</source>
+        <translation>Rozdíl se započítává celý, dokud se popis robotu neopraví.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/press_card.py" line="28"/>
+        <source>Press strength</source>
+        <translation>Síla stisku</translation>
+    </message>
+    <message>
+        <location filename="../calibration/press_card.py" line="28"/>
+        <source>Have the robot stand where the Car hears its key well. The key&apos;s buttons are pressed, weakly first, until the Car answers {count} times in a row.</source>
+        <translation>Nechte robot stát tam, kde auto klíč dobře slyší. Tlačítka klíče se tisknou, nejprve slabě, dokud auto neodpoví {count}krát po sobě.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/press_card.py" line="33"/>
+        <source>Find the strength</source>
+        <translation>Najít sílu</translation>
+    </message>
+    <message>
+        <location filename="../calibration/press_card.py" line="62"/>
+        <source>The Car answers each time from a strength of {strength} on ({presses} presses).</source>
+        <translation>Auto odpovídá pokaždé od síly {strength} (počet stisků: {presses}).</translation>
+    </message>
+    <message>
+        <location filename="../calibration/press_card.py" line="67"/>
+        <source>Press {presses}, with a strength of {strength}.</source>
+        <translation>Stisk {presses}, silou {strength}.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/press_card.py" line="67"/>
+        <source>The Car does not answer even to full strength: go nearer, and check the key&apos;s battery and its seat.</source>
+        <translation>Auto neodpovídá ani na plnou sílu: zajeďte blíž a zkontrolujte baterii a uložení klíče.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/press_card.py" line="67"/>
+        <source>Whether the Car is locked is not known; choose its CAN adapter under Settings, and wake the Car.</source>
+        <translation>Zda je auto zamčené, není známo; v Nastavení zvolte jeho adaptér CAN a auto probuďte.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/press_card.py" line="67"/>
+        <source>The robot does not say that it has pressed; see its notifications.</source>
+        <translation>Robot nehlásí, že stiskl; podívejte se na jeho oznámení.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/press_card.py" line="67"/>
+        <source>Stopped.</source>
+        <translation>Zastaveno.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/step_card.py" line="36"/>
+        <source>Keep in the record</source>
+        <translation>Uchovat v záznamu</translation>
+    </message>
+    <message>
+        <location filename="../calibration/step_card.py" line="37"/>
+        <source>Keep in the record: {what}</source>
+        <translation>Uchovat v záznamu: {what}</translation>
+    </message>
+</context>
+<context>
+    <name>GuideWindow</name>
+    <message>
+        <location filename="../calibration/guide_window.py" line="38"/>
+        <source>Guided calibration</source>
+        <translation>Kalibrace krok za krokem</translation>
+    </message>
+    <message>
+        <location filename="../calibration/guide_window.py" line="41"/>
+        <source>Calibration record</source>
+        <translation>Kalibrační záznam</translation>
+    </message>
+    <message>
+        <location filename="../calibration/guide_window.py" line="41"/>
+        <source>a new one</source>
+        <translation>nový</translation>
+    </message>
+    <message>
+        <location filename="../calibration/guide_window.py" line="41"/>
+        <source>What is known of this robot; the uncertainties follow from it.</source>
+        <translation>Co je o tomto robotu známo; plynou z toho nejistoty.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/guide_window.py" line="43"/>
+        <source>Robot</source>
+        <translation>Robot</translation>
+    </message>
+    <message>
+        <location filename="../calibration/guide_window.py" line="43"/>
+        <source>Its name or number; the record is kept under it.</source>
+        <translation>Jeho jméno nebo číslo; záznam se uchová pod ním.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/guide_window.py" line="44"/>
+        <source>Measured by</source>
+        <translation>Měřil</translation>
+    </message>
+    <message>
+        <location filename="../calibration/guide_window.py" line="57"/>
+        <source>Record</source>
+        <translation>Záznam</translation>
+    </message>
+    <message>
+        <location filename="../calibration/guide_window.py" line="65"/>
+        <source>Close</source>
+        <translation>Zavřít</translation>
+    </message>
+    <message>
+        <location filename="../calibration/guide_window.py" line="135"/>
+        <source>Enter it before something is kept.</source>
+        <translation>Vyplňte, než se něco uchová.</translation>
+    </message>
+    <message>
+        <location filename="../calibration/guide_window.py" line="150"/>
+        <source>Kept in {path}; the next tests use it.</source>
+        <translation>Uchováno v {path}; další testy to použijí.</translation>
+    </message>
+</context>
+<context>
     <name>HeaderBar</name>
     <message>
         <location filename="../header/header_bar.py" line="40"/>
@@ -1317,42 +1533,42 @@
 <context>
     <name>MainWindow</name>
     <message>
-        <location filename="../windows/main_window.py" line="43"/>
+        <location filename="../windows/main_window.py" line="44"/>
         <source>Mobile testing robot</source>
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="195"/>
+        <location filename="../windows/main_window.py" line="204"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="198"/>
+        <location filename="../windows/main_window.py" line="207"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="200"/>
+        <location filename="../windows/main_window.py" line="209"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="215"/>
+        <location filename="../windows/main_window.py" line="224"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="219"/>
+        <location filename="../windows/main_window.py" line="228"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="219"/>
+        <location filename="../windows/main_window.py" line="228"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="178"/>
+        <location filename="../windows/main_window.py" line="187"/>
         <source>Open a test</source>
         <translation>Otevřít test</translation>
     </message>
@@ -4054,6 +4270,36 @@
         <location filename="../texts/limits.py" line="5"/>
         <source>checks has to be a list of at most {} entries.</source>
         <translation>checks musí být seznam nejvýše {} položek.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>Parameter press_strength is {}; at the calibration of {} the Car answered from {} on. Press at least as strongly, or calibrate again.</source>
+        <translation>Parametr press_strength je {}; při kalibraci {} auto odpovídalo od {}. Tiskněte alespoň takovou silou, nebo kalibrujte znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>There are {} readings; give at least {}.</source>
+        <translation>Počet odečtů je {}; zadejte alespoň {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>There are {} readings to the front axle and {} to the rear one; give as many of both.</source>
+        <translation>Počet odečtů k přední nápravě je {} a k zadní {}; zadejte k oběma stejně.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The readings differ by {} mm; allowed is {} mm. Read them again.</source>
+        <translation>Odečty se liší o {} mm; povoleno je {} mm. Odečtěte je znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The distance between the axles differs by {} mm between the readings; allowed is {} mm. Read them again.</source>
+        <translation>Vzdálenost náprav se mezi odečty liší o {} mm; povoleno je {} mm. Odečtěte je znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The heights are {} cm apart; give some that are at least {} cm apart.</source>
+        <translation>Výšky jsou od sebe {} cm; zadejte takové, které jsou od sebe alespoň {} cm.</translation>
     </message>
 </context>
 <context>

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Sequence
 
-from PyQt5.QtCore import QSize
+from PyQt5.QtCore import QSize, pyqtSignal
 from PyQt5.QtWidgets import QCheckBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.parameters import Declaration
@@ -35,8 +35,13 @@ _UNKNOWN = "\N{EN DASH}"
 class CalibrationWindow(QDialog):
     """Attributes: key_height, strength, press_s: fields. buttons: check boxes by number. send: button.
 
+    guide: button that opens the guided calibration.
     reported: labels by name of what they show. notice: what became of the request. car: check and mapping of the Car.
+
+    Signals: guide_wanted.
     """
+
+    guide_wanted = pyqtSignal()
 
     def __init__(self, flow: Flow, parent: QWidget | None = None):
         super().__init__(parent)
@@ -54,6 +59,9 @@ class CalibrationWindow(QDialog):
         self.notice = QLabel()
         self.notice.setWordWrap(True)
         self.notice.setProperty("role", "soft")
+        self.guide = QPushButton(self.tr("Guided calibration"))
+        self.guide.setToolTip(self.tr("Press strength, key height and key's lever, kept with their date."))
+        self.guide.clicked.connect(self.guide_wanted)
         self.send = QPushButton(self.tr("Send"))
         self.send.setProperty("role", "primary")
         self.send.clicked.connect(self._send)
@@ -74,6 +82,7 @@ class CalibrationWindow(QDialog):
         close = QPushButton(self.tr("Close"))
         close.clicked.connect(self.reject)
         row = QHBoxLayout()
+        row.addWidget(self.guide)
         row.addStretch(1)
         row.setSpacing(M)
         row.addWidget(close)

@@ -15,6 +15,7 @@ from mtr_operator.history.line_pairs import Side
 from mtr_operator.station.readiness import RUNNING
 
 from ..bus.bus_window import BusWindow
+from ..calibration.guide_window import GuideWindow
 from ..dialogs import ask_folder, ask_progress_file, confirm, show_message
 from ..fitting.place import open_within
 from ..flow import Flow, Step
@@ -78,7 +79,15 @@ class MainWindow(QMainWindow):
         self._open_beside(SettingsWindow, lambda: SettingsWindow(self._flow, self._appearance, self))
 
     def _show_calibration(self) -> None:
-        self._open_beside(CalibrationWindow, lambda: CalibrationWindow(self._flow, self))
+        self._open_beside(CalibrationWindow, self._make_calibration)
+
+    def _make_calibration(self) -> CalibrationWindow:
+        window = CalibrationWindow(self._flow, self)
+        window.guide_wanted.connect(self._show_guide)
+        return window
+
+    def _show_guide(self) -> None:
+        self._open_beside(GuideWindow, lambda: GuideWindow(self._flow, self))
 
     def _show_bus(self) -> None:
         self._open_beside(BusWindow, lambda: BusWindow(self._flow, self._appearance, self))

@@ -12,6 +12,9 @@ from typing import Any
 MAST_LEAN, FLOOR_SLOPE, KEY_LEVER, LIDAR_YAW = "mast_lean_deg", "floor_slope_deg", "key_lever_m", "lidar_yaw_deg"
 # Every record has all of them.
 TERM_NAMES = (MAST_LEAN, FLOOR_SLOPE, KEY_LEVER, LIDAR_YAW)
+# Checks that count although they are no terms: tape less what the robot says, and the least strength of a press to
+# which the Car answered each time.
+LIFT_HEIGHT, PRESS_STRENGTH = "lift_height_m", "press_strength"
 
 
 class Distribution(enum.Enum):
@@ -56,7 +59,8 @@ class RobotCheck:
     """One thing that was measured at the robot, in the unit that its name ends with; scales have none.
 
     Attributes:
-        name: of a term, or of what is in no budget: wheel_scale, gyro_scale, lift_height_m, press_force_n.
+        name: of a term, or of what is in no budget: wheel_scale, gyro_scale, lift_height_m, press_force_n,
+            press_strength.
         made: date. by: who. uncertainty: 1 sigma. source: how it was found.
     """
 
@@ -87,6 +91,29 @@ class CalibrationRecord:
     key_ahead_m: float
     terms: dict[str, CalibratedTerm]
     checks: tuple[RobotCheck, ...] = ()
+
+    def check_named(self, name: str) -> RobotCheck | None:
+        """What was measured under a name last; None when it was never."""
+        return next((check for check in reversed(self.checks) if check.name == name), None)
+
+    @property
+    def key_height_offset_m(self) -> float:
+        """How much higher the key is than the robot reports, by a tape measure; 0 where nobody has measured it."""
+        check = self.check_named(LIFT_HEIGHT)
+        return 0.0 if check is None else check.value
+
+    def cautions(self, parameters: object, today: datetime.date) -> tuple[str, ...]:
+        """Sentences on what speaks against a test with these parameters today: age, and a press that is too weak."""
+        strength = getattr(parameters, "press_strength", None)
+        weak = "" if strength is None else self._press_caution(strength)
+        return tuple(filter(None, (self.warning(today), weak)))
+
+    def _press_caution(self, strength: float) -> str:
+        check = self.check_named(PRESS_STRENGTH)
+        if check is None or strength >= check.value:
+            return ""
+        return (f"Parameter press_strength is {strength:g}; at the calibration of {check.made.isoformat()} the Car "
+                f"answered from {check.value:g} on. Press at least as strongly, or calibrate again.")
 
     def warning(self, today: datetime.date) -> str:
         """Sentence when the record is not of today's robot any more, else empty."""

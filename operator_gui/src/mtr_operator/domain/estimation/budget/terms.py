@@ -91,9 +91,10 @@ def _of_timing(measurement: Measurement) -> tuple[Term, ...]:
 
 def _of_record(carriage: Carriage, record: CalibrationRecord) -> tuple[Term, ...]:
     """A mast that leans towards the Car brings the key nearer, by its height; a yaw of the LiDAR, its lever aslant."""
+    height_m = carriage.key_height_m + record.key_height_offset_m
     sensitivities = {
-        MAST_LEAN: -carriage.key_height_m * _RAD_PER_DEG,
-        FLOOR_SLOPE: -carriage.key_height_m * _RAD_PER_DEG,
+        MAST_LEAN: -height_m * _RAD_PER_DEG,
+        FLOOR_SLOPE: -height_m * _RAD_PER_DEG,
         KEY_LEVER: -math.cos(carriage.heading_offset_rad),
         LIDAR_YAW: record.key_ahead_m * math.sin(carriage.heading_offset_rad) * _RAD_PER_DEG}
     source = f"{CALIBRATION} {record.made.isoformat()}"

@@ -19,6 +19,11 @@ _CHANGING_PRESS = {LockState.LOCKED: (UNLOCK_BUTTON, LockState.UNLOCKED),
                    LockState.UNLOCKED: (LOCK_BUTTON, LockState.LOCKED)}
 
 
+def changing_button(locks: LockState) -> int:
+    """The button that changes a state of the locks; LookupError for one that is not known."""
+    return _CHANGING_PRESS[locks][0]
+
+
 class PressParameters(Protocol):
     """What a press needs of a scenario's parameters."""
 

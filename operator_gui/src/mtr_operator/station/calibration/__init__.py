@@ -1,0 +1,2 @@
+"""Guided calibration without its window."""
+# SPDX-License-Identifier: Apache-2.0
