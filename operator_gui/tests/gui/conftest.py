@@ -9,7 +9,8 @@ os.environ["QT_QPA_PLATFORM"] = "offscreen"
 
 import pytest
 from fit_checks import application_in_a_language, main_window, show_for_a_test  # noqa: F401
-from PyQt5.QtCore import Qt
+from PyQt5 import sip
+from PyQt5.QtCore import QCoreApplication, QEvent, Qt
 from PyQt5.QtTest import QTest
 
 from mtr_operator.domain.absent_car import AbsentCarLink
@@ -132,6 +133,13 @@ def short_hold(monkeypatch):
 
 
 @pytest.fixture(autouse=True)
+def no_leftovers(qapp):
+    """Widgets that are left over would be styled anew by the style sheet of each later test."""
+    yield
+    QCoreApplication.sendPostedEvents(None, QEvent.DeferredDelete)
+
+
+@pytest.fixture(autouse=True)
 def own_cache(monkeypatch, tmp_path):
     """The list of tests is kept with the test."""
     monkeypatch.setattr("mtr_operator.gui.history.history_screen.cache_path", lambda _: tmp_path / "history_cache.json")
@@ -195,6 +203,10 @@ class Operator:
         window.can.interface.setCurrentIndex(window.can.interface.findData(SIMULATED))
         self.click(window.button)
         self.wait(lambda: self.window is not window and self.model.robot is not None)
+        # Only then nothing takes the focus from what is held: this screen has no window manager.
+        self.wait(lambda: sip.isdeleted(window))
+        self.window.activateWindow()
+        self.wait(self.window.isActiveWindow)
         return self
 
     def click(self, button):

@@ -5,8 +5,13 @@ import subprocess
 import sys
 
 import pytest
+from PyQt5.QtCore import QEvent, QObject
+from PyQt5.QtWidgets import QApplication, QWidget
 
 from mtr_operator.cli import main
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.gui.windows.calibration_window import CalibrationWindow
+from mtr_operator.gui.windows.settings_window import SettingsWindow
 from mtr_operator.station.connection import CanChoice
 
 
@@ -35,6 +40,29 @@ def test_given_values_are_filled_in(start):
     window = application.window
     assert (window.robot.host.text, window.robot.subscriber_port.text) == ("10.0.0.7", "3334")
     assert window.can.choice == CanChoice("slcan", "/dev/ttyACM3")
+
+
+class Windows(QObject):
+    """Attributes: shown: classes of the windows that were shown."""
+
+    def __init__(self):
+        super().__init__()
+        self.shown = set()
+        QApplication.instance().installEventFilter(self)
+
+    def eventFilter(self, watched, event):
+        if event.type() == QEvent.Show and isinstance(watched, QWidget) and watched.isWindow():
+            self.shown.add(type(watched))
+        return False
+
+
+def test_no_part_of_a_window_flashes_up_as_a_window_of_its_own(operator):
+    windows, window = Windows(), operator.window
+    for name in SCENARIOS:
+        assert window.settings[name].start.text()
+    for open_window in (window.welcome.calibrate.emit, window.show_settings, window.welcome.history.emit):
+        open_window()
+    assert windows.shown == {CalibrationWindow, SettingsWindow}
 
 
 @pytest.mark.parametrize("command", [[], ["window"]])

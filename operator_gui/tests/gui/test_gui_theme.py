@@ -4,6 +4,7 @@ import pytest
 from PyQt5.QtCore import Qt
 from PyQt5.QtWidgets import QAbstractButton, QComboBox, QLineEdit, QTableView
 
+from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.gui.bus.bus_window import BusWindow
 from mtr_operator.gui.calibration.guide_window import GuideWindow
 from mtr_operator.gui.theme.palette import THEMES, contrast
@@ -62,6 +63,8 @@ def test_every_control_has_a_name_and_is_reached_with_the_keyboard(operator, qtb
                BusWindow(flow, appearance), GuideWindow(flow)]
     for window in windows[1:]:
         qtbot.addWidget(window)
+    for name in SCENARIOS:
+        assert operator.window.settings[name].start.text()
     for window in windows:
         assert_reachable(window, 2 if isinstance(window, BusWindow) else 4)
 

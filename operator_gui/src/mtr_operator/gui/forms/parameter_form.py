@@ -76,7 +76,6 @@ class ParameterForm(QWidget):
             grid.setVerticalSpacing(M)
             for column in range(_COLUMNS):
                 grid.setColumnStretch(column, 1)
-        self._arrange()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, M, 0)
         layout.setSpacing(M)
@@ -85,6 +84,8 @@ class ParameterForm(QWidget):
             is_button = isinstance(widget, QPushButton)
             layout.addWidget(widget, 0, Qt.AlignmentFlag.AlignLeft if is_button else Qt.Alignment())
         layout.addStretch(1)
+        # Before it has its place a button that is made visible would be a window.
+        self._arrange()
 
     def _arrange(self) -> None:
         """Place the fields that have an effect, without gaps."""

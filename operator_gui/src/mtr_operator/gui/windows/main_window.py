@@ -36,8 +36,21 @@ from .settings_window import SettingsWindow
 _SIZE = QSize(1360, 860)
 
 
+class _MadeOnDemand(dict[str, SettingsScreen]):
+    """Screens by scenario: a form of many fields costs a tenth of a second, and most tests need one."""
+
+    def __init__(self, make: Callable[[str], SettingsScreen]):
+        super().__init__()
+        self._make = make
+
+    def __missing__(self, name: str) -> SettingsScreen:
+        self[name] = self._make(name)
+        return self[name]
+
+
 class MainWindow(QMainWindow):
-    """Attributes: header; welcome, types, settings (by scenario), measurement, protocol, history: the screens."""
+    """Attributes: header; welcome, types, settings (by scenario, made when asked for), measurement, protocol, history:
+    the screens."""
 
     def __init__(self, flow: Flow, appearance: Appearance, stopping: Stopping):
         super().__init__()
@@ -49,13 +62,12 @@ class MainWindow(QMainWindow):
         self.header = HeaderBar(appearance, stopping)
         self.welcome = WelcomeScreen()
         self.types = MeasurementTypeScreen(SCENARIOS)
-        self.settings = {name: SettingsScreen(scenario, flow.model, appearance) for name, scenario in SCENARIOS.items()}
+        self.settings = _MadeOnDemand(self._settings_screen)
         self.measurement = MeasurementScreen(flow.model, appearance)
         self.protocol = ProtocolScreen(flow, appearance)
         self.history = HistoryScreen()
         self._screens = QStackedWidget()
-        for screen in (self.welcome, self.types, *self.settings.values(), self.measurement, self.protocol,
-                       self.history):
+        for screen in (self.welcome, self.types, self.measurement, self.protocol, self.history):
             self._screens.addWidget(screen)
         page = QWidget()
         page.setObjectName("page")
@@ -123,10 +135,6 @@ class MainWindow(QMainWindow):
         self.welcome.dismiss.connect(self._dismiss)
         self.types.back.connect(flow.to_welcome)
         self.types.chosen.connect(self._show_settings)
-        for name, screen in self.settings.items():
-            screen.back.connect(lambda: flow.show(Step.TYPE))
-            screen.started.connect(
-                lambda parameters, paths, who, name=name: flow.start(SCENARIOS[name], parameters, paths, who))
         self.measurement.resume_wanted.connect(flow.resume)
         self.measurement.release_wanted.connect(flow.release_hold)
         self.measurement.handle_taken.connect(flow.answer_handle)
@@ -139,6 +147,13 @@ class MainWindow(QMainWindow):
         self.history.file_wanted.connect(self._open)
         self.history.repeat_wanted.connect(self._repeat)
         self.history.compare_wanted.connect(self._show_comparison)
+
+    def _settings_screen(self, name: str) -> SettingsScreen:
+        screen = SettingsScreen(SCENARIOS[name], self._flow.model, self._appearance)
+        screen.back.connect(lambda: self._flow.show(Step.TYPE))
+        screen.started.connect(lambda parameters, paths, who: self._flow.start(SCENARIOS[name], parameters, paths, who))
+        self._screens.addWidget(screen)
+        return screen
 
     def _show_model(self) -> None:
         self.header.show_model(self._flow.model)
