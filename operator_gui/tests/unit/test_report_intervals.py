@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-from mtr_operator.domain.results.figure import Figure, Kind
-from mtr_operator.domain.results.line_result import LineStatus, has_intervals
+from mtr_operator.domain.results.figure import Figure, Kind, figure_of
+from mtr_operator.domain.results.line_result import LineStatus, has_intervals, result_from_document
 from mtr_operator.domain.results.picture import PointRole
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import CarDimensions
@@ -18,7 +18,7 @@ from mtr_operator.domain.scenarios.zone_map.result import ZoneMapResult
 from mtr_operator.domain.verdict.assessment import Assessor
 from mtr_operator.report.protocol_png import protocol_png
 from mtr_operator.report.results_csv import results_csv
-from mtr_operator.report.table import results_table
+from mtr_operator.report.table import line_text, results_table
 from mtr_operator.storage.given_files import load_calibration
 
 KEY_PRESS = SCENARIOS["key_press"]
@@ -64,19 +64,44 @@ def test_picture_of_a_scan_tells_a_range_between_places_from_one_beyond_the_firs
 
 def test_figures_stand_beside_the_boundary_alone():
     half, sure, *_ = KEY_PRESS.picture(PARAMETERS, CAR, RESULTS).point_sets
-    assert half.figures == (Figure(Kind.VALUE, 5.4), Figure(Kind.VALUE, 5.4), None, None)
+    assert half.figures == (Figure(Kind.VALUE, 5.4), None, None, None)
     assert set(sure.figures) == {None}
 
 
+@pytest.mark.parametrize(("ends", "figure", "text"), [
+    ({}, Figure(Kind.AT_LEAST, 5.12), "press at least 5.12 m"),
+    ({"d50_low_m": None, "d50_high_m": 5.71}, Figure(Kind.AT_MOST, 5.71), "press at most 5.71 m"),
+    ({"d50_low_m": None}, Figure(Kind.UNKNOWN), "press unknown")])
+def test_boundary_with_an_open_end_is_no_value_with_a_sigma(ends, figure, text):
+    opened = replace(OPEN, **ends)
+    distance, = opened.distances
+    assert (distance.distance_m, distance.uncertainty_m) == (None, None)
+    assert figure_of(distance) == figure
+    assert line_text(KEY_PRESS, opened).endswith(text)
+    assert result_from_document(KeyPressResult, opened.to_document()) == opened
+
+
 def test_picture_of_a_search_has_both_outlines_with_intervals_and_what_is_not_known():
-    half, sure, farther, nearer, holes, invalid = KEY_PRESS.picture(PARAMETERS, CAR, RESULTS).point_sets
+    half, sure, farther, nearer, unknown, holes, invalid = KEY_PRESS.picture(PARAMETERS, CAR, RESULTS).point_sets
     assert half.is_outline and sure.is_outline
-    assert (len(half.known), len(sure.known)) == (2, 2)
+    assert (len(half.known), len(sure.known)) == (1, 2)
     assert half.intervals == (((5.12, 0.0), (5.71, 0.0)),) and len(sure.intervals) == 2
-    # An open interval is shown as the sigma that there is.
-    assert len(half.bars) == 1
-    assert farther.known[0] == pytest.approx((-6.0, 0.0)) and nearer.known[0] == pytest.approx((0.0, 3.0), abs=1e-9)
+    assert half.bars == ()
+    # An open interval has the end that is known.
+    assert farther.known == (pytest.approx((0.0, -5.12)), pytest.approx((-5.12, 0.0)))
+    assert farther.figures == (Figure(Kind.AT_LEAST, 5.12),) * 2
+    assert nearer.known == (pytest.approx((0.0, 3.4)),) and nearer.figures == (Figure(Kind.AT_MOST, 3.4),)
+    assert unknown.known == ()
     assert holes.known[0] == pytest.approx((3.46, 0.0)) and invalid.known == ()
+
+
+def test_border_that_nobody_knows_is_shown_as_a_guess():
+    nowhere = replace(OPEN, d50_low_m=None)
+    *_, unknown, _, _ = KEY_PRESS.picture(PARAMETERS, CAR, [nowhere]).point_sets
+    assert unknown.role is PointRole.UNKNOWN and unknown.known == (pytest.approx((0.0, -5.4)),)
+    assert unknown.figures == (Figure(Kind.UNKNOWN),)
+    progress = Progress("key_press", PARAMETERS.to_mapping(), {}, CAR, [nowhere])
+    assert protocol_png(KEY_PRESS, PARAMETERS, progress).startswith(b"\x89PNG")
 
 
 def test_protocol_is_drawn_with_intervals():
@@ -110,8 +135,9 @@ def test_distance_from_the_outline_that_was_seen_is_offered_too(outline, shortes
     assert row["press_to_outline_m"] == ("" if shortest_m is None else f"{shortest_m:.4f}")
 
 
-def test_budget_of_an_open_interval_is_not_that_of_none():
+@pytest.mark.parametrize("ends", [{}, {"d50_low_m": None}])
+def test_boundary_with_an_open_end_has_no_expanded_uncertainty(ends):
     assessor = Assessor(KEY_PRESS, PARAMETERS, CAR, load_calibration())
-    closed, opened = (assessor.assess(Progress("key_press", PARAMETERS.to_mapping(), {}, CAR, [result])).budgets[0]
-                      for result in (MEASURED, OPEN))
-    assert opened.sigma_m == pytest.approx(closed.sigma_m, rel=0.2)
+    closed, opened = (assessor.assess(Progress("key_press", PARAMETERS.to_mapping(), {}, CAR, [result])).budgets
+                      for result in (MEASURED, replace(OPEN, **ends)))
+    assert len(closed) == 1 and opened == ()

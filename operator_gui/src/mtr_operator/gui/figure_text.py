@@ -10,7 +10,7 @@ from mtr_operator.report import figures
 
 from .i18n import number, translate
 
-_WORDS = (Kind.NOT_REACHED, Kind.INVALID)
+_WORDS = (Kind.NOT_REACHED, Kind.INVALID, Kind.UNKNOWN)
 
 
 def cell_text(figure: Figure, sigma_m: float | None = None) -> str:

@@ -14,12 +14,13 @@ from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 # In the cell of a table, whose heading has the unit.
 TEMPLATES = {
     Kind.VALUE: "{first}", Kind.AT_LEAST: "at least {first}", Kind.AT_MOST: "at most {first}",
-    Kind.BETWEEN: "{first} to {second}", Kind.NOT_REACHED: "not reached", Kind.INVALID: "invalid"}
+    Kind.BETWEEN: "{first} to {second}", Kind.NOT_REACHED: "not reached", Kind.INVALID: "invalid",
+    Kind.UNKNOWN: "unknown"}
 # Beside a point, where there is little room.
 SIGNS = {
     Kind.VALUE: "{first} m", Kind.AT_LEAST: "\N{GREATER-THAN OR EQUAL TO} {first} m",
     Kind.AT_MOST: "\N{LESS-THAN OR EQUAL TO} {first} m", Kind.BETWEEN: "{first}\N{EN DASH}{second} m",
-    Kind.NOT_REACHED: "", Kind.INVALID: ""}
+    Kind.NOT_REACHED: "", Kind.INVALID: "", Kind.UNKNOWN: "?"}
 _PLUS_MINUS = "\N{PLUS-MINUS SIGN}"
 # Headings of what stands beside a distance.
 KEY, INTERVAL = "key", "95 %"

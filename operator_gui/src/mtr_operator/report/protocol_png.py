@@ -38,6 +38,7 @@ _STYLES = {
     PointRole.SECOND_FAILED: {"color": "#d55e00", "marker": "x"},
     PointRole.FAILED: {"color": "#a61c3c", "marker": "x"},
     PointRole.INVALID: {"color": "#6a3d9a", "marker": "D"},
+    PointRole.UNKNOWN: {"color": "#546e7a", "marker": "o", "markerfacecolor": "none"},
 }
 
 
@@ -99,8 +100,8 @@ def _draw_points(axes: Axes, points: PointSet) -> None:
         axes.plot((y0, y1), (x0, x1), color=style["color"], zorder=5, **BRACKET)
     for (x0, y0), (x1, y1) in points.bars:
         axes.plot((y0, y1), (x0, x1), color=style["color"], zorder=5, **BAR)
-    axes.plot(across, ahead, linestyle="none", markersize=6, markeredgewidth=1.6, color=style["color"],
-              marker=style["marker"], label=f"{points.label} ({len(points.known)})", zorder=6)
+    axes.plot(across, ahead, linestyle="none", markersize=6, markeredgewidth=1.6, **style,
+              label=f"{points.label} ({len(points.known)})", zorder=6)
 
 
 def _draw_intervals(axes: Axes, points: PointSet) -> None:

@@ -84,6 +84,8 @@ def _ends(figure: Figure) -> tuple[float, float]:
 
 
 def _figure(low_m: float, high_m: float) -> Figure:
+    if (low_m, high_m) == _UNKNOWN:
+        return Figure(Kind.UNKNOWN)
     if low_m == high_m:
         return Figure(Kind.VALUE, low_m)
     return between(low_m if math.isfinite(low_m) else None, high_m if math.isfinite(high_m) else None)

@@ -22,7 +22,7 @@ from .figures import (
 _GAP = "  "
 _PLUS_MINUS = "\N{PLUS-MINUS SIGN}"
 # Without a number there is no unit.
-_WORDS = (Kind.NOT_REACHED, Kind.INVALID)
+_WORDS = (Kind.NOT_REACHED, Kind.INVALID, Kind.UNKNOWN)
 
 
 def line_name(scenario: AnyScenario, result: LineResult) -> str:

@@ -17,6 +17,7 @@ class Kind(enum.Enum):
     BETWEEN = "between"
     NOT_REACHED = "not reached"
     INVALID = "invalid"
+    UNKNOWN = "unknown"
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,8 @@ def figure_of(distance: MeasuredDistance, unreached: tuple[float | None, float |
         return between(low_m, next((end for end in ends if end is not None), None))
     if distance.is_place:
         return between(distance.distance_m, distance.failed_m)
+    if distance.is_open:
+        return interval_of(distance) or Figure(Kind.UNKNOWN)
     return Figure(Kind.VALUE, distance.distance_m)
 
 

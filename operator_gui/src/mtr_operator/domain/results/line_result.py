@@ -41,6 +41,7 @@ class MeasuredDistance:
 
     word: what it is called beside the line, "unlock". low_m, high_m: ends of the 95 % interval of the boundary that the
     distance stands for; None where the method gives none, one of them alone where the boundary lies beyond the other.
+    is_boundary: the method tells the boundary by its interval, so that an end that is None is open.
     common_sigma_m: 1 sigma of what the attempts of all lines leave open alike. is_place: the distance is that of the
     farthest place that worked, and the boundary lies between it and failed_m, the next farther one that failed: None
     when none did. Of a boundary that was not reached failed_m is the nearest place that failed.
@@ -55,6 +56,12 @@ class MeasuredDistance:
     common_sigma_m: OptionalFloat = None
     is_place: bool = False
     failed_m: OptionalFloat = None
+    is_boundary: bool = False
+
+    @property
+    def is_open(self) -> bool:
+        """The boundary may lie beyond an end of the places; a value and a sigma of it would say too much."""
+        return self.is_boundary and (self.low_m is None or self.high_m is None)
 
 
 def has_intervals(results: Sequence[LineResult]) -> bool:
@@ -152,7 +159,7 @@ def result_from_document(result_type: type[Result], document: Any) -> Result:
 def _check(distance: MeasuredDistance) -> None:
     """Raise ValueError for a distance that cannot be one."""
     has_distance = distance.distance_m is not None
-    if has_distance != (distance.status is LineStatus.OK):
+    if has_distance != (distance.status is LineStatus.OK and not distance.is_open):
         raise ValueError(f"distance of {distance.word}")
     if has_distance and not limits.DISTANCE.allows(distance.distance_m):
         raise ValueError(f"distance of {distance.word}")

@@ -21,6 +21,7 @@ class PointRole(enum.Enum):
     SECOND_FAILED = "second failed"
     FAILED = "failed"                  # where there is only one area
     INVALID = "invalid"
+    UNKNOWN = "unknown"                # a guess: nobody knows where
 
 
 @dataclass(frozen=True)

@@ -57,7 +57,7 @@ class Assessor:
         self._rays = {line.number: line.ray for line in self._lines}
 
     def assess(self, progress: Progress) -> Assessment:
-        """Of all lines measured so far."""
+        """Of all lines measured so far; a boundary with an open end has no budget, for nobody knows how far it is."""
         budgets = tuple(self._budget(result, distance) for result in progress.results for distance in result.distances
                         if distance.distance_m is not None)
         judgement = None
@@ -128,13 +128,8 @@ def _place_sigma(result: LineResult, distance: MeasuredDistance) -> float:
 
 
 def _attempts_sigma(distance: MeasuredDistance) -> float:
-    if distance.low_m is None and distance.high_m is None:
-        return 0.0
     if distance.low_m is None or distance.high_m is None:
-        # The boundary may lie beyond the places: the sigma and the end that there is are all that is known.
-        known_m = distance.low_m if distance.high_m is None else distance.high_m
-        half_m = 0.0 if known_m is None or distance.distance_m is None else abs(distance.distance_m - known_m)
-        return max(distance.uncertainty_m or 0.0, half_m / SIGMAS_OF_LEVEL)
+        return 0.0
     return (distance.high_m - distance.low_m) / (2.0 * SIGMAS_OF_LEVEL)
 
 

@@ -8,6 +8,7 @@ TEMPLATES = (
     QT_TRANSLATE_NOOP("Figure", "at most {first}"),
     QT_TRANSLATE_NOOP("Figure", "{first} to {second}"),
     QT_TRANSLATE_NOOP("Figure", "not reached"),
+    QT_TRANSLATE_NOOP("Figure", "unknown"),
     QT_TRANSLATE_NOOP("Figure", "invalid"),
     QT_TRANSLATE_NOOP("Figure", "key"),
 )

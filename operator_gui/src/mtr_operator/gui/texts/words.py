@@ -41,6 +41,7 @@ WORDS = (
     QT_TRANSLATE_NOOP("Word", "95 % of the presses work"),
     QT_TRANSLATE_NOOP("Word", "Border farther than here"),
     QT_TRANSLATE_NOOP("Word", "Border nearer than here"),
+    QT_TRANSLATE_NOOP("Word", "Border unknown"),
     QT_TRANSLATE_NOOP("Word", "Hole"),
     QT_TRANSLATE_NOOP("Word", "lines"),
     QT_TRANSLATE_NOOP("Word", "nothing measured"),

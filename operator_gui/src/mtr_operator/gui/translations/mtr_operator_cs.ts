@@ -952,6 +952,11 @@
         <source>key</source>
         <translation>klíč</translation>
     </message>
+    <message>
+        <location filename="../texts/figures.py" line="5"/>
+        <source>unknown</source>
+        <translation>neznámá</translation>
+    </message>
 </context>
 <context>
     <name>FileField</name>
@@ -1533,42 +1538,42 @@
 <context>
     <name>MainWindow</name>
     <message>
-        <location filename="../windows/main_window.py" line="44"/>
+        <location filename="../windows/main_window.py" line="57"/>
         <source>Mobile testing robot</source>
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="204"/>
+        <location filename="../windows/main_window.py" line="219"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="207"/>
+        <location filename="../windows/main_window.py" line="222"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="209"/>
+        <location filename="../windows/main_window.py" line="224"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="224"/>
+        <location filename="../windows/main_window.py" line="239"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="228"/>
+        <location filename="../windows/main_window.py" line="243"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="228"/>
+        <location filename="../windows/main_window.py" line="243"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="187"/>
+        <location filename="../windows/main_window.py" line="202"/>
         <source>Open a test</source>
         <translation>Otevřít test</translation>
     </message>
@@ -2317,12 +2322,12 @@
         <translation>Obvyklé hodnoty</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_form.py" line="117"/>
+        <location filename="../forms/parameter_form.py" line="118"/>
         <source>Fewer parameters</source>
         <translation>Méně parametrů</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_form.py" line="117"/>
+        <location filename="../forms/parameter_form.py" line="118"/>
         <source>More parameters</source>
         <translation>Více parametrů</translation>
     </message>
@@ -4067,17 +4072,17 @@
         <translation>kalibrační záznam z {}: {}</translation>
     </message>
     <message>
-        <location filename="../texts/figures.py" line="14"/>
+        <location filename="../texts/figures.py" line="15"/>
         <source>Beside each distance stands 1 sigma of where the Remote key was at this one event; at another attempt the Car may react elsewhere, by more than that.</source>
         <translation>U každé vzdálenosti je 1 sigma místa, kde byl klíč při této jedné události; při jiném pokusu může auto zareagovat jinde, i o více než to.</translation>
     </message>
     <message>
-        <location filename="../texts/figures.py" line="14"/>
+        <location filename="../texts/figures.py" line="15"/>
         <source>Beside each distance stands 1 sigma of the boundary, and its 95 % interval: in 95 of 100 tests like this one it holds where the Car decides either way equally often.</source>
         <translation>U každé vzdálenosti je 1 sigma hranice a její 95% interval: v 95 ze 100 takových testů obsahuje místo, kde se auto rozhoduje tak i onak stejně často.</translation>
     </message>
     <message>
-        <location filename="../texts/figures.py" line="14"/>
+        <location filename="../texts/figures.py" line="15"/>
         <source>Of a range between two places the nearer one is the farthest press that worked, the other the next one that failed; a range of at least a place worked at the first.</source>
         <translation>U dosahu mezi dvěma místy je bližší nejvzdálenější stisk, který zabral, a druhé nejbližší vzdálenější, který nezabral; dosah nejméně nějaký zabral hned na prvním místě.</translation>
     </message>
@@ -5175,6 +5180,11 @@
         <location filename="../texts/words.py" line="5"/>
         <source>signature</source>
         <translation>podpis</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>Border unknown</source>
+        <translation>Hranice neznámá</translation>
     </message>
 </context>
 </TS>

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Sequence
 
-from ...estimation.press.radial_estimate import Reach
 from ...geometry.pose import Point
 from ...results.figure import figure_of
 from ...results.line_result import LineStatus
 from ...results.picture import Picture, PointRole, PointSet, Stretch, bars_along, intervals_along
 from ...robot_status import CarDimensions
+from ..line_search.open_borders import open_borders
 from .axis_trial import axes_of
 from .parameters import HandleRequestParameters
 from .result import HandleRequestResult
@@ -26,9 +26,6 @@ def picture_of(parameters: HandleRequestParameters, car: CarDimensions,
     def points(places: str) -> tuple[Point, ...]:
         return tuple(ray.point(place_m) for ray, result in measured for place_m in getattr(result, places))
 
-    def beyond(reach: Reach, place_m: float) -> tuple[Point, ...]:
-        return tuple(ray.point(place_m) for ray, result in measured if result.reach == reach.value)
-
     half = [(ray, result.distances[0]) for ray, result in measured]
     border = tuple(ray.point(distance.distance_m) for ray, distance in half if distance.distance_m is not None)
     invalid = tuple(ray.point(far_m) for ray, result in measured if result.status is LineStatus.INVALID)
@@ -38,6 +35,5 @@ def picture_of(parameters: HandleRequestParameters, car: CarDimensions,
                  figures=tuple(figure_of(distance) for _, distance in half if distance.distance_m is not None)),
         PointSet("Inside", PointRole.SECOND, points("worked_at_m")),
         PointSet("Outside", PointRole.FAILED, points("failed_at_m")),
-        PointSet("Border farther than here", PointRole.FIRST_FAILED, beyond(Reach.FARTHER, parameters.farthest_m)),
-        PointSet("Border nearer than here", PointRole.SECOND_FAILED, beyond(Reach.NEARER, near_m)),
+        *open_borders(measured, near_m, parameters.farthest_m),
         PointSet("Invalid", PointRole.INVALID, invalid)))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Sequence
 
-from ...estimation.press.radial_estimate import Reach
 from ...geometry.pose import Point
 from ...geometry.radials import radials_around
 from ...geometry.ray import Ray
@@ -13,6 +12,7 @@ from ...results.line_result import LineStatus, MeasuredDistance
 from ...results.picture import Picture, PointRole, PointSet, Stretch, bars_along, intervals_along
 from ..key_press_parameters import KeyPressParameters
 from ..key_press_result import ADAPTIVE, KeyPressResult
+from ..line_search.open_borders import open_borders
 from ..line_search.result import SURE_PERCENT
 
 _Measured = Sequence[tuple[Ray, KeyPressResult]]
@@ -54,11 +54,9 @@ def _searched(parameters: KeyPressParameters, measured: _Measured) -> tuple[Poin
     half = [(ray, result.distances[0]) for ray, result in measured]
     sure = [(ray, distance) for ray, result in measured for distance in result.distances_at(SURE_PERCENT)]
     holes = tuple(ray.point(hole_m) for ray, result in measured for hole_m in result.holes_nearer_than(float("inf")))
-    nearest_m, farthest_m = parameters.minimum_distance_m, parameters.search_plan.maximum_m
     return (_area("50 % of the presses work", PointRole.FIRST, half),
             _area("95 % of the presses work", PointRole.SECOND, sure),
-            _beyond("Border farther than here", PointRole.FIRST_FAILED, measured, Reach.FARTHER, farthest_m),
-            _beyond("Border nearer than here", PointRole.SECOND_FAILED, measured, Reach.NEARER, nearest_m),
+            *open_borders(measured, parameters.minimum_distance_m, parameters.search_plan.maximum_m),
             PointSet("Hole", PointRole.FAILED, holes))
 
 
@@ -68,10 +66,6 @@ def _area(label: str, role: PointRole, measured: Sequence[tuple[Ray, MeasuredDis
                     for _, distance in measured)
     return PointSet(label, role, places, is_outline=True, bars=bars_along(measured),
                     intervals=intervals_along(measured), figures=figures)
-
-
-def _beyond(label: str, role: PointRole, measured: _Measured, reach: Reach, place_m: float) -> PointSet:
-    return PointSet(label, role, tuple(ray.point(place_m) for ray, result in measured if result.reach == reach.value))
 
 
 def _place(ray: Ray, distance_m: float | None) -> Point | None:

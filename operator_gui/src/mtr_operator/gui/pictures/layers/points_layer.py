@@ -20,18 +20,23 @@ _LABEL_GAP_PX = 14.0
 _AREA_ALPHA = 0.12
 _BAR_ALPHA = 0.35
 _CAP_PX = 6.0
+# Markers of lines; the others are filled.
+_DRAWN = (PointRole.FIRST_FAILED, PointRole.SECOND_FAILED, PointRole.FAILED, PointRole.UNKNOWN)
 
 
 def colour_of(role: PointRole, palette: Palette) -> str:
     """Colour of a role."""
     return {PointRole.FIRST: palette.first, PointRole.FIRST_FAILED: palette.first,
             PointRole.SECOND: palette.second, PointRole.SECOND_FAILED: palette.second,
-            PointRole.FAILED: palette.failed, PointRole.INVALID: palette.invalid}[role]
+            PointRole.FAILED: palette.failed, PointRole.INVALID: palette.invalid,
+            PointRole.UNKNOWN: palette.ink_soft}[role]
 
 
 def draw_marker(painter: QPainter, role: PointRole, place: QPointF, radius: float) -> None:
     """Marker of a role: told apart by shape too. Pen and brush are the painter's."""
-    if role is PointRole.FIRST:
+    if role is PointRole.UNKNOWN:
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+    if role in (PointRole.FIRST, PointRole.UNKNOWN):
         painter.drawEllipse(place, radius, radius)
     elif role is PointRole.SECOND:
         painter.drawRect(QRectF(place.x() - 0.9 * radius, place.y() - 0.9 * radius, 1.8 * radius, 1.8 * radius))
@@ -172,8 +177,8 @@ def _paint_points(canvas: Canvas, points: PointSet) -> None:
     painter.setPen(canvas.pen(colour, 2.2))
     for start, end in points.intervals:
         draw_interval(painter, canvas.at(start), canvas.at(end), _CAP_PX * canvas.unit)
-    painter.setPen(canvas.pen(colour if points.role.value.endswith("failed") else canvas.palette.surface,
-                              2.2 if points.role.value.endswith("failed") else 1.0))
+    is_drawn = points.role in _DRAWN
+    painter.setPen(canvas.pen(colour if is_drawn else canvas.palette.surface, 2.2 if is_drawn else 1.0))
     painter.setBrush(QColor(colour))
     for point in points.known:
         draw_marker(painter, points.role, canvas.at(point), _RADIUS_PX * canvas.unit)
