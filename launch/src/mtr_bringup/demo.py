@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Dict, List, Optional, Sequence, Tuple
 
 from mtr_core.errors import ConfigurationError
-from mtr_simulation.car.choice import CarChoice, chosen_car
+from mtr_simulation.car.choice import chosen_car
 from mtr_simulation.site.scenario import named_scenario
 
 from .stack import Stack, StackError, StackOptions
@@ -23,8 +23,10 @@ MIN_LINES = {"autolock": 16, "key_press": 8, "zone_map": 8, "handle_request": 3}
 USUAL_SCENARIOS = ("autolock", "key_press")
 SCENARIOS_OF_CAR = {"honest_handle": ("handle_request",)}
 # Near the Car passive entry moves the locks too; for a test of the button it is switched off in the Car's menu.
-CAR_OF_SCENARIO = {("honest", "key_press"): "honest_button", ("honest", "zone_map"): "honest_button",
+CAR_OF_SCENARIO = {("honest", "key_press"): "honest_far_button", ("honest", "zone_map"): "honest_button",
                    ("honest", "handle_request"): "honest_handle"}
+# A key that works from afar takes more room than the lot has.
+SITE_OF_CAR = {"honest_far_button": "far"}
 EXAMPLES = pathlib.Path("operator_gui") / "examples" / "demo"
 OUTPUTS = ("results.csv", "protocol.png", "progress.json", "truth.csv")
 INTERRUPTED = 130
@@ -67,6 +69,11 @@ class DemoOptions:
     def stack_folder(self) -> pathlib.Path:
         """Of the simulated robot and Car."""
         return self.folder / "stack" / pathlib.Path(self.car).stem
+
+    @property
+    def site(self) -> str:
+        """What stands around the Car: a name of mtr_simulation's scenarios."""
+        return SITE_OF_CAR.get(self.car, "lot")
 
     @property
     def events(self) -> pathlib.Path:
@@ -161,20 +168,27 @@ def parts_of(options: DemoOptions) -> List[Tuple[DemoOptions, List[str]]]:
 def run_part(options: DemoOptions, names: Sequence[str]) -> None:
     """Run the scenarios that share a Car."""
     with Stack(StackOptions(options.stack_folder, options.seed, rviz="DISPLAY" in os.environ,
-                            arguments={"firmware_elf": options.firmware, "car": options.car_argument})) as stack:
-        statuses = [run_scenario(stack, name, options.folder / name, chosen_car(options.car)) for name in names]
+                            arguments={"firmware_elf": options.firmware, "car": options.car_argument,
+                                       "scenario": options.site})) as stack:
+        statuses = [run_scenario(stack, name, options.folder / name, options.car) for name in names]
     if any(statuses):
         raise DemoError(f"A scenario failed; see {stack.log} and {options.folder}.")
 
 
-def run_scenario(stack: Stack, name: str, folder: pathlib.Path, car: CarChoice) -> int:
+def parameters_of(scenario: str, car: str) -> pathlib.Path:
+    """File with the parameters of a scenario: those for this Car where there are such."""
+    own = EXAMPLES / f"{scenario}_{pathlib.Path(car).stem}.yaml"
+    return own if own.exists() else EXAMPLES / f"{scenario}.yaml"
+
+
+def run_scenario(stack: Stack, name: str, folder: pathlib.Path, car: str) -> int:
     """Run one scenario with the Operator's application, as a person would from the command line; its exit status."""
     print(f"=== {name}", flush=True)
     return subprocess.run([
-        sys.executable, "-m", "mtr_operator", "run", name, "--params", str(EXAMPLES / f"{name}.yaml"),
+        sys.executable, "-m", "mtr_operator", "run", name, "--params", str(parameters_of(name, car)),
         "--out", str(folder), "--robot", "127.0.0.1", "--subscriber-port", str(stack.status_port),
         "--publisher-port", str(stack.command_port), "--can-interface", "slcan", "--can-channel", str(stack.can_link),
-        "--can-bitrate", "500000", "--car-profile", car.profile,
+        "--can-bitrate", "500000", "--car-profile", chosen_car(car).profile,
     ], check=False).returncode
 
 

@@ -1,6 +1,9 @@
 """The demo says what is wrong or missing in its results."""
 # SPDX-License-Identifier: Apache-2.0
+import pathlib
+
 import pytest
+import yaml
 
 from mtr_bringup import demo
 from mtr_bringup.demo import (
@@ -9,6 +12,7 @@ from mtr_bringup.demo import (
     DemoOptions,
     DemoResult,
     last_event,
+    parameters_of,
     parts_of,
     problems_of,
     read_rows,
@@ -16,6 +20,7 @@ from mtr_bringup.demo import (
 )
 from mtr_core.errors import ConfigurationError
 
+TOP = pathlib.Path(__file__).resolve().parents[3]
 HEADER = "line,unlock_robot_time_s,lock_robot_time_s\n"
 
 
@@ -71,20 +76,29 @@ def test_car_of_a_file_is_found_from_any_folder_and_the_comparison_knows_it(tmp_
 
 def test_button_is_tried_with_passive_entry_switched_off_where_a_car_has_it(tmp_path):
     assert [DemoOptions(tmp_path, car="honest").car_for(name) for name in MIN_LINES] == [
-        "honest", "honest_button", "honest_button", "honest_handle"]
+        "honest", "honest_far_button", "honest_button", "honest_handle"]
     assert {DemoOptions(tmp_path, car="gentle").car_for(name) for name in MIN_LINES} == {"gentle"}
 
 
 @pytest.mark.parametrize(("car", "asked", "parts"), [
     ("gentle", (), [("gentle", ["autolock", "key_press"])]),
-    ("honest", (), [("honest", ["autolock"]), ("honest_button", ["key_press"])]),
+    ("honest", (), [("honest", ["autolock"]), ("honest_far_button", ["key_press"])]),
     ("honest_handle", (), [("honest_handle", ["handle_request"])]),
     ("honest", ("key_press", "handle_request", "zone_map"),
-     [("honest_button", ["key_press", "zone_map"]), ("honest_handle", ["handle_request"])]),
+     [("honest_far_button", ["key_press"]), ("honest_handle", ["handle_request"]), ("honest_button", ["zone_map"])]),
 ])
 def test_scenarios_that_suit_the_car_are_run_unless_others_are_asked_for_and_each_car_once(tmp_path, car, asked, parts):
     found = parts_of(DemoOptions(tmp_path, car=car, scenarios=asked))
     assert [(part.car, names) for part, names in found] == parts
+
+
+def test_key_that_works_from_afar_has_a_site_and_parameters_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(TOP)
+    (part, _), = parts_of(DemoOptions(tmp_path, car="honest", scenarios=("key_press",)))
+    assert (part.site, DemoOptions(tmp_path).site) == ("far", "lot")
+    far, usual = (yaml.safe_load(parameters_of("key_press", car).read_text(encoding="utf-8"))["maximum_distance_m"]
+                  for car in (part.car, "gentle"))
+    assert far > usual
 
 
 def test_scenario_that_does_not_exist_is_refused(capsys):

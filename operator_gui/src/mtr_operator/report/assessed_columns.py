@@ -51,7 +51,8 @@ def _of_distance(word: str) -> tuple[Column, ...]:
     return (Column(f"{word}_own_sigma_m", "m", "1 sigma of the errors of this distance alone; see budget.json"),
             Column(f"{word}_common_sigma_m", "m", "1 sigma of the errors that the other lines have too"),
             Column(f"{word}_expanded_m", "m", "expanded uncertainty, 95 % coverage, of all that budget.json lists; "
-                   "it holds what other attempts would do only where the method gives an interval"))
+                   "it holds what other attempts would do only where the method gives an interval; empty where one "
+                   "end of that is open"))
 
 
 def _to_outline(word: str) -> Column:

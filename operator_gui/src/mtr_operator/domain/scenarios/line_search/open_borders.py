@@ -31,6 +31,6 @@ def open_borders(measured: Sequence[tuple[Ray, SearchedResult]], nearest_m: floa
 
 def _set(label: str, role: PointRole, found: _Found, place_m: Callable[[SearchedResult], float]) -> PointSet:
     """place_m: of a border without a known end."""
-    ends = [(ray, place_m(result) if figure.first_m is None else figure.first_m, figure) for ray, result, figure in found]
-    return PointSet(label, role, tuple(ray.point(end_m) for ray, end_m, _ in ends),
-                    figures=tuple(figure for _, _, figure in ends))
+    places = tuple(ray.point(place_m(result) if figure.first_m is None else figure.first_m)
+                   for ray, result, figure in found)
+    return PointSet(label, role, places, figures=tuple(figure for _, _, figure in found))
