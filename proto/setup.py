@@ -54,6 +54,7 @@ setup(
     packages=["mtr_proto"],
     package_dir={"": "src"},
     python_requires=">=3.8",
-    install_requires=[protobuf()],
+    # What spake2 is for, and that it may lack: mtr_proto/pairing.py.
+    install_requires=[protobuf(), "spake2>=0.8"],
     cmdclass={"build_py": BuildWithSchema},
 )

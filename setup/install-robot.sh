@@ -60,7 +60,8 @@ restart() {
 install_packages() {
   [[ $staging ]] && return
   apt-get update -qq
-  apt-get install -y -qq --no-install-recommends build-essential python3-catkin-tools python3-rosdep chrony logrotate >/dev/null
+  apt-get install -y -qq --no-install-recommends build-essential python3-catkin-tools python3-rosdep python3-spake2 \
+    chrony logrotate >/dev/null
   [[ -d /etc/ros/rosdep/sources.list.d ]] || rosdep init
   rosdep update --rosdistro noetic >/dev/null
   rosdep install --from-paths "$top" --ignore-src --rosdistro noetic -y --skip-keys "$not_needed"
@@ -89,6 +90,7 @@ build() {
 
 install_files() {
   install -D -m 755 "$here/start" "$prefix/start"
+  install -D -m 755 "$here/link" "$prefix/link"
   install -D -m 644 "$here/mtr-robot.service" "$staging/etc/systemd/system/mtr-robot.service"
   install -D -m 644 "$here/mtr-robot.logrotate" "$staging/etc/logrotate.d/mtr-robot"
   # The person's own settings outlive an upgrade.

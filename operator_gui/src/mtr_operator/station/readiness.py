@@ -69,7 +69,7 @@ class Cause(enum.Enum):
 
 HELD_CODE = "held"
 # Red, and no reason not to start: a robot may have no emergency stop, and one that is held is released during the test.
-NOT_BLOCKING = ("no_emergency_stop", HELD_CODE)
+NOT_BLOCKING = ("no_emergency_stop", "unencrypted", HELD_CODE)
 # In these the robot itself says what is the matter.
 MODE_CODES = ("fault", "link_lost", "not_localized")
 

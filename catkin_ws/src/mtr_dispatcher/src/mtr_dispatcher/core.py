@@ -4,6 +4,7 @@ import itertools
 from typing import List, Optional, Tuple
 
 from . import problems
+from .access.gate import ANYBODY, Sender
 from .command import Command
 from .command_codec import UndecodableError, decode
 from .parameters import Parameters
@@ -23,7 +24,8 @@ class Dispatcher:
         session: who controls the robot.
         log: the robot's warnings.
         status_id: newest Status that was written, 0 before the first.
-        rejected_messages: undecodable, oversized, expired, refused or foreign messages since the start.
+        rejected_messages: undecodable, oversized, expired, refused, foreign or forbidden messages since the start.
+        controller: owner of the key whose Commands count; empty on a link without keys.
     """
 
     def __init__(self, parameters: Parameters, identity: Identity):
@@ -32,28 +34,43 @@ class Dispatcher:
         self.log = LogBuffer()
         self.status_id = 0
         self.rejected_messages = 0
+        self.controller = ""
         self._recent, self._foreign = RecentNotices(), ForeignApplications()
         self._sent, self._interventions = SentStatuses(), Interventions()
 
-    def receive(self, data: bytes, now_s: float) -> Tuple[Optional[CommandResult], str]:
+    def receive(self, data: bytes, now_s: float, sender: Sender = ANYBODY) -> Tuple[Optional[CommandResult], str]:
         """Take one message of the link at a time of the steady clock.
 
         Returns its result (None: no Command) and a sentence for the log, if any.
         """
+        if sender.refusal:
+            return CommandResult.FORBIDDEN, self._reject(Notice("key_refused", WARNING, sender.refusal), now_s)
         try:
             command = decode(data)
         except UndecodableError as error:
             self._reject(Notice("bad_message", WARNING, error.problem), now_s)
             return None, str(error)
         before = self.session.session_id
+        if command.session_id == before and sender.name != self.controller:
+            # Sessions stand in each Status, which every paired key can read.
+            impostor = Notice("key_refused", WARNING, problems.SESSION_OF_ANOTHER(name=sender.name))
+            return CommandResult.FORBIDDEN, self._reject(impostor, now_s)
         result = self.session.take(
             command, now_s, self._sent.answered_s((command.seen_status_id, command.seen_robot_time_s)))
+        if self.session.session_id != before:
+            self.controller = sender.name if self.session.session_id else ""
         if result is CommandResult.FOREIGN:
             self.rejected_messages += 1
             return result, self._foreign.received(self.session.session_id, command.session_id, now_s).text
         if result in REJECTIONS:
             return result, self._reject(self._rejection(result, command), now_s)
-        return result, self._event(result, command, before)
+        return result, self._event(result, command, before, sender)
+
+    def refused_connections(self, count: int, now_s: float) -> str:
+        """Tell the Operator of connections that were refused since the start; the sentence for the log."""
+        notice = Notice("connections_refused", WARNING, problems.CONNECTIONS_REFUSED(count=count))
+        self._recent.add(notice, now_s)
+        return notice.problem.text
 
     def desired(self, now_s: float) -> SessionState:
         """What the robot shall do at now_s of the steady clock."""
@@ -67,7 +84,7 @@ class Dispatcher:
         standing = standing_notices(desired, inputs, self._parameters)
         return status_bytes(self._identity, Report(
             self.status_id, inputs, self._interventions.update(inputs), self._confirmations(desired, inputs),
-            self.rejected_messages, self.log.due(),
+            self.rejected_messages, self.controller, self.log.due(),
             itertools.chain(standing, self._foreign.notices(desired.session_id, inputs.steady_s),
                             self._recent.at(inputs.steady_s))))
 
@@ -98,9 +115,11 @@ class Dispatcher:
             return Notice("command_expired", WARNING, problems.EXPIRED(id=command.id))
         return Notice("command_refused", ERROR, problems.REFUSED(id=command.id, cause=self.session.refusal))
 
-    def _event(self, result: CommandResult, command: Command, session_before: int) -> str:
+    def _event(self, result: CommandResult, command: Command, session_before: int, sender: Sender) -> str:
+        owner = f" of {sender.name}" if sender.name else ""
         if result is CommandResult.ENDED:
-            return f"Application {command.session_id:x} ended its session."
+            return f"Application {command.session_id:x}{owner} ended its session."
         if self.session.session_id != session_before:
-            return f"Application {command.session_id:x} controls the robot now."
-        return ""
+            return f"Application {command.session_id:x}{owner} controls the robot now."
+        # What the robot did, and for whom, is to be found in the log afterwards.
+        return f"Command {command.id}{owner} was taken." if owner and result is CommandResult.TAKEN else ""

@@ -1,12 +1,14 @@
 """The robot's end of the link: two bound ZeroMQ sockets whose memory nobody outside can fill."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import List, NamedTuple
+from typing import Any, List, NamedTuple, Optional
 
 import zmq
 
 from mtr_core.errors import RobotError
 
+from .access.curve import Curve, authenticator, encrypt
+from .access.handshakes import HandshakeWatch
 from .command_codec import MAX_MESSAGE_BYTES
 
 # Whole messages that wait per connection. Parts of an unfinished one are not counted by ZeroMQ: see `rebind`.
@@ -17,6 +19,8 @@ MESSAGES_PER_TURN = 100
 HEARTBEAT_MS = 1000
 HEARTBEAT_TIMEOUT_MS = 5000
 LINGER_MS = 200
+# Who has not said within it who he is loses the connection.
+HANDSHAKE_MS = 2000
 
 
 class LinkError(RobotError):
@@ -31,11 +35,20 @@ class Ports(NamedTuple):
     command_port: int
 
 
-class LinkServer:
-    """Publishes Status on one port and receives Commands on the other."""
+class Received(NamedTuple):
+    """One message. key: public key (Z85) of who sent it, ZeroMQ's User-Id; empty on a link that is not encrypted."""
 
-    def __init__(self, ports: Ports) -> None:
-        self._ports = ports
+    data: bytes
+    key: str = ""
+
+
+class LinkServer:
+    """Publishes Status on one port and receives Commands on the other; with curve to and from paired keys only."""
+
+    def __init__(self, ports: Ports, curve: Optional[Curve] = None) -> None:
+        self._ports, self._curve = ports, curve
+        self._authenticator: Optional[Any] = None
+        self._watches: List[HandshakeWatch] = []
         self._open()
 
     def bind(self) -> None:
@@ -55,7 +68,7 @@ class LinkServer:
 
         Applications connect again by themselves.
         """
-        self._context.destroy(0)
+        self._destroy(0)
         self._open()
         self.bind()
 
@@ -63,26 +76,44 @@ class LinkServer:
         """Send one Status to every application that listens."""
         self._publisher.send(status)
 
-    def receive(self, timeout_s: float = 0.0) -> List[bytes]:
+    def failed_handshakes(self) -> List[str]:
+        """A word for each connection since the last call that spoke another language than the link's."""
+        return [word for watch in self._watches for word in watch.failed()]
+
+    def receive(self, timeout_s: float = 0.0) -> List[Received]:
         """Messages that have arrived, in order; waits up to timeout_s for the first one."""
         if not self._subscriber.poll(math.ceil(1000.0 * max(timeout_s, 0.0))):
             return []
-        messages: List[bytes] = []
+        messages: List[Received] = []
         while len(messages) < MESSAGES_PER_TURN:
             try:
-                frames = self._subscriber.recv_multipart(zmq.NOBLOCK)
+                frames = self._subscriber.recv_multipart(zmq.NOBLOCK, copy=False)
             except zmq.Again:
                 break
             # A message of several frames is none of ours; joined, it is counted as undecodable or oversized.
-            messages.append(frames[0] if len(frames) == 1 else b"\xff".join([b"", *frames]))
+            data = [frame.bytes for frame in frames]
+            joined = data[0] if len(data) == 1 else b"\xff".join([b"", *data])
+            messages.append(Received(joined, self._key_of(frames[0])))
         return messages
 
     def close(self) -> None:
         """Release both ports."""
-        self._context.destroy(LINGER_MS)
+        self._destroy(LINGER_MS)
+
+    def _destroy(self, linger_ms: int) -> None:
+        if self._authenticator is not None:
+            self._authenticator.stop()
+            self._authenticator = None
+        self._context.destroy(linger_ms)
+
+    def _key_of(self, frame: Any) -> str:
+        return "" if self._curve is None else str(frame.get("User-Id"))
 
     def _open(self) -> None:
         self._context = zmq.Context()
+        if self._curve is not None:
+            # Before the sockets, so that nobody is turned away at the start.
+            self._authenticator = authenticator(self._context, self._curve)
         self._publisher = self._socket(zmq.PUB)
         self._publisher.setsockopt(zmq.SNDHWM, SEND_QUEUE)
         # libzmq 4.3.4 aborts (stream_engine_base.cpp, "!_io_error") when a peer goes whose subscriptions have filled
@@ -91,6 +122,8 @@ class LinkServer:
         self._subscriber = self._socket(zmq.SUB)
         self._subscriber.setsockopt(zmq.RCVHWM, RECEIVE_QUEUE)
         self._subscriber.setsockopt(zmq.SUBSCRIBE, b"")
+        if self._curve is not None:
+            self._watches = [HandshakeWatch(socket) for socket in (self._publisher, self._subscriber)]
 
     def _socket(self, kind: int) -> "zmq.Socket[bytes]":
         socket = self._context.socket(kind)
@@ -98,4 +131,7 @@ class LinkServer:
         socket.setsockopt(zmq.MAXMSGSIZE, MAX_MESSAGE_BYTES)
         socket.setsockopt(zmq.HEARTBEAT_IVL, HEARTBEAT_MS)
         socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, HEARTBEAT_TIMEOUT_MS)
+        socket.setsockopt(zmq.HANDSHAKE_IVL, HANDSHAKE_MS)
+        if self._curve is not None:
+            encrypt(socket, self._curve)
         return socket

@@ -1,5 +1,6 @@
 """The dispatcher's node: wires the link and the topics to the core."""
 # SPDX-License-Identifier: Apache-2.0
+import pathlib
 import secrets
 import time
 from typing import List, Optional
@@ -23,10 +24,15 @@ from mtr_msgs.msg import (
     PeripheralsState,
     RobotMode,
 )
+from mtr_proto.keys import fingerprint
 
+from .access.curve import Curve, is_possible
+from .access.gate import ANYBODY, Gate
+from .access.key_folder import FOLDER_NAME, KeyFolder
+from .access.rates import Rates
 from .conversions import desired_message, lock_message
 from .core import Dispatcher
-from .link_server import LinkError, LinkServer, Ports
+from .link_server import LinkError, LinkServer, Ports, Received
 from .memory import end_beyond, give_back, resident_mib
 from .operator_wait import OperatorWait
 from .parameters import Parameters
@@ -45,13 +51,17 @@ STATUS_AGAIN_WALL_S = 0.1
 TURN_S = 0.02
 # Whoever floods the robot with bad messages gets one line of log per kind and this time.
 LOG_PERIOD_S = 10.0
+# New Commands of one owner that the log names one by one: a test has some a second.
+LOGGED_PER_S, MAX_LOGGED_BURST = 5.0, 50.0
 
 
 class DispatcherNode:
     """Serves the link at the ticks of simulated time, or at once on the robot's own clock."""
 
-    def __init__(self, parameters: Parameters, core: Dispatcher, server: LinkServer):
-        self._parameters, self._core, self._server = parameters, core, server
+    def __init__(self, parameters: Parameters, core: Dispatcher, server: LinkServer, gate: Optional[Gate] = None):
+        """gate: who may use the link; None when it is not encrypted."""
+        self._parameters, self._core, self._server, self._gate = parameters, core, server, gate
+        self._refused, self._logged = 0, Rates(LOGGED_PER_S, MAX_LOGGED_BURST)
         self._wait = OperatorWait(parameters.operator_lost_after_wall_s)
         self._published: Optional[SessionState] = None
         self._confirmed: Optional[List[object]] = None
@@ -124,18 +134,39 @@ class DispatcherNode:
         self._publish_desired(now)
 
     def _receive(self, now_ns: int, timeout_s: float) -> bool:
+        if self._gate is not None:
+            self._watch_connections(self._gate, self._steady_s(now_ns))
         messages = self._server.receive(timeout_s)
         # The time after waiting: what came while this process was stopped is as old as it is.
         now_s = self._steady_s(now_ns)
-        for data in messages:
-            result, sentence = self._core.receive(data, now_s)
-            if result in (CommandResult.TAKEN, CommandResult.REPEATED, CommandResult.REFUSED):
-                self._wait.received()
-            if sentence and result in (CommandResult.TAKEN, CommandResult.ENDED):
-                rospy.loginfo(sentence)
-            elif sentence:
-                self._warn(result, sentence)
+        for message in messages:
+            self._take(message, now_s)
         return bool(messages)
+
+    def _take(self, message: Received, now_s: float) -> None:
+        sender = ANYBODY if self._gate is None else self._gate.sender(message.key, time.monotonic())
+        result, sentence = self._core.receive(message.data, now_s, sender)
+        if result in (CommandResult.TAKEN, CommandResult.REPEATED, CommandResult.REFUSED):
+            self._wait.received()
+        if not sentence:
+            return
+        is_good = result in (CommandResult.TAKEN, CommandResult.ENDED)
+        if is_good and self._logged.allow(sender.name, time.monotonic()):
+            rospy.loginfo("%s", sentence)
+        else:
+            self._warn(result, sentence)
+
+    def _watch_connections(self, gate: Gate, now_s: float) -> None:
+        for word in self._server.failed_handshakes():
+            gate.count(word)
+        refused = dict(gate.refused)
+        if sum(refused.values()) != self._refused:
+            self._refused = sum(refused.values())
+            said = self._core.refused_connections(self._refused, now_s)
+            self._warn("connections", f"{said} {', '.join(f'{count} {what}' for what, count in refused.items())}.")
+        if gate.has_lost_keys():
+            rospy.logwarn("A key was revoked: all connections are cut off, and the paired ones come back.")
+            self._server.rebind()
 
     def _warn(self, kind: object, sentence: str) -> None:
         said = self._throttle.passed(kind, cut(sentence), time.monotonic())
@@ -196,11 +227,37 @@ def make(parameters: Parameters) -> DispatcherNode:
     """The node with its ports open."""
     key = described_robot().key()
     end_beyond(parameters.memory_limit_mib)
-    server = LinkServer(Ports(parameters.bind_address, parameters.status_port, parameters.command_port))
+    curve = gate = None
+    if parameters.is_encrypted:
+        folder = KeyFolder(pathlib.Path(parameters.key_folder or pathlib.Path(rospkg.get_ros_home()) / FOLDER_NAME))
+        gate = Gate(folder.authorised, parameters.max_commands_per_s, time.monotonic)
+        curve = _curve(parameters, folder, gate)
+    elif parameters.is_exposed:
+        rospy.logerr("The link is not encrypted (allow_unencrypted): whoever reaches %s can move the robot.",
+                     parameters.bind_address)
+    server = LinkServer(Ports(parameters.bind_address, parameters.status_port, parameters.command_port), curve)
     server.bind()
-    identity = Identity(secrets.randbits(63) | 1, rospkg.RosPack().get_manifest("mtr_dispatcher").version,
-                        key.x_m, key.y_m)
-    return DispatcherNode(parameters, Dispatcher(parameters, identity), server)
+    try:
+        identity = Identity(secrets.randbits(63) | 1, rospkg.RosPack().get_manifest("mtr_dispatcher").version,
+                            key.x_m, key.y_m)
+        return DispatcherNode(parameters, Dispatcher(parameters, identity), server, gate)
+    except BaseException:
+        # Its thread would keep the process alive.
+        server.close()
+        raise
+
+
+def _curve(parameters: Parameters, folder: KeyFolder, gate: Gate) -> Curve:
+    if not is_possible():
+        raise LinkError(f"The link cannot listen on {parameters.bind_address}: this ZeroMQ has no encryption; install "
+                        "one with it, bind 127.0.0.1, or set allow_unencrypted.")
+    curve = Curve(folder.own_keys(), gate.admits)
+    keys = folder.authorised()
+    if folder.distrust:
+        rospy.logerr("%s", folder.distrust)
+    rospy.loginfo("The link is encrypted; %d keys are paired. This robot's key: %s", len(keys.entries),
+                  fingerprint(curve.keys.public.decode("ascii")))
+    return curve
 
 
 def main() -> int:

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from mtr_core.errors import ConfigurationError, check_range
 from mtr_core.parameters import ParameterSet, number
 
+from .access.curve import is_loopback
+
 
 @dataclass(frozen=True)
 class Parameters(ParameterSet):
@@ -24,6 +26,10 @@ class Parameters(ParameterSet):
         low_battery: charge below which the Operator is warned.
         emergency_stop: the robot has one that its software sees; one that is silent counts as engaged.
         warn_without_emergency_stop: the Operator reads that there is none.
+        encrypt_on_loopback: CURVE also where only this computer reaches the link; elsewhere it is always on.
+        allow_unencrypted: no CURVE on another address either; robot and window say so in red.
+        key_folder: of the robot's key pair and the list of paired keys; empty for mtr_link in $ROS_HOME.
+        max_commands_per_s: Commands of one key that are looked at.
         memory_limit_mib: memory of the process at which all connections of the link are cut off.
     """
 
@@ -40,6 +46,10 @@ class Parameters(ParameterSet):
     low_battery: float = number(0.2, 0.0, 1.0)
     emergency_stop: bool = False
     warn_without_emergency_stop: bool = True
+    encrypt_on_loopback: bool = False
+    allow_unencrypted: bool = False
+    key_folder: str = ""
+    max_commands_per_s: float = number(500.0, 50.0, 10000.0, "1/s")
     memory_limit_mib: int = number(400, 150, 4000, "MiB")
 
     def __post_init__(self) -> None:
@@ -48,3 +58,16 @@ class Parameters(ParameterSet):
         if self.status_port == self.command_port:
             raise ConfigurationError(f"Parameters status_port and command_port are both {self.status_port}; "
                                      "they must differ.")
+        if self.allow_unencrypted and self.encrypt_on_loopback:
+            raise ConfigurationError("Parameters allow_unencrypted and encrypt_on_loopback are both true; they "
+                                     "contradict each other.")
+
+    @property
+    def is_encrypted(self) -> bool:
+        """True when only paired keys may use the link."""
+        return self.encrypt_on_loopback or not (is_loopback(self.bind_address) or self.allow_unencrypted)
+
+    @property
+    def is_exposed(self) -> bool:
+        """True when whoever is in the network may use it."""
+        return not self.is_encrypted and not is_loopback(self.bind_address)

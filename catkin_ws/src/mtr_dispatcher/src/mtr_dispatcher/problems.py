@@ -19,6 +19,20 @@ FOREIGN_APPLICATION = Sentence(
     "dispatcher.foreign_application",
     "Application {controlling} controls the robot; Commands of application {foreign} are ignored.")
 
+# Who may not use the link
+KEY_UNKNOWN = Sentence("dispatcher.key_unknown",
+                       "Commands with a key that the robot does not know are ignored; pair anew.")
+VIEWER_COMMAND = Sentence("dispatcher.viewer_command",
+                          "The key of {name} is for looking only; its Commands are ignored. Pair it as a controller.")
+TOO_MANY_COMMANDS = Sentence("dispatcher.too_many_commands",
+                             "{name} sends more Commands than the robot takes; the others are ignored.")
+SESSION_OF_ANOTHER = Sentence("dispatcher.session_of_another",
+                              "{name} has sent a Command in the name of another; it was ignored.")
+CONNECTIONS_REFUSED = Sentence("dispatcher.connections_refused",
+                               "{count} connections without a key that the robot knows were refused since its start.")
+UNENCRYPTED = Sentence("dispatcher.unencrypted",
+                       "The link is not encrypted: whoever is in its network can move the robot.")
+
 # What makes a Command unacceptable
 WAYPOINT_WITHOUT_ID = Sentence("dispatcher.waypoint_without_id", "Waypoint without an id; ids count from 1.")
 WAYPOINT_DIRECTION = Sentence("dispatcher.waypoint_direction",

@@ -32,6 +32,7 @@ class CommandResult(enum.Enum):
     FOREIGN = "foreign"        # another application controls the robot
     REFUSED = "refused"        # its content is unacceptable; the robot stops
     ENDED = "ended"            # goodbye
+    FORBIDDEN = "forbidden"    # whoever sent it may not
 
 
 # Commands that moved nothing and are counted as rejected.

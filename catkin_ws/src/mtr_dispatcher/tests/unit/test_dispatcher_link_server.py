@@ -44,7 +44,7 @@ def sent(link, *frames):
     messages = []
     deadline = time.monotonic() + RECEIVE_LIMIT_S
     while not messages and time.monotonic() < deadline:
-        messages = [data for data in server.receive(RECEIVE_LIMIT_S) if data != BEFORE]
+        messages = [message.data for message in server.receive(RECEIVE_LIMIT_S) if message.data != BEFORE]
     return messages
 
 
@@ -62,7 +62,7 @@ def test_sender_of_an_oversized_message_is_cut_off(link):  # D1
     deadline, received = time.monotonic() + RECEIVE_LIMIT_S, []
     while b"again" not in received and time.monotonic() < deadline:
         sender.send(b"again")
-        received += server.receive(0.01)
+        received += [message.data for message in server.receive(0.01)]
     assert set(received) <= {BEFORE, b"again"} and b"again" in received
 
 
@@ -72,7 +72,7 @@ def test_link_that_cuts_everybody_off_is_found_again(link):  # D1
     deadline, received = time.monotonic() + RECEIVE_LIMIT_S, []
     while not received and time.monotonic() < deadline:
         sender.send(b"again")
-        received = server.receive(0.01)
+        received = [message.data for message in server.receive(0.01)]
     assert b"again" in received
 
 
@@ -81,7 +81,7 @@ def test_message_of_several_frames_is_no_command(link):
 
 
 def test_nothing_is_received_when_nothing_is_sent(link):
-    assert set(link[0].receive(0.0)) <= {BEFORE}
+    assert {message.data for message in link[0].receive(0.0)} <= {BEFORE}
 
 
 def test_busy_port_is_a_sentence():
@@ -95,7 +95,8 @@ def test_busy_port_is_a_sentence():
 
 
 @pytest.mark.parametrize("bad", [{"status_port": 0}, {"command_port": 65536}, {"status_port": 3333},
-                                 {"link_timeout_s": 0.0}, {"default_speed_mps": 3.0}])
+                                 {"link_timeout_s": 0.0}, {"default_speed_mps": 3.0},
+                                 {"allow_unencrypted": True, "encrypt_on_loopback": True}])
 def test_parameter_out_of_range_is_a_sentence(bad):
     with pytest.raises(ConfigurationError, match=next(iter(bad))):
         Parameters(**bad)

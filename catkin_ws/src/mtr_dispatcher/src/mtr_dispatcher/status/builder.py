@@ -48,6 +48,7 @@ class Report(NamedTuple):
     interventions: Dict[str, int]
     confirmations: Confirmations
     rejected_messages: int
+    controller: str
     log: Iterable[Entry]
     notices: Iterable[Notice]
 
@@ -61,6 +62,8 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
         software_version=identity.software_version, steady_time_s=report.fresh.steady_s,
         interventions=link.Interventions(**report.interventions), emergency_stop=report.fresh.emergency_stop)
     status.state.key_x, status.state.key_y = identity.key_x_m, identity.key_y_m
+    if report.controller:
+        status.controller_name = report.controller
     _add_mode(status, report.fresh.mode, report.confirmations.session_id)
     _add_pose(status.state, report.fresh)
     if report.fresh.drive is not None:

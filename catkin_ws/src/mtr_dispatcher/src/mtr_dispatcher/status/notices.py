@@ -79,6 +79,8 @@ def standing_notices(desired: SessionState, fresh: Inputs, parameters: Parameter
         yield Notice("link_lost", ERROR, desired.stop_reason)
     elif desired.session_id and desired.stop_reason and not desired.command.stop:
         yield Notice("command_refused", ERROR, desired.stop_reason)
+    if parameters.is_exposed:
+        yield Notice("unencrypted", ERROR, problems.UNENCRYPTED())
     for node, why in fresh.start_failures.items():
         yield Notice("node_cannot_start", ERROR, problems.NODE_CANNOT_START(node=node, why=why))
     yield from _mode_notices(fresh)

@@ -1,0 +1,93 @@
+"""The robot's folder of keys: its own pair, and the list of those that it accepts, both for its owner alone."""
+# SPDX-License-Identifier: Apache-2.0
+import contextlib
+import fcntl
+import os
+import pathlib
+import threading
+from typing import Callable, Iterator, Optional, Tuple
+
+import zmq
+
+from mtr_proto.keys import OTHERS, KeyPair, LinkKeyError, own_key_pair, private_folder, write_private
+
+from .authorised_keys import MAX_BYTES, AuthorisedKeys, KeysError, keys_in
+
+FOLDER_NAME = "mtr_link"
+OWN_KEYS = "robot.key"
+AUTHORISED_KEYS = "authorised_keys.yaml"
+_Signature = Optional[Tuple[int, int, int]]
+
+
+class KeyFolder:
+    """Used by the dispatcher, by pairing and by the list's command at once; threads may share one.
+
+    Attributes:
+        distrust: why nobody is accepted although there is a list; empty when all is well.
+    """
+
+    def __init__(self, folder: pathlib.Path):
+        self._folder, self._list = folder, folder / AUTHORISED_KEYS
+        self._lock = threading.Lock()
+        self._read: Tuple[_Signature, AuthorisedKeys] = (None, AuthorisedKeys())
+        self.distrust = ""
+
+    def own_keys(self) -> KeyPair:
+        """The robot's pair, made at the first start; raises KeysError with a sentence."""
+        try:
+            return own_key_pair(self._folder / OWN_KEYS, zmq.curve_keypair)
+        except LinkKeyError as error:
+            raise KeysError(str(error)) from None
+
+    def authorised(self) -> AuthorisedKeys:
+        """The list as it is in the file now; empty, and `distrust` says why, when the file cannot be trusted."""
+        with self._lock:
+            signature = self._signature()
+            if signature != self._read[0]:
+                self._read = (signature, self._load())
+            return self._read[1]
+
+    def change(self, changed: Callable[[AuthorisedKeys], AuthorisedKeys]) -> AuthorisedKeys:
+        """Write what `changed` makes of the list; raises KeysError with a sentence, and then nothing is changed."""
+        try:
+            private_folder(self._folder)
+            with self._alone():
+                keys = self.authorised()
+                if self.distrust:
+                    raise KeysError(self.distrust)
+                keys = changed(keys)
+                write_private(self._list, keys.to_text())
+        except LinkKeyError as error:
+            raise KeysError(str(error)) from None
+        except OSError as error:
+            raise KeysError(f"The list of keys {self._list} cannot be written: {error.strerror}.") from None
+        return keys
+
+    @contextlib.contextmanager
+    def _alone(self) -> Iterator[None]:
+        """Context in which no other process changes the list."""
+        with open(self._folder / f".{AUTHORISED_KEYS}.lock", "w", encoding="ascii") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            yield
+
+    def _signature(self) -> _Signature:
+        try:
+            status = os.stat(self._list)
+        except OSError:
+            return None
+        # Its rights can change too, and then whether it can be trusted.
+        return status.st_ino, status.st_ctime_ns, status.st_size
+
+    def _load(self) -> AuthorisedKeys:
+        self.distrust = ""
+        try:
+            with open(self._list, encoding="utf-8") as file:
+                if os.fstat(file.fileno()).st_mode & OTHERS & 0o022:
+                    raise KeysError(f"Others may write it; say chmod 600 {self._list}.")
+                return keys_in(file.read(MAX_BYTES + 1))
+        except FileNotFoundError:
+            return AuthorisedKeys()
+        except (OSError, UnicodeDecodeError, KeysError) as error:
+            reason = getattr(error, "strerror", None) or str(error)
+            self.distrust = f"Nobody is accepted: the list of keys {self._list} cannot be used. {reason}"
+            return AuthorisedKeys()

@@ -1,0 +1,24 @@
+"""How often each peer may do something: token buckets, a bounded number of them."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import Dict, Hashable, Tuple
+
+
+class Rates:
+    """One bucket a peer, full at first; the peers that were quiet longest are forgotten.
+
+    rate_per_s: what a peer may do for ever. burst: what it may do at once after a pause.
+    """
+
+    def __init__(self, rate_per_s: float, burst: float, max_peers: int = 256):
+        self._rate_per_s, self._burst, self._max_peers = rate_per_s, burst, max_peers
+        self._buckets: Dict[Hashable, Tuple[float, float]] = {}
+
+    def allow(self, peer: Hashable, now_s: float) -> bool:
+        """Count one act of a peer at a time of the steady clock; False when it is one too many."""
+        filled, before_s = self._buckets.pop(peer, (self._burst, now_s))
+        filled = min(self._burst, filled + max(now_s - before_s, 0.0) * self._rate_per_s)
+        allowed = filled >= 1.0
+        self._buckets[peer] = (filled - 1.0 if allowed else filled, now_s)
+        while len(self._buckets) > self._max_peers:
+            del self._buckets[next(iter(self._buckets))]
+        return allowed

@@ -1,0 +1,172 @@
+"""Pairing: robot and laptop learn each other's public key from a short code that only a person carries between them.
+
+SPAKE2 (RFC 9382, in the form of the package `spake2`, Ed25519) makes a common secret of the code. Both then prove with
+it, by HMAC-SHA256 over all that was said, that they have the same code and have seen the same keys. Who stands between
+them or guesses has one guess a try and learns nothing from it but whether it was right; the robot counts the tries.
+
+  laptop -> robot   HELLO     magic, SPAKE2 of the laptop, its public key, its name
+  robot  -> laptop  ANSWER    SPAKE2 of the robot, its public key
+  laptop -> robot   PROOF     of the laptop
+  robot  -> laptop  WELCOME   role, proof of the robot
+
+Every message has a fixed length, so neither side ever reads more.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import hashlib
+import hmac
+import re
+import secrets
+from typing import Any, NamedTuple, Tuple
+
+from .keys import is_key
+
+try:
+    from spake2 import SPAKE2_A, SPAKE2_B
+except ImportError:
+    SPAKE2_A = SPAKE2_B = None
+
+PORT = 3335
+CODE_DIGITS = 6
+NAME_BYTES = 64
+ROLES = ("controller", "viewer")
+
+_MAGIC = b"MTRPAIR1"
+_POINT, _KEY, _PROOF = 33, 40, 32
+HELLO_BYTES = len(_MAGIC) + _POINT + _KEY + NAME_BYTES
+ANSWER_BYTES = _POINT + _KEY
+PROOF_BYTES = _PROOF
+WELCOME_BYTES = 1 + _PROOF
+_IDS = {"idA": b"mtr operator", "idB": b"mtr robot"}
+
+
+class PairingError(Exception):
+    """What came is no message of a pairing; the text is one sentence for a person."""
+
+
+class WrongCode(PairingError):
+    """The other side has another code, or somebody stands between."""
+
+
+class Hello(NamedTuple):
+    """What the laptop says of itself; true only once its proof has come."""
+
+    public_key: str
+    name: str
+
+
+class Paired(NamedTuple):
+    """What the laptop knows in the end."""
+
+    robot_key: str
+    role: str
+
+
+def new_code() -> str:
+    """A code for one pairing."""
+    return f"{secrets.randbelow(10 ** CODE_DIGITS):0{CODE_DIGITS}d}"
+
+
+def code_of(typed: str) -> str:
+    """The code in what a person typed, with spaces or dashes.
+
+    Raises:
+        PairingError: it is none.
+    """
+    digits = re.sub(r"[\s-]", "", typed)
+    if not re.fullmatch(rf"[0-9]{{{CODE_DIGITS}}}", digits):
+        raise PairingError(f"The code has {CODE_DIGITS} digits; the robot shows it.")
+    return digits
+
+
+def plain_name(name: str) -> str:
+    """A name for one line of a file or log: printable, at most NAME_BYTES long in UTF-8, never empty."""
+    words = " ".join("".join(letter if letter.isprintable() else " " for letter in name).split())
+    return words.encode("utf-8")[:NAME_BYTES].decode("utf-8", "ignore").strip() or "unnamed"
+
+
+class LaptopSide:
+    """The laptop's part of one try, to be called in this order: hello, proof, welcomed."""
+
+    def __init__(self, code: str, public_key: bytes, name: str):
+        self._secret = _spake2(SPAKE2_A, code)
+        self._hello = _MAGIC + self._secret.start() + public_key + plain_name(name).encode("utf-8").ljust(NAME_BYTES,
+                                                                                                       b"\0")
+        self._key, self._said, self._robot_key = b"", b"", ""
+
+    def hello(self) -> bytes:
+        """The first message."""
+        return self._hello
+
+    def proof(self, answer: bytes) -> bytes:
+        """The third message; raises PairingError when the answer is none."""
+        point, key = _split(answer, (_POINT, _KEY))
+        self._robot_key = _key_text(key)
+        self._key, self._said = _common(self._secret, point), self._hello + answer
+        return _proof(self._key, b"laptop", self._said)
+
+    def welcomed(self, welcome: bytes) -> Paired:
+        """The robot's key and this laptop's role; raises WrongCode when the robot has proved nothing."""
+        number, proof = _split(welcome, (1, _PROOF))
+        if number[0] >= len(ROLES) or not hmac.compare_digest(proof, _proof(self._key, b"robot" + number, self._said)):
+            raise WrongCode("The robot's answer does not fit the code; begin anew with a new code.")
+        return Paired(self._robot_key, ROLES[number[0]])
+
+
+class RobotSide:
+    """The robot's part of one try: answer counts as the try, welcome ends it well."""
+
+    def __init__(self, code: str, public_key: bytes):
+        self._secret = _spake2(SPAKE2_B, code)
+        self._public_key = public_key
+        self._key, self._said = b"", b""
+
+    def answer(self, hello: bytes) -> Tuple[Hello, bytes]:
+        """What the laptop says of itself, and the second message; raises PairingError when it is no hello."""
+        magic, point, key, name = _split(hello, (len(_MAGIC), _POINT, _KEY, NAME_BYTES))
+        if magic != _MAGIC:
+            raise PairingError("Something else than a laptop that wants to be paired has spoken.")
+        said = Hello(_key_text(key), plain_name(name.rstrip(b"\0").decode("utf-8", "replace")))
+        answer: bytes = self._secret.start() + self._public_key
+        self._key, self._said = _common(self._secret, point), hello + answer
+        return said, answer
+
+    def welcome(self, proof: bytes, role: str) -> bytes:
+        """The fourth message; raises WrongCode when the laptop has another code."""
+        if not hmac.compare_digest(proof, _proof(self._key, b"laptop", self._said)):
+            raise WrongCode("The code was wrong.")
+        number = bytes([ROLES.index(role)])
+        return number + _proof(self._key, b"robot" + number, self._said)
+
+
+def _spake2(side: Any, code: str) -> Any:
+    if side is None:
+        raise PairingError("Pairing needs the Python package spake2: apt install python3-spake2, or pip install "
+                           "spake2.")
+    return side(code.encode("ascii"), **_IDS)
+
+
+def _common(secret: Any, point: bytes) -> bytes:
+    try:
+        key: bytes = secret.finish(point)
+        return key
+    # Whatever the package says of bytes that are no point: they come from the network.
+    except Exception:
+        raise PairingError("What has come is no message of a pairing.") from None
+
+
+def _proof(key: bytes, side: bytes, said: bytes) -> bytes:
+    return hmac.new(key, b"mtr pairing " + side + hashlib.sha256(said).digest(), hashlib.sha256).digest()
+
+
+def _split(data: bytes, lengths: Tuple[int, ...]) -> Tuple[bytes, ...]:
+    if len(data) != sum(lengths):
+        raise PairingError("What has come is no message of a pairing.")
+    ends = [sum(lengths[:count + 1]) for count in range(len(lengths))]
+    return tuple(data[end - length:end] for end, length in zip(ends, lengths))
+
+
+def _key_text(key: bytes) -> str:
+    text = key.decode("ascii", "replace")
+    if not is_key(text):
+        raise PairingError("What has come is no message of a pairing.")
+    return text
