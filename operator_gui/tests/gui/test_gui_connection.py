@@ -1,8 +1,11 @@
 """The connection window."""
 # SPDX-License-Identifier: Apache-2.0
+import threading
+
 import pytest
 from PyQt5.QtCore import Qt, QTimer
 
+from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.gui.windows.connection_window import ConnectionWindow
 from mtr_operator.gui.windows.main_window import MainWindow
 
@@ -145,3 +148,60 @@ def test_driver_settings_follow_the_interface(newcomer):
     assert can.channel.text == "can7"
     assert can.choice.bitrate_bps == 500_000
     assert can.choice.profile == "mtr_demo_car"
+
+
+def test_code_is_typed_once_and_the_window_lives_meanwhile(newcomer, opener):
+    window, asked, go_on = newcomer.window, [], threading.Event()
+
+    def pair(host, code):
+        go_on.wait(10.0)
+        asked.append((host, code))
+        return "controller"
+    opener.pair = pair
+    window.robot.host.edit.setText(" 10.42.0.1 ")
+    window.pairing.code.edit.setText("123 456")
+    newcomer.click(window.pairing.button)
+    assert not window.pairing.button.isEnabled() and "10.42.0.1" in window.pairing.said.text()
+    assert window.button.isEnabled()
+    go_on.set()
+    newcomer.wait(window.pairing.button.isEnabled)
+    assert asked == [("10.42.0.1", "123 456")]
+    assert window.pairing.said.text() == "Paired: this laptop may control the robot."
+    assert not window.pairing.code.text
+    opener.pair = lambda _host, _code: "viewer"
+    assert window.focusWidget() is window.pairing.code.edit
+    newcomer.bot.keyClick(window.pairing.code.edit, Qt.Key_Return)
+    newcomer.wait(lambda: window.pairing.said.text() == "Paired: this laptop may look at the robot.")
+
+
+def test_refused_pairing_is_told_at_its_field(newcomer, opener):
+    window = newcomer.window
+
+    def pair(_host, _code):
+        raise ConnectionFailed("The code is wrong; the robot allows a few tries, each a little later.")
+    opener.pair = pair
+    window.pairing.code.edit.setText("123456")
+    newcomer.click(window.pairing.button)
+    newcomer.wait(lambda: window.pairing.code.fault)
+    assert window.pairing.code.fault.startswith("The code is wrong") and window.pairing.button.isEnabled()
+    assert not window.pairing.said.isVisible()
+    window.pairing.code.edit.setText("1")
+    assert not window.pairing.code.fault
+
+
+def test_pairing_has_names_for_who_does_not_see_it(newcomer):
+    form = newcomer.window.pairing
+    assert form.code.edit.accessibleName() == "Pairing code" and "6 digits" in form.code.edit.accessibleDescription()
+    assert form.button.text() == "Pair" and form.unencrypted.text() == "Without encryption"
+
+
+def test_without_encryption_is_a_choice_that_is_warned_of_and_not_remembered(newcomer, opener):
+    window, chosen = newcomer.window, []
+    made = opener.robot
+    opener.robot = lambda choice: chosen.append(choice.is_unencrypted) or made(choice)
+    assert not window.pairing.warning.isVisible()
+    window.pairing.unencrypted.setChecked(True)
+    assert window.pairing.warning.isVisible() and window.typed.robot.is_unencrypted
+    newcomer.connect()
+    assert chosen[0] is True
+    assert not newcomer.application.flow.store.settings.connection.robot.is_unencrypted

@@ -96,6 +96,8 @@ def test_shield_tells_whether_the_link_is_encrypted_and_is_no_padlock__B15(qtbot
     assert link.toolTip() == "The link to the robot is not encrypted."
     link.show_secret(True)
     assert link.toolTip() == "The link to the robot is encrypted."
+    link.show_secret(False, True)
+    assert link.toolTip().startswith("The link is not encrypted: whoever") and link.accessibleName() == link.toolTip()
 
 
 @pytest.mark.parametrize(("locks", "is_stale", "text"), [

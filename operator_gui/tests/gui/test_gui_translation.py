@@ -24,7 +24,8 @@ CATALOGUE = FOLDER / "mtr_operator_cs.ts"
 PLACEHOLDER = re.compile(r"\{[^}]*\}")
 # Where sentences for the Operator are raised or told.
 LAYERS = ("domain", "storage", "station", "car_link", "history")
-LINK_FILES = ("address.py", "client.py", "probe.py", "sockets.py")
+LINK_FILES = ("address.py", "client.py", "probe.py", "sockets.py", "access/credentials.py", "access/key_chain.py",
+              "access/pairing.py")
 # Raised within a layer, and caught there.
 INTERNAL = ("LookupError", "ValueError", "TypeError", "BadYaml", "OSError")
 # Told on the command line alone, or of the substitutes.

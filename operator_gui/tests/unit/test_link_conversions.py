@@ -43,7 +43,8 @@ STATUS = robot_status.RobotStatus(
     notifications=(robot_status.Notification("link_lost", 3, "Lost.", (LOST, LATE)),),
     rejected_messages=6, software_version="1.2", sent_s=100.125, steady_s=50.5,
     interventions=robot_status.Interventions(1, 2, 3, 4, 5, 6, 7),
-    emergency_stop=robot_status.EmergencyStop.RELEASED, motion_source=robot_status.MotionSource.MANUAL, hold_id=2 ** 62)
+    emergency_stop=robot_status.EmergencyStop.RELEASED, motion_source=robot_status.MotionSource.MANUAL, hold_id=2 ** 62,
+    controller_name="Jana")
 
 
 @pytest.mark.parametrize("desired", DESIRED)
@@ -123,5 +124,5 @@ def test_other_bytes_are_undecodable(payload):
 @pytest.mark.parametrize("message", ["Command", "Status", "RobotState", "CarDimensions", "CarCheck", "Interventions"])
 def test_every_status_field_of_the_proto_is_read(message):
     """A field added to the proto must be thought of here."""
-    known = {"Command": 14, "Status": 24, "RobotState": 19, "CarDimensions": 11, "CarCheck": 8, "Interventions": 7}
+    known = {"Command": 14, "Status": 25, "RobotState": 19, "CarDimensions": 11, "CarCheck": 8, "Interventions": 7}
     assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]

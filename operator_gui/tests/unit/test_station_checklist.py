@@ -23,8 +23,9 @@ TRAFFIC = BusTraffic(0.3, 0.1, 0.1)
 LIDAR = Problem("drive_control.lidar_covered", (("lidar", "rear LiDAR"),), "The rear LiDAR is covered.")
 
 
-def snapshot(lock=LockState.LOCKED, problem="", traffic=TRAFFIC, is_secret=False, **changes):
-    return RobotSnapshot(dataclasses.replace(STATUS, **changes), lock, problem, None, is_secret, traffic)
+def snapshot(lock=LockState.LOCKED, problem="", traffic=TRAFFIC, is_secret=False, is_exposed=False, **changes):
+    return RobotSnapshot(dataclasses.replace(STATUS, **changes), lock, problem, None, is_secret, traffic,
+                         is_exposed=is_exposed)
 
 
 def items(robot, silent_s=0.1, **facts):
@@ -35,13 +36,14 @@ def test_each_thing_is_looked_at_in_its_order():
     shown = checklist(Facts(snapshot(), 0.1, free_bytes=10 ** 11))
     assert [item.check for item in shown] == list(Check)
     assert {item.check for item in shown if item.state is not State.GOOD} == {
-        Check.ENCRYPTION, Check.SIZE, Check.KEY, Check.LIMITS}
+        Check.SIZE, Check.KEY, Check.LIMITS}
     assert not hindrances(shown)
 
 
 @pytest.mark.parametrize(("robot", "check", "state", "finding"), [
     (snapshot(is_secret=True), Check.ENCRYPTION, State.GOOD, Finding.ENCRYPTED),
-    (snapshot(), Check.ENCRYPTION, State.NOTE, Finding.NOT_ENCRYPTED),
+    (snapshot(is_exposed=True), Check.ENCRYPTION, State.NOTE, Finding.NOT_ENCRYPTED),
+    (snapshot(), Check.ENCRYPTION, State.GOOD, Finding.LOCAL_LINK),
     (snapshot(mode=Mode.STARTING), Check.ROBOT, State.BAD, Finding.ROBOT_STARTING),
     (snapshot(mode=Mode.FAULT), Check.ROBOT, State.BAD, Finding.ROBOT_FAULT),
     (snapshot(controlled_by_other=True), Check.ROBOT, State.BAD, Finding.OTHER_OPERATOR),

@@ -35,6 +35,8 @@ def argument_parser() -> argparse.ArgumentParser:
     _add_demo(commands.add_parser("demo", help="run a test on a robot and a Car inside the application; needs no file"))
     _add_history(commands.add_parser("history", help="list the tests that were measured before"))
     _add_compare(commands.add_parser("compare", help="compare two tests, distance by distance, with intervals"))
+    _add_pair(commands.add_parser("pair", help="pair this computer with a robot that shows a code"))
+    _add_keys(commands.add_parser("keys", help="list this computer's key and the robots that it is paired with"))
     commands.add_parser("doctor", help="say what this computer lacks; exit code 2 when something is missing")
     return parser
 
@@ -44,6 +46,7 @@ def _add_window(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--robot", metavar="HOST", help="address of the robot")
     parser.add_argument("--subscriber-port", type=_whole_number, metavar="N", help="TCP port of Status")
     parser.add_argument("--publisher-port", type=_whole_number, metavar="N", help="TCP port of Command")
+    _add_unencrypted(parser)
     parser.add_argument("--can-interface", metavar="NAME", help="python-can interface, or simulated for a substitute")
     parser.add_argument("--can-channel", metavar="NAME", help="channel or device of the adapter")
     parser.add_argument("--can-bitrate", type=_whole_number, metavar="N", help="bit/s")
@@ -123,6 +126,24 @@ def _add_compare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print JSON")
 
 
+def _add_pair(parser: argparse.ArgumentParser) -> None:
+    parser.description = "The robot shows the code after `rosrun mtr_dispatcher pair`, for two minutes."
+    parser.add_argument("host", metavar="HOST", help="address of the robot")
+    parser.add_argument("--port", type=_whole_number, default=3335, metavar="N",
+                        help="TCP port of pairing, default %(default)s")
+    parser.add_argument("--name", metavar="TEXT", help="what the robot calls this computer; default: user@computer")
+    parser.add_argument("--code", metavar="DIGITS", help="the code; without it it is asked for")
+
+
+def _add_keys(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--forget", metavar="HOST", help="forget the robot at this address")
+
+
+def _add_unencrypted(parser: argparse._ActionsContainer) -> None:
+    parser.add_argument("--unencrypted", action="store_true", default=None,
+                        help="without encryption, where the robot allows it too: whoever is in its network can move it")
+
+
 def _add_check(parser: argparse.ArgumentParser) -> None:
     _add_robot(parser)
 
@@ -134,6 +155,7 @@ def _add_robot(parser: argparse.ArgumentParser) -> None:
                        help="TCP port of Status, default %(default)s")
     robot.add_argument("--publisher-port", type=_whole_number, default=3333, metavar="N",
                        help="TCP port of Command, default %(default)s")
+    _add_unencrypted(robot)
     robot.add_argument("--simulated-robot", action="store_true", help="use a substitute inside the application")
     parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",
                         help="of the substitutes' random numbers, default %(default)s")

@@ -54,6 +54,18 @@ def run_demo(options: argparse.Namespace) -> int:
     return run_test(options)
 
 
+def pair(options: argparse.Namespace) -> None:
+    """Pair with a robot; what speaks its language is imported only when it is asked for."""
+    from mtr_operator.robot_link.access.command_line import pair_with
+    pair_with(options)
+
+
+def keys(options: argparse.Namespace) -> None:
+    """Print or forget paired robots."""
+    from mtr_operator.robot_link.access.command_line import show_keys
+    show_keys(options)
+
+
 def list_parameters(options: argparse.Namespace) -> None:
     """Print a table of a scenario's parameters."""
     rows = [("parameter", "default", "range", "meaning")]
@@ -80,4 +92,5 @@ def _accept_any_character() -> None:
 # What each command calls; an exit code, or None when it has done what was asked for.
 _COMMANDS: dict[str, Callable[[argparse.Namespace], int | None]] = {
     "params": list_parameters, "check": check, "history": list_history, "compare": compare_tests, "plan": plan,
-    "demo": run_demo, "run": run_test, "doctor": lambda _: EXIT_PASS if doctor() else EXIT_ERROR}
+    "demo": run_demo, "run": run_test, "pair": pair, "keys": keys,
+    "doctor": lambda _: EXIT_PASS if doctor() else EXIT_ERROR}

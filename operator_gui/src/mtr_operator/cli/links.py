@@ -13,7 +13,8 @@ def robot_link(options: argparse.Namespace) -> RobotLink:
     if options.simulated_robot:
         from mtr_operator.robot_link.fake import FakeRobotLink
         return FakeRobotLink(options.seed)
-    return LinkOpener().robot(RobotChoice(options.robot, options.subscriber_port, options.publisher_port))
+    return LinkOpener().robot(RobotChoice(options.robot, options.subscriber_port, options.publisher_port,
+                                          bool(options.unencrypted)))
 
 
 def car_link(options: argparse.Namespace) -> CarLink:

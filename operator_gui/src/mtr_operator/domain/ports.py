@@ -145,6 +145,12 @@ class RobotLink(ABC):
         """True when the link is encrypted."""
         return False
 
+    @property
+    def is_exposed(self) -> bool:
+        """True when whoever is in the robot's network can read the link and send: not encrypted, and not within this
+        computer."""
+        return False
+
     @abstractmethod
     def connect(self) -> None:
         """Connect, or raise errors.ConnectionFailed with a sentence that says which address or port is wrong."""

@@ -180,6 +180,7 @@ class RobotStatus:
     steady_s: the same instant on the robot's steady clock, which nobody sets.
     controlled_by_other: another application has the robot; the confirmations are absent then.
     car_check: None for a robot that cannot check the Car's frame.
+    controller_name: owner of the key whose Commands the robot obeys; empty on a link that is not encrypted.
     hold_id: not 0: the robot stands until the Operator has it go on, see requests.DesiredState.resume_hold_id.
     """
 
@@ -227,6 +228,7 @@ class RobotStatus:
     emergency_stop: EmergencyStop = EmergencyStop.UNKNOWN
     motion_source: MotionSource = MotionSource.UNKNOWN
     hold_id: int = 0
+    controller_name: str = ""
 
     @property
     def key_place(self) -> Point:

@@ -29,7 +29,7 @@ from .results.line_result import LineResult
 from .results.notebook import Notebook
 from .results.progress import Progress
 from .results.refusals import Refusals
-from .results.session_record import ENDED_BY, MEASURED_AGAIN, RECOVERED, again_text
+from .results.session_record import ENDED_BY, MEASURED_AGAIN, RECOVERED, again_text, controller_record
 from .robot_status import CheckState
 from .scenario import AnyScenario, Line, ScenarioParameters
 from .verdict.assessment import Assessor
@@ -67,6 +67,9 @@ class Runner:
             for sentence in self._scenario.cautions(parameters, self._car.facts):
                 self._robot.say(f"warning: {sentence}")
             prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
+            record = controller_record(self._loop.status.controller_name)
+            if record:
+                self._notebook.add(SESSION, record)
             lines = self._lines()
             # Before the robot drives round for the check: the Car and the robot are still as they were.
             half = self._finish_half_line(lines)

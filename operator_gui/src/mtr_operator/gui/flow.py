@@ -37,6 +37,7 @@ from mtr_operator.storage.given_files import Given, GivenPaths
 from mtr_operator.storage.identity_file import GivenIdentity
 
 from .bridge import Bridge
+from .pairing import Pairing
 
 CLOSE_LIMIT_S = 8.0
 NO_PATHS = GivenPaths()
@@ -56,6 +57,7 @@ class Flow(QObject):
 
     Attributes:
         model: what is known of robot, Car and test. store: settings. connection: in use.
+        pairing: with a robot that is not connected yet.
     Signals:
         connected, refused(part, text): how an attempt to connect ended.
         can_opened, can_refused(text): how a change of the CAN adapter ended.
@@ -86,6 +88,7 @@ class Flow(QObject):
         self.connection = Connection()
         self.step = Step.WELCOME
         self._opener = opener
+        self.pairing = Pairing(opener, self)
         self._worker: Worker | None = None
         self._is_connected = False
         self._wanted_can: CanChoice | None = None

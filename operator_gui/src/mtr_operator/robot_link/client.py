@@ -11,16 +11,18 @@ from typing import TYPE_CHECKING
 
 import zmq
 
-from mtr_operator.domain.errors import ConnectionFailed, LinkLost
+from mtr_operator.domain.errors import ConnectionFailed, LinkLost, RobotFailed
 from mtr_operator.domain.ports import LinkStatistics, RobotLink
 from mtr_operator.domain.requests import DesiredState
-from mtr_operator.domain.robot_status import CarCheck, RobotStatus, WaypointResult
+from mtr_operator.domain.robot_status import CarCheck, Notification, RobotStatus, WaypointResult
 
+from .access.credentials import is_loopback, ways_to
+from .access.key_chain import VIEWER, KeyChain
 from .address import PUBLISHER_PORT, SUBSCRIBER_PORT, RobotAddress
 from .conversions import CommandHeader, command_from_desired
 from .inbox import Inbox
 from .probe import probe
-from .sockets import LinkSockets, connect
+from .sockets import KeyRefused, LinkSockets, connect
 
 if TYPE_CHECKING:
     from .sockets import Socket
@@ -30,6 +32,8 @@ _GOODBYE_LINGER_MS = 300
 _SESSION_BITS = 63
 # Statuses in a row, about 2 s, in which the robot that we controlled says that nobody does.
 MAX_FREE_STATUSES = 20
+# Severity 3: no test begins with it.
+VIEWER_NOTICE = Notification("viewer", 3, "This laptop is paired as a viewer: it sees the robot and cannot move it.")
 
 
 class ZmqRobotLink(RobotLink):
@@ -41,7 +45,10 @@ class ZmqRobotLink(RobotLink):
     """
 
     def __init__(self, host: str, subscriber_port: int = SUBSCRIBER_PORT, publisher_port: int = PUBLISHER_PORT,
-                 connect_timeout_s: float = 2.0):
+                 connect_timeout_s: float = 2.0, *, is_unencrypted: bool = False, chain: KeyChain | None = None):
+        """is_unencrypted: the person does without encryption. chain: keys of this laptop, None for the system's."""
+        self._is_unencrypted, self._chain = is_unencrypted, chain or KeyChain()
+        self._ip = ""
         self.address = RobotAddress(host, subscriber_port, publisher_port)
         self.session_id = secrets.randbelow(2 ** _SESSION_BITS - 1) + 1
         self.statistics = LinkStatistics()
@@ -57,11 +64,39 @@ class ZmqRobotLink(RobotLink):
         self._controls = False
         self._free_count = 0
 
+    @property
+    def is_secret(self) -> bool:
+        """See RobotLink."""
+        return self._sockets is not None and self._sockets.credentials is not None
+
+    @property
+    def is_exposed(self) -> bool:
+        """See RobotLink."""
+        return self._sockets is not None and not self.is_secret and not is_loopback(self._ip)
+
+    @property
+    def _is_viewer(self) -> bool:
+        credentials = self._sockets.credentials if self._sockets is not None else None
+        return credentials is not None and credentials.role == VIEWER
+
     def connect(self) -> None:
         """See RobotLink."""
         if self._sockets is None:
-            ip = probe(self.address, self._timeout_s)
-            self._sockets = connect(ip, self.address.subscriber_port, self.address.publisher_port, self._timeout_s)
+            self._ip = probe(self.address, self._timeout_s)
+            self._sockets = self._connected()
+
+    def _connected(self) -> LinkSockets:
+        """With the first of the keys that fits; the first refusal when none does."""
+        ways = ways_to(self.address.host, self._ip, self._is_unencrypted, self._chain)
+        refusals = []
+        for credentials in ways:
+            try:
+                return connect(self.address, self._ip, self._timeout_s, credentials)
+            except KeyRefused:
+                raise
+            except ConnectionFailed as error:
+                refusals.append(error)
+        raise refusals[0]
 
     def next_status(self, timeout_s: float) -> RobotStatus | None:
         """See RobotLink."""
@@ -81,7 +116,11 @@ class ZmqRobotLink(RobotLink):
                 return None
 
     def send(self, desired: DesiredState) -> None:
-        """See RobotLink."""
+        """See RobotLink; RobotFailed when this laptop may only look, and wants more."""
+        if self._is_viewer:
+            if moves(desired):
+                raise RobotFailed(VIEWER_NOTICE.text)
+            return
         with self._lock:
             if desired != self._desired:
                 self._command_id += 1
@@ -96,7 +135,8 @@ class ZmqRobotLink(RobotLink):
             return
         with self._lock:
             self._command_id += 1
-            self._publish(DesiredState(stop=True), end_session=True)
+            if not self._is_viewer:
+                self._publish(DesiredState(stop=True), end_session=True)
             self._sockets = None
             sockets.publisher.close(linger=_GOODBYE_LINGER_MS)
         sockets.subscriber.close(linger=0)
@@ -118,6 +158,11 @@ class ZmqRobotLink(RobotLink):
 
     def _own_view(self, status: RobotStatus) -> RobotStatus:
         """The Status without confirmations that are another session's: its ids count from 1 as ours do."""
+        if not self.is_secret:
+            # Nobody vouches for a name on such a link.
+            status = dataclasses.replace(status, controller_name="")
+        if self._is_viewer:
+            status = dataclasses.replace(status, notifications=(*status.notifications, VIEWER_NOTICE))
         if status.session_id in (0, self.session_id):
             return status
         return dataclasses.replace(status, controlled_by_other=True, command_id=0, waypoint_id=0,
@@ -147,6 +192,12 @@ class ZmqRobotLink(RobotLink):
             if self._sockets is None:
                 raise ConnectionFailed("The robot is not connected.")
             self._sockets.publisher.send(payload)
+
+
+def moves(desired: DesiredState) -> bool:
+    """True when it asks for anything that moves."""
+    return any((desired.waypoint, desired.press, desired.map_car_id, desired.check_car_id,
+                desired.key_height_m is not None))
 
 
 def _time_of_sending(status: RobotStatus) -> float:

@@ -141,7 +141,8 @@ def robot_status_from(message: pb.Status) -> robot_status.RobotStatus:
         sent_s=message.sent_time_s, steady_s=_value(message, "steady_time_s", math.nan),
         interventions=robot_status.Interventions(**{name: getattr(message.interventions, name) for name in _COUNTS}),
         emergency_stop=robot_status.EmergencyStop(message.emergency_stop),
-        motion_source=robot_status.MotionSource(message.motion_source), hold_id=message.hold_id)
+        motion_source=robot_status.MotionSource(message.motion_source), hold_id=message.hold_id,
+        controller_name=message.controller_name)
 
 
 def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
@@ -175,6 +176,8 @@ def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
              for m in status.log],
         notifications=[pb.Notification(code=n.code, severity=n.severity, text=n.text,
                                        problems=_problem_messages(n.problems)) for n in status.notifications])
+    if status.controller_name:
+        message.controller_name = status.controller_name
     if not math.isnan(status.steady_s):
         message.steady_time_s = status.steady_s
     if status.car is not None:

@@ -5,18 +5,24 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Tuple
 
 import zmq
 from zmq.utils.monitor import recv_monitor_message
 
 from mtr_operator.domain.errors import ConnectionFailed
 
+from .access.credentials import Credentials
+from .address import RobotAddress
+
 if TYPE_CHECKING:
     # Generic in their stubs only.
     Socket = zmq.Socket[bytes]
     Context = zmq.Context[zmq.Socket[bytes]]
 
+
+# IPv4 address and port.
+Place = Tuple[str, int]
 # A message between the link's own limit (64 KiB) and this one is received, counted and ignored; beyond it ZeroMQ drops
 # the connection, so that nobody can fill the memory.
 _MAX_BYTES = 1024 * 1024
@@ -31,43 +37,52 @@ _HANDSHAKE_EVENTS = (zmq.EVENT_HANDSHAKE_SUCCEEDED | zmq.EVENT_HANDSHAKE_FAILED_
                      | zmq.EVENT_DISCONNECTED)
 
 
+class KeyRefused(ConnectionFailed):
+    """The right robot, which does not accept this laptop's key."""
+
+
 @dataclass(frozen=True)
 class LinkSockets:
-    """The two connected sockets."""
+    """The two connected sockets. credentials: what encrypts them, None when nothing does."""
 
     context: Context
     subscriber: Socket
     publisher: Socket
+    credentials: Credentials | None = None
 
 
-def connect(ip: str, subscriber_port: int, publisher_port: int, timeout_s: float) -> LinkSockets:
+def connect(address: RobotAddress, ip: str, timeout_s: float, credentials: Credentials | None = None) -> LinkSockets:
     """Both sockets, or ConnectionFailed."""
     context = zmq.Context()
     try:
-        return LinkSockets(context, subscribe(context, ip, subscriber_port, timeout_s),
-                           publish(context, ip, publisher_port, timeout_s))
+        return LinkSockets(context, subscribe(context, (ip, address.subscriber_port), timeout_s, credentials),
+                           publish(context, (ip, address.publisher_port), timeout_s, credentials), credentials)
     except BaseException:
         context.destroy(linger=0)
         raise
 
 
-def subscribe(context: Context, ip: str, port: int, timeout_s: float) -> Socket:
+def subscribe(context: Context, place: Place, timeout_s: float, credentials: Credentials | None = None) -> Socket:
     """SUB socket connected to the robot's Status, or ConnectionFailed."""
-    socket = _socket(context, zmq.SUB)
+    socket = _socket(context, zmq.SUB, credentials)
     socket.setsockopt(zmq.SUBSCRIBE, b"")
-    return _connect(socket, ip, port, timeout_s, "subscriber")
+    return _connect(socket, place, timeout_s, "subscriber")
 
 
-def publish(context: Context, ip: str, port: int, timeout_s: float) -> Socket:
+def publish(context: Context, place: Place, timeout_s: float, credentials: Credentials | None = None) -> Socket:
     """PUB socket connected to the robot's Command port, or ConnectionFailed."""
-    socket = _socket(context, zmq.PUB)
+    socket = _socket(context, zmq.PUB, credentials)
     # Nothing is queued while the link is down: an old Command must not arrive later.
     socket.setsockopt(zmq.IMMEDIATE, 1)
-    return _connect(socket, ip, port, timeout_s, "publisher")
+    return _connect(socket, place, timeout_s, "publisher")
 
 
-def _socket(context: Context, kind: int) -> Socket:
+def _socket(context: Context, kind: int, credentials: Credentials | None) -> Socket:
     socket = context.socket(kind)
+    if credentials is not None:
+        socket.setsockopt(zmq.CURVE_PUBLICKEY, credentials.own.public)
+        socket.setsockopt(zmq.CURVE_SECRETKEY, credentials.own.secret)
+        socket.setsockopt(zmq.CURVE_SERVERKEY, credentials.robot_key)
     for option, value in ((zmq.LINGER, 0), (zmq.MAXMSGSIZE, _MAX_BYTES), (zmq.HEARTBEAT_IVL, _HEARTBEAT_MS),
                           (zmq.HEARTBEAT_TIMEOUT, _HEARTBEAT_TIMEOUT_MS), (zmq.RECONNECT_IVL, _RECONNECT_MS),
                           (zmq.RECONNECT_IVL_MAX, _MAX_RECONNECT_MS)):
@@ -75,24 +90,32 @@ def _socket(context: Context, kind: int) -> Socket:
     return socket
 
 
-def _connect(socket: Socket, ip: str, port: int, timeout_s: float, name: str) -> Socket:
+def _connect(socket: Socket, place: Place, timeout_s: float, name: str) -> Socket:
+    ip, port = place
+    is_secret = bool(socket.getsockopt(zmq.MECHANISM) == zmq.CURVE)
     monitor = socket.get_monitor_socket(_HANDSHAKE_EVENTS)
     try:
         socket.connect(f"tcp://{ip}:{port}")
-        good = _handshake_succeeds(monitor, timeout_s)
+        event = _handshake(monitor, timeout_s)
     finally:
         socket.disable_monitor()
         monitor.close(0)
-    if not good:
-        socket.close(0)
-        raise ConnectionFailed(f"The {name} port {port} is open, but not the robot's; subscriber and publisher port "
-                               "may be swapped, or another program listens there.")
-    return socket
+    if event == zmq.EVENT_HANDSHAKE_SUCCEEDED:
+        return socket
+    socket.close(0)
+    if event == zmq.EVENT_HANDSHAKE_FAILED_AUTH:
+        raise KeyRefused("The robot does not know this laptop's key, or it was revoked; pair them again.")
+    if is_secret:
+        raise ConnectionFailed(f"On the {name} port {port} is not the robot that was paired: it may be another one, "
+                               "its link may not be encrypted, or the ports may be swapped.")
+    raise ConnectionFailed(f"The {name} port {port} is open, but not the robot's; subscriber and publisher port "
+                           "may be swapped, the robot's link may be encrypted, or another program listens there.")
 
 
-def _handshake_succeeds(monitor: Socket, timeout_s: float) -> bool:
+def _handshake(monitor: Socket, timeout_s: float) -> int:
+    """How it ended, as ZeroMQ's event; 0 when it has not."""
     deadline = time.monotonic() + timeout_s
     while monitor.poll(max(0, math.ceil((deadline - time.monotonic()) * 1000))):
         event: Any = recv_monitor_message(monitor)["event"]
-        return bool(event == zmq.EVENT_HANDSHAKE_SUCCEEDED)
-    return False
+        return int(event)
+    return 0

@@ -17,11 +17,15 @@ SIMULATED = "simulated"
 
 @dataclass(frozen=True)
 class RobotChoice:
-    """Address of the robot; the ports are named from the Operator's side."""
+    """Address of the robot; the ports are named from the Operator's side.
+
+    is_unencrypted: the person does without encryption, which another computer's robot has to allow too.
+    """
 
     host: str = "127.0.0.1"
     subscriber_port: int = SUBSCRIBER_PORT
     publisher_port: int = PUBLISHER_PORT
+    is_unencrypted: bool = False
 
 
 @dataclass(frozen=True)
@@ -50,10 +54,10 @@ def whole_number(text: str, name: str) -> int:
         raise InvalidParameter(f"The {name} is {text.strip()!r}; allowed is a whole number.") from None
 
 
-def robot_choice(host: str, subscriber_port: str, publisher_port: str) -> RobotChoice:
+def robot_choice(host: str, subscriber_port: str, publisher_port: str, is_unencrypted: bool = False) -> RobotChoice:
     """Choice from what stands in the fields; InvalidParameter says which one is wrong."""
     choice = RobotChoice(host.strip(), whole_number(subscriber_port, "subscriber port"),
-                         whole_number(publisher_port, "publisher port"))
+                         whole_number(publisher_port, "publisher port"), is_unencrypted)
     RobotAddress(choice.host, choice.subscriber_port, choice.publisher_port)
     return choice
 
@@ -70,7 +74,16 @@ class LinkOpener:
                 raise
             raise ConnectionFailed("The package mtr_proto, the contract with the robot, is not installed; pip install "
                                    "the folder proto of the project.") from None
-        return ZmqRobotLink(choice.host, choice.subscriber_port, choice.publisher_port)
+        return ZmqRobotLink(choice.host, choice.subscriber_port, choice.publisher_port,
+                            is_unencrypted=choice.is_unencrypted)
+
+    def pair(self, host: str, code: str) -> str:
+        """Pair this laptop with the robot that shows the code; its role.
+
+        InvalidParameter for an address or code that cannot be right, ConnectionFailed when it does not succeed.
+        """
+        from mtr_operator.robot_link.access.pairing import pair
+        return pair(host.strip(), code).role
 
     def car(self, choice: CanChoice | None) -> CarLink:
         """A new link, not connected yet."""

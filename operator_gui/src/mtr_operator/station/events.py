@@ -20,6 +20,7 @@ class RobotSnapshot:
 
     waypoint: where the robot was sent last, None when nowhere. is_secret: the link is encrypted. traffic: of the Car's
     bus, None where there is no bus to ask. facts: what its profile tells beforehand, None without one.
+    is_exposed: whoever is in the robot's network can read the link and send.
     """
 
     status: RobotStatus
@@ -29,6 +30,7 @@ class RobotSnapshot:
     is_secret: bool = False
     traffic: BusTraffic | None = None
     facts: LockFacts | None = None
+    is_exposed: bool = False
 
 
 def known_facts(car: CarLink) -> LockFacts | None:

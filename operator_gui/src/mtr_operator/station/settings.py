@@ -60,6 +60,8 @@ class Settings:
 
     def with_connection(self, connection: Connection) -> Settings:
         """Settings after a success with this connection."""
+        # Doing without encryption is chosen anew at each start.
+        connection = dataclasses.replace(connection, robot=dataclasses.replace(connection.robot, is_unencrypted=False))
         host = connection.robot.host
         hosts = (host, *(other for other in self.hosts if other != host))[:REMEMBERED_HOSTS]
         return dataclasses.replace(self, connection=connection, hosts=hosts)

@@ -13,6 +13,9 @@ ENDED_BY, RECOVERED = "ended before its end", "recovered"
 MEASURED_AGAIN = "measured again"
 REFUSED_STATUSES = "messages of the robot that were not used"
 REFUSED_COMMANDS = "messages that the robot refused"
+# Only in the record of a test over an encrypted link.
+LINK, CONTROLLED_BY = "link", "robot controlled with the key of"
+ENCRYPTED = "encrypted"
 REFUSED_FRAMES = "frames of the Car that were not believed"
 
 
@@ -26,6 +29,11 @@ def session_record(started: datetime.datetime, robot: str, car_profile: str) -> 
         "units": "SI; angles in degrees where the column says so; 1 sigma uncertainties",
         "coordinates": "Car coordinate system: origin in the Car's centre, x to its front, y to its left",
     }
+
+
+def controller_record(name: str) -> dict[str, str]:
+    """Whose key the robot obeys, as the robot names its owner; nothing on a link that is not encrypted."""
+    return {LINK: ENCRYPTED, CONTROLLED_BY: name} if name else {}
 
 
 def again_text(session: Mapping[str, str], numbers: Sequence[int]) -> str:

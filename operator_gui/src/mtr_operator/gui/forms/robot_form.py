@@ -45,6 +45,11 @@ class RobotForm(QWidget):
     def _fields(self) -> tuple[Field, ...]:
         return self.host, self.subscriber_port, self.publisher_port
 
+    @property
+    def typed_host(self) -> str:
+        """What stands in the field, valid or not."""
+        return self.host.text.strip()
+
     def show_choice(self, choice: RobotChoice, hosts: Sequence[str]) -> None:
         """Fill the fields; hosts are offered while typing."""
         self.host.edit.setText(choice.host)

@@ -38,6 +38,7 @@ def check_text(item: Item) -> str:
         Finding.ENCRYPTED: translate("Check", "The link to the robot is encrypted."),
         Finding.NOT_ENCRYPTED: translate("Check", "The link is not encrypted: whoever is in its network can listen and "
                                                   "send."),
+        Finding.LOCAL_LINK: translate("Check", "Not encrypted; it does not leave this computer."),
         Finding.ROBOT_READY: translate("Check", "It takes orders, and reports nothing against a test."),
         Finding.ROBOT_STARTING: translate("Check", "The robot is still starting."),
         Finding.ROBOT_FAULT: said or translate("Check", "The robot reports a fault."),
@@ -91,8 +92,8 @@ def check_advice(item: Item) -> str:
     return {
         Finding.LINK_SILENT: translate("Check", "Check the Wi-Fi and that the robot is on; the link comes back by "
                                                 "itself."),
-        Finding.NOT_ENCRYPTED: translate("Check", "This version has no encryption yet; use a network of the robot's "
-                                                  "own."),
+        Finding.NOT_ENCRYPTED: translate("Check", "Pair this laptop with the robot in the connection window, and "
+                                                  "have the robot encrypt its link."),
         Finding.ROBOT_STARTING: translate("Check", "Wait a moment."),
         Finding.ROBOT_FAULT: translate("Check", "Make sure that nothing blocks the robot; if the fault stays, switch "
                                                 "it off and on."),

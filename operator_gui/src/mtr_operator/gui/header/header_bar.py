@@ -51,6 +51,10 @@ class HeaderBar(QWidget):
         self.blocked.setWordWrap(True)
         self.blocked.setProperty("role", "banner")
         self.blocked.hide()
+        self.exposed = QLabel(self.tr("The link is not encrypted: whoever is in its network can move the robot."))
+        self.exposed.setWordWrap(True)
+        self.exposed.setProperty("role", "banner")
+        self.exposed.hide()
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -65,6 +69,7 @@ class HeaderBar(QWidget):
         layout.setSpacing(S)
         layout.addLayout(row)
         layout.addWidget(self.blocked)
+        layout.addWidget(self.exposed)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """See QWidget; where there is no room the link is in the list behind the status word alone."""
@@ -84,4 +89,5 @@ class HeaderBar(QWidget):
         if model.robot is not None:
             self.battery.show_percent(model.robot.status.battery_percent, age_s)
             self.locks.show_locks(model.robot.lock_state, model.is_stale)
-            self.link.show_secret(model.robot.is_secret)
+            self.link.show_secret(model.robot.is_secret, model.robot.is_exposed)
+            self.exposed.setVisible(model.robot.is_exposed)

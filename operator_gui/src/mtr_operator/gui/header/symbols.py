@@ -118,22 +118,24 @@ class LocksSymbol(QToolButton):
 
 
 class LinkSymbol(QWidget):
-    """A shield: with a tick on an encrypted link, hollow and crossed out on one that anybody can read."""
+    """A shield: with a tick on an encrypted link, hollow and crossed out on one that is not: grey within this computer,
+    red where anybody in the network can read and send."""
 
     def __init__(self, appearance: Appearance, parent: QWidget | None = None):
         super().__init__(parent)
         self._appearance = appearance
-        self._is_secret = True
+        self._is_secret, self._is_exposed = True, False
         self.setFixedSize(_SIZE, _SIZE)
         appearance.changed.connect(self.update)
         self.show_secret(False)
 
-    def show_secret(self, is_secret: bool) -> None:
-        """Show whether the link is encrypted."""
-        if is_secret == self._is_secret:
+    def show_secret(self, is_secret: bool, is_exposed: bool = False) -> None:
+        """Show whether the link is encrypted, and whether others can reach it."""
+        if (is_secret, is_exposed) == (self._is_secret, self._is_exposed):
             return
-        self._is_secret = is_secret
+        self._is_secret, self._is_exposed = is_secret, is_exposed
         text = self.tr("The link to the robot is encrypted.") if is_secret else \
+            self.tr("The link is not encrypted: whoever is in its network can move the robot.") if is_exposed else \
             self.tr("The link to the robot is not encrypted.")
         self.setAccessibleName(text)
         self.setToolTip(text)
@@ -144,7 +146,8 @@ class LinkSymbol(QWidget):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         palette = self._appearance.palette
-        painter.setPen(QPen(QColor(palette.ok if self._is_secret else palette.ink_soft), 2.5))
+        colour = palette.ok if self._is_secret else palette.danger if self._is_exposed else palette.ink_soft
+        painter.setPen(QPen(QColor(colour), 2.5))
         painter.drawPath(_shield())
         lines = ((QPointF(11, 16), QPointF(15, 20)), (QPointF(15, 20), QPointF(22, 11))) if self._is_secret else \
             ((QPointF(5, 29), QPointF(29, 5)),)

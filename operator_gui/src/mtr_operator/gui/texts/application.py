@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
-from . import figures, handle, identity, keeping, limits, passes
+from . import figures, handle, identity, keeping, limits, pairing, passes
 
 SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "wait for robot and Car"),
@@ -103,7 +103,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "It was measured with other parameters: {} was {}, now it is {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is larger than {} MiB."),
     *keeping.SENTENCES,
-    *limits.SENTENCES, *identity.SENTENCES,
+    *limits.SENTENCES, *identity.SENTENCES, *pairing.SENTENCES,
     *handle.SENTENCES, *passes.SENTENCES, *figures.SENTENCES,
     QT_TRANSLATE_NOOP("Sentence", "It cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is truncated or not a JSON file."),
@@ -131,7 +131,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "Nothing listens on {}; check the port and that the robot's software runs."),
     QT_TRANSLATE_NOOP("Sentence", "Cannot reach {}: {}."),
     QT_TRANSLATE_NOOP("Sentence", "The {} port {} is open, but not the robot's; subscriber and publisher port may "
-                                  "be swapped, or another program listens there."),
+                                  "be swapped, the robot's link may be encrypted, or another program listens there."),
     QT_TRANSLATE_NOOP("Sentence", "CAN interface is {}; allowed are {}."),
     QT_TRANSLATE_NOOP("Sentence", "CAN channel is empty; give the adapter's port, e.g. /dev/ttyACM0, can0 or "
                                   "PCAN_USBBUS1."),

@@ -407,282 +407,277 @@
         <translation>Spojení není šifrované: kdo je v jeho síti, může poslouchat i vysílat.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="41"/>
+        <location filename="../header/check_texts.py" line="42"/>
         <source>It takes orders, and reports nothing against a test.</source>
         <translation>Přijímá pokyny a nehlásí nic, co by bránilo testu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="42"/>
+        <location filename="../header/check_texts.py" line="43"/>
         <source>The robot is still starting.</source>
         <translation>Robot se ještě spouští.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="43"/>
+        <location filename="../header/check_texts.py" line="44"/>
         <source>The robot reports a fault.</source>
         <translation>Robot hlásí poruchu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="44"/>
+        <location filename="../header/check_texts.py" line="45"/>
         <source>Another application controls the robot.</source>
         <translation>Robot ovládá jiná aplikace.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="47"/>
+        <location filename="../header/check_texts.py" line="48"/>
         <source>The one by hand is heard, and released.</source>
         <translation>Ruční ovladač je slyšet a je uvolněný.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="48"/>
+        <location filename="../header/check_texts.py" line="49"/>
         <source>The one by hand is engaged: the robot stands.</source>
         <translation>Na ručním ovladači je stisknuto: robot stojí.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="49"/>
+        <location filename="../header/check_texts.py" line="50"/>
         <source>The robot has none by hand.</source>
         <translation>Robot nemá ruční ovladač.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="50"/>
+        <location filename="../header/check_texts.py" line="51"/>
         <source>The robot does not say whether it has one by hand.</source>
         <translation>Robot neříká, zda má ruční ovladač.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="52"/>
+        <location filename="../header/check_texts.py" line="53"/>
         <source>Known beside the Car.</source>
         <translation>Vůči autu známa.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="53"/>
+        <location filename="../header/check_texts.py" line="54"/>
         <source>Not known yet: a test begins with a drive around the Car.</source>
         <translation>Zatím neznámá: test začíná objetím auta.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="54"/>
+        <location filename="../header/check_texts.py" line="55"/>
         <source>The robot does not know its position.</source>
         <translation>Robot nezná svou polohu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="60"/>
+        <location filename="../header/check_texts.py" line="61"/>
         <source>The robot reports nothing against them.</source>
         <translation>Robot nehlásí nic, co by jim vadilo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="61"/>
+        <location filename="../header/check_texts.py" line="62"/>
         <source>At {first} %; what a test takes is told when it is chosen.</source>
         <translation>Na {first} %; kolik test spotřebuje, se ukáže po jeho zvolení.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="62"/>
+        <location filename="../header/check_texts.py" line="63"/>
         <source>At {first} %; the test takes about {second} %.</source>
         <translation>Na {first} %; test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="63"/>
+        <location filename="../header/check_texts.py" line="64"/>
         <source>At {first} % it may not suffice: the test takes about {second} %.</source>
         <translation>Na {first} % nemusí stačit: test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="64"/>
+        <location filename="../header/check_texts.py" line="65"/>
         <source>Low: {first} %.</source>
         <translation>Slabá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="65"/>
+        <location filename="../header/check_texts.py" line="66"/>
         <source>Nearly empty: {first} %.</source>
         <translation>Téměř vybitá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="66"/>
+        <location filename="../header/check_texts.py" line="67"/>
         <source>The robot does not say its charge.</source>
         <translation>Robot neříká, jak je nabitá.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="67"/>
+        <location filename="../header/check_texts.py" line="68"/>
         <source>Load {first} %, lock message every {second} ms.</source>
         <translation>Vytížení {first} %, zpráva o zámcích každých {second} ms.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="68"/>
+        <location filename="../header/check_texts.py" line="69"/>
         <source>Load {first} %, no lock message yet.</source>
         <translation>Vytížení {first} %, zpráva o zámcích zatím nepřišla.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="69"/>
+        <location filename="../header/check_texts.py" line="70"/>
         <source>There is none: the Car is a substitute inside the application.</source>
         <translation>Žádná není: auto je náhrada uvnitř aplikace.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="70"/>
+        <location filename="../header/check_texts.py" line="71"/>
         <source>Load {first} %: messages may be late, and so the time of events.</source>
         <translation>Vytížení {first} %: zprávy se mohou opožďovat, a s nimi čas událostí.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="71"/>
+        <location filename="../header/check_texts.py" line="72"/>
         <source>The lock message comes every {first} ms; the profile says {second} ms.</source>
         <translation>Zpráva o zámcích chodí každých {first} ms; profil uvádí {second} ms.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="72"/>
+        <location filename="../header/check_texts.py" line="73"/>
         <source>No CAN adapter is chosen.</source>
         <translation>Není zvolen žádný adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="73"/>
+        <location filename="../header/check_texts.py" line="74"/>
         <source>The Car says: {said}.</source>
         <translation>Auto hlásí: {said}.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="74"/>
+        <location filename="../header/check_texts.py" line="75"/>
         <source>The Car does not say whether it is locked.</source>
         <translation>Auto neříká, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="75"/>
+        <location filename="../header/check_texts.py" line="76"/>
         <source>Events of the Car have a time on the robot&apos;s clock.</source>
         <translation>Události auta mají čas na hodinách robotu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="76"/>
+        <location filename="../header/check_texts.py" line="77"/>
         <source>Not known without an adapter.</source>
         <translation>Bez adaptéru není známo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="77"/>
+        <location filename="../header/check_texts.py" line="78"/>
         <source>The Car has reacted {first} s ago: the key is awake.</source>
         <translation>Auto reagovalo před {first} s: klíč je vzhůru.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="78"/>
+        <location filename="../header/check_texts.py" line="79"/>
         <source>Whether it is awake nobody knows before the Car reacts to it.</source>
         <translation>Zda je vzhůru, se pozná, až na něj auto zareaguje.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="79"/>
+        <location filename="../header/check_texts.py" line="80"/>
         <source>{first} GB are free.</source>
         <translation>Volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="80"/>
+        <location filename="../header/check_texts.py" line="81"/>
         <source>Only {first} GB are free.</source>
         <translation>Volných je jen {first} GB.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="81"/>
+        <location filename="../header/check_texts.py" line="82"/>
         <source>Nearly full: {first} GB are free.</source>
         <translation>Téměř plný: volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="82"/>
+        <location filename="../header/check_texts.py" line="83"/>
         <source>The system does not say how much room there is.</source>
         <translation>Systém neříká, kolik je na něm místa.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="83"/>
+        <location filename="../header/check_texts.py" line="84"/>
         <source>Limits loaded: {first}.</source>
         <translation>Načtené meze: {first}.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="84"/>
+        <location filename="../header/check_texts.py" line="85"/>
         <source>None: the lines get no verdict.</source>
         <translation>Žádné: přímky nebudou hodnoceny.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="92"/>
+        <location filename="../header/check_texts.py" line="93"/>
         <source>Check the Wi-Fi and that the robot is on; the link comes back by itself.</source>
         <translation>Zkontrolujte Wi-Fi a že je robot zapnutý; spojení se obnoví samo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="94"/>
-        <source>This version has no encryption yet; use a network of the robot&apos;s own.</source>
-        <translation>Tato verze šifrování ještě nemá; použijte vlastní síť robotu.</translation>
-    </message>
-    <message>
-        <location filename="../header/check_texts.py" line="96"/>
+        <location filename="../header/check_texts.py" line="97"/>
         <source>Wait a moment.</source>
         <translation>Chvíli počkejte.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="97"/>
+        <location filename="../header/check_texts.py" line="98"/>
         <source>Make sure that nothing blocks the robot; if the fault stays, switch it off and on.</source>
         <translation>Ujistěte se, že robotu nic nebrání; pokud porucha trvá, vypněte jej a zapněte.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="99"/>
+        <location filename="../header/check_texts.py" line="100"/>
         <source>End the other application; control comes here by itself.</source>
         <translation>Ukončete druhou aplikaci; řízení sem přejde samo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="100"/>
+        <location filename="../header/check_texts.py" line="101"/>
         <source>Release it when the area is clear.</source>
         <translation>Uvolněte je, až bude prostor volný.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="101"/>
+        <location filename="../header/check_texts.py" line="102"/>
         <source>Stay where you reach the button on the robot.</source>
         <translation>Zůstaňte tam, kde dosáhnete na tlačítko na robotu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="102"/>
+        <location filename="../header/check_texts.py" line="103"/>
         <source>Drive or turn it by hand where it sees the Car; if it stays lost, map the Car again under Calibrate.</source>
         <translation>Popojeďte s ním nebo ho otočte ručně tam, kde vidí auto; pokud polohu nenajde, zmapujte auto znovu v Kalibraci.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="108"/>
+        <location filename="../header/check_texts.py" line="109"/>
         <source>Charge it, or measure fewer lines; an interrupted test can be gone on with.</source>
         <translation>Nabijte ji, nebo změřte méně přímek; v přerušeném testu lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="110"/>
+        <location filename="../header/check_texts.py" line="111"/>
         <source>Charge it soon.</source>
         <translation>Brzy ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="111"/>
+        <location filename="../header/check_texts.py" line="112"/>
         <source>Charge it before the test.</source>
         <translation>Před testem ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="112"/>
+        <location filename="../header/check_texts.py" line="113"/>
         <source>Check bit rate and other testers on the bus.</source>
         <translation>Zkontrolujte rychlost a další testery na sběrnici.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="113"/>
+        <location filename="../header/check_texts.py" line="114"/>
         <source>Check whether the profile is that of this Car.</source>
         <translation>Zkontrolujte, zda profil patří tomuto autu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="114"/>
+        <location filename="../header/check_texts.py" line="115"/>
         <source>Choose one under Settings, CAN adapter.</source>
         <translation>Zvolte jej v Nastavení, Adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="115"/>
+        <location filename="../header/check_texts.py" line="116"/>
         <source>If the adapter is the wrong one, choose another under Settings.</source>
         <translation>Pokud je to jiný adaptér, zvolte správný v Nastavení.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="116"/>
+        <location filename="../header/check_texts.py" line="117"/>
         <source>Wake the Car, e.g. open a door; check the car profile.</source>
         <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="117"/>
+        <location filename="../header/check_texts.py" line="118"/>
         <source>Press one of its buttons under Calibrate; a test notices a key that sleeps.</source>
         <translation>Stiskněte v Kalibraci některé jeho tlačítko; test pozná, že klíč spí.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="120"/>
+        <location filename="../header/check_texts.py" line="121"/>
         <source>Make room, or choose another folder under Settings.</source>
         <translation>Uvolněte místo, nebo zvolte v Nastavení jinou složku.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="121"/>
+        <location filename="../header/check_texts.py" line="122"/>
         <source>Choose a limits file below the parameters if there are limits.</source>
         <translation>Jsou-li předepsané meze, zvolte pod parametry jejich soubor.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="122"/>
+        <location filename="../header/check_texts.py" line="123"/>
         <source>Choose another file below the parameters, or none.</source>
         <translation>Zvolte pod parametry jiný soubor, nebo žádný.</translation>
     </message>
@@ -707,7 +702,7 @@
         <translation>brání testu</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="51"/>
+        <location filename="../header/check_texts.py" line="52"/>
         <source>Known beside the Car to {first} cm (1 sigma).</source>
         <translation>Vůči autu známa na {first} cm (1 sigma).</translation>
     </message>
@@ -717,35 +712,45 @@
         <translation>Rozměry auta</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="55"/>
+        <location filename="../header/check_texts.py" line="56"/>
         <source>The robot has it from the data sheet.</source>
         <translation>Robot je zná z technického listu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="56"/>
+        <location filename="../header/check_texts.py" line="57"/>
         <source>Only as the LiDARs see it at their height: distances from the Car&apos;s outline may be up to {first} cm too long.</source>
         <translation>Jen tak, jak je vidí LiDARy ve své výšce: vzdálenosti od obrysu auta mohou být až o {first} cm delší.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="58"/>
+        <location filename="../header/check_texts.py" line="59"/>
         <source>Not known before the Car is mapped.</source>
         <translation>Neznámé, dokud není auto zmapováno.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="104"/>
+        <location filename="../header/check_texts.py" line="105"/>
         <source>Start the robot with length and width of the data sheet (car_file), and map the Car again.</source>
         <translation>Spusťte robot s délkou a šířkou z technického listu (car_file) a zmapujte auto znovu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="106"/>
+        <location filename="../header/check_texts.py" line="107"/>
         <source>Have length and width of the Car&apos;s data sheet ready: the robot is started with them (car_file).</source>
         <translation>Mějte po ruce délku a šířku z technického listu auta: robot se s nimi spouští (car_file).</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="41"/>
+        <source>Not encrypted; it does not leave this computer.</source>
+        <translation>Nešifrováno; neopouští tento počítač.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="95"/>
+        <source>Pair this laptop with the robot in the connection window, and have the robot encrypt its link.</source>
+        <translation>Spárujte tento notebook s robotem v okně připojení a nechte robot šifrovat spojení.</translation>
     </message>
 </context>
 <context>
     <name>CogwheelButton</name>
     <message>
-        <location filename="../header/symbols.py" line="163"/>
+        <location filename="../header/symbols.py" line="166"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
@@ -857,42 +862,42 @@
 <context>
     <name>ConnectionWindow</name>
     <message>
-        <location filename="../windows/connection_window.py" line="33"/>
+        <location filename="../windows/connection_window.py" line="36"/>
         <source>Connect to the robot</source>
         <translation>Připojení k robotu</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="58"/>
+        <location filename="../windows/connection_window.py" line="64"/>
         <source>Connect</source>
         <translation>Připojit</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="62"/>
+        <location filename="../windows/connection_window.py" line="68"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="62"/>
+        <location filename="../windows/connection_window.py" line="68"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="116"/>
+        <location filename="../windows/connection_window.py" line="127"/>
         <source>The IP address or port provided is invalid.</source>
         <translation>Zadaná IP adresa nebo port je neplatný.</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="107"/>
+        <location filename="../windows/connection_window.py" line="118"/>
         <source>Connecting to {host} ...</source>
         <translation>Připojuji se k {host} ...</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="117"/>
+        <location filename="../windows/connection_window.py" line="128"/>
         <source>Connection failed, check the parameters.</source>
         <translation>Připojení selhalo, zkontrolujte parametry.</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="122"/>
+        <location filename="../windows/connection_window.py" line="133"/>
         <source>The CAN adapter cannot be used.</source>
         <translation>Adaptér CAN nelze použít.</translation>
     </message>
@@ -1242,6 +1247,11 @@
         <source>Protocol</source>
         <translation>Protokol</translation>
     </message>
+    <message>
+        <location filename="../header/header_bar.py" line="54"/>
+        <source>The link is not encrypted: whoever is in its network can move the robot.</source>
+        <translation>Spojení není šifrované: kdokoli v jeho síti může s robotem pohnout.</translation>
+    </message>
 </context>
 <context>
     <name>HistoryModel</name>
@@ -1484,14 +1494,19 @@
 <context>
     <name>LinkSymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="136"/>
+        <location filename="../header/symbols.py" line="137"/>
         <source>The link to the robot is encrypted.</source>
         <translation>Spojení s robotem je šifrované.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="137"/>
+        <location filename="../header/symbols.py" line="139"/>
         <source>The link to the robot is not encrypted.</source>
         <translation>Spojení s robotem není šifrované.</translation>
+    </message>
+    <message>
+        <location filename="../header/symbols.py" line="138"/>
+        <source>The link is not encrypted: whoever is in its network can move the robot.</source>
+        <translation>Spojení není šifrované: kdokoli v jeho síti může s robotem pohnout.</translation>
     </message>
 </context>
 <context>
@@ -1733,6 +1748,49 @@
         <location filename="../bus/message_model.py" line="58"/>
         <source>Newest data</source>
         <translation>Nejnovější data</translation>
+    </message>
+</context>
+<context>
+    <name>PairingForm</name>
+    <message>
+        <location filename="../forms/pairing_form.py" line="24"/>
+        <source>Pairing code</source>
+        <translation>Párovací kód</translation>
+    </message>
+    <message>
+        <location filename="../forms/pairing_form.py" line="24"/>
+        <source>once: the 6 digits that the robot shows for it</source>
+        <translation>jednou: 6 číslic, které k tomu robot zobrazí</translation>
+    </message>
+    <message>
+        <location filename="../forms/pairing_form.py" line="25"/>
+        <source>Pair</source>
+        <translation>Spárovat</translation>
+    </message>
+    <message>
+        <location filename="../forms/pairing_form.py" line="30"/>
+        <source>Without encryption</source>
+        <translation>Bez šifrování</translation>
+    </message>
+    <message>
+        <location filename="../forms/pairing_form.py" line="31"/>
+        <source>Whoever is in the robot&apos;s network can read the link and move the robot. The robot has to allow it too.</source>
+        <translation>Kdokoli v síti robotu může spojení číst a s robotem pohnout. Robot to musí také povolit.</translation>
+    </message>
+    <message>
+        <location filename="../forms/pairing_form.py" line="68"/>
+        <source>Pairing with {host} ...</source>
+        <translation>Párování s {host} ...</translation>
+    </message>
+    <message>
+        <location filename="../forms/pairing_form.py" line="74"/>
+        <source>Paired: this laptop may look at the robot.</source>
+        <translation>Spárováno: tento notebook smí robot sledovat.</translation>
+    </message>
+    <message>
+        <location filename="../forms/pairing_form.py" line="74"/>
+        <source>Paired: this laptop may control the robot.</source>
+        <translation>Spárováno: tento notebook smí robot řídit.</translation>
     </message>
 </context>
 <context>
@@ -3083,11 +3141,6 @@
     </message>
     <message>
         <location filename="../texts/application.py" line="7"/>
-        <source>The {} port {} is open, but not the robot&apos;s; subscriber and publisher port may be swapped, or another program listens there.</source>
-        <translation>Port {1} ({0}) je otevřený, ale nepatří robotu; porty odběratele a vydavatele jsou možná zaměněny, nebo tam poslouchá jiný program.</translation>
-    </message>
-    <message>
-        <location filename="../texts/application.py" line="7"/>
         <source>CAN interface is {}; allowed are {}.</source>
         <translation>Rozhraní CAN je {}; povolena jsou {}.</translation>
     </message>
@@ -4305,6 +4358,101 @@
         <location filename="../texts/limits.py" line="5"/>
         <source>The heights are {} cm apart; give some that are at least {} cm apart.</source>
         <translation>Výšky jsou od sebe {} cm; zadejte takové, které jsou od sebe alespoň {} cm.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="7"/>
+        <source>The {} port {} is open, but not the robot&apos;s; subscriber and publisher port may be swapped, the robot&apos;s link may be encrypted, or another program listens there.</source>
+        <translation>Port {} {} je otevřený, ale nepatří robotu; porty mohou být prohozené, spojení robotu může být šifrované, nebo tam naslouchá jiný program.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>This laptop is not paired with the robot at {}; have the robot show a code, and type it here, or say mtr-operator pair.</source>
+        <translation>Tento notebook není spárován s robotem na adrese {}; nechte robot zobrazit kód a zadejte ho zde, nebo spusťte mtr-operator pair.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>The robot does not know this laptop&apos;s key, or it was revoked; pair them again.</source>
+        <translation>Robot nezná klíč tohoto notebooku, nebo byl klíč zneplatněn; spárujte je znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>On the {} port {} is not the robot that was paired: it may be another one, its link may not be encrypted, or the ports may be swapped.</source>
+        <translation>Na portu {} {} není spárovaný robot: může to být jiný, jeho spojení nemusí být šifrované, nebo jsou porty prohozené.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>This laptop is paired as a viewer: it sees the robot and cannot move it.</source>
+        <translation>Tento notebook je spárován jen ke sledování: robot vidí, ale nemůže s ním pohnout.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>The list of paired robots {} is damaged; delete it and pair anew.</source>
+        <translation>Seznam spárovaných robotů {} je poškozený; smažte ho a spárujte znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>The list of paired robots cannot be written to {}: {}.</source>
+        <translation>Seznam spárovaných robotů nelze zapsat do {}: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>The robot at {} does not pair now; have it show a new code.</source>
+        <translation>Robot na adrese {} teď nepáruje; nechte ho zobrazit nový kód.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>The robot at {} does not pair on port {}; have it show a code first (rosrun mtr_dispatcher pair).</source>
+        <translation>Robot na adrese {} na portu {} nepáruje; nechte ho nejprve zobrazit kód (rosrun mtr_dispatcher pair).</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>The code is wrong; the robot allows a few tries, each a little later.</source>
+        <translation>Kód je chybný; robot dovolí několik pokusů, každý o něco později.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>The code has {} digits; the robot shows it.</source>
+        <translation>Kód má {} číslic; zobrazuje ho robot.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>The robot&apos;s answer does not fit the code; begin anew with a new code.</source>
+        <translation>Odpověď robotu neodpovídá kódu; začněte znovu s novým kódem.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>What has come is no message of a pairing.</source>
+        <translation>Co přišlo, není zpráva párování.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>Pairing needs the Python package spake2: apt install python3-spake2, or pip install spake2.</source>
+        <translation>Párování potřebuje balíček Pythonu spake2: apt install python3-spake2, nebo pip install spake2.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>The folder {} of the link&apos;s keys cannot be made: {}.</source>
+        <translation>Složku {} pro klíče spojení nelze vytvořit: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>The link&apos;s keys cannot be written to {}: {}.</source>
+        <translation>Klíče spojení nelze zapsat do {}: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>The link&apos;s keys in {} cannot be read: {}.</source>
+        <translation>Klíče spojení v {} nelze přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>The link&apos;s keys in {} are damaged; delete the file and pair anew.</source>
+        <translation>Klíče spojení v {} jsou poškozené; smažte soubor a spárujte znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>Others may read the secret key in {}; say chmod 600 {}, or delete it and pair anew.</source>
+        <translation>Tajný klíč v {} mohou číst i jiní; spusťte chmod 600 {}, nebo ho smažte a spárujte znovu.</translation>
     </message>
 </context>
 <context>

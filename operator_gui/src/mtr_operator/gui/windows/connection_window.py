@@ -2,17 +2,20 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import dataclasses
+
 from PyQt5.QtCore import QSize
 from PyQt5.QtGui import QCloseEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from mtr_operator.station.connection import Connection
+from mtr_operator.station.connection import Connection, RobotChoice
 
 from ..fitting.place import open_within
 from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..forms.can_form import CanForm
 from ..forms.language_box import LanguageBox
+from ..forms.pairing_form import PairingForm
 from ..forms.robot_form import RobotForm
 from ..sentences import translated
 from ..theme.scale import L, M, S
@@ -22,7 +25,7 @@ _WIDTH = 960
 
 
 class ConnectionWindow(QWidget):
-    """Attributes: robot, can: the forms. button: Connect. message, detail: what went wrong.
+    """Attributes: robot, pairing, can: the forms. button: Connect. message, detail: what went wrong.
 
     language: choice of it.
     """
@@ -33,6 +36,7 @@ class ConnectionWindow(QWidget):
         self.setWindowTitle(self.tr("Connect to the robot"))
         self._flow = flow
         self.robot = RobotForm()
+        self.pairing = PairingForm(flow.pairing, lambda: self.robot.typed_host)
         self.can = CanForm()
         self.message, self.detail = QLabel(), QLabel()
         self.message.setProperty("role", "error")
@@ -46,11 +50,13 @@ class ConnectionWindow(QWidget):
         self.button.clicked.connect(self._connect)
         self.robot.submitted.connect(self._connect)
         self.can.submitted.connect(self._connect)
+        self.pairing.unencrypted.toggled.connect(self._forget_refusal)
         for form in (self.robot, self.can):
             form.changed.connect(self._forget_refusal)
         flow.refused.connect(self._show_refusal)
         self.robot.show_choice(proposed.robot, flow.store.settings.hosts)
         self.can.show_choice(proposed.can)
+        self.pairing.unencrypted.setChecked(proposed.robot.is_unencrypted)
         self._say(flow.store.problem, "")
         open_within(self, self.sizeHint().expandedTo(QSize(_WIDTH, 0)))
 
@@ -62,6 +68,8 @@ class ConnectionWindow(QWidget):
         for heading, form in ((self.tr("Robot"), self.robot), (self.tr("Car"), self.can)):
             card = Card(heading)
             card.column.addWidget(form, 1)
+            if form is self.robot:
+                card.column.addWidget(self.pairing)
             cards.addWidget(card, 1)
         notice = QVBoxLayout()
         notice.setSpacing(0)
@@ -92,7 +100,10 @@ class ConnectionWindow(QWidget):
     def typed(self) -> Connection:
         """What stands in the fields; the last choice of a robot where that is none."""
         robot = self.robot.choice or self._flow.store.settings.connection.robot
-        return Connection(robot, self.can.choice)
+        return Connection(self._as_chosen(robot), self.can.choice)
+
+    def _as_chosen(self, robot: RobotChoice) -> RobotChoice:
+        return dataclasses.replace(robot, is_unencrypted=self.pairing.unencrypted.isChecked())
 
     def _change_language(self) -> None:
         self._flow.use_language(self.language.currentData())
@@ -107,7 +118,7 @@ class ConnectionWindow(QWidget):
         self._say("", self.tr("Connecting to {host} ...").format(host=robot.host))
         self.button.setEnabled(False)
         self.language.setEnabled(False)
-        self._flow.connect_to(Connection(robot, self.can.choice))
+        self._flow.connect_to(Connection(self._as_chosen(robot), self.can.choice))
 
     def _show_refusal(self, part: str, text: str) -> None:
         self.button.setEnabled(True)

@@ -66,8 +66,7 @@ def _of_silence(silent_s: float) -> Iterator[Item]:
 def _of_robot(robot: RobotSnapshot, facts: Facts) -> Iterator[Item]:
     status = robot.status
     yield Item(Check.LINK, State.GOOD, Finding.LINK_ALIVE, numbers=(facts.silent_s,))
-    yield (Item(Check.ENCRYPTION, State.GOOD, Finding.ENCRYPTED) if robot.is_secret
-           else Item(Check.ENCRYPTION, State.NOTE, Finding.NOT_ENCRYPTED))
+    yield _encryption(robot)
     yield from robot_checks.condition(status)
     yield robot_checks.emergency_stop(status.emergency_stop)
     yield robot_checks.position(status)
@@ -76,6 +75,14 @@ def _of_robot(robot: RobotSnapshot, facts: Facts) -> Iterator[Item]:
     yield robot_checks.battery(status.battery_percent, facts.wanted.plan)
     yield from car_checks.bus(robot)
     yield car_checks.key(facts.answered_s)
+
+
+def _encryption(robot: RobotSnapshot) -> Item:
+    if robot.is_secret:
+        return Item(Check.ENCRYPTION, State.GOOD, Finding.ENCRYPTED)
+    if robot.is_exposed:
+        return Item(Check.ENCRYPTION, State.NOTE, Finding.NOT_ENCRYPTED)
+    return Item(Check.ENCRYPTION, State.GOOD, Finding.LOCAL_LINK)
 
 
 def _disk(free_bytes: int | None) -> Item:

@@ -44,6 +44,7 @@ class Finding(enum.Enum):
     LINK_SILENT = "link silent"
     ENCRYPTED = "encrypted"
     NOT_ENCRYPTED = "not encrypted"
+    LOCAL_LINK = "link within this computer"
     ROBOT_READY = "robot ready"
     ROBOT_STARTING = "robot starting"
     ROBOT_FAULT = "robot fault"

@@ -86,7 +86,7 @@ class IdleLoop:
         self._desired = replace(self._desired, resume_hold_id=self._resumed_hold(status.hold_id))
         self._robot.send(self._desired)
         return RobotSnapshot(status, self._car.lock_state, self._car.problem, None, self._robot.is_secret,
-                             self._car.traffic, known_facts(self._car))
+                             self._car.traffic, known_facts(self._car), self._robot.is_exposed)
 
     def _forget_done_press(self, status: RobotStatus) -> None:
         press = self._desired.press

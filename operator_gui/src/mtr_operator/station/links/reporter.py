@@ -29,7 +29,8 @@ class Reporter(RunObserver):
     def on_status(self, status: RobotStatus) -> None:
         """See RunObserver."""
         self._mailbox.put_robot(RobotSnapshot(status, self._car.lock_state, self._car.problem, self._robot.waypoint,
-                                              self._robot.is_secret, self._car.traffic, known_facts(self._car)))
+                                              self._robot.is_secret, self._car.traffic, known_facts(self._car),
+                                              self._robot.is_exposed))
         self._after_status()
 
     def on_plan(self, done: int, total: int) -> None:

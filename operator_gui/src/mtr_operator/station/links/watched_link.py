@@ -27,6 +27,11 @@ class WatchedRobotLink(RobotLink):
         """True when the link is encrypted."""
         return self._link.is_secret
 
+    @property
+    def is_exposed(self) -> bool:
+        """See RobotLink."""
+        return self._link.is_exposed
+
     def connect(self) -> None:
         """See RobotLink."""
         self._link.connect()

@@ -1,0 +1,102 @@
+"""This laptop's key pair and the paired robots' public keys, in files for their owner alone."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import dataclasses
+import json
+import pathlib
+from dataclasses import dataclass
+from typing import Any
+
+import platformdirs
+import zmq
+
+from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.results.document import read_record
+from mtr_proto.keys import KeyPair, LinkKeyError, is_key, own_key_pair, private_folder, write_private
+from mtr_proto.pairing import ROLES
+
+CONTROLLER, VIEWER = ROLES
+FOLDER_NAME = "link"
+OWN_KEYS, ROBOTS = "station.key", "robots.json"
+MAX_ROBOTS = 64
+_MAX_BYTES = 64 * 1024
+_FORMAT = "mtr-operator robots"
+_VERSION = 1
+
+
+@dataclass(frozen=True)
+class PairedRobot:
+    """A robot whose key this laptop knows. host: where it was paired. key: Z85. date: ISO 8601."""
+
+    host: str
+    key: str
+    role: str
+    date: str
+
+
+def default_folder() -> pathlib.Path:
+    """Where the system keeps a program's data on this computer; it does not follow the person to another one."""
+    return platformdirs.user_data_path("mtr-operator", appauthor=False) / FOLDER_NAME
+
+
+class KeyChain:
+    """folder: None for the system's."""
+
+    def __init__(self, folder: pathlib.Path | None = None):
+        self._folder = folder or default_folder()
+
+    def own_keys(self) -> KeyPair:
+        """The pair, made when it is asked for first; ConnectionFailed says why it cannot be used."""
+        try:
+            return own_key_pair(self._folder / OWN_KEYS, zmq.curve_keypair)
+        except LinkKeyError as error:
+            raise ConnectionFailed(str(error)) from None
+
+    def robots(self) -> tuple[PairedRobot, ...]:
+        """All paired robots, the newest first; ConnectionFailed when the file is damaged."""
+        path = self._folder / ROBOTS
+        try:
+            with open(path, encoding="utf-8") as file:
+                document = json.loads(file.read(_MAX_BYTES))
+            return _robots_in(document)
+        except FileNotFoundError:
+            return ()
+        except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError):
+            raise ConnectionFailed(f"The list of paired robots {path} is damaged; delete it and pair anew.") from None
+
+    def robots_at(self, host: str) -> tuple[PairedRobot, ...]:
+        """Those that were paired at this address, the newest first: hotspots of two robots have the same one."""
+        return tuple(robot for robot in self.robots() if robot.host == host)
+
+    def keep(self, robot: PairedRobot) -> None:
+        """Remember a robot, in place of what was known of its key at this address."""
+        others = [each for each in self.robots() if (each.host, each.key) != (robot.host, robot.key)]
+        self._write((robot, *others[:MAX_ROBOTS - 1]))
+
+    def forget(self, host: str) -> int:
+        """Forget the robots at this address; how many there were."""
+        robots = self.robots()
+        kept = tuple(robot for robot in robots if robot.host != host)
+        if len(kept) < len(robots):
+            self._write(kept)
+        return len(robots) - len(kept)
+
+    def _write(self, robots: tuple[PairedRobot, ...]) -> None:
+        document = {"format": _FORMAT, "version": _VERSION, "robots": [dataclasses.asdict(robot) for robot in robots]}
+        try:
+            write_private(private_folder(self._folder) / ROBOTS, json.dumps(document, indent=1) + "\n")
+        except LinkKeyError as error:
+            raise ConnectionFailed(str(error)) from None
+        except OSError as error:
+            raise ConnectionFailed(f"The list of paired robots cannot be written to {self._folder}: "
+                                   f"{error.strerror}.") from None
+
+
+def _robots_in(document: Any) -> tuple[PairedRobot, ...]:
+    if document["format"] != _FORMAT or document["version"] != _VERSION:
+        raise ValueError("another format")
+    robots = tuple(read_record(PairedRobot, item) for item in document["robots"])
+    if not all(is_key(robot.key) and robot.role in ROLES for robot in robots):
+        raise ValueError("no key")
+    return robots
