@@ -30,7 +30,7 @@ STATUS = {
     "command_id": 8, "waypoint_id": 9, "waypoint_result": 10, "waypoint_message": 11, "presses": 12, "map_car_id": 13,
     "log": 14, "notifications": 15, "rejected_messages": 16, "software_version": 17,
     "car_check": 18, "waypoint_problems": 19, "steady_time_s": 20, "interventions": 21, "emergency_stop": 22,
-    "motion_source": 23, "hold_id": 24, "controller_name": 25,
+    "motion_source": 23, "hold_id": 24, "controller_name": 25, "surroundings": 26,
 }
 TYPE_NAMES = {2: "float", 5: "int32", 8: "bool", 13: "uint32"}
 

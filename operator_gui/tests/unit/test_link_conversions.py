@@ -124,5 +124,5 @@ def test_other_bytes_are_undecodable(payload):
 @pytest.mark.parametrize("message", ["Command", "Status", "RobotState", "CarDimensions", "CarCheck", "Interventions"])
 def test_every_status_field_of_the_proto_is_read(message):
     """A field added to the proto must be thought of here."""
-    known = {"Command": 14, "Status": 25, "RobotState": 19, "CarDimensions": 11, "CarCheck": 8, "Interventions": 7}
+    known = {"Command": 14, "Status": 26, "RobotState": 19, "CarDimensions": 11, "CarCheck": 8, "Interventions": 7}
     assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]

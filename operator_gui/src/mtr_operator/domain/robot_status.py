@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Iterator
 
 from .geometry.pose import Point, Pose
+from .surroundings import Surroundings
 
 
 class Mode(enum.Enum):
@@ -181,6 +182,7 @@ class RobotStatus:
     controlled_by_other: another application has the robot; the confirmations are absent then.
     car_check: None for a robot that cannot check the Car's frame.
     controller_name: owner of the key whose Commands the robot obeys; empty on a link that is not encrypted.
+    surroundings: None in most Statuses, and of a robot of before.
     hold_id: not 0: the robot stands until the Operator has it go on, see requests.DesiredState.resume_hold_id.
     """
 
@@ -229,6 +231,7 @@ class RobotStatus:
     motion_source: MotionSource = MotionSource.UNKNOWN
     hold_id: int = 0
     controller_name: str = ""
+    surroundings: Surroundings | None = None
 
     @property
     def key_place(self) -> Point:

@@ -14,6 +14,7 @@ from mtr_operator.domain.geometry.pose import Pose
 from mtr_proto import robot_link_pb2 as pb
 
 from .plausibility import not_finite, plausible, violation_of
+from .surroundings import surroundings_from, surroundings_message
 
 MAX_MESSAGE_BYTES = 64 * 1024
 _COUNTS = tuple(field.name for field in dataclasses.fields(robot_status.Interventions))
@@ -142,7 +143,8 @@ def robot_status_from(message: pb.Status) -> robot_status.RobotStatus:
         interventions=robot_status.Interventions(**{name: getattr(message.interventions, name) for name in _COUNTS}),
         emergency_stop=robot_status.EmergencyStop(message.emergency_stop),
         motion_source=robot_status.MotionSource(message.motion_source), hold_id=message.hold_id,
-        controller_name=message.controller_name)
+        controller_name=message.controller_name,
+        surroundings=surroundings_from(message.surroundings) if message.HasField("surroundings") else None)
 
 
 def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
@@ -184,6 +186,8 @@ def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
         message.car.CopyFrom(_car_message(status.car, status.car_frame))
     if status.car_check is not None:
         _fill_check(message.car_check, status.car_check)
+    if status.surroundings is not None:
+        message.surroundings.CopyFrom(surroundings_message(status.surroundings))
     return message
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Callable
 
 from mtr_operator.domain.geometry.pose import Point
-from mtr_operator.domain.robot_status import Problem
+from mtr_operator.domain.robot_status import Problem, RobotStatus
 
 from .events import RobotSnapshot, StationEvent
 from .trail import Passing, Places, thinned
@@ -23,7 +23,8 @@ MAX_TRAIL = 512
 class Batch:
     """Everything since the batch before.
 
-    robot: newest, None when no Status came. trail: places passed. said: sentences of the robot, each with its causes.
+    robot: newest, None when no Status came. sight: the newest that says what the robot sees, None when none did.
+    trail: places passed. said: sentences of the robot, each with its causes.
     trail_begins: what was passed before lies in another frame of the Car.
     """
 
@@ -32,6 +33,7 @@ class Batch:
     trail: tuple[Point | None, ...]
     said: tuple[tuple[Problem, ...], ...] = ()
     trail_begins: bool = False
+    sight: RobotStatus | None = None
 
 
 class Mailbox:
@@ -42,6 +44,7 @@ class Mailbox:
         self._lock = threading.Lock()
         self._events: list[StationEvent] = []
         self._robot: RobotSnapshot | None = None
+        self._sight: RobotStatus | None = None
         self._trail: Places = []
         self._passing = Passing()
         self._trail_begins = False
@@ -61,6 +64,7 @@ class Mailbox:
         with self._lock:
             first = self._is_empty()
             self._robot = snapshot
+            self._sight = self._sight if status.surroundings is None else status
             self._said.update((problems[0].text, problems) for problems in status.problems() if problems)
             if self._passing.begins_anew(status):
                 self._trail, self._trail_begins = [], True
@@ -74,8 +78,9 @@ class Mailbox:
         """Empty the mailbox."""
         with self._lock:
             batch = Batch(tuple(self._events), self._robot, tuple(self._trail), tuple(self._said.values()),
-                          self._trail_begins)
+                          self._trail_begins, self._sight)
             self._events, self._robot, self._trail, self._said = [], None, [], {}
+            self._sight = None
             self._trail_begins = False
         return batch
 

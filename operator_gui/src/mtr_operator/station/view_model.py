@@ -34,6 +34,8 @@ from .handle_prompt import HandlePrompt
 from .mailbox import Batch
 from .motion import Motion
 from .readiness import RUNNING, Phase, Readiness, ReadinessWord, readiness_of
+from .sight.obstacle_map import ObstacleMap
+from .sight.view import View, view_of
 from .test import Test
 from .trail import Places, thinned
 
@@ -57,6 +59,7 @@ class ViewModel:
         judgement: of the lines measured so far, None without limits.
         handle: what the Operator is asked to do at the Car's handle, None when nothing.
         motion: what was ordered between two tests.
+        view: what the robot sees, None while it does not say. obstacles: where something stands around the Car.
         wanted: the test that is about to begin. free_bytes: room on the disk of the results, None when not known.
     """
 
@@ -77,6 +80,8 @@ class ViewModel:
         self.judgement: TestJudgement | None = None
         self.handle: HandlePrompt | None = None
         self.motion = Motion()
+        self.view: View | None = None
+        self.obstacles = ObstacleMap()
         self.wanted = Wanted()
         self.free_bytes: int | None = None
         self._answered_s: float | None = None
@@ -190,6 +195,10 @@ class ViewModel:
                                                                                       LockState.UNLOCKED}:
                 self._answered_s = self._received_s
             self.motion.learn(batch.robot.status, self._received_s)
+        if batch.sight is not None:
+            self.view = view_of(batch.sight)
+            if self.view is not None:
+                self.obstacles.learn(batch.sight, self.view)
         if batch.trail_begins:
             self.trail = []
         for place in batch.trail if self.test is not None else ():

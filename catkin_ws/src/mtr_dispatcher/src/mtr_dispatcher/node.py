@@ -36,6 +36,7 @@ from .link_server import LinkError, LinkServer, Ports, Received
 from .memory import end_beyond, give_back, resident_mib
 from .operator_wait import OperatorWait
 from .parameters import Parameters
+from .sensors import Eyes, mounted_lidars
 from .session import CommandResult, SessionState, is_same
 from .start_failures import StartFailures
 from .status.builder import Identity
@@ -58,9 +59,11 @@ LOGGED_PER_S, MAX_LOGGED_BURST = 5.0, 50.0
 class DispatcherNode:
     """Serves the link at the ticks of simulated time, or at once on the robot's own clock."""
 
-    def __init__(self, parameters: Parameters, core: Dispatcher, server: LinkServer, gate: Optional[Gate] = None):
+    def __init__(self, parameters: Parameters, core: Dispatcher, server: LinkServer, eyes: Eyes,
+                 gate: Optional[Gate] = None):
         """gate: who may use the link; None when it is not encrypted."""
         self._parameters, self._core, self._server, self._gate = parameters, core, server, gate
+        self._eyes = eyes
         self._refused, self._logged = 0, Rates(LOGGED_PER_S, MAX_LOGGED_BURST)
         self._wait = OperatorWait(parameters.operator_lost_after_wall_s)
         self._published: Optional[SessionState] = None
@@ -200,6 +203,7 @@ class DispatcherNode:
 
     def _publish_status(self, now_ns: int, inputs: Optional[Inputs] = None) -> None:
         inputs = inputs or self._inputs(now_ns)
+        inputs = inputs._replace(surroundings=self._eyes.look(inputs))
         self._confirmed = self._core.confirmed(inputs)
         self._status = self._core.status(inputs)
         self._server.publish(self._status)
@@ -225,7 +229,8 @@ class DispatcherNode:
 
 def make(parameters: Parameters) -> DispatcherNode:
     """The node with its ports open."""
-    key = described_robot().key()
+    robot = described_robot()
+    key = robot.key()
     end_beyond(parameters.memory_limit_mib)
     curve = gate = None
     if parameters.is_encrypted:
@@ -240,7 +245,8 @@ def make(parameters: Parameters) -> DispatcherNode:
     try:
         identity = Identity(secrets.randbits(63) | 1, rospkg.RosPack().get_manifest("mtr_dispatcher").version,
                             key.x_m, key.y_m)
-        return DispatcherNode(parameters, Dispatcher(parameters, identity), server, gate)
+        return DispatcherNode(parameters, Dispatcher(parameters, identity), server,
+                              Eyes(mounted_lidars(robot)), gate)
     except BaseException:
         # Its thread would keep the process alive.
         server.close()

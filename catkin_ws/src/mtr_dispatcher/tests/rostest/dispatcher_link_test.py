@@ -9,9 +9,10 @@ import unittest
 import rospy
 import rostest
 import zmq
+from sensor_msgs.msg import LaserScan
 
 from mtr_core import names
-from mtr_msgs.msg import DesiredState, MotionLock, RobotMode
+from mtr_msgs.msg import DesiredState, DriveStatus, LocalizedPose, MotionLock, RobotMode
 from mtr_proto import robot_link_pb2 as link
 
 LIMIT_S = 5.0
@@ -147,6 +148,25 @@ class DispatcherLink(unittest.TestCase):
         status = self.application.status_where(rejected)
         self.assertEqual(status.session_id, self.application.session_id)
         other.close()
+
+    def test_lidars_and_obstacle_are_seen(self):
+        scan = rospy.Publisher(names.FRONT_SCAN, LaserScan, queue_size=1)
+        pose = rospy.Publisher(names.LOCALIZED_POSE, LocalizedPose, queue_size=1)
+        drive = rospy.Publisher(names.DRIVE_STATUS, DriveStatus, queue_size=1)
+        self.assertTrue(self.eventually(lambda: all(each.get_num_connections() for each in (scan, pose, drive))))
+
+        def is_seen(status):
+            now = rospy.Time.now()
+            for publisher, message in ((scan, LaserScan(ranges=[2.0, 2.0], range_max=30.0)), (pose, LocalizedPose()),
+                                       (drive, DriveStatus(zone=DriveStatus.BLOCKED, obstacle_m=0.5))):
+                message.header.stamp = now
+                publisher.publish(message)
+            return len(status.surroundings.points_cm) == 4
+        status = self.application.status_where(is_seen)
+        self.assertEqual(status.surroundings.zone, link.STOP_ZONE_BLOCKED)
+        self.assertAlmostEqual(status.surroundings.obstacle_m, 0.5)
+        for publisher in (scan, pose, drive):
+            publisher.unregister()
 
     def test_confirmation_is_sent_at_once(self):
         self.assertTrue(self.eventually(lambda: self.mode.get_num_connections() > 0))

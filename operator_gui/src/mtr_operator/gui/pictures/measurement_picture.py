@@ -16,6 +16,7 @@ from .layers.car_layer import CarLayer
 from .layers.lines_layer import LinesLayer
 from .layers.points_layer import AreasLayer, PointsLayer
 from .layers.robot_layer import RobotLayer, TrailLayer
+from .layers.sight_layer import SightLayer
 from .layers.surroundings import GridLayer, ScaleLayer
 from .picture_panel import PicturePanel
 
@@ -33,6 +34,7 @@ class MeasurementPicture:
         self.areas = AreasLayer()
         self.points = PointsLayer()
         self.lines = LinesLayer()
+        self.sight = SightLayer()
 
     def show_model(self, now_s: float) -> None:
         """Something is another one."""
@@ -60,6 +62,7 @@ class MeasurementPicture:
         robot.pose, robot.key, robot.sigma_m = self._glide.at(now_s), (status.key_x, status.key_y), \
             status.position_sigma_m
         robot.is_stale = self._model.is_stale
+        self.sight.view = None if self._model.is_stale or not status.pose_valid else self._model.view
         waypoint = snapshot.waypoint
         robot.waypoint = None if waypoint is None else waypoint.pose
         if self._model.trail is not self.trail.places:
@@ -78,7 +81,7 @@ class MeasurementPicture:
         self.lines.stretches = self._stretches(car)
         self._panel.legend.show_sets(picture.point_sets)
         self._panel.view.show_layers([GridLayer(), self.lines, self.areas, CarLayer(car, mapped is not None),
-                                      self.points, self.trail, self.robot, ScaleLayer()])
+                                      self.points, self.trail, self.sight, self.robot, ScaleLayer()])
 
     def _stretches(self, car: CarDimensions) -> tuple[Stretch, ...]:
         test = self._model.current_test

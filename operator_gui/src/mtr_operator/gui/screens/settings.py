@@ -11,6 +11,7 @@ from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.station.checks.checklist import Wanted, hindrances
 from mtr_operator.station.checks.finding import Check
 from mtr_operator.station.estimate import USUAL_CAR, Plan, plan_of
+from mtr_operator.station.sight.view import hindered_lines
 from mtr_operator.station.view_model import ViewModel
 
 from ..fitting.scroller import Scroller
@@ -19,10 +20,11 @@ from ..forms.hold_button import HoldButton
 from ..forms.identity_form import IdentityForm
 from ..forms.parameter_form import ParameterForm
 from ..header.check_texts import check_text
-from ..i18n import duration
+from ..i18n import duration, number
 from ..names import domain_word, scenario_title
 from ..pictures.layers.car_layer import CarLayer
 from ..pictures.layers.lines_layer import LinesLayer
+from ..pictures.layers.sight_layer import ObstaclesLayer
 from ..pictures.layers.surroundings import GridLayer, ScaleLayer
 from ..pictures.picture_panel import PicturePanel
 from ..prospect_text import prospect_text
@@ -52,6 +54,8 @@ class SettingsScreen(QWidget):
         self._shown: tuple[object, ...] = ()
         # Without a valid plan the view stays as it was.
         self._lines = LinesLayer()
+        self._obstacles = ObstaclesLayer()
+        self._seen_version = -1
         self.form = ParameterForm(scenario.parameters_type)
         self.given = GivenForm(scenario)
         self.identity = IdentityForm()
@@ -113,6 +117,9 @@ class SettingsScreen(QWidget):
         if shown != self._shown:
             self._shown = shown
             self._preview()
+        elif self._model.obstacles.version != self._seen_version:
+            self._show_obstacles()
+            self.picture.view.refresh()
 
     def _preview(self) -> None:
         parameters, mapped = self.form.parameters, self._model.mapped_car
@@ -126,15 +133,34 @@ class SettingsScreen(QWidget):
                 self._lines.stretches, self._lines.is_visible = self._plan.stretches, True
             except InvalidParameter as error:
                 self.form.show_fault(parameter_sentence(error, self._scenario.parameters_type))
-        self.picture.view.show_layers([GridLayer(), self._lines, CarLayer(car, mapped is not None), ScaleLayer()])
+        self._show_obstacles()
+        self.picture.view.show_layers([GridLayer(), self._obstacles, self._lines, CarLayer(car, mapped is not None),
+                                       ScaleLayer()])
         self.notice.setText(self._forecast(mapped is not None))
-        cautions = [in_window_words(sentence, self._scenario.parameters_type)
-                    for sentence in (*(self._plan.cautions if self._plan else ()), *self.given.cautions(parameters))]
-        self.caution.setText(" ".join(cautions))
-        self.caution.setVisible(bool(self.caution.text()))
         self._judge()
         if self.isVisible():
             self._tell_wanted()
+
+    def _show_obstacles(self) -> None:
+        """What stands around the Car, and what speaks against the parameters."""
+        obstacles, parameters = self._model.obstacles, self.form.parameters
+        self._seen_version, self._obstacles.places = obstacles.version, obstacles.places
+        cautions = [in_window_words(sentence, self._scenario.parameters_type)
+                    for sentence in (*(self._plan.cautions if self._plan else ()), *self.given.cautions(parameters))]
+        self.caution.setText(" ".join(filter(None, (*cautions, self._hindered()))))
+        self.caution.setVisible(bool(self.caution.text()))
+
+    def _hindered(self) -> str:
+        """A sentence on lines that are not free; empty while all are, or the Car is not measured."""
+        car, plan = self._model.mapped_car, self._plan
+        found = None if car is None or plan is None else \
+            hindered_lines(plan.stretches, car, self._model.obstacles.places)
+        if found is None:
+            return ""
+        return self.tr("Something stands in the way of {lines}, {distance} m from the Car; see the grey squares. Move "
+                       "it, or measure from nearer.").format(
+            lines=f"{domain_word(self._scenario.line_word)} {', '.join(found.labels)}",
+            distance=number(found.gap_m, 1))
 
     def showEvent(self, event: QShowEvent) -> None:
         """See QWidget."""

@@ -4458,34 +4458,39 @@
 <context>
     <name>SettingsScreen</name>
     <message>
-        <location filename="../screens/settings.py" line="84"/>
+        <location filename="../screens/settings.py" line="88"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="157"/>
+        <location filename="../screens/settings.py" line="183"/>
         <source>{count} lines ({word}), about {time}.</source>
         <translation>Počet přímek ({word}): {count}, asi {time}.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="161"/>
+        <location filename="../screens/settings.py" line="187"/>
         <source>The Car is not measured yet; its size is a guess.</source>
         <translation>Auto ještě není změřeno; jeho rozměry jsou odhad.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="166"/>
+        <location filename="../screens/settings.py" line="192"/>
         <source>The battery, at {percent} %, suffices.</source>
         <translation>Baterie ({percent} %) stačí.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="167"/>
+        <location filename="../screens/settings.py" line="193"/>
         <source>The battery, at {percent} %, may not suffice: the test takes about {need} %.</source>
         <translation>Baterie ({percent} %) nemusí stačit: test spotřebuje asi {need} %.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="64"/>
+        <location filename="../screens/settings.py" line="68"/>
         <source>Hold to start</source>
         <translation>Podržením spustit</translation>
+    </message>
+    <message>
+        <location filename="../screens/settings.py" line="160"/>
+        <source>Something stands in the way of {lines}, {distance} m from the Car; see the grey squares. Move it, or measure from nearer.</source>
+        <translation>V cestě stojí překážka ({lines}), {distance} m od auta; viz šedé čtverce. Odstraňte ji, nebo měřte z menší vzdálenosti.</translation>
     </message>
 </context>
 <context>

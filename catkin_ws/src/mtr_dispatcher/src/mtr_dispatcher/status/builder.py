@@ -13,13 +13,14 @@ from .car_pose import CarPose, UncertainPose, base_in_car
 from .inputs import CarFields, CheckFields, Inputs, ModeFields, PeripheralsFields, PoseFields
 from .log_buffer import Entry
 from .notices import Notice
+from .surroundings import fill
 from .texts import cut, problem_messages
 
 MAX_ACCURACY_CM = 2 ** 31 - 1
 # Words of DriveStatus.
 MOTION_SOURCES = {"none": link.MOTION_SOURCE_NONE, "locked": link.MOTION_SOURCE_LOCKED,
                   "manual": link.MOTION_SOURCE_MANUAL, "planner": link.MOTION_SOURCE_PLANNER}
-LEFT_OUT = ("log", "notifications", "presses")
+LEFT_OUT = ("surroundings", "log", "notifications", "presses")
 
 
 class Identity(NamedTuple):
@@ -77,6 +78,8 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
     for notice in report.notices:
         status.notifications.add(code=notice.code, severity=notice.severity, text=cut(notice.problem.text),
                                  problems=problem_messages(notice.problem))
+    if report.fresh.surroundings is not None:
+        fill(status.surroundings, report.fresh.surroundings)
     return _bounded(status)
 
 

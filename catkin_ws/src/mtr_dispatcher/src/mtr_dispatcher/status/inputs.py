@@ -6,6 +6,7 @@ from typing import Any, Mapping, NamedTuple, Optional, Protocol, Sequence
 from mtr_core.problems import ProblemFields
 
 from .emergency import EmergencyStop
+from .surroundings import Surroundings
 
 # Age at which a periodic message no longer tells the present.
 STALE_AFTER_S = 0.5
@@ -110,6 +111,9 @@ class DriveFields(Stamped, Protocol):
     manual_drives: int
     blockages: int
     lock_stops: int
+    zone: int
+    obstacle_m: float
+    obstacle_bearing: float
 
 
 class MotionFields(Stamped, Protocol):
@@ -127,6 +131,7 @@ class Inputs(NamedTuple):
         clock_steps: times that the robot's clock was set.
         emergency_stop: as its owners say.
         start_failures: why nodes cannot start, by their names.
+        surroundings: what the robot sees, None in a Status that does not carry it.
     """
 
     now_s: float
@@ -141,3 +146,4 @@ class Inputs(NamedTuple):
     clock_steps: int = 0
     emergency_stop: EmergencyStop = EmergencyStop.ABSENT
     start_failures: Mapping[str, str] = MappingProxyType({})
+    surroundings: Optional[Surroundings] = None

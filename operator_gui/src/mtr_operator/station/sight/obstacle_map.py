@@ -1,0 +1,81 @@
+"""Where something stands around the Car, as the robot has seen it again and again; what has gone is forgotten."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from mtr_operator.domain.robot_status import RobotStatus
+
+from .view import View
+
+CELL_M = 0.2
+_CELLS = 400
+_HALF_M = CELL_M * _CELLS / 2.0
+# Robot time between two looks: somebody who walks by is in no cell for long.
+PERIOD_S = 0.5
+# A return counts more than a ray that passes: rays graze what they see aslant. With these a cell counts after three
+# looks, and after seven that pass through it no more.
+_RETURN, _PASS, _OCCUPIED, _MOST = 2, 1, 6, 12
+# A ray says nothing of its last piece: range noise, and its cell's own size.
+_UNSURE_M = 0.4
+
+
+class ObstacleMap:
+    """A square of 80 m around the Car's centre. Begins anew with another frame of the Car.
+
+    Attributes:
+        version: grows with each change of places.
+        places: middles of the cells in which something stands, (n, 2), Car coordinate system, m.
+    """
+
+    def __init__(self) -> None:
+        self._counts: Any = np.zeros((_CELLS, _CELLS), dtype=np.int8)
+        self._frame: tuple[int, int] = (0, 0)
+        self._looked_s = -math.inf
+        self.version = 0
+        self.places: Any = np.empty((0, 2))
+
+    def learn(self, status: RobotStatus, view: View) -> None:
+        """What is seen with a Status."""
+        frame = status.robot_session_id, status.car_frame.revision
+        if frame != self._frame or status.car is None or status.stamp_s < self._looked_s:
+            self._frame, self._looked_s = frame, -math.inf
+            self._counts[:] = 0
+        if status.car is None or status.stamp_s - self._looked_s < PERIOD_S:
+            return
+        self._looked_s = status.stamp_s
+        self._look(view)
+
+    def _look(self, view: View) -> None:
+        counts = self._counts
+        passed, met = _cells(_passed(view)), _cells(view.points)
+        counts[passed] = np.maximum(counts[passed] - _PASS, 0)
+        counts[met] = np.minimum(counts[met] + _RETURN, _MOST)
+        rows, columns = np.nonzero(counts >= _OCCUPIED)
+        places = np.column_stack((rows, columns)) * CELL_M - _HALF_M + CELL_M / 2.0
+        if not np.array_equal(places, self.places):
+            self.places = places
+            self.version += 1
+
+
+def _passed(view: View) -> Any:
+    """Places along all rays, a cell apart, without their last piece."""
+    ways = view.points - np.array(view.viewer)
+    lengths = np.hypot(ways[:, 0], ways[:, 1])
+    if not len(lengths):
+        return view.points
+    steps = np.arange(0.0, min(float(lengths.max()), _HALF_M), CELL_M)
+    parts = steps[None, :] / np.maximum(lengths, 1e-9)[:, None]
+    along = np.array(view.viewer) + parts[:, :, None] * ways[:, None, :]
+    return along[steps[None, :] < lengths[:, None] - _UNSURE_M]
+
+
+def _cells(places: Any) -> Any:
+    """Index of the cells of places, each once; what lies beyond the square is left out."""
+    cells = np.floor((places + _HALF_M) / CELL_M).astype(np.int64).reshape(-1, 2)
+    inside = cells[((cells >= 0) & (cells < _CELLS)).all(axis=1)]
+    one = np.unique(inside[:, 0] * _CELLS + inside[:, 1])
+    return one // _CELLS, one % _CELLS

@@ -1,0 +1,59 @@
+"""What the robot sees, in the pictures."""
+# SPDX-License-Identifier: Apache-2.0
+import numpy as np
+import pytest
+from fit_checks import CAR, tell
+from PyQt5.QtGui import QColor
+
+from mtr_operator.domain.surroundings import StopZone, Surroundings
+from mtr_operator.station.sight.view import View
+
+WALL = tuple((3.0, -2.0 + 0.05 * index) for index in range(81))
+
+
+def colours(view):
+    """Colours in the picture."""
+    image = view.grab().toImage()
+    return {image.pixelColor(x, y).name() for x in range(0, image.width()) for y in range(0, image.height())}
+
+
+def test_measurement_shows_returns_path_and_obstacle(operator, opener):
+    screen = operator.begin("autolock")
+    layer = screen.picture.sight
+    opener.spoil_with(pose_valid=True, x=5.0, y=0.0, heading=0.0, surroundings=Surroundings(
+        WALL, ((5.0, 0.0), (5.0, 3.0)), StopZone.BLOCKED, (0.7, 0.0)))
+    operator.wait(lambda: layer.view is not None and len(layer.view.points) == len(WALL))
+    assert layer.view.obstacle[1] == 0.7
+    opener.is_silent = True
+    operator.wait(lambda: layer.view is None)
+
+
+@pytest.mark.parametrize(("zone", "colour"), [(StopZone.BLOCKED, "danger"), (StopZone.SLOWED, "warning")])
+def test_obstacle_is_ringed_in_the_colour_of_what_it_does(operator, zone, colour):
+    screen = operator.begin("autolock")
+    operator.application.flow.stop()
+    screen.picture.sight.view = View(np.empty((0, 2)), (), (4.0, 0.0), zone, ((3.0, 0.0), 0.7))
+    palette = operator.application.appearance.palette
+    seen = colours(screen.panel.view)
+    assert QColor(getattr(palette, colour)).name() in seen
+
+
+def test_preview_says_which_lines_end_in_a_wall__8(application, main):
+    tell(application)
+    main.types.chosen.emit("key_press")
+    screen = main.settings["key_press"]
+    assert "Something stands" not in screen.caution.text()
+    obstacles = application.flow.model.obstacles
+    obstacles.places, obstacles.version = np.array([[5.15, 0.1], [5.15, -0.1]]), 1
+    main._show_model()
+    assert screen._obstacles.places is obstacles.places
+    word = {"en": "Something stands in the way of radial 1, 2.9 m from the Car",
+            "cs": "V cest"}[application.language.code]
+    assert word in screen.caution.text()
+
+
+def test_map_of_the_obstacles_follows_the_robot(operator, opener):
+    opener.spoil_with(pose_valid=True, x=5.0, y=0.0, heading=0.0, car=CAR,
+                      surroundings=Surroundings(WALL))
+    operator.wait(lambda: len(operator.model.obstacles.places) > 10)
+
