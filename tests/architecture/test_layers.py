@@ -64,8 +64,14 @@ def calibration_files() -> Iterator[pathlib.Path]:
     yield from (path for path in sorted(files) if path.name not in ("command_line.py", "robot.py"))
 
 
-@pytest.mark.parametrize("path", [*preflight_files(), *calibration_files()], ids=ids)
-def test_checks_and_calibration_import_no_ros(path):
+def recording_files() -> Iterator[pathlib.Path]:
+    """Profiles of a recording and the comparison with its replay, without the files that read bags and record."""
+    files = (TOP / "launch" / "src" / "mtr_bringup" / "recording").rglob("*.py")
+    yield from (path for path in sorted(files) if path.name not in ("command_line.py", "bags.py"))
+
+
+@pytest.mark.parametrize("path", [*preflight_files(), *calibration_files(), *recording_files()], ids=ids)
+def test_checks_calibration_and_recording_import_no_ros(path):
     assert not imports(path) & (ROS | ROS_MESSAGES | ROS_OF_CORE)
 
 

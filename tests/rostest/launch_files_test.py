@@ -15,7 +15,7 @@ NEEDED = {"robot.launch": [], "sim.launch": ["car_port_link:=/tmp/can"], "replay
 ROBOT = {"/robot_state_publisher", "/drive_control", "/localization", "/motion_planner", "/car_locator",
          "/state_machine", "/peripherals", "/dispatcher"}
 NODES = {"robot.launch": ROBOT | {"/controller_input", "/joy", "/serial_bridge"}, "sim.launch": ROBOT | {"/simulator"},
-         "replay.launch": {"/robot_state_publisher", "/localization", "/car_locator", "/play"},
+         "replay.launch": {"/robot_state_publisher", "/localization", "/car_locator", "/state_machine", "/play"},
          "view.launch": {"/rviz"}}
 
 

@@ -1,0 +1,115 @@
+"""rosrun mtr_bringup record [--profile small|full]: a bag of the running robot, bounded in size, until Ctrl-C.
+
+The parameters of the nodes are written beside it (PREFIX.yaml), so that a replay has the same. Topics that the robot
+has under other names: /front/scan:=/scan and the like, as for every node.
+Exit status: that of rosbag; 2 when nothing can be recorded.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import argparse
+import datetime
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+from typing import Any, Dict, List, Optional
+
+import rospy
+import yaml
+
+from mtr_core import names
+from mtr_core.errors import RobotError, range_problem
+
+from ..preflight.command_line import master_answers
+from .bags import decisions_in
+from .decisions import differences
+from .profiles import DEFAULT_LIMIT_MB, MAX_LIMIT_MB, MIN_LIMIT_MB, PROFILES, CannotRecord, check_room, command_of
+
+CANNOT = 2
+# Of nodes that are started again in a replay.
+KEPT_PARAMETERS = (names.ROBOT_DESCRIPTION, "/localization", "/car_locator", "/state_machine")
+
+
+def record(arguments: Optional[List[str]] = None) -> int:
+    """Record until Ctrl-C; the exit status."""
+    given = sys.argv[1:] if arguments is None else arguments
+    options = parsed(rospy.myargv(given))
+    try:
+        if not master_answers():
+            raise CannotRecord("There is no ROS master; start the robot first (roslaunch mtr_bringup robot.launch).")
+        prefix = options.out / f"{options.profile}_{datetime.datetime.now():%Y-%m-%d_%H-%M-%S}"
+        check_room(options.out, options.limit, shutil.disk_usage(str(options.out)).free)
+        keep_parameters(prefix.with_suffix(".yaml"))
+    except (RobotError, OSError) as error:
+        print(error, file=sys.stderr)
+        return CANNOT
+    mapped = rospy.names.load_mappings(given)
+    command = command_of(options.profile, prefix, options.limit, lambda topic: mapped.get(topic, topic))
+    print(f"Recording {prefix}_*.bag, the newest {options.limit:.0f} MB; Ctrl-C ends it.", flush=True)
+    return run(command)
+
+
+def parsed(arguments: List[str]) -> argparse.Namespace:
+    """Options of the command line."""
+    parser = argparse.ArgumentParser(prog="record", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--profile", choices=list(PROFILES), default="small",
+                        help="small: decisions and poses; full: sensors too, for a replay (small)")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path(), help="folder for the bags (this one)")
+    parser.add_argument("--limit", type=float, default=None, help="MB on the disk at most, the oldest go (small: "
+                        f"{DEFAULT_LIMIT_MB['small']:.0f}, full: {DEFAULT_LIMIT_MB['full']:.0f})")
+    options = parser.parse_args(arguments)
+    if options.limit is None:
+        options.limit = DEFAULT_LIMIT_MB[options.profile]
+    problem = range_problem("Option --limit", options.limit, MIN_LIMIT_MB, MAX_LIMIT_MB, "MB")
+    if problem:
+        parser.error(problem)
+    if not options.out.is_dir():
+        parser.error(f"{options.out} is no folder; make it, or name another one.")
+    return options
+
+
+def keep_parameters(path: pathlib.Path) -> None:
+    """Write what the nodes of a replay were started with."""
+    kept: Dict[str, Any] = {}
+    for name in KEPT_PARAMETERS:
+        value = rospy.get_param(name, None)
+        if value is not None:
+            kept[name.lstrip("/")] = value
+    path.write_text(yaml.safe_dump(kept), encoding="utf-8")
+
+
+def run(command: List[str]) -> int:
+    """The program's exit status; Ctrl-C and the end of a service end it, and it is waited for, so that the bag is
+    closed."""
+    started: List[subprocess.Popen[bytes]] = []
+    asked: List[int] = []
+
+    def end(number: int, _: Any) -> None:
+        asked.append(number)
+        for process in started:
+            process.send_signal(signal.SIGINT)
+
+    # Before the start: a Ctrl-C right after it must not leave the program alone.
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, end)
+    # In a session of its own, so that it gets one Ctrl-C and not a second one from the terminal.
+    started.append(subprocess.Popen(command, start_new_session=True))
+    if asked:
+        started[0].send_signal(signal.SIGINT)
+    return started[0].wait()
+
+
+def compare(arguments: Optional[List[str]] = None) -> int:
+    """rosrun mtr_bringup same_decisions RECORDED... --replayed BAG...: 0 when both decided the same."""
+    parser = argparse.ArgumentParser(prog="same_decisions", description=compare.__doc__)
+    parser.add_argument("recorded", type=pathlib.Path, nargs="+")
+    parser.add_argument("--replayed", type=pathlib.Path, nargs="+", required=True)
+    options = parser.parse_args(sys.argv[1:] if arguments is None else arguments)
+    try:
+        found = differences(decisions_in(options.recorded), decisions_in(options.replayed))
+    except RobotError as error:
+        print(error, file=sys.stderr)
+        return CANNOT
+    print("\n".join(found) if found else "The replay decided the same.")
+    return int(bool(found))

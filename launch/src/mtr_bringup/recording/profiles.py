@@ -1,0 +1,57 @@
+"""Which topics are recorded, into how much disk, and the command of rosbag that does it."""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+from typing import Callable, Dict, List, Tuple
+
+from mtr_core import names
+from mtr_core.errors import RobotError
+
+MEGA = 1e6
+# What is decided, and on what poses: some minutes fit into an e-mail.
+SMALL: Tuple[str, ...] = (
+    names.DESIRED_STATE, names.ROBOT_MODE, names.CAR_ESTIMATE, names.CAR_CHECK, names.MAPPING_ORDER,
+    names.LOCALIZED_POSE, names.MOTION_STATUS, names.MOTION_PATH, names.MOTION_LOCK, names.DRIVE_STATUS,
+    names.PERIPHERALS_STATE, names.PLANNER_VELOCITY, names.MANUAL_VELOCITY, names.WHEEL_COMMAND, names.BATTERY,
+    names.JOY, names.MAP_GRID, "/rosout", "/diagnostics", "/tf", "/tf_static")
+# With everything that the decisions are made of, so that it can be replayed, and what rviz shows.
+FULL: Tuple[str, ...] = (
+    *SMALL, names.FRONT_SCAN, names.REAR_SCAN, names.IMU_DATA, names.WHEEL_ODOMETRY, names.NAVSAT_FIX,
+    names.SURFACE_MAP, names.CAR_MARKERS, names.LOCALIZATION_MARKERS, names.MOTION_MARKERS, names.DRIVE_MARKERS,
+    names.FIRMWARE_STATE, names.FIRMWARE_COMMAND, names.FIRMWARE_PRESS, names.FIRMWARE_HEALTH, names.JOINT_STATES,
+    names.MANUAL_LIFT)
+PROFILES: Dict[str, Tuple[str, ...]] = {"small": SMALL, "full": FULL}
+# What replay.launch plays: sensors, and what others told localization, Car locator and state machine. Never the outputs
+# of these: the recorded mode ends the survey when the recorded Car was found, which the replay's need not be by then.
+REPLAYED: Tuple[str, ...] = (names.FRONT_SCAN, names.REAR_SCAN, names.IMU_DATA, names.WHEEL_ODOMETRY, names.NAVSAT_FIX,
+                             names.DESIRED_STATE, names.MOTION_STATUS, names.DRIVE_STATUS, names.PERIPHERALS_STATE)
+
+# A recording consists of so many files of equal size; when the last is full the oldest is removed.
+PARTS = 8
+MIN_LIMIT_MB, MAX_LIMIT_MB = 80.0, 1e6
+DEFAULT_LIMIT_MB: Dict[str, float] = {"small": 400.0, "full": 4000.0}
+# Left on the disk beside the whole recording; with less of it logs and nodes fail.
+RESERVE_MB = 1000.0
+
+
+class CannotRecord(RobotError):
+    """Nothing is recorded; the sentence says why and what to do."""
+
+
+def check_room(folder: pathlib.Path, limit_mb: float, free_bytes: float) -> None:
+    """CannotRecord unless the whole recording fits."""
+    free_mb, needed_mb = free_bytes / MEGA, limit_mb + RESERVE_MB
+    if free_mb < needed_mb:
+        raise CannotRecord(f"{folder} has {free_mb:.0f} MB free; a recording of {limit_mb:.0f} MB needs "
+                           f"{needed_mb:.0f} MB. Make room, or record less (--limit).")
+
+
+def command_of(profile: str, prefix: pathlib.Path, limit_mb: float, resolve: Callable[[str], str]) -> List[str]:
+    """rosbag's command: it keeps the newest limit_mb, in files PREFIX_0.bag, PREFIX_1.bag, ...
+
+    Args:
+        resolve: name of a topic on this robot, which may be another than in the simulation.
+    """
+    part_mb = max(1, round(limit_mb / PARTS))
+    # Not the command rosbag: it passes Ctrl-C on and then ends with a traceback.
+    return ["rosrun", "rosbag", "record", "--lz4", "--repeat-latched", "--split", f"--size={part_mb}",
+            f"--max-splits={PARTS}", f"--output-name={prefix}", *(resolve(topic) for topic in PROFILES[profile])]

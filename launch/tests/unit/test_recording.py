@@ -1,0 +1,154 @@
+"""Recording: what is recorded, how large it may be, what a replay decides otherwise, and the layout for Foxglove."""
+# SPDX-License-Identifier: Apache-2.0
+import json
+import math
+import pathlib
+import re
+import signal
+from xml.etree import ElementTree
+
+import pytest
+import rosbag
+import rospy
+from geometry_msgs.msg import Twist
+
+from mtr_bringup.recording.bags import decisions_in
+from mtr_bringup.recording.command_line import compare, parsed, run
+from mtr_bringup.recording.decisions import CarSeen, Decisions, differences
+from mtr_bringup.recording.profiles import FULL, PROFILES, REPLAYED, SMALL, CannotRecord, check_room, command_of
+from mtr_core import names
+from mtr_core.se2 import Pose2
+from mtr_core.states import CarState
+from mtr_msgs.msg import CarEstimate, LocalizedPose, MotionStatus, PeripheralsState, RobotMode, VelocityCommand
+
+LAUNCH = pathlib.Path(__file__).resolve().parents[2]
+LAYOUT = json.loads((LAUNCH / "foxglove" / "robot.json").read_text(encoding="utf-8"))
+# Messages of the topics of which the layout shows single fields.
+SHOWN = {names.ROBOT_MODE: RobotMode, names.MOTION_STATUS: MotionStatus, names.CAR_ESTIMATE: CarEstimate,
+         names.LOCALIZED_POSE: LocalizedPose, names.PLANNER_VELOCITY: VelocityCommand, names.WHEEL_COMMAND: Twist,
+         names.PERIPHERALS_STATE: PeripheralsState}
+OWN_OUTPUTS = {names.ROBOT_MODE, names.MOTION_LOCK, names.LOCALIZED_POSE, names.CAR_ESTIMATE, names.CAR_CHECK,
+               names.MAPPING_ORDER, names.SURFACE_MAP, "/tf"}
+
+
+def test_full_has_what_small_has_and_all_that_is_replayed():
+    assert set(SMALL) | set(REPLAYED) <= set(FULL)
+    assert all(len(set(topics)) == len(topics) for topics in PROFILES.values())
+    assert "/clock" not in FULL
+
+
+def test_replay_plays_the_inputs_and_nothing_that_its_nodes_say_themselves():
+    play = next(node for node in ElementTree.parse(LAUNCH / "launch" / "replay.launch").iter("node")
+                if node.get("name") == "play")
+    text = play.get("args")
+    for argument in ElementTree.parse(LAUNCH / "launch" / "replay.launch").getroot().findall("arg"):
+        text = text.replace(f"$(arg {argument.get('name')})", argument.get("default") or "a.bag")
+    assert tuple(text.partition("--topics ")[2].split()) == REPLAYED
+    assert not OWN_OUTPUTS & set(REPLAYED)
+
+
+def test_command_keeps_the_newest_within_the_limit():
+    command = command_of("small", pathlib.Path("/data/small_1"), 400.0, lambda topic: topic.replace("/joy", "/pad"))
+    assert command[:3] == ["rosrun", "rosbag", "record"]
+    assert command[-len(SMALL):] == ["/pad" if topic == "/joy" else topic for topic in SMALL]
+    size, parts = (int(next(word.partition("=")[2] for word in command if word.startswith(option)))
+                   for option in ("--size", "--max-splits"))
+    assert size * parts == 400
+
+
+def test_recording_that_does_not_fit_is_refused_with_what_to_do():
+    check_room(pathlib.Path("/data"), 400.0, 1.5e9)
+    with pytest.raises(CannotRecord, match="/data has 1300 MB free; .* needs 1400 MB. Make room"):
+        check_room(pathlib.Path("/data"), 400.0, 1.3e9)
+
+
+@pytest.mark.parametrize("arguments", [["--limit", "1"], ["--limit", "nan"], ["--profile", "all"],
+                                       ["--out", "/no/where"]])
+def test_options_that_cannot_be_are_refused(arguments, capsys):
+    with pytest.raises(SystemExit) as caught:
+        parsed(arguments)
+    assert caught.value.code == 2 and "record: error: " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_program_is_ended_as_by_ctrl_c_and_waited_for(number):
+    before = {each: signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)}
+    program = f"trap 'exit 3' INT; kill -{number.value} $PPID; while :; do sleep 0.05; done"
+    try:
+        assert run(["bash", "-c", program]) == 3
+    finally:
+        for each, handler in before.items():
+            signal.signal(each, handler)
+
+
+def decided(shift_m=0.0, turn_deg=0.0, longer_m=0.0, last=CarState.LOCATED):
+    """Of one survey of the Car."""
+    found = Decisions()
+    pose = Pose2(3.0 + shift_m, 1.0, math.pi + math.radians(turn_deg))
+    for state in (CarState.UNKNOWN, CarState.COLLECTING, CarState.COLLECTING, last, last):
+        found.add_car(CarSeen(state, int(state == CarState.LOCATED), pose, 4.5 + longer_m, 1.8))
+    for mode in (0, 1, 1, 2):
+        found.add_mode(mode, True)
+    return found
+
+
+def test_each_decision_counts_once_while_it_lasts():
+    found = decided()
+    assert len(found.cars) == 3 and len(found.located) == 1 and found.modes == [(0, True), (1, True), (2, True)]
+
+
+@pytest.mark.parametrize("replayed, words", [
+    (decided(), None), (decided(shift_m=0.009, turn_deg=0.2, longer_m=0.009), None), (decided(shift_m=0.02), "2.0 cm"),
+    (decided(turn_deg=0.5), "0.50 degrees"), (decided(longer_m=0.03), "size by 3.0 cm"),
+    (decided(last=CarState.FAILED), "LOCATED 1 when recorded, and .* FAILED 0 when"),
+    (Decisions(), "none when replayed")])
+def test_what_was_decided_otherwise_is_told(replayed, words):
+    found = " ".join(differences(decided(), replayed))
+    assert (not found) if words is None else re.search(words, found)
+
+
+def test_recording_without_decisions_proves_nothing():
+    assert differences(Decisions(), Decisions())
+
+
+def bag_at(path, shift_m=0.0):
+    """A bag of a Car that was found."""
+    with rosbag.Bag(str(path), "w") as bag:
+        for number, state in enumerate((0, 1, 2)):
+            time = rospy.Time(number + 1)
+            car = CarEstimate(state=state, revision=state // 2, x=1.0 + shift_m, length=4.5)
+            bag.write(names.CAR_ESTIMATE, car, time)
+            bag.write(names.LOCALIZED_POSE, LocalizedPose(mode=state, valid=True), time)
+
+
+def test_bags_are_compared_by_the_program(tmp_path, capsys):
+    for name, shift_m in (("a", 0.0), ("b", 0.001), ("c", 0.1)):
+        bag_at(tmp_path / f"{name}.bag", shift_m)
+    recorded, same, other = (str(tmp_path / f"{name}.bag") for name in "abc")
+    assert compare([recorded, "--replayed", same]) == 0
+    assert compare([recorded, "--replayed", other]) == 1
+    assert "10.0 cm" in capsys.readouterr().out
+    assert len(decisions_in([tmp_path / "a.bag"]).cars) == 3
+    assert compare([recorded, "--replayed", str(tmp_path / "none.bag")]) == 2
+
+
+def panels(part):
+    """Of the layout's tree."""
+    return [part] if isinstance(part, str) else [*panels(part["first"]), *panels(part["second"])]
+
+
+def test_layout_has_a_configuration_for_each_panel():
+    assert sorted(panels(LAYOUT["layout"])) == sorted(LAYOUT["configById"])
+
+
+def test_layout_shows_what_is_recorded():
+    for config in LAYOUT["configById"].values():
+        assert set(config.get("topics", ())) <= set(FULL)
+        paths = [each["value"] for each in config.get("paths", ())]
+        paths += [config[key] for key in ("topicToRender", "topicPath") if key in config]
+        for path in paths:
+            topic, _, fields = path.partition(".")
+            assert topic in FULL
+            message = SHOWN[topic]() if fields else None
+            for field in filter(None, fields.split(".")):
+                message = getattr(message, field)
