@@ -70,7 +70,14 @@ def recording_files() -> Iterator[pathlib.Path]:
     yield from (path for path in sorted(files) if path.name not in ("command_line.py", "bags.py"))
 
 
-@pytest.mark.parametrize("path", [*preflight_files(), *calibration_files(), *recording_files()], ids=ids)
+def base_contract_files() -> Iterator[pathlib.Path]:
+    """Checks of a base, without the file that listens to the robot."""
+    files = (TOP / "launch" / "src" / "mtr_bringup" / "base_contract").rglob("*.py")
+    yield from (path for path in sorted(files) if path.name != "command_line.py")
+
+
+@pytest.mark.parametrize("path", [*preflight_files(), *calibration_files(), *recording_files(), *base_contract_files()],
+                         ids=ids)
 def test_checks_calibration_and_recording_import_no_ros(path):
     assert not imports(path) & (ROS | ROS_MESSAGES | ROS_OF_CORE)
 

@@ -33,21 +33,25 @@ def base_parameters_in(path: pathlib.Path) -> Dict[str, Any]:
     try:
         values: Dict[str, Any] = yaml.safe_load(path.read_text(encoding="utf-8"))[CONTROLLER]
     except (OSError, yaml.YAMLError, KeyError, TypeError, ValueError) as error:
-        raise _unusable(path, error) from error
+        raise _unusable(str(path), error) from error
     return values
 
 
 def base_controller_in(path: pathlib.Path) -> BaseController:
     """The controller that a file of parameters configures; ConfigurationError when it does not."""
-    values = base_parameters_in(path)
+    return base_controller_of(base_parameters_in(path), str(path))
+
+
+def base_controller_of(values: Dict[str, Any], where: str) -> BaseController:
+    """The same of parameters that were loaded from a place."""
     try:
         linear, angular = values["linear"]["x"], values["angular"]["z"]
         return BaseController(
             *(float(value) for value in (values["cmd_vel_timeout"], linear["max_velocity"], angular["max_velocity"],
                                          linear["max_acceleration"], angular["max_acceleration"])))
     except (KeyError, TypeError, ValueError) as error:
-        raise _unusable(path, error) from error
+        raise _unusable(where, error) from error
 
 
-def _unusable(path: pathlib.Path, error: Exception) -> ConfigurationError:
-    return ConfigurationError(f"{path} cannot be used; allowed are parameters of {CONTROLLER} ({error}).")
+def _unusable(where: str, error: Exception) -> ConfigurationError:
+    return ConfigurationError(f"{where} cannot be used; allowed are parameters of {CONTROLLER} ({error}).")

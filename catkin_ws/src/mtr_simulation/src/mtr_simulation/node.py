@@ -3,7 +3,7 @@
 import collections
 import math
 import threading
-from typing import Any, Callable, Deque, Iterable, List, Set, Tuple
+from typing import Any, Callable, Deque, Iterable, List, Optional, Set, Tuple
 
 import rosgraph
 import rospy
@@ -18,6 +18,7 @@ from mtr_core import names
 from mtr_core.lockstep import direct_publisher, run_node
 from mtr_core.schedule import CLOCK_STEP, LIDAR, SIMULATION_START_NS, slot
 from mtr_core.se2 import Pose2
+from mtr_description.base_controller import CONTROLLER, base_controller_of
 from mtr_description.robot_description import described_robot
 
 from . import conversions
@@ -28,6 +29,7 @@ from .clock.pacing import Pace
 from .firmware.connections import emulated_firmware, firmware_topics
 from .parameters import SimulatorParameters
 from .physics.robot import robot_model
+from .physics.wheels import BaseParameters, parameters_of
 from .sensors.imu import ImuParameters
 from .sensors.readings import Sensors
 from .world import World
@@ -35,12 +37,20 @@ from .world import World
 BATTERY = slot(1000)
 
 
+def loaded_base() -> Optional[BaseParameters]:
+    """The platform by the parameters of its controller, as a real one has them; None without any."""
+    where = f"/{CONTROLLER}"
+    values = rospy.get_param(where, None)
+    return None if values is None else parameters_of(base_controller_of(values, where))
+
+
 class SimulatorNode:
     """One loop: wait for the holds, do what the nodes ordered, step, publish."""
 
     def __init__(self, parameters: SimulatorParameters):
         firmware = emulated_firmware(parameters.firmware_elf) if parameters.firmware_elf else None
-        self._world = World(parameters, firmware, robot_model(described_robot(), parameters.rear_lidar))
+        self._world = World(parameters, firmware, robot_model(described_robot(), parameters.rear_lidar),
+                            loaded_base())
         self._firmware = firmware_topics(self._world.firmware)
         self._output = Output(parameters.rear_lidar, self._firmware.publishers)
         self._barrier = Barrier(parameters.held_by, NodeWatcher(self._output))

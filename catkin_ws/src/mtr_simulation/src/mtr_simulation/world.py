@@ -11,6 +11,7 @@ from .car.slcan_port import SlcanPort
 from .firmware.simulated import SimulatedFirmware
 from .parameters import SimulatorParameters
 from .physics.robot import RobotModel
+from .physics.wheels import BaseParameters
 from .sensors.readings import Sensors
 from .sim import Sim, SimParameters
 from .site.scenario import named_scenario
@@ -29,10 +30,11 @@ class World:
     """
 
     def __init__(self, parameters: SimulatorParameters, firmware: Optional[Any] = None,
-                 robot: Optional[RobotModel] = None):
+                 robot: Optional[RobotModel] = None, base: Optional[BaseParameters] = None):
         scenario = named_scenario(parameters.scenario)
         self._world_from_car = scenario.world_from_car
-        self.sim = Sim(parameters.seed, scenario, SimParameters(rear_lidar=parameters.rear_lidar), robot)
+        self.sim = Sim(parameters.seed, scenario, SimParameters(rear_lidar=parameters.rear_lidar,
+                                                                 base=base or BaseParameters()), robot)
         # The firmware's clock is the simulated one; that of a real board starts anywhere.
         self.firmware = firmware or SimulatedFirmware(clock_start_us=SIMULATION_START_NS // 1000)
         self.firmware.start(SIMULATION_START_NS)

@@ -4,8 +4,10 @@ import pytest
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import parameters_from
+from mtr_description.base_controller import base_controller_of, base_parameters_in
+from mtr_description.shipped import shipped_base, shipped_base_file
 from mtr_simulation.parameters import SimulatorParameters
-from mtr_simulation.physics.wheels import BaseParameters
+from mtr_simulation.physics.wheels import BaseParameters, parameters_of
 from mtr_simulation.sensors.lidar import LidarParameters
 from mtr_simulation.sim import SimParameters
 from mtr_simulation.site.car_shape import CarShape
@@ -57,3 +59,13 @@ def test_surroundings_leave_room_for_the_test(name):
     places = [(pole.x_m, pole.y_m) for pole in scenario.poles] + [(each.pose.x, each.pose.y)
                                                                   for each in scenario.parked_cars]
     assert all(((x - car.x) ** 2 + (y - car.y) ** 2) ** 0.5 > 8.5 for x, y in places)
+
+
+def test_platform_has_the_limits_that_its_controller_is_configured_with():
+    assert parameters_of(shipped_base()) == BaseParameters()
+    values = base_parameters_in(shipped_base_file())
+    values["linear"]["x"]["max_velocity"], values["cmd_vel_timeout"] = 1.2, 0.2
+    slower = parameters_of(base_controller_of(values, "/base"))
+    assert slower == BaseParameters(max_linear_mps=1.2, command_timeout_s=0.2)
+    with pytest.raises(ConfigurationError, match="/base cannot be used"):
+        base_controller_of({"linear": {}}, "/base")

@@ -12,6 +12,7 @@ import mujoco
 
 from mtr_core import sensor_figures as figures
 from mtr_core.parameters import ParameterSet, number
+from mtr_description.base_controller import BaseController
 from mtr_description.shipped import shipped_base
 
 from ..sensors.readings import WheelOdometry
@@ -24,7 +25,7 @@ BASE = shipped_base()
 
 @dataclass(frozen=True)
 class BaseParameters(ParameterSet):
-    """Limits of the platform: those of mtr_description's jackal_base.yaml, as on a real robot.
+    """Limits of the platform: those of mtr_description's jackal_base.yaml unless others are loaded, as on a real robot.
 
     Attributes:
         max_linear_mps, max_angular_radps: of the commanded velocity.
@@ -46,6 +47,12 @@ class BaseParameters(ParameterSet):
     radius_error: float = number(*figures.SIMULATED_WHEEL_RADIUS_ERROR)
     encoder_ticks_per_m: float = number(78_000.0, 1e3, 1e6, "1/m")
     max_wheel_torque_nm: float = number(6.0, 1.0, 30.0, "Nm")
+
+
+def parameters_of(base: BaseController) -> BaseParameters:
+    """The platform whose controller is configured like this; ConfigurationError when it is none that is simulated."""
+    return BaseParameters(base.max_linear_mps, base.max_angular_radps, base.linear_acceleration_mps2,
+                          base.angular_acceleration_radps2, base.command_timeout_s)
 
 
 class Wheels:

@@ -1,0 +1,2 @@
+"""What a four-wheel base has to give, as checks: its URDF, its controller's parameters, its topics."""
+# SPDX-License-Identifier: Apache-2.0
