@@ -1,11 +1,13 @@
 """Lines that the Operator wants measured once more."""
 # SPDX-License-Identifier: Apache-2.0
+import dataclasses
+
 import pytest
 
 from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OperatorError
-from mtr_operator.domain.results.session_record import MEASURED_AGAIN, again_text
+from mtr_operator.domain.results.session_record import CONTROLLED_BY, MEASURED_AGAIN, again_text
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 from mtr_operator.storage.progress_document import progress_from_document
@@ -95,3 +97,13 @@ def test_progress_of_lines_measured_twice_is_read_back(run_again, measured):
 def test_record_names_all_that_were_measured_again():
     assert again_text({}, (3,)) == "3"
     assert again_text({MEASURED_AGAIN: "3"}, (1, 2)) == "3, 1, 2"
+
+
+@pytest.mark.parametrize(("name", "recorded"), [("Jana's laptop", "Jana's laptop"), ("", None)])
+def test_record_names_whose_key_controlled_the_robot(run_scenario, world, name, recorded):
+    spoil = world.spoil
+    world.spoil = lambda status: dataclasses.replace(spoil(status), controller_name=name)
+    run_scenario(SCENARIO, PARAMETERS)
+    session = run_scenario.progress.session
+    assert session.get(CONTROLLED_BY) == recorded
+    assert session.get("link") == ("encrypted" if recorded else None)

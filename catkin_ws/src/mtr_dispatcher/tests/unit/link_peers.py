@@ -14,6 +14,7 @@ from mtr_dispatcher.link_server import LinkServer, Ports
 from mtr_proto.keys import KeyPair
 
 LIMIT_S = 5.0
+COMMANDS_PER_S = 500
 END = (zmq.EVENT_HANDSHAKE_SUCCEEDED | zmq.EVENT_HANDSHAKE_FAILED_AUTH | zmq.EVENT_HANDSHAKE_FAILED_PROTOCOL
        | zmq.EVENT_HANDSHAKE_FAILED_NO_DETAIL)
 
@@ -30,7 +31,7 @@ class Robot:
 
     def __init__(self, folder):
         self.folder = KeyFolder(folder)
-        self.gate = Gate(self.folder.authorised, 500.0, lambda: 0.0)
+        self.gate = Gate(self.folder.authorised, COMMANDS_PER_S, lambda: 0.0)
         self.ports = free_ports()
         self.keys = self.folder.own_keys()
         self.server = LinkServer(Ports("127.0.0.1", *self.ports), Curve(self.keys, self.gate.admits))

@@ -4,7 +4,7 @@ import socket
 
 import pytest
 import zmq
-from link_peers import LIMIT_S, Peer, Robot
+from link_peers import COMMANDS_PER_S, LIMIT_S, Peer, Robot
 
 from mtr_dispatcher.access.authorised_keys import Role
 from mtr_dispatcher.access.gate import MAX_CONNECTION_BURST
@@ -48,7 +48,7 @@ def test_unknown_key_is_refused_and_counted(robot, context):
 
 def test_client_without_encryption_is_refused_and_counted(robot, context):
     assert not Peer(context, robot, None).is_in
-    assert robot.failed() == ["no encryption"]
+    assert robot.failed() == ["not encrypted for this robot"]
 
 
 def test_client_that_takes_another_robot_for_this_one_is_not_let_in(robot, context):
@@ -58,7 +58,7 @@ def test_client_that_takes_another_robot_for_this_one_is_not_let_in(robot, conte
     peer.setsockopt(zmq.LINGER, 0)
     peer.curve_publickey, peer.curve_secretkey, peer.curve_serverkey = *keys, other
     peer.connect(f"tcp://127.0.0.1:{robot.ports[1]}")
-    assert "no encryption" in robot.failed()
+    assert "not encrypted for this robot" in robot.failed()
 
 
 def test_revoked_key_is_let_in_no_more_and_its_messages_count_for_nothing(robot, context):
@@ -143,6 +143,37 @@ def test_oversized_and_endless_messages_of_one_do_not_disturb_another(robot, con
     jana = [message for message in robot.messages(b"order", lambda: honest.socket.send(b"order"))
             if message.data == b"order"]
     assert robot.gate.sender(jana[0].key, 0.0).name == "Jana"
+
+
+def test_flood_of_one_key_is_dropped_beyond_its_rate_and_another_key_is_heard(robot, context):
+    hostile, honest = Peer(context, robot, robot.pair("Mallory")), Peer(context, robot, robot.pair("Jana"))
+    senders = {"Mallory": [], "Jana": []}
+    while len(senders["Mallory"]) < 2 * COMMANDS_PER_S:
+        for _ in range(50):
+            hostile.socket.send(b"flood")
+        honest.socket.send(b"order")
+        for message in robot.server.receive(0.01):
+            sender = robot.gate.sender(message.key, 0.0)
+            senders[sender.name].append(sender)
+    taken = [sender for sender in senders["Mallory"] if not sender.refusal]
+    assert len(taken) == COMMANDS_PER_S
+    assert senders["Jana"] and not any(sender.refusal for sender in senders["Jana"])
+
+
+def test_subscriptions_of_a_paired_key_do_not_keep_status_from_another(robot, context):
+    hostile, honest = (context.socket(zmq.SUB) for _ in range(2))
+    for subscriber, name in ((hostile, "Mallory"), (honest, "Jana")):
+        subscriber.curve_publickey, subscriber.curve_secretkey = robot.pair(name)
+        subscriber.curve_serverkey = robot.keys.public
+        subscriber.connect(f"tcp://127.0.0.1:{robot.ports[0]}")
+    for number in range(20_000):
+        hostile.setsockopt(zmq.SUBSCRIBE, b"x%d" % number)
+    honest.setsockopt(zmq.SUBSCRIBE, b"")
+    for _ in range(int(LIMIT_S / 0.01)):
+        robot.server.publish(b"status")
+        if honest.poll(10):
+            break
+    assert honest.recv(zmq.NOBLOCK) == b"status"
 
 
 def test_strangers_who_say_nothing_do_not_keep_a_paired_laptop_out(robot, context):

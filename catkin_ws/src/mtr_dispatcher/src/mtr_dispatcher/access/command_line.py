@@ -17,6 +17,8 @@ from .key_folder import FOLDER_NAME, KeyFolder
 from .pairing_server import Offer, PairingServer
 from .pairing_window import DEFAULT_SECONDS, PairingLimits, PairingWindow
 
+# ZeroMQ's word for it, which bind_address may be, is a star.
+EVERYWHERE = "0.0.0.0"
 DONE, NOT_PAIRED, ERROR, INTERRUPTED = 0, 1, 2, 130
 
 
@@ -81,10 +83,9 @@ def _pair(options: argparse.Namespace) -> int:
 
     limits = PairingLimits(options.seconds)
     server = PairingServer(Offer(code, own, role), keep, _say)
-    port = server.listen(options.address, options.port)
-    _say(f"Code: {code[:3]} {code[3:]}")
-    _say(f"Type it within {limits.seconds:g} s on the laptop that is to be a {role.value}: in the connection window, "
-         f"or mtr-operator pair {options.address}{'' if port == PORT else f' --port {port}'}")
+    port = server.listen(options.address.replace("*", EVERYWHERE), options.port)
+    _show(code, options.address, port)
+    _say(f"It holds for {limits.seconds:g} s, and makes the laptop a {role.value}.")
     window = PairingWindow(limits, time.monotonic())
     hello = server.run(window)
     if hello is None:
@@ -93,6 +94,13 @@ def _pair(options: argparse.Namespace) -> int:
     entry = folder.authorised().of(hello.public_key)
     _say(f"Paired: {entry.name if entry else hello.name}, {role.value}, key {fingerprint(hello.public_key)}.")
     return DONE
+
+
+def _show(code: str, address: str, port: int) -> None:
+    where = "ADDRESS" if address in ("*", EVERYWHERE) else address
+    _say(f"Code: {code[:3]} {code[3:]}")
+    _say(f"Type it on the laptop: in the connection window, or mtr-operator pair {where}"
+         f"{'' if port == PORT else f' --port {port}'}")
 
 
 def _keys(options: argparse.Namespace) -> int:
