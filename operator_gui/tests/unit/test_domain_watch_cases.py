@@ -166,6 +166,20 @@ def test_car_may_lock_by_its_timer_within_the_timers_accuracy(locked_s, sigma_s,
             history.take(lock(locked_s, sigma_s))
 
 
+@pytest.mark.parametrize(("locked_s", "source", "is_timer"), [
+    (30.1, "", True), (30.1, "key_button", False), (20.0, "", False)])
+def test_timer_that_locks_after_a_press_without_an_answer_is_not_a_late_answer(locked_s, source, is_timer):
+    history = LockHistory(UNLOCKED, LockFacts(relock_after_s=30.0, sources=frozenset({"key_button"})), unlocked_s=0.0)
+    history.expect(Expected(LOCKED, "key_button", "the press at 3.35 m", 10.0, 11.0))
+    history.close(11.0)
+    if is_timer:
+        history.take(lock(locked_s, source=source))
+        assert history.state is LOCKED and history.answer is None
+    else:
+        with pytest.raises(LineInvalid, match="too late for the press at 3.35 m"):
+            history.take(lock(locked_s, source=source))
+
+
 @pytest.mark.parametrize(("before", "is_timer"), [
     ([(1.0, LOCKED), (2.0, UNLOCKED)], True), ([(1.0, UNLOCKED)], False), ([], False)])
 def test_timer_counts_from_the_last_time_that_the_car_was_seen_to_unlock(loop, world, before, is_timer):

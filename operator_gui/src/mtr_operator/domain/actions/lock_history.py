@@ -91,7 +91,10 @@ class LockHistory:
             return
         self._check_state(event)
         expected = self._expected
-        if expected is not None and expected.state is event.lock_state and self.answer is None:
+        # Long after a press that stayed without an answer the Car's own timer answers for itself.
+        by_timer = expected is not None and event.time_s > expected.until_s and self._relocks(event) \
+            and event.source != expected.cause
+        if expected is not None and expected.state is event.lock_state and self.answer is None and not by_timer:
             self._check_answer(event, expected)
             self.answer = event
         elif not self._relocks(event) and not (self._may_lock and event.lock_state is LockState.LOCKED):
