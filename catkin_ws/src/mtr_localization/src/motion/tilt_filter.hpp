@@ -26,6 +26,8 @@ class TiltFilter {
   /// Bias of the slope's rates.
   Eigen::Vector2d bias_ = Eigen::Vector2d::Zero();
   double bias_time_s_ = 0.0;
+  /// Gravity has not been seen for so long.
+  double blow_s_ = 0.0;
   double speed_mps_ = 0.0;
   bool is_known_ = false;
 };

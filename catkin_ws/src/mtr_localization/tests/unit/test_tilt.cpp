@@ -50,6 +50,27 @@ TEST(TiltFilter, RobotAtRestShowsTheSlopeOfItsPlace) {
   EXPECT_NEAR(tilt.slope().y(), -0.01, 1e-4);
 }
 
+TEST(TiltFilter, BlowFromTheSideIsNoSlope) {
+  TiltFilter tilt;
+  for (int i = 0; i < 50; ++i) {
+    tilt.advance(0.02, imu({0.0, 0.0}), 0.0, false);
+  }
+  // A robot that is put down roughly: 8 m/s2 across for 0.1 s.
+  for (int i = 0; i < 5; ++i) {
+    tilt.advance(0.02, imu({0.0, 0.8}), 0.0, false);
+  }
+  EXPECT_LT(tilt.slope().norm(), 1e-3);
+}
+
+TEST(TiltFilter, SlopeThatTheFilterWasWrongAboutIsLearnedInTheEnd) {
+  TiltFilter tilt;
+  tilt.advance(0.02, imu({0.4, 0.0}), 0.0, false);
+  for (int i = 0; i < 1000; ++i) {
+    tilt.advance(0.02, imu({0.02, 0.0}), 0.0, false);
+  }
+  EXPECT_NEAR(tilt.slope().x(), 0.02, 1e-3);
+}
+
 TEST(TiltFilter, RobotThatGathersSpeedDoesNotLean) {
   TiltFilter tilt;
   for (int i = 0; i <= 50; ++i) {
