@@ -27,6 +27,9 @@ constexpr double kSameHeightM = 0.1;
 // The heights at which a surface has been met are known so well: bumps of the ground, and the tilt's error.
 constexpr double kRiseToleranceM = 0.02;
 constexpr double kTiltSigmaRad = 0.003;
+// A view of which so much agrees is the expected one: at a wrong place nearly nothing does, and chance gives seldom
+// more than half.
+constexpr double kExpectedShare = 0.75;
 // Surfaces so far aside, in bins, are not compared any more: 10 degrees.
 constexpr int kMaxAside = 20;
 
@@ -169,6 +172,8 @@ double Agreement::share_of_returns() const {
   const int returns = seen + hidden + beyond + unknown;
   return returns > 0 ? static_cast<double>(seen) / returns : (expected() > 0 ? 0.0 : 1.0);
 }
+
+bool Agreement::is_expected() const { return expected() >= kMinEvidence && share_of_both() >= kExpectedShare; }
 
 Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap& map, double tolerance_m) {
   const PoseVector eye = compose(view.pose, sweep.mount);

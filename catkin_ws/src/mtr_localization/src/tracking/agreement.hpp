@@ -12,6 +12,9 @@ namespace mtr_localization {
 
 /// Beams by what they show.
 struct Agreement {
+  /// Fewer expected beams say nothing about being lost: a Car 12 m away is met by 20 of one degree.
+  static constexpr int kMinEvidence = 8;
+
   /// The expected surface.
   int seen = 0;
   /// Something in front of it.
@@ -36,6 +39,8 @@ struct Agreement {
   double share_of_returns() const;
   /// Mean of both.
   double share_of_both() const { return 0.5 * (share_of_expected() + share_of_returns()); }
+  /// So much agrees as at a wrong place only chance gives, and seldom.
+  bool is_expected() const;
 };
 
 /// How far base_link had turned against the pose of a sweep when its first and its last beam were taken.

@@ -13,8 +13,7 @@
 namespace mtr_localization {
 namespace {
 
-// Fewer expected beams than these say nothing about being lost: a Car 12 m away is met by 20 of one degree.
-constexpr int kMinEvidence = 8;
+constexpr int kMinEvidence = Agreement::kMinEvidence;
 constexpr int kMinMatched = 5;
 // Where nothing is expected, returns of so many beams are more than a person who stands there; 20 are 0.6 m at 2 m.
 constexpr int kMinUnexplained = 20;
@@ -28,9 +27,6 @@ constexpr double kMinInformation = 1e-6;
 constexpr double kMaxBridgedM = 2.0;
 // A robot that moved less since the view agreed was carried, or something stands before it.
 constexpr double kStoodM = 0.05;
-// A view of which so much agrees is the expected one: at a wrong place nearly nothing does, and chance gives seldom
-// more than half.
-constexpr double kExpectedShare = 0.75;
 // On steeper ground, or braking, a LiDAR looks over and under what is expected, and half of it is what a right pose
 // shows: 1 cm a metre.
 constexpr double kLevelSlope = 0.01;
@@ -57,11 +53,6 @@ double position_sigma_m(const PoseFilter& filter) {
   const Eigen::Matrix2d covariance = filter.pose_covariance().topLeftCorner<2, 2>();
   return std::sqrt(
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
-}
-
-/// More than chance gives.
-bool is_expected_view(const Agreement& all) {
-  return all.expected() >= kMinEvidence && all.share_of_both() >= kExpectedShare;
 }
 
 /// Surfaces are not where the map has them.
@@ -97,6 +88,7 @@ int ScanTracker::enter(const AdjustedMap& adjusted, const FilterStep& here) {
   map->range_bias_sigma_m = adjusted.range_bias_sigma_m;
   search_.reset();
   map_ = std::move(map);
+  contradictions_.reset();
   state_ = State::kLocalized;
   note_agreement(here);
   fitted_ns_ = here.stamp_ns;
@@ -120,6 +112,7 @@ void ScanTracker::lose_sight(const mtr_core::Problem& reason) {
 void ScanTracker::find(const FilterStep& step) {
   lost_reason_ = {};
   is_contradicted_ = false;
+  contradictions_.reset();
   note_agreement(step);
   fitted_ns_ = step.stamp_ns;
   // A place on the map where nothing has been seen yet bears little that hides it.
@@ -145,18 +138,22 @@ Judgement ScanTracker::judge(const ScanSet& set, const FilterHistory& history) {
   const View view = view_of(set, {}, history);
   const Agreement all = agreement_of(view, step.filter.pose(), map_->surfaces, tolerance_m);
   const bool is_right = agrees(all);
-  const bool is_open = is_unanswered(all);
-  if (is_right && !is_open) {
+  const bool says_nothing = is_unanswered(all);
+  if (is_right && !says_nothing) {
     patience_s_ = patience_after(all, view.slope, step);
     note_agreement(step);
     is_contradicted_ = false;
   } else if (!is_right) {
     fitted_ns_ = step.stamp_ns;
   }
-  has_agreed_ = is_right && !is_open;
+  has_agreed_ = is_right && !says_nothing;
   if (!has_agreed_ && is_beyond_patience(all, step)) {
     // Nobody searches while mapping: beside a Car alone a map of half a way round has places that look alike.
     lose_sight(state_ == State::kMapping ? problems::kOtherViewWhileMapping() : problems::kOtherView());
+  }
+  if (state_ == State::kLocalized && contradictions_.add(step.stamp_ns, all, view.slope)) {
+    is_contradicted_ = true;
+    lose_sight(problems::kOtherView());
   }
   if (position_sigma_m(history.newest().filter) > parameters_.lost_sigma_m && state_ == State::kLocalized) {
     lose_sight(problems::kOutOfView());
@@ -191,7 +188,7 @@ bool ScanTracker::is_unanswered(const Agreement& all) const {
 }
 
 double ScanTracker::patience_after(const Agreement& all, const Eigen::Vector2d& slope, const FilterStep& step) const {
-  if (state_ == State::kMapping || is_expected_view(all)) {
+  if (state_ == State::kMapping || all.is_expected()) {
     return parameters_.lost_hidden_after_s;
   }
   if (slope.norm() > kLevelSlope) {
@@ -271,7 +268,7 @@ bool ScanTracker::is_uncovered(const View& view, const FilterHistory& history, c
   const PoseVector way = relative(agreed_odom_, step.odom);
   const bool is_near = way.head<2>().norm() <= kUncoveredWithinM && std::abs(way.z()) <= kUncoveredWithinRad;
   const bool is_known = position_sigma_m(history.newest().filter) <= parameters_.lost_sigma_m;
-  if (!is_reckoned_ || is_contradicted_ || !is_near || !is_known || !is_expected_view(all)) {
+  if (!is_reckoned_ || is_contradicted_ || !is_near || !is_known || !all.is_expected()) {
     uncovered_ns_.reset();
     return false;
   }

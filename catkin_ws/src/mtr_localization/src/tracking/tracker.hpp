@@ -15,6 +15,7 @@
 #include "parameters.hpp"
 #include "scans/sweep.hpp"
 #include "tracking/agreement.hpp"
+#include "tracking/contradiction_watch.hpp"
 #include "tracking/matcher.hpp"
 #include "tracking/relocalization.hpp"
 #include "tracking/view.hpp"
@@ -91,6 +92,7 @@ class ScanTracker {
   bool is_reckoned_ = false;
   /// Since the view agreed last, surfaces were not where the map has them; not only hidden by something nearer.
   bool is_contradicted_ = false;
+  ContradictionWatch contradictions_;
   /// The last view agreed, or nothing spoke against it.
   bool has_agreed_ = false;
   /// When and where the view agreed last.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tracking/agreement.hpp"
+#include "tracking/contradiction_watch.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -76,6 +77,56 @@ TEST_F(ViewAgreementTest, SurfaceAsFarAsideAsItMayBeOffIsSeen) {
   }
   EXPECT_EQ(seen(sweep).unknown, 0);
   EXPECT_DOUBLE_EQ(seen(sweep).share_of_expected(), 1.0);
+}
+
+/// Whether views of 40 beams each 40 ms, so many of which look through surfaces, are too much within a time.
+bool is_too_much(int through, double time_s, int expected = 40, double slope = 0.0) {
+  ContradictionWatch watch;
+  Agreement view;
+  view.beyond = through / 2;
+  view.missing = through - view.beyond;
+  view.seen = expected - through;
+  bool found = false;
+  for (std::int64_t ns = 1; static_cast<double>(ns) * 1e-9 <= time_s; ns += 40'000'000) {
+    found = found || watch.add(ns, view, {slope, 0.0});
+  }
+  return found;
+}
+
+TEST(ContradictionWatch, FewBeamsThatLookThroughAreUsualForever) { EXPECT_FALSE(is_too_much(3, 60.0)); }
+
+TEST(ContradictionWatch, ThirdOfTheViewIsTooMuchWithinASecond) {
+  EXPECT_TRUE(is_too_much(14, 1.0));
+  EXPECT_FALSE(is_too_much(14, 0.1));
+}
+
+TEST(ContradictionWatch, FifthOfAViewOfWhichAllElseIsSeenIsAThingThatHasLeft) { EXPECT_FALSE(is_too_much(8, 60.0)); }
+
+TEST(ContradictionWatch, OnSlopesTheLidarLooksOverAndUnderSurfaces) { EXPECT_FALSE(is_too_much(14, 60.0, 40, 0.03)); }
+
+TEST(ContradictionWatch, OneViewAloneIsNotTooMuch) { EXPECT_FALSE(is_too_much(40, 0.05)); }
+
+TEST(ContradictionWatch, TooFewExpectedBeamsTellNothing) { EXPECT_FALSE(is_too_much(7, 60.0, 7)); }
+
+TEST(ContradictionWatch, WhatIsHiddenIsNoContradiction) {
+  ContradictionWatch watch;
+  Agreement view;
+  view.hidden = 40;
+  for (std::int64_t i = 1; i < 1000; ++i) {
+    EXPECT_FALSE(watch.add(i * 40'000'000, view, Eigen::Vector2d::Zero()));
+  }
+}
+
+TEST(ContradictionWatch, UsualViewsMakeGoodWhatWasTooMuch) {
+  ContradictionWatch watch;
+  Agreement bad, good;
+  bad.beyond = bad.seen = 20;
+  good.seen = 40;
+  bool found = false;
+  for (std::int64_t i = 1; i < 1000; ++i) {
+    found = found || watch.add(i * 40'000'000, i % 50 == 0 ? bad : good, Eigen::Vector2d::Zero());
+  }
+  EXPECT_FALSE(found);
 }
 
 }  // namespace

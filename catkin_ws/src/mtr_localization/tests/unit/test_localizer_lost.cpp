@@ -46,7 +46,7 @@ TEST_F(LocalizerLostTest, KidnappedRobotFindsItselfAgainOnItsWay) {
   robot.carry(-1.0, -1.7, 0.6);
   lost_after(3.0);
   robot.drive(-0.4, 0.0, 3.0);
-  robot.drive(0.0, 0.5, 5.0);
+  robot.drive(0.0, 0.5, 7.0);
   EXPECT_EQ(robot.newest.mode, PoseMode::kLocalized) << robot.newest.message.text;
   EXPECT_TRUE(robot.newest.valid);
   EXPECT_LT(robot.position_error_m(), 0.02);
