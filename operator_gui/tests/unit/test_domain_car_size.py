@@ -5,6 +5,8 @@ import math
 import pytest
 
 from mtr_operator.domain.actions.car_size import size_cautions, size_excess
+from mtr_operator.domain.actions.observer import RunObserver
+from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.geometry.polygon import distance_to_polygon
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.robot_status import CarDimensions
@@ -48,3 +50,25 @@ def test_planner_asks_for_the_data_sheet():
     ((0.2, -0.3), 0.0), ((1.0, 0.0), 0.0), ((1.5, 0.4), 0.5), ((0.0, -3.0), 2.0), ((-4.0, -5.0), 5.0)])
 def test_distance_to_polygon(point, distance_m):
     assert distance_to_polygon(point, SQUARE) == pytest.approx(distance_m)
+
+
+class Said(RunObserver):
+    """Warnings of a test."""
+
+    def __init__(self):
+        self.warnings = []
+
+    def on_action(self, text):
+        self.warnings += [text] if "data sheet" in text else []
+
+
+@pytest.mark.parametrize(("car", "count"), [(PLANE, 1), (SHEET, 0)])
+def test_test_says_it_when_the_car_is_mapped(run_scenario, world, car, count):
+    world.car, said, begun = car, Said(), []
+    scenario = SCENARIOS["autolock"]
+    # Ended at its first line: what is said before that is what matters.
+    said.on_plan = lambda done, total: begun.append(total)
+    with pytest.raises(Cancelled):
+        run_scenario(scenario, scenario.parameters_type(), observer=said, is_cancelled=lambda: bool(begun))
+    assert len(said.warnings) == count
+    assert all(text.startswith("warning: Without length and width") for text in said.warnings)
