@@ -7,14 +7,12 @@ import pytest
 
 from mtr_operator.domain.actions.car import Car
 from mtr_operator.domain.actions.control_loop import ControlLoop
-from mtr_operator.domain.actions.distance import Distance, distance_to_outline, position_sigma, recorded_values
 from mtr_operator.domain.actions.observer import RunObserver
-from mtr_operator.domain.actions.pose_history import PoseHistory, PoseSample, PoseUnknown
+from mtr_operator.domain.actions.pose_history import PoseUnknown
 from mtr_operator.domain.actions.preparation import prepare
 from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.actions.trouble import LineInvalid, trouble_between
 from mtr_operator.domain.errors import ConnectionFailed, LinkLost, RobotFailed
-from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.results.line_result import LineStatus
@@ -27,14 +25,11 @@ from mtr_operator.domain.robot_status import (
     RobotStatus,
     WaypointResult,
 )
-from mtr_operator.domain.scenarios.autolock import SCENARIO as AUTOLOCK
-from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
 from mtr_operator.domain.scenarios.key_press import SCENARIO as KEY_PRESS
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 
 CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
 AHEAD = Ray(0.0, 0.0, 1.0, 0.0)
-AXES = AutolockParameters(measurements_distance_m=10.0, measuring_speed_mps=0.4)
 RADIALS = KeyPressParameters.from_mapping({"angle_between_radials_deg": 90.0})
 
 
@@ -69,42 +64,7 @@ def robot_fixture(loop):
     return Robot(loop)
 
 
-def points_of(picture, label):
-    """The set of points with this label."""
-    return next(points for points in picture.point_sets if points.label == label)
-
-
 # Autolock
-
-
-def test_an_axis_takes_the_time_of_its_way_at_the_two_speeds():
-    parameters = replace(AXES, straightening_distance_m=0.6, maximum_speed_mps=2.0)
-    # 0.6 m at 2 m/s, then from 3.4 m half way to 0.5 m and back at 0.4 m/s.
-    assert AUTOLOCK.expected_line_s(parameters) == pytest.approx(0.3 + 2.9 / 0.4)
-
-
-def test_areas_are_outlines_of_where_the_car_unlocked_and_locked(run_scenario):
-    picture = AUTOLOCK.picture(AXES, CAR, run_scenario(AUTOLOCK, AXES))
-    unlocked, locked = points_of(picture, "Unlocked"), points_of(picture, "Locked")
-    assert unlocked.points[0] == pytest.approx((2.25 + 1.5, 0.0), abs=0.005)
-    assert locked.points[0] == pytest.approx((2.25 + 2.5, 0.0), abs=0.005)
-    assert unlocked.is_outline and locked.is_outline
-    assert len(unlocked.bars) == len(locked.bars) == 8
-    assert not any(points_of(picture, label).known for label in ("Unlock not reached", "Lock not reached", "Invalid"))
-
-
-def test_axes_without_a_reaction_are_marked_where_the_ways_ended(run_scenario, world):
-    world.unlock_m = 0.3
-    picture = AUTOLOCK.picture(AXES, CAR, run_scenario(AUTOLOCK, AXES))
-    assert points_of(picture, "Unlock not reached").points[0] == pytest.approx((2.25 + 0.5, 0.0))
-    assert points_of(picture, "Lock not reached").points[0] == pytest.approx((2.25 + 3.5, 0.0))
-    assert points_of(picture, "Unlocked").known == ()
-
-
-def test_a_distance_of_an_invalid_measurement_is_not_part_of_the_area(run_scenario):
-    results = run_scenario(AUTOLOCK, AXES)
-    results[0] = replace(results[0], unlock_status=LineStatus.INVALID)
-    assert points_of(AUTOLOCK.picture(AXES, CAR, results), "Unlocked").points[0] is None
 
 
 # Key press
@@ -114,20 +74,6 @@ def test_a_distance_of_an_invalid_measurement_is_not_part_of_the_area(run_scenar
 def no_passive_entry_fixture(world):
     """The Car reacts to buttons only."""
     world.unlock_m, world.lock_m = -1.0, -1.0
-
-
-def test_a_radial_takes_the_time_of_its_way_and_of_the_presses_to_the_middle_place():
-    parameters = replace(RADIALS, maximum_speed_mps=0.5, press_duration_s=0.2, attempts=2)
-    # Seven places from 6 m to 3 m: 2 m of way, three places with two presses in vain, one press that works.
-    assert KEY_PRESS.expected_line_s(parameters) == pytest.approx(2.0 / 0.5 + 3 * 2 * (0.5 + 1.0) + 0.5)
-
-
-def test_the_nearest_place_may_leave_exactly_the_clearance():
-    assert len(KEY_PRESS.lines(replace(RADIALS, clearance_m=0.75), CAR)) == 4
-
-
-def test_radials_may_be_shown_before_the_car_is_measured():
-    assert KEY_PRESS.lines_stay and not AUTOLOCK.lines_stay
 
 
 @pytest.mark.usefixtures("no_passive_entry")
@@ -149,16 +95,6 @@ def test_position_that_comes_back_at_the_start_does_not_spoil_the_radial(run_sce
     world.spoil = lose_position
     run_scenario(KEY_PRESS, RADIALS)
     assert run_scenario.saved[0][0].status is LineStatus.OK
-
-
-@pytest.mark.usefixtures("no_passive_entry")
-def test_outline_encloses_what_worked_and_an_invalid_radial_is_marked_at_its_first_place(run_scenario):
-    results = run_scenario(KEY_PRESS, RADIALS)
-    results[0] = replace(results[0], status=LineStatus.INVALID, distance_m=None)
-    worked, failed, _, invalid = KEY_PRESS.picture(RADIALS, CAR, results).point_sets
-    assert (worked.is_outline, failed.is_outline, invalid.is_outline) == (True, False, False)
-    assert invalid.known == (pytest.approx((6.0, 0.0)),)
-    assert worked.points[0] is None and len(worked.bars) == 3
 
 
 # Robot
@@ -352,49 +288,3 @@ def test_a_car_that_does_not_say_its_locks_is_trouble(car_link, monkeypatch):
 
 
 # Poses and distances
-
-
-def test_poses_are_remembered_for_a_minute():
-    poses = PoseHistory()
-    for index in range(701):
-        poses.add(status(1.0 + index / 10))
-    with pytest.raises(PoseUnknown, match=r"No poses .* 10\.900 s"):
-        poses.at(10.9)
-    assert poses.at(11.15).stamp_s == 11.15
-
-
-def test_a_pose_older_than_the_newest_is_not_remembered():
-    poses = PoseHistory()
-    for stamp_s, x in ((1.0, 3.0), (1.2, 3.2), (1.1, 9.0)):
-        poses.add(status(stamp_s, x=x))
-    assert poses.at(1.1).pose.x == pytest.approx(3.1)
-
-
-def test_a_pose_between_two_has_the_worse_accuracy_and_the_mean_speed():
-    poses = PoseHistory()
-    poses.add(status(1.0, speed_mps=0.2, position_sigma_m=0.05, heading_sigma_rad=0.01))
-    poses.add(status(1.5, speed_mps=0.4, position_sigma_m=0.03, heading_sigma_rad=0.02, x=4.0))
-    sample = poses.at(1.25)
-    assert (sample.pose.x, sample.speed_mps) == pytest.approx((3.5, 0.3))
-    assert (sample.position_sigma_m, sample.heading_sigma_rad) == (0.05, 0.02)
-
-
-@pytest.mark.parametrize("covariance, sigma_m", [
-    ((0.04, 0.01, 0.01), math.sqrt(0.36 * 0.04 + 0.64 * 0.01 + 2 * 0.48 * 0.01)),
-    ((0.04, 0.01, math.nan), 0.03), ((0.0, 0.0, -0.01), 0.0)])
-def test_position_counts_along_the_ray_or_in_its_worst_direction(covariance, sigma_m):
-    sample = PoseSample(1.0, Pose(3.0, 0.0, 0.0), 0.0, 0.03, 0.01, 0.25, 0.0, covariance)
-    assert position_sigma(Ray(0.0, 0.0, 0.6, 0.8), sample) == pytest.approx(sigma_m)
-
-
-@pytest.mark.parametrize("ray, distance_m, gap_m", [
-    (Ray(0.0, 0.0, 1.0, 0.0), 3.25, 1.0), (Ray(0.0, 0.0, 0.0, -1.0), 1.9, 1.0), (Ray(0.0, 0.0, -1.0, 0.0), 2.0, 0.0),
-    (Ray(2.25, 0.9, 0.6, 0.8), 5.0, 5.0)])
-def test_distance_to_the_outline_is_that_of_the_nearest_side_or_corner(ray, distance_m, gap_m):
-    assert distance_to_outline(ray, distance_m, CAR) == pytest.approx(gap_m)
-
-
-def test_distances_are_recorded_to_micrometres_and_microseconds():
-    assert recorded_values(Distance(1.23456789, 0.01234567, 12.3456789)) == (1.234568, 0.012346, 12.345679)
-    assert recorded_values(Distance(1.0, math.nan, 2.0)) == (1.0, None, 2.0)
-    assert recorded_values(None) == (None, None, None)
