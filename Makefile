@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations clean \
-	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-stalls bench-real-time \
+	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-gui bench-stalls bench-real-time \
 	bench-truth firmware flash bare-root docs tidy mutants
 
 SEED ?= 1
@@ -135,6 +135,10 @@ bench-range: setup build ## Ranges of both scenarios on Cars that fade, lapse an
 	@$(RUN) python -m pip install --quiet --no-warn-conflicts --no-deps --upgrade --target out/bench/tools -r setup/range-requirements.txt
 	@$(RUN) OPENBLAS_NUM_THREADS=1 PYTHONPATH=$$PYTHONPATH:$(CURDIR)/out/bench/tools \
 		python -m mtr_benchmarks.ranges --seed $(SEED) --radials $(RADIALS) --axes $(RADIALS) --out out/bench
+
+bench-gui: setup build ## The Operator's window: Stop, pictures, processor, memory, start; figures in out/bench/gui.json
+	@$(RUN) xvfb-run -a -s "-screen 0 1440x1000x24 -nolisten tcp" env QT_QPA_PLATFORM=xcb \
+		python -m mtr_benchmarks.gui --out out/bench
 
 bench-stalls: setup build ## Each node stopped and the clock set while the robot drives; figures in out/bench/liveness.json
 	@$(RUN) python -m mtr_benchmarks.liveness --out out/bench

@@ -47,7 +47,7 @@ def test_preview_says_which_lines_end_in_a_wall__8(application, main):
     obstacles.places, obstacles.version = np.array([[5.15, 0.1], [5.15, -0.1]]), 1
     main._show_model()
     assert screen._obstacles.places is obstacles.places
-    word = {"en": "Something stands in the way of radial 1, 2.9 m from the Car",
+    word = {"en": "in the way of radial 1: grey squares, the nearest 2.9 m from the Car.",
             "cs": "V cest"}[application.language.code]
     assert word in screen.caution.text()
 

@@ -35,14 +35,14 @@ _MIN_SILENCE_WALL_S = 0.3
 class RobotSubstitute:
     """Virtual robot behind the two ports of a ConnectionServer; run() serves until stop(), start() does so in a thread.
 
-    time_factor: virtual seconds per second of wall time.
+    time_factor: virtual seconds per second of wall time. robot: another one than that of the seed in the world.
     """
 
     def __init__(self, server: ConnectionServer, seed: int = 1, time_factor: float = 1.0,
-                 world: VirtualWorld = DEFAULT_WORLD):
+                 world: VirtualWorld = DEFAULT_WORLD, *, robot: VirtualRobot | None = None):
         self.server = server
         self.rejected = 0
-        self._robot = VirtualRobot(seed, world)
+        self._robot = robot or VirtualRobot(seed, world)
         self._period_s = STATUS_PERIOD_S / time_factor
         self._silence_limit_wall_s = max(_SILENCE_LIMIT_S / time_factor, _MIN_SILENCE_WALL_S)
         self._stopping = threading.Event()

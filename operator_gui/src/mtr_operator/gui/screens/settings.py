@@ -157,8 +157,8 @@ class SettingsScreen(QWidget):
             hindered_lines(plan.stretches, car, self._model.obstacles.places)
         if found is None:
             return ""
-        return self.tr("Something stands in the way of {lines}, {distance} m from the Car; see the grey squares. Move "
-                       "it, or measure from nearer.").format(
+        return self.tr("Something stands in the way of {lines}: grey squares, the nearest {distance} m from the Car. "
+                       "Move it, or measure from nearer.").format(
             lines=f"{domain_word(self._scenario.line_word)} {', '.join(found.labels)}",
             distance=number(found.gap_m, 1))
 

@@ -4489,8 +4489,8 @@
     </message>
     <message>
         <location filename="../screens/settings.py" line="160"/>
-        <source>Something stands in the way of {lines}, {distance} m from the Car; see the grey squares. Move it, or measure from nearer.</source>
-        <translation>V cestě stojí překážka ({lines}), {distance} m od auta; viz šedé čtverce. Odstraňte ji, nebo měřte z menší vzdálenosti.</translation>
+        <source>Something stands in the way of {lines}: grey squares, the nearest {distance} m from the Car. Move it, or measure from nearer.</source>
+        <translation>V cestě stojí překážka ({lines}): šedé čtverce, nejbližší {distance} m od auta. Odstraňte ji, nebo měřte z menší vzdálenosti.</translation>
     </message>
 </context>
 <context>

@@ -1,0 +1,32 @@
+"""Opens the application's first window, says so when it is painted, and ends."""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+import sys
+import tempfile
+
+from PyQt5.QtCore import QTimer
+from PyQt5.QtWidgets import QApplication
+
+from mtr_operator.gui.app import Application, make_qt
+
+
+def _tell() -> None:
+    print("painted", flush=True)
+    QApplication.quit()
+
+
+def main() -> int:
+    """Open and close it; the exit status."""
+    app = make_qt()
+    with tempfile.TemporaryDirectory() as folder:
+        application = Application(pathlib.Path(folder) / "settings.json")
+        application.open()
+        # Behind all that showing the window has put into the queue.
+        QTimer.singleShot(0, _tell)
+        app.exec_()
+        application.close()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
