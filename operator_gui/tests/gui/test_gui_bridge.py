@@ -34,6 +34,17 @@ def test_flood_of_statuses_is_one_batch_per_frame_and_the_newest_wins(qtbot):
     assert threads == {threading.get_ident()}
 
 
+def test_status_after_a_pause_is_shown_at_once_and_one_that_follows_waits_for_its_frame(qtbot):
+    bridge = Bridge(ViewModel())
+    bridge.mailbox.put_robot(snapshot(1))
+    assert bridge._frame.isActive() and bridge._frame.interval() == 0
+    qtbot.waitUntil(lambda: bridge.frames == 1)
+    bridge.mailbox.put_robot(snapshot(2))
+    assert 0 < bridge._frame.interval() <= FRAME_MS
+    qtbot.waitUntil(lambda: bridge.frames == 2)
+    assert bridge.model.robot.status.id == 2
+
+
 def test_events_keep_their_order_and_none_is_lost(qtbot):
     bridge, notice = Bridge(ViewModel()), []
     bridge.happened.connect(lambda event: notice.append(event.text))

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from PyQt5.QtCore import QObject, QTimer, pyqtSignal
+from PyQt5.QtCore import QElapsedTimer, QObject, QTimer, pyqtSignal
 
 from mtr_operator.station.mailbox import Mailbox
 from mtr_operator.station.view_model import ViewModel
@@ -38,8 +38,8 @@ class Bridge(QObject):
         self.mailbox = Mailbox(self._woken.emit)
         self.frames = 0
         self._frame = QTimer(self)
-        self._frame.setInterval(FRAME_MS)
         self._frame.setSingleShot(True)
+        self._delivered = QElapsedTimer()
         self._heartbeat = QTimer(self)
         self._heartbeat.setInterval(HEARTBEAT_MS)
         self._frame.timeout.connect(self.deliver)
@@ -53,6 +53,7 @@ class Bridge(QObject):
 
     def deliver(self) -> None:
         """Hand over what has come since."""
+        self._delivered.start()
         batch = self.mailbox.take()
         robot_sentences.learn(batch.said)
         self.model.apply(batch)
@@ -62,5 +63,7 @@ class Bridge(QObject):
         self.changed.emit()
 
     def _schedule(self) -> None:
+        """At once after a pause, else when a frame has passed since the batch before."""
         if not self._frame.isActive():
-            self._frame.start()
+            passed_ms = self._delivered.elapsed() if self._delivered.isValid() else FRAME_MS
+            self._frame.start(max(FRAME_MS - passed_ms, 0))
