@@ -8,6 +8,7 @@ from PyQt5.QtCore import Qt, QTimer
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.gui.windows.connection_window import ConnectionWindow
 from mtr_operator.gui.windows.main_window import MainWindow
+from mtr_operator.robot_link.fake import FakeRobotLink
 
 INVALID = "The IP address or port provided is invalid."
 FAILED = "Connection failed, check the parameters."
@@ -205,3 +206,15 @@ def test_without_encryption_is_a_choice_that_is_warned_of_and_not_remembered(new
     newcomer.connect()
     assert chosen[0] is True
     assert not newcomer.application.flow.store.settings.connection.robot.is_unencrypted
+
+
+def test_exposed_link_is_red_in_the_header_and_a_local_one_is_not(newcomer, monkeypatch):
+    is_exposed = [True]
+    monkeypatch.setattr(FakeRobotLink, "is_exposed", property(lambda _link: is_exposed[0]))
+    newcomer.connect()
+    header = newcomer.window.header
+    newcomer.wait(header.exposed.isVisible)
+    assert header.exposed.property("role") == "banner" and "can move the robot" in header.link.toolTip()
+    is_exposed[0] = False
+    newcomer.wait(lambda: not header.exposed.isVisible())
+    assert header.link.toolTip() == "The link to the robot is not encrypted."

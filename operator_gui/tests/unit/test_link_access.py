@@ -14,6 +14,7 @@ from mtr_operator.robot_link.access.credentials import ways_to
 from mtr_operator.robot_link.access.key_chain import CONTROLLER, OWN_KEYS, ROBOTS, VIEWER, KeyChain, PairedRobot
 from mtr_operator.robot_link.access.pairing import default_name, pair
 from mtr_operator.robot_link.client import ZmqRobotLink
+from mtr_operator.robot_link.server import ConnectionServer
 from mtr_operator.station.connection import Connection, RobotChoice
 from mtr_operator.station.settings import Settings
 from mtr_proto.keys import KeyPair, LinkKeyError, fingerprint, own_key_pair
@@ -169,9 +170,17 @@ def test_key_that_is_made_twice_at_once_is_one(tmp_path):
         own_key_pair(path / "below" / "x", zmq.curve_keypair)
 
 
-def test_link_that_is_not_encrypted_says_so(chain):
-    link = ZmqRobotLink("127.0.0.1", chain=chain)
-    assert not link.is_secret and not link.is_exposed
+@pytest.mark.parametrize(("ip", "is_exposed"), [("127.0.0.1", False), (LAN_IP, True)])
+def test_link_without_encryption_says_whether_others_reach_it(chain, monkeypatch, ip, is_exposed):
+    with ConnectionServer() as server:
+        link = ZmqRobotLink("127.0.0.1", server.subscriber_port, server.publisher_port, chain=chain,
+                            is_unencrypted=True)
+        assert not link.is_exposed
+        link.connect()
+        monkeypatch.setattr(link, "_ip", ip)
+        assert not link.is_secret and link.is_exposed is is_exposed
+        link.close()
+        assert not link.is_exposed
 
 
 def test_record_names_the_owner_only_where_a_key_vouches():
