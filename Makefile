@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations clean \
+.PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations wheels clean \
 	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-gui bench-stalls bench-real-time \
 	bench-truth firmware flash bare-root docs tidy mutants
 
@@ -74,6 +74,9 @@ translations: ## Collect the window's texts, compile the translations
 	@cd operator_gui/src/mtr_operator/gui && pylupdate5 -noobsolete $$(find . -name '*.py' | sort) \
 		-ts translations/mtr_operator_cs.ts 2>/dev/null
 	@cd operator_gui/src/mtr_operator/gui && lrelease -silent translations/mtr_operator_cs.ts
+
+wheels: setup ## The application and its contract as wheels for any laptop, in out/wheels
+	@$(RUN) python -m pip wheel --quiet --no-deps -w out/wheels proto/ operator_gui/
 
 test: setup build ## Lint, layer test, unit tests, firmware, rostest suites and system tests
 	@$(RUN) python setup/run_tests.py all
