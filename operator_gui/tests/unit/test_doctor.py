@@ -41,6 +41,13 @@ def test_computer_with_everything_lacks_nothing_and_keeps_no_folder(computer, st
     assert not (tmp_path / "new").exists()
 
 
+def test_contract_that_does_not_fit_its_protobuf_is_told(computer, store):
+    spoilt = dataclasses.replace(computer, import_problem=lambda module: f"{module}: no runtime_version")
+    sentence = missing(spoilt, store)["contract"]
+    assert "(mtr_proto.robot_link_pb2: no runtime_version); pip install mtr_proto again" in sentence
+    assert dataclasses.replace(computer).import_problem("no_such_module") == "No module named 'no_such_module'"
+
+
 def test_packages_contract_and_window_are_named(computer, store):
     lacking = dataclasses.replace(computer, is_installed=lambda module: module not in ("zmq", "PyQt5", "mtr_proto"))
     found = missing(lacking, store)

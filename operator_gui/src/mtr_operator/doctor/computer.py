@@ -6,6 +6,7 @@ Nothing but the standard library is imported, for this has to tell which of the 
 from __future__ import annotations
 
 import glob
+import importlib
 import importlib.util
 import os
 import pathlib
@@ -33,19 +34,32 @@ def _is_installed(module: str) -> bool:
         return False
 
 
+def _import_problem(module: str) -> str:
+    """Why a module that is installed cannot be imported; empty when it can."""
+    try:
+        importlib.import_module(module)
+    except ImportError as error:
+        return " ".join(str(error).split())
+    return ""
+
+
 def _may_use(path: str) -> bool:
     return os.access(path, os.R_OK | os.W_OK)
 
 
 @dataclass(frozen=True)
 class Computer:
-    """What is asked of the computer. root: folder of the devices. is_installed, may_use: of a module, of a device."""
+    """What is asked of the computer. root: folder of the devices. is_installed, may_use: of a module, of a device.
+
+    import_problem: of a module that is installed; empty when there is none.
+    """
 
     environment: Mapping[str, str] = field(default_factory=lambda: os.environ)
     platform: str = sys.platform
     root: pathlib.Path = pathlib.Path("/")
     is_installed: Callable[[str], bool] = _is_installed
     may_use: Callable[[str], bool] = _may_use
+    import_problem: Callable[[str], str] = _import_problem
 
 
 def computer_findings(computer: Computer) -> Iterator[Finding]:
@@ -73,6 +87,10 @@ def _packages(computer: Computer) -> Iterator[Finding]:
     if not computer.is_installed("mtr_proto"):
         yield Finding("contract", State.MISSING, "The package mtr_proto, the contract with the robot, is not installed;"
                       " pip install the folder proto of the project.")
+    elif problem := computer.import_problem("mtr_proto.robot_link_pb2"):
+        yield Finding("contract", State.MISSING, f"The package mtr_proto, the contract with the robot, does not work "
+                      f"with the protobuf that is installed ({problem}); pip install mtr_proto again, with what it "
+                      "requires.")
     if not computer.is_installed("PyQt5"):
         yield Finding("window", State.MISSING, "The window needs PyQt5, which is not installed; pip install PyQt5, or "
                       "use the command run.")
