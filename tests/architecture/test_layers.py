@@ -76,7 +76,14 @@ def base_contract_files() -> Iterator[pathlib.Path]:
     yield from (path for path in sorted(files) if path.name != "command_line.py")
 
 
-@pytest.mark.parametrize("path", [*preflight_files(), *calibration_files(), *recording_files(), *base_contract_files()],
+def graph_watch_files() -> Iterator[pathlib.Path]:
+    """The watch of the graph, without its node."""
+    files = (TOP / "launch" / "src" / "mtr_bringup" / "graph_watch").rglob("*.py")
+    yield from (path for path in sorted(files) if path.name != "node.py")
+
+
+@pytest.mark.parametrize("path", [*preflight_files(), *calibration_files(), *recording_files(), *base_contract_files(),
+                                  *graph_watch_files()],
                          ids=ids)
 def test_checks_calibration_and_recording_import_no_ros(path):
     assert not imports(path) & (ROS | ROS_MESSAGES | ROS_OF_CORE)

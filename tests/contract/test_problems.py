@@ -26,7 +26,7 @@ class Row(NamedTuple):
 
 def python_rows() -> Iterator[Row]:
     """Assignments NAME = Sentence(code, template) of each module `problems` but that which defines Sentence."""
-    for path in sorted(PACKAGES.glob("*/src/*/problems.py")):
+    for path in sorted([*PACKAGES.glob("*/src/*/problems.py"), *TOP.glob("launch/src/*/problems.py")]):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             value = node.value if isinstance(node, ast.Assign) else None
             if isinstance(value, ast.Call) and getattr(value.func, "id", "") == "Sentence":
@@ -75,7 +75,8 @@ def test_no_czech_stands_without_a_sentence():
 
 def modules(package: str) -> Iterator[pathlib.Path]:
     """Python files of a package, its table excluded."""
-    yield from (path for path in sorted((PACKAGES / package / "src" / package).rglob("*.py"))
+    folder = TOP / "launch" if package == "mtr_bringup" else PACKAGES / package
+    yield from (path for path in sorted((folder / "src" / package).rglob("*.py"))
                 if path.name != "problems.py")
 
 

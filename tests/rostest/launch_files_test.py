@@ -14,7 +14,8 @@ NEEDED = {"robot.launch": [], "sim.launch": ["car_port_link:=/tmp/can"], "replay
           "view.launch": []}
 ROBOT = {"/robot_state_publisher", "/drive_control", "/localization", "/motion_planner", "/car_locator",
          "/state_machine", "/peripherals", "/dispatcher"}
-NODES = {"robot.launch": ROBOT | {"/controller_input", "/joy", "/serial_bridge"}, "sim.launch": ROBOT | {"/simulator"},
+NODES = {"robot.launch": ROBOT | {"/controller_input", "/graph_watch", "/joy", "/serial_bridge"},
+         "sim.launch": ROBOT | {"/simulator"},
          "replay.launch": {"/robot_state_publisher", "/localization", "/car_locator", "/state_machine", "/play"},
          "view.launch": {"/rviz"}}
 
@@ -36,8 +37,25 @@ class LaunchFiles(unittest.TestCase):
     def test_manual_controller_that_is_started_is_a_required_owner_of_the_motion_lock(self):  # A4
         owners = "/drive_control/lock_owners"
         self.assertIn("controller_input", load("robot.launch", []).params[owners].value)
-        self.assertNotIn(owners, load("robot.launch", ["controller:=false"]).params)
+        self.assertNotIn("controller_input", load("robot.launch", ["controller:=false"]).params[owners].value)
+        self.assertNotIn(owners, load("robot.launch", ["controller:=false", "graph_watch:=false"]).params)
         self.assertNotIn(owners, load("sim.launch", NEEDED["sim.launch"]).params)
+
+    def test_robot_stands_without_the_word_of_the_watch_of_its_graph(self):
+        owners = "/drive_control/lock_owners"
+        self.assertIn("graph_watch", load("robot.launch", ["controller:=false"]).params[owners].value)
+        unwatched = load("robot.launch", ["graph_watch:=false"])
+        self.assertNotIn("graph_watch", unwatched.params[owners].value)
+        self.assertNotIn("/graph_watch", get_node_list(unwatched))
+
+    def test_nodes_are_on_loopback_unless_a_person_chose_otherwise(self):
+        robot = load("robot.launch", [])
+        self.assertIn("graph_watch", robot.params["/drive_control/lock_owners"].value)
+        for node in robot.nodes:
+            self.assertIn(("ROS_IP", "127.0.0.1"), list(map(tuple, node.env_args)), node.name)
+        chosen = load("robot.launch", ["open_graph:=true"])
+        self.assertFalse([node.name for node in chosen.nodes if "ROS_IP" in dict(node.env_args)])
+        self.assertIs(chosen.params["/graph_watch/open_graph"].value, True)
 
     def test_base_guard_has_the_limits_of_the_shipped_base(self):  # A2
         guarded = load("robot.launch", ["base_guard:=true"])

@@ -93,6 +93,13 @@ class Stack:
     def __exit__(self, *_: object) -> None:
         self.stop()
 
+    @property
+    def pid(self) -> int:
+        """Process of roslaunch, whose children the nodes are; StackError when it does not run."""
+        if self._process is None:
+            raise StackError("The simulated robot does not run.")
+        return self._process.pid
+
     def environment(self) -> Dict[str, str]:
         """Environment for commands that talk to this stack's ROS master."""
         return dict(os.environ, ROS_MASTER_URI=self.master_uri, ROS_IP="127.0.0.1",

@@ -7,6 +7,7 @@ Exit status: that of rosbag; 2 when nothing can be recorded.
 # SPDX-License-Identifier: Apache-2.0
 import argparse
 import datetime
+import os
 import pathlib
 import shutil
 import signal
@@ -20,6 +21,7 @@ import yaml
 from mtr_core import names
 from mtr_core.errors import RobotError, range_problem
 
+from ..graph_watch.environment import as_around
 from ..preflight.command_line import master_answers
 from .bags import decisions_in
 from .decisions import differences
@@ -94,7 +96,7 @@ def run(command: List[str]) -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, end)
     # In a session of its own, so that it gets one Ctrl-C and not a second one from the terminal.
-    started.append(subprocess.Popen(command, start_new_session=True))
+    started.append(subprocess.Popen(command, env=as_around(os.environ), start_new_session=True))
     if asked:
         started[0].send_signal(signal.SIGINT)
     return started[0].wait()

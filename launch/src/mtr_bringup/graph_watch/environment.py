@@ -1,0 +1,19 @@
+"""The environment in which a program of the ROS graph listens on loopback only. Pure."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import Dict, Mapping
+
+LOOPBACK = "127.0.0.1"
+# Found by LD_LIBRARY_PATH, which a workspace's setup.bash sets; of src/loopback.
+LIBRARY = "libmtr_loopback.so"
+
+
+def closed_environment(environment: Mapping[str, str]) -> Dict[str, str]:
+    """This environment on loopback; ROS_HOSTNAME goes, for it counts more than ROS_IP."""
+    kept = {name: value for name, value in environment.items() if name != "ROS_HOSTNAME"}
+    return {"ROS_MASTER_URI": f"http://{LOOPBACK}:11311", **kept, "ROS_IP": LOOPBACK, "LD_PRELOAD": LIBRARY}
+
+
+def as_around(environment: Mapping[str, str]) -> Dict[str, str]:
+    """The closed environment where the graph is on loopback; else, in a graph opened by choice, as it is."""
+    on_loopback = environment.get("ROS_IP", "").startswith("127.")
+    return closed_environment(environment) if on_loopback else dict(environment)
