@@ -34,6 +34,8 @@ constexpr double kLevelSlope = 0.01;
 constexpr std::int64_t kUncoveredNs = 1'000'000'000;
 constexpr double kUncoveredWithinM = 1.0;
 constexpr double kUncoveredWithinRad = 0.5;
+// A robot that was put down rocks, and looks at the ground or over things: no views for a search before that.
+constexpr std::int64_t kSettledNs = 500'000'000;
 // Of so many returns near surfaces a pose that is what its covariance says puts nearly all on them.
 constexpr int kMinNear = 15;
 constexpr double kMinExactShare = 0.5;
@@ -106,6 +108,7 @@ void ScanTracker::lose_sight(const mtr_core::Problem& reason) {
   lost_reason_ = reason;
   degenerate_ = false;
   uncovered_ns_.reset();
+  lost_ns_.reset();
   is_reckoned_ = true;
 }
 
@@ -246,6 +249,10 @@ std::optional<Relocalization::Found> ScanTracker::relocalize(const ScanSet& set,
   }
   const bool is_mapping = state_ == State::kMapping;
   if (is_mapping && !is_reckoned_) {
+    return std::nullopt;
+  }
+  lost_ns_ = lost_ns_.value_or(step.stamp_ns);
+  if (step.stamp_ns - *lost_ns_ < kSettledNs) {
     return std::nullopt;
   }
   if (!search_) {

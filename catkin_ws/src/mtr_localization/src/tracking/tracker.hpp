@@ -104,6 +104,8 @@ class ScanTracker {
   std::int64_t fitted_ns_ = 0;
   /// While lost: since when the view is the expected one again.
   std::optional<std::int64_t> uncovered_ns_;
+  /// While lost: when that was seen first.
+  std::optional<std::int64_t> lost_ns_;
   bool degenerate_ = false;
   TrackingFigures figures_;
 };
