@@ -102,6 +102,23 @@ TEST_F(RelocalizationTest, TwoPlacesThatLookAlikeAreNotGuessedBetween) {
   EXPECT_FALSE(found_from(views, {2.0, 0.0, M_PI}));
 }
 
+TEST_F(RelocalizationTest, PlaceThatShowsMoreThanIsSeenStaysARivalOfOneThatFitsBetter) {
+  // Two plates 2.5 m apart, one of them with a gap in its middle.
+  const auto plate = [](double y) { return synthetic::Segment{{0.5, y - 0.5}, {0.5, y + 0.5}}; };
+  const auto with_gap = [](double y) {
+    return synthetic::World{{{0.5, y - 0.5}, {0.5, y - 0.2}}, {{0.5, y + 0.2}, {0.5, y + 0.5}}};
+  };
+  synthetic::World scene = with_gap(1.25);
+  scene.push_back(plate(-1.25));
+  add_surfaces(scene);
+  // The robot stands before the whole one, of which the LiDAR does not see the middle from low down.
+  std::vector<View> views;
+  for (const double x : {1.3, 1.9, 2.5, 3.1}) {
+    views.push_back(view_from(with_gap(-1.25), {x, -1.25, M_PI}, 2.7));
+  }
+  EXPECT_FALSE(found_from(views, {2.0, 0.0, M_PI}));
+}
+
 TEST_F(RelocalizationTest, PlaceWhereReturnsLieBesideTheSurfacesIsNone) {
   // Another room that is larger by a twentieth: at 4 m what lies 0.2 m beside a surface still agrees with it.
   add_surfaces(room());
