@@ -135,6 +135,21 @@ def test_distance_from_the_outline_that_was_seen_is_offered_too(outline, shortes
     assert row["press_to_outline_m"] == ("" if shortest_m is None else f"{shortest_m:.4f}")
 
 
+@pytest.mark.parametrize(("ends", "figure", "sigma_m"), [
+    ((2.5, 3.5), Figure(Kind.VALUE, 3.0), 0.255), ((2.1, None), Figure(Kind.AT_LEAST, 2.1), None),
+    ((None, 4.35), Figure(Kind.AT_MOST, 4.35), None), ((None, None), Figure(Kind.UNKNOWN), None)])
+def test_reach_of_a_zone_has_the_sigma_of_its_interval_and_not_of_the_keys_place(ends, figure, sigma_m):
+    parameters = ZoneMapParameters()
+    zone = ZoneMapResult(1, "front", 1.0, LineStatus.OK, 16, 3.0, *ends, 0.002, 0.5, 0.4, 0.6)
+    distance, = zone.distances
+    assert figure_of(distance) == figure
+    assert distance.uncertainty_m == (None if sigma_m is None else pytest.approx(sigma_m, abs=1e-3))
+    progress = Progress("zone_map", parameters.to_mapping(), {}, CAR, [zone])
+    budgets = Assessor(SCENARIOS["zone_map"], parameters, CAR, load_calibration()).assess(progress).budgets
+    assert [budget.expanded_m > 0.45 for budget in budgets] == ([] if sigma_m is None else [True])
+    assert result_from_document(ZoneMapResult, zone.to_document()) == zone
+
+
 @pytest.mark.parametrize("ends", [{}, {"d50_low_m": None}])
 def test_boundary_with_an_open_end_has_no_expanded_uncertainty(ends):
     assessor = Assessor(KEY_PRESS, PARAMETERS, CAR, load_calibration())

@@ -64,6 +64,15 @@ class MeasuredDistance:
         return self.is_boundary and (self.low_m is None or self.high_m is None)
 
 
+def boundary(word: str, status: LineStatus, distance_m: OptionalFloat, sigma_m: OptionalFloat,
+             ends_m: tuple[OptionalFloat, OptionalFloat]) -> MeasuredDistance:
+    """A boundary with its interval. Where an end of that is open the ends are all that is said: an estimate is no
+    measured value."""
+    is_open = None in ends_m
+    return MeasuredDistance(word, status, None if is_open else distance_m, None if is_open else sigma_m, *ends_m,
+                            is_boundary=True)
+
+
 def has_intervals(results: Sequence[LineResult]) -> bool:
     """True when a table of the results has intervals to show."""
     return any((distance.low_m, distance.high_m) != (None, None) for result in results

@@ -9,7 +9,7 @@ from ... import limits
 from ...estimation.press.likelihood import Press
 from ...estimation.press.radial_estimate import Reach
 from ...results.document import Floats, OptionalFloat
-from ...results.line_result import BOUNDARY_PERCENT, LineResult, LineStatus, MeasuredDistance, column
+from ...results.line_result import BOUNDARY_PERCENT, LineResult, LineStatus, MeasuredDistance, boundary, column
 
 # Shares of the attempts for whose distances there are intervals; the last is that at d95.
 SHARES = (5, 50, 95)
@@ -92,31 +92,23 @@ class SearchedResult(LineResult):
     @property
     def distances(self) -> tuple[MeasuredDistance, ...]:
         """See LineResult: where half of the attempts work."""
-        return (_boundary(self.WORD, self.status, self.d50_m, self.d50_sigma_m, (self.d50_low_m, self.d50_high_m)),)
+        return (boundary(self.WORD, self.status, self.d50_m, self.d50_sigma_m, (self.d50_low_m, self.d50_high_m)),)
 
     def distances_at(self, share_percent: int) -> tuple[MeasuredDistance, ...]:
         """See LineResult. The curve is symmetrical: 5 % work as far beyond d50 as 95 % do nearer than it; the ends of
         that interval are the safe ones, for how the errors of d50 and d95 go together is not kept."""
         if not self.was_searched or share_percent == BOUNDARY_PERCENT or share_percent not in SHARES:
             return super().distances_at(share_percent)
-        sure = _boundary(self.WORD, self.status, self.d95_m, None, (self.d95_low_m, self.d95_high_m))
+        sure = boundary(self.WORD, self.status, self.d95_m, None, (self.d95_low_m, self.d95_high_m))
         if share_percent == SURE_PERCENT:
             return (sure,)
         half = self.distances[0]
-        return (_boundary(self.WORD, self.status, _mirrored(half.distance_m, sure.distance_m), None,
+        return (boundary(self.WORD, self.status, _mirrored(half.distance_m, sure.distance_m), None,
                           (_mirrored(half.low_m, sure.high_m), _mirrored(half.high_m, sure.low_m))),)
 
     def holes_nearer_than(self, distance_m: float) -> tuple[float, ...]:
         """See LineResult."""
         return tuple(hole_m for hole_m in map(float, _NUMBER.findall(self.holes_m)) if hole_m < distance_m)
-
-
-def _boundary(word: str, status: LineStatus, distance_m: float | None, sigma_m: float | None,
-              ends_m: tuple[float | None, float | None]) -> MeasuredDistance:
-    """Where an end of the interval is open, the ends are all that is said: an estimate is no measured value."""
-    is_open = None in ends_m
-    return MeasuredDistance(word, status, None if is_open else distance_m, None if is_open else sigma_m, *ends_m,
-                            is_boundary=True)
 
 
 def _distance(doc: str) -> Any:

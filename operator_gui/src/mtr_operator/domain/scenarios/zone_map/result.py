@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ...estimation.interval import SIGMAS_OF_LEVEL
 from ...results.document import Floats, OptionalFloat, Texts
-from ...results.line_result import LineResult, LineStatus, MeasuredDistance, column, stored
+from ...results.line_result import LineResult, LineStatus, MeasuredDistance, boundary, column, stored
 
 REACH = "reach"
 _HALF = "distance from the Car's outline, in the middle of the zone, at which half of the presses work"
@@ -48,8 +49,10 @@ class ZoneMapResult(LineResult):
 
     @property
     def distances(self) -> tuple[MeasuredDistance, ...]:
-        """See LineResult."""
-        return (MeasuredDistance(REACH, self.status, self.distance_m, self.uncertainty_m, self.low_m, self.high_m),)
+        """See LineResult: how far half of the presses work."""
+        low_m, high_m = self.low_m, self.high_m
+        sigma_m = None if low_m is None or high_m is None else (high_m - low_m) / (2.0 * SIGMAS_OF_LEVEL)
+        return (boundary(REACH, self.status, self.distance_m, sigma_m, (low_m, high_m)),)
 
     @property
     def is_silent(self) -> bool:
