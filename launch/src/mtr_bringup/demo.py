@@ -177,7 +177,7 @@ def run_part(options: DemoOptions, names: Sequence[str]) -> None:
 
 def parameters_of(scenario: str, car: str) -> pathlib.Path:
     """File with the parameters of a scenario: those for this Car where there are such."""
-    own = EXAMPLES / f"{scenario}_{pathlib.Path(car).stem}.yaml"
+    own = EXAMPLES / pathlib.Path(car).stem / f"{scenario}.yaml"
     return own if own.exists() else EXAMPLES / f"{scenario}.yaml"
 
 

@@ -97,7 +97,7 @@ def test_mapping_makes_a_round_trip(kind):
     assert kind.from_mapping(kind().to_mapping()) == kind()
 
 
-@pytest.mark.parametrize("path", sorted([*EXAMPLES.glob("*.yaml"), *(EXAMPLES / "demo").glob("*.yaml")]),
+@pytest.mark.parametrize("path", sorted([*EXAMPLES.glob("*.yaml"), *(EXAMPLES / "demo").rglob("*.yaml")]),
                          ids=lambda path: str(path.relative_to(EXAMPLES)))
 def test_shipped_example_is_valid(path):
     if path.parent.name == "limits":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import os
 import pathlib
 from typing import Callable
 
@@ -35,6 +36,7 @@ from .results_model import ResultsModel
 _SIDE_WIDTH = 600
 _TABLE_HEIGHT, _BUDGET_HEIGHT = 180, 140
 _CLICK_PX = 18.0
+_MAY_BREAK = "\N{ZERO WIDTH SPACE}"
 
 
 class ProtocolScreen(QWidget):
@@ -233,7 +235,9 @@ class ProtocolScreen(QWidget):
         self._set_saving(False)
         self._saved |= {path.name for path in paths}
         files = ", ".join(sorted(self._saved))
-        self._show_notice(self.tr("Saved {files} to {folder}").format(files=files, folder=self._folder))
+        # A long path goes on in the next line.
+        folder = str(self._folder).replace(os.sep, f"{os.sep}{_MAY_BREAK}")
+        self._show_notice(self.tr("Saved {files} to {folder}").format(files=files, folder=folder))
         self.show_folder.setEnabled(True)
 
     def _show_refused(self, text: str) -> None:

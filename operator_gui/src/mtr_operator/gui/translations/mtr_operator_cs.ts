@@ -2566,92 +2566,92 @@
 <context>
     <name>ProtocolScreen</name>
     <message>
-        <location filename="../screens/protocol.py" line="71"/>
+        <location filename="../screens/protocol.py" line="73"/>
         <source>Save</source>
         <translation>Uložit</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="72"/>
+        <location filename="../screens/protocol.py" line="74"/>
         <source>Save as CSV and PNG</source>
         <translation>Uložit jako CSV a PNG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="73"/>
+        <location filename="../screens/protocol.py" line="75"/>
         <source>Save PDF</source>
         <translation>Uložit PDF</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="74"/>
+        <location filename="../screens/protocol.py" line="76"/>
         <source>Save SVG</source>
         <translation>Uložit SVG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="75"/>
+        <location filename="../screens/protocol.py" line="77"/>
         <source>Show folder</source>
         <translation>Ukázat složku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="78"/>
+        <location filename="../screens/protocol.py" line="80"/>
         <source>New test</source>
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="149"/>
+        <location filename="../screens/protocol.py" line="151"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="236"/>
+        <location filename="../screens/protocol.py" line="240"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="241"/>
+        <location filename="../screens/protocol.py" line="245"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="245"/>
+        <location filename="../screens/protocol.py" line="249"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="183"/>
+        <location filename="../screens/protocol.py" line="185"/>
         <source>Verdict: {verdict}.</source>
         <translation>Verdikt: {verdict}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="68"/>
+        <location filename="../screens/protocol.py" line="70"/>
         <source>What the uncertainty of the chosen row is made of</source>
         <translation>Z čeho se skládá nejistota vybraného řádku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="253"/>
+        <location filename="../screens/protocol.py" line="257"/>
         <source>No file manager opens it; the files are in {folder}</source>
         <translation>Žádný správce souborů ji neotevře; soubory jsou ve složce {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="66"/>
+        <location filename="../screens/protocol.py" line="68"/>
         <source>Results; choose a row to see its points, or several to measure them again</source>
         <translation>Výsledky; volbou řádku uvidíte jeho body, více řádků lze změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="76"/>
+        <location filename="../screens/protocol.py" line="78"/>
         <source>Hold to measure again</source>
         <translation>Podržením změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="157"/>
+        <location filename="../screens/protocol.py" line="159"/>
         <source>Not saved as CSV and PNG yet.</source>
         <translation>Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="191"/>
+        <location filename="../screens/protocol.py" line="193"/>
         <source>{count} lines, {invalid} of them invalid.</source>
         <translation>Počet přímek: {count}, z toho neplatných: {invalid}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="192"/>
+        <location filename="../screens/protocol.py" line="194"/>
         <source>{count} lines.</source>
         <translation>Počet přímek: {count}.</translation>
     </message>
