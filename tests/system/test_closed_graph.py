@@ -114,6 +114,13 @@ def test_nothing_of_the_robot_listens_outside_loopback(robot, said):
         assert reached == []
 
 
+def wait_until_logged(robot, words):
+    """What a node says stands in the log a moment after its message is out."""
+    end_s = time.monotonic() + LIMIT_S
+    while words not in robot.log.read_text(encoding="utf-8", errors="replace"):
+        assert time.monotonic() < end_s, f"{words!r} is not in {robot.log}"
+
+
 @pytest.mark.parametrize("topic, variables, owner", [
     ("/chatter", OPEN_NODE, "graph_watch"), (names.WHEEL_COMMAND, {}, "drive_control")], ids=["open", "wheels"])
 def test_wheels_are_locked_while_somebody_opens_the_graph_or_commands_them(robot, said, topic, variables, owner):
@@ -129,5 +136,5 @@ def test_wheels_are_locked_while_somebody_opens_the_graph_or_commands_them(robot
         intruder.wait(LIMIT_S)
     wait_for(said, lambda locks: owner not in locks)
     if owner == "graph_watch":
-        log = robot.log.read_text(encoding="utf-8", errors="replace")
-        assert "The ROS graph is open: /laptop is reachable at" in log and "The ROS graph is closed again." in log
+        wait_until_logged(robot, "The ROS graph is open: /laptop is reachable at")
+        wait_until_logged(robot, "The ROS graph is closed again.")
