@@ -189,6 +189,8 @@ def run_scenario(stack: Stack, name: str, folder: pathlib.Path, car: str) -> int
         "--out", str(folder), "--robot", "127.0.0.1", "--subscriber-port", str(stack.status_port),
         "--publisher-port", str(stack.command_port), "--can-interface", "slcan", "--can-channel", str(stack.can_link),
         "--can-bitrate", "500000", "--car-profile", chosen_car(car).profile,
+        # The output that takes the handle is switched over the Car's bus.
+        *(["--can-normal"] if name == "handle_request" else []),
     ], check=False).returncode
 
 

@@ -116,8 +116,17 @@ def wait_for(condition):
 
 
 def test_adapter_is_asked_for_time_stamps_before_it_is_opened(adapter, link):
-    assert adapter.commands.index(b"S6") < adapter.commands.index(b"Z1") < adapter.commands.index(b"O")
+    assert adapter.commands.index(b"S6") < adapter.commands.index(b"Z1") < adapter.commands.index(b"L")
+    assert b"O" not in adapter.commands
     assert link.profile.name == "mtr_demo_car"
+
+
+def test_adapter_takes_part_in_the_bus_only_when_it_is_told_to(adapter):
+    link = CanCarLink("slcan", adapter.path, is_listening=False)
+    link.connect()
+    link.close()
+    assert b"O" in adapter.commands and b"L" not in adapter.commands
+    assert "normal mode" in link.record["CAN adapter"]
 
 
 def test_lock_event_through_a_serial_adapter_is_timed_by_its_stamps(adapter, link):
@@ -208,7 +217,7 @@ def test_adapter_that_comes_back_is_used_again(adapter, link, tmp_path):
         wait_for(lambda: "adapter" in other.problem)
         name.unlink()
         name.symlink_to(second.path)
-        wait_for(lambda: b"O" in second.commands and "adapter" not in other.problem)
+        wait_for(lambda: b"L" in second.commands and "adapter" not in other.problem)
         course = Course(other, second.send)
         course.run(4.0, UNLOCKED)
         assert (other.problem, other.lock_state) == ("", LockState.UNLOCKED)
@@ -316,7 +325,7 @@ HANDLE_TAKEN, HANDLE_RELEASED = b"t4B1101", b"t4B1100"
 @pytest.fixture(name="handle_link")
 def handle_link_fixture(adapter):
     """Link of a car whose profile declares an output."""
-    link = CanCarLink("slcan", adapter.path, profile="mtr_honest_car")
+    link = CanCarLink("slcan", adapter.path, profile="mtr_honest_car", is_listening=False)
     link.connect()
     yield link
     link.close()
@@ -347,6 +356,39 @@ def test_request_that_an_adapter_could_not_send_is_not_sent_later(adapter, handl
     handle_link.handle.request(1.5)
     time.sleep(0.2)
     assert not handle_link.handle.is_taken()
+
+
+def test_adapter_that_listens_switches_no_output_and_says_so(adapter):
+    link = CanCarLink("slcan", adapter.path, profile="mtr_honest_car")
+    link.connect()
+    assert link.handle is None and "only listens: a person takes it" in link.notices[0]
+    link.close()
+    assert not any(command[:1] in (b"t", b"T", b"O") for command in adapter.commands)
+
+
+def test_overrun_of_the_adapter_is_told_and_is_over_after_a_second(adapter, link):
+    course = Course(link, adapter.send)
+    course.run(4.0)
+    adapter.flags = b"F08\r"
+    wait_for(lambda: "lost frames" in link.problem)
+    adapter.flags = b"F00\r"
+    course.run(0.5)
+    wait_for(lambda: adapter.commands[-1] == b"F")
+    course.run(1.5)
+    assert link.problem == "" and link.lock_state is LockState.LOCKED
+
+
+def test_fd_frames_of_a_serial_adapter_are_read(adapter):
+    link = CanCarLink("slcan", adapter.path, data_bitrate=2_000_000)
+    link.connect()
+    try:
+        assert adapter.commands.index(b"S6") < adapter.commands.index(b"Y2") < adapter.commands.index(b"L")
+        adapter.send_bytes(b"b1239%s0010\r" % (b"AB" * 12) + b"D000012344%s\r" % (b"01" * 4))
+        wait_for(lambda: link.frames_received == 2)
+        rows = {row.can_id: row.data for row in link.messages.messages}
+        assert rows == {0x123: b"\xab" * 12, 0x1234: b"\x01" * 4}
+    finally:
+        link.close()
 
 
 def test_car_without_an_output_has_no_handle_and_nothing_is_sent(adapter, link):

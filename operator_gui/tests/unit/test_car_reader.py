@@ -20,6 +20,9 @@ class Sink(FrameSink):
     def error_frame(self):
         pass
 
+    def frames_lost(self):
+        pass
+
     def fault(self, text):
         self.said.put(text)
 

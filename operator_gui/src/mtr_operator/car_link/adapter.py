@@ -15,11 +15,14 @@ import can
 
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter
 
-from .slcan import StampedSlcanBus
+from .drivers.kernel_link import check_link
+from .drivers.options import SLCAN, SOCKETCAN, Unsupported, fd_options, listening_options, takes_part
+from .drivers.slcan import StampedSlcanBus
 
-SLCAN = "slcan"
 _MIN_BITRATE = 10_000
 _MAX_BITRATE = 1_000_000
+# ISO 11898-2 transceivers for CAN FD with signal improvement.
+_MAX_DATA_BITRATE = 8_000_000
 # Time in which an slcan adapter answers the commands that open it.
 _ANSWER_LIMIT_S = 1.0
 _POLL_S = 0.05
@@ -31,12 +34,17 @@ logging.getLogger("can").addHandler(logging.NullHandler())
 
 @dataclass(frozen=True)
 class AdapterSettings:
-    """Adapter of the Car's CAN bus; options go to python-can's driver as they are."""
+    """Adapter of the Car's CAN bus; options go to python-can's driver as they are.
+
+    is_listening: it sends nothing, not even an acknowledge. data_bitrate_bps: of CAN FD frames, None for classic CAN.
+    """
 
     interface: str
     channel: str
     bitrate_bps: int = 500_000
     options: dict[str, Any] = field(default_factory=dict)
+    is_listening: bool = True
+    data_bitrate_bps: int | None = None
 
     def __post_init__(self) -> None:
         known = sorted(can.VALID_INTERFACES)
@@ -49,6 +57,17 @@ class AdapterSettings:
                 or not _MIN_BITRATE <= self.bitrate_bps <= _MAX_BITRATE:
             raise InvalidParameter(f"CAN bit rate is {self.bitrate_bps}; allowed is {_MIN_BITRATE} to "
                                    f"{_MAX_BITRATE} bit/s.")
+        data_bps = self.data_bitrate_bps
+        if data_bps is not None and not (type(data_bps) is int and self.bitrate_bps <= data_bps <= _MAX_DATA_BITRATE):
+            raise InvalidParameter(f"CAN FD data bit rate is {data_bps}; allowed is {self.bitrate_bps}, the bit rate, "
+                                   f"to {_MAX_DATA_BITRATE} bit/s.")
+
+    @property
+    def text(self) -> str:
+        """How it is opened, as it stands in the record of a test."""
+        fd = "" if self.data_bitrate_bps is None else f", CAN FD with {self.data_bitrate_bps} bit/s"
+        mode = "listens only" if self.is_listening else "takes part in the bus (normal mode)"
+        return f"{self.interface} {self.channel}, {self.bitrate_bps} bit/s{fd}, {mode}"
 
     def __str__(self) -> str:
         return f"CAN adapter {self.channel} ({self.interface})"
@@ -58,11 +77,18 @@ def open_adapter(settings: AdapterSettings) -> can.BusABC:
     """Open the adapter, or raise ConnectionFailed."""
     if settings.interface == SLCAN and settings.channel.startswith("/"):
         _check_device(settings.channel)
+    if settings.interface == SOCKETCAN:
+        check_link(settings.channel, settings.bitrate_bps, settings.data_bitrate_bps, settings.is_listening)
     try:
+        options = {**_driver_options(settings), **settings.options}
         if settings.interface != SLCAN:
-            return can.Bus(interface=settings.interface, channel=settings.channel, bitrate=settings.bitrate_bps,
-                           **settings.options)
-        bus = StampedSlcanBus(settings.channel, bitrate=settings.bitrate_bps, **settings.options)
+            return _listening(can.Bus(interface=settings.interface, channel=settings.channel,
+                                      bitrate=settings.bitrate_bps, **options), settings)
+        bus = StampedSlcanBus(settings.channel, bitrate=settings.bitrate_bps, **options)
+    except Unsupported as error:
+        raise ConnectionFailed(str(error)) from None
+    except ConnectionFailed:
+        raise
     # Drivers raise whatever their vendor's library does.
     except Exception as error:
         if settings.interface == SLCAN and os.strerror(errno.ENOTTY) in str(error):
@@ -74,6 +100,22 @@ def open_adapter(settings: AdapterSettings) -> can.BusABC:
     except BaseException:
         shut_down(bus)
         raise
+    return bus
+
+
+def _driver_options(settings: AdapterSettings) -> dict[str, Any]:
+    options = listening_options(settings.interface) if settings.is_listening else {}
+    if settings.data_bitrate_bps is not None:
+        options.update(fd_options(settings.interface, settings.bitrate_bps, settings.data_bitrate_bps))
+    return options
+
+
+def _listening(bus: can.BusABC, settings: AdapterSettings) -> can.BusABC:
+    """The adapter, unless it takes part in the bus against its order."""
+    if settings.is_listening and takes_part(settings.interface, bus):
+        shut_down(bus)
+        raise ConnectionFailed(f"The PCAN adapter {settings.channel} does not take the order to listen only; use "
+                               "another adapter, or choose normal mode (--can-normal) for a bench of one node.")
     return bus
 
 

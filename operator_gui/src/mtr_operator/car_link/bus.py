@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import math
 import threading
 import time
 from dataclasses import replace
-from typing import Any, Callable
+from typing import Any, Callable, Mapping, Sequence
 
 import can
 
@@ -21,9 +20,11 @@ from mtr_operator.domain.ports import (
     LockState,
     Refused,
 )
+from mtr_operator.domain.results.session_record import CAN_ADAPTER, CAN_STAMPS
 from mtr_operator.domain.robot_status import RobotStatus
 
 from .adapter import AdapterSettings, open_adapter
+from .bus_trouble import BusTrouble
 from .can_frame import CanFrame
 from .handle import BusHandle
 from .lock_watch import LockWatch
@@ -34,16 +35,16 @@ from .traffic import TrafficMeter
 
 # Wall time for which observe() waits at most for the bus to catch up.
 CATCH_UP_LIMIT_S = 0.25
-# Robot time for which an error frame makes the bus a suspect one.
-_ERROR_FRAME_EFFECT_S = 1.0
 _NOT_CONNECTED = "The Car's CAN bus is not connected."
+_OUTPUT_IDLE = ("The car's profile names an output that takes the handle, and the CAN adapter only listens: a person "
+                "takes it; choose normal mode (--can-normal) to have it switched.")
 
 
 class CanCarLink(CarLink, FrameSink):
-    """Watches the locks on the CAN bus.
+    """Watches the locks on the CAN bus, and sends nothing on it unless it is opened in normal mode.
 
     profile: name of a shipped car profile, or path of a YAML file. options: passed to python-can's driver.
-    clock: the laptop's, monotonic, in s.
+    clock: the laptop's, monotonic, in s. is_listening, data_bitrate: see AdapterSettings.
 
     Attributes:
         profile: the loaded car profile, None before connect().
@@ -51,18 +52,17 @@ class CanCarLink(CarLink, FrameSink):
     """
 
     def __init__(self, interface: str, channel: str, bitrate: int = 500_000, profile: str = "mtr_demo_car",
-                 options: dict[str, Any] | None = None, *, clock: Callable[[], float] = time.monotonic):
-        self._settings = AdapterSettings(interface, str(channel), bitrate, dict(options or {}))
+                 options: dict[str, Any] | None = None, *, clock: Callable[[], float] = time.monotonic,
+                 is_listening: bool = True, data_bitrate: int | None = None):
+        self._settings = AdapterSettings(interface, str(channel), bitrate, dict(options or {}), is_listening,
+                                         data_bitrate)
         self._profile_name = str(profile)
         self._clock = clock
         self._watch: LockWatch | None = None
         self._reader: CanReader | None = None
         self._changed = threading.Condition()
-        self._fault = ""
-        self._error_frames = self._seen_error_frames = 0
-        self._suspect_until_s = -math.inf
-        self._stamp_s = -math.inf
-        self._traffic = TrafficMeter(bitrate)
+        self._trouble = BusTrouble(self._settings)
+        self._traffic = TrafficMeter(bitrate, data_bitrate)
         self._table = MessageTable()
         self._handle: HandlePort | None = None
         self.profile: CarProfile | None = None
@@ -79,7 +79,7 @@ class CanCarLink(CarLink, FrameSink):
         reader.start()
         self._reader = reader
         output = self.profile.handle_output
-        self._handle = None if output is None else BusHandle(output, self._send)
+        self._handle = None if output is None or self._settings.is_listening else BusHandle(output, self._send)
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
         """See CarLink."""
@@ -89,21 +89,15 @@ class CanCarLink(CarLink, FrameSink):
             raise ConnectionFailed(_NOT_CONNECTED)
         with self._changed:
             watch.status(status, arrival_s)
-            self._changed.wait_for(lambda: bool(self._fault) or watch.has_caught_up(), CATCH_UP_LIMIT_S)
-            self._stamp_s = status.stamp_s
-            if self._error_frames != self._seen_error_frames:
-                self._seen_error_frames = self._error_frames
-                self._suspect_until_s = status.stamp_s + _ERROR_FRAME_EFFECT_S
-            elif self._suspect_until_s > status.stamp_s + _ERROR_FRAME_EFFECT_S:
-                # The robot's clock was set back.
-                self._suspect_until_s = -math.inf
+            self._changed.wait_for(lambda: bool(self._trouble.fault) or watch.has_caught_up(), CATCH_UP_LIMIT_S)
+            self._trouble.status(status.stamp_s)
             return watch.release(self._clock())
 
     @property
     def lock_state(self) -> LockState:
         """See CarLink."""
         with self._changed:
-            return LockState.UNKNOWN if self._watch is None or self._bus_problem() else self._watch.lock_state
+            return LockState.UNKNOWN if self._watch is None or self._trouble.problem else self._watch.lock_state
 
     @property
     def facts(self) -> LockFacts:
@@ -122,7 +116,21 @@ class CanCarLink(CarLink, FrameSink):
             if self.profile is None or self._watch is None:
                 return None
             now = self._traffic.traffic(self._clock(), self.profile.cycle_time_s)
-            return replace(now, clock_problem=self._watch.clock_problem)
+            stamps = self._watch.stamps
+            return replace(now, clock_problem=self._watch.clock_problem, stamps="" if stamps is None else stamps.value)
+
+    @property
+    def record(self) -> Mapping[str, str]:
+        """See CarLink."""
+        stamps = None if self._watch is None else self._watch.stamps
+        timed = {} if stamps is None else {CAN_STAMPS: stamps.text}
+        return {CAN_ADAPTER: self._settings.text, **timed}
+
+    @property
+    def notices(self) -> Sequence[str]:
+        """See CarLink."""
+        has_idle_output = self.profile is not None and self.profile.handle_output is not None and self._handle is None
+        return (_OUTPUT_IDLE,) if has_idle_output else ()
 
     @property
     def messages(self) -> BusMessages | None:
@@ -142,7 +150,7 @@ class CanCarLink(CarLink, FrameSink):
         with self._changed:
             if self._watch is None:
                 return _NOT_CONNECTED
-            return self._bus_problem() or self._watch.problem
+            return self._trouble.problem or self._watch.problem
 
     def close(self) -> None:
         """See CarLink."""
@@ -159,6 +167,7 @@ class CanCarLink(CarLink, FrameSink):
     def frame(self, frame: CanFrame) -> None:
         """See FrameSink."""
         with self._changed:
+            self._trouble.frame(frame)
             if self._watch is not None:
                 self._watch.frame(frame)
                 self._traffic.frame(frame, self._watch.is_lock_message)
@@ -169,12 +178,17 @@ class CanCarLink(CarLink, FrameSink):
     def error_frame(self) -> None:
         """See FrameSink."""
         with self._changed:
-            self._error_frames += 1
+            self._trouble.error_frame()
+
+    def frames_lost(self) -> None:
+        """See FrameSink."""
+        with self._changed:
+            self._trouble.frames_lost()
 
     def fault(self, text: str) -> None:
         """See FrameSink."""
         with self._changed:
-            self._fault = text
+            self._trouble.fault = text
             self._changed.notify_all()
 
     def reopened(self) -> None:
@@ -182,10 +196,3 @@ class CanCarLink(CarLink, FrameSink):
         with self._changed:
             if self._watch is not None:
                 self._watch.restart()
-
-    def _bus_problem(self) -> str:
-        if self._fault:
-            return self._fault
-        if self._stamp_s < self._suspect_until_s:
-            return f"The CAN bus has errors ({self._error_frames} error frames); check bit rate, plug and termination."
-        return ""

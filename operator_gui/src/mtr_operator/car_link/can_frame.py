@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .clocks.stamp_kind import StampKind
+
 
 @dataclass(frozen=True)
 class CanFrame:
     """A received frame.
 
     arrival_s: laptop's monotonic clock. stamp_ms: adapter's clock, starting again each minute; stamp_s: adapter's clock
-    that does not; None when it gives none.
+    that does not; None when it gives none. kind: which clock says when it was on the bus, None for
+    what the stamps tell. is_fd: a CAN FD frame.
     """
 
     can_id: int
@@ -19,8 +22,15 @@ class CanFrame:
     arrival_s: float
     stamp_ms: int | None = None
     stamp_s: float | None = None
+    kind: StampKind | None = None
+    is_fd: bool = False
 
     @property
     def is_stamped(self) -> bool:
         """The adapter gave it a stamp."""
         return self.stamp_ms is not None or self.stamp_s is not None
+
+    @property
+    def stamps(self) -> StampKind:
+        """Which clock says when it was on the bus."""
+        return self.kind or (StampKind.ADAPTER if self.is_stamped else StampKind.ARRIVAL)

@@ -10,6 +10,7 @@ from mtr_operator.domain.robot_status import RobotStatus
 
 from .can_frame import CanFrame
 from .clocks.frame_time import FrameTime
+from .clocks.stamp_kind import StampKind
 from .liveness import Liveness
 from .lock_changes import Change, LockChanges
 from .profile import CarProfile
@@ -118,6 +119,11 @@ class LockWatch:
     def clock_problem(self) -> str:
         """Why the time of frames is not known on the robot's clock; empty when it is."""
         return self._time.problem
+
+    @property
+    def stamps(self) -> StampKind | None:
+        """By which clock frames are timed, None before the first."""
+        return self._time.stamps
 
     def _event(self, change: Change) -> CarEvent:
         reading = change.reading

@@ -16,10 +16,9 @@ from mtr_operator.domain.errors import ConnectionFailed
 from .adapter import shut_down
 from .can_frame import CanFrame
 from .clocks.frame_stamps import frame_time
-from .slcan import FLAG_BUS_ERROR, FLAG_ERROR_PASSIVE, StampedSlcanBus
+from .drivers.health import AdapterHealth
 
 _POLL_S = 0.1
-_FLAGS_PERIOD_S = 0.5
 _REOPEN_PERIOD_S = 1.0
 
 
@@ -33,6 +32,10 @@ class FrameSink(ABC):
     @abstractmethod
     def error_frame(self) -> None:
         """The adapter reports an error on the bus."""
+
+    @abstractmethod
+    def frames_lost(self) -> None:
+        """The adapter reports frames that were lost before they could be read."""
 
     @abstractmethod
     def fault(self, text: str) -> None:
@@ -59,8 +62,7 @@ class CanReader:
         self._stopping = threading.Event()
         self._outgoing: queue.SimpleQueue[tuple[can.Message, threading.Event]] = queue.SimpleQueue()
         self._thread: threading.Thread | None = None
-        self._flags_s = 0.0
-        self._flags = 0
+        self._health = AdapterHealth(interface, sink)
 
     def start(self) -> None:
         """Open the adapter, or raise ConnectionFailed; then read in a thread."""
@@ -114,22 +116,17 @@ class CanReader:
         message = bus.recv(_POLL_S)
         now = self._clock()
         if message is not None and message.is_error_frame:
-            self._sink.error_frame()
+            self._health.error_frame(message)
         elif message is not None and not message.is_remote_frame:
-            arrival_s, stamp_s = frame_time(self._interface, message, now)
-            self._sink.frame(CanFrame(message.arbitration_id, message.is_extended_id, bytes(message.data), arrival_s,
-                                      getattr(bus, "stamp_ms", None), stamp_s))
-        if isinstance(bus, StampedSlcanBus):
-            self._watch_flags(bus, now)
+            self._health.frame()
+            self._sink.frame(self._frame(bus, message, now))
+        self._health.look(bus, now)
 
-    def _watch_flags(self, bus: StampedSlcanBus, now: float) -> None:
-        if now - self._flags_s >= _FLAGS_PERIOD_S:
-            self._flags_s = now
-            bus.request_flags()
-        flags = bus.flags & (FLAG_BUS_ERROR | FLAG_ERROR_PASSIVE)
-        if flags != self._flags:
-            self._flags = flags
-            self._sink.fault(_sentence(flags))
+    def _frame(self, bus: can.BusABC, message: can.Message, now_s: float) -> CanFrame:
+        arrival_s, stamp_s, kind = frame_time(self._interface, message, now_s)
+        stamp_ms = getattr(bus, "stamp_ms", None)
+        return CanFrame(message.arbitration_id, message.is_extended_id, bytes(message.data), arrival_s, stamp_ms,
+                        stamp_s, kind if stamp_ms is None else None, message.is_fd)
 
     def _reopen(self) -> None:
         self._send_all()
@@ -144,13 +141,6 @@ class CanReader:
         except Exception as error:
             self._sink.fault(f"The CAN adapter has failed: {' '.join(str(error).split())}.")
             return
-        self._flags = 0
+        self._health = AdapterHealth(self._interface, self._sink)
         self._sink.reopened()
         self._sink.fault("")
-
-
-def _sentence(flags: int) -> str:
-    if flags & FLAG_BUS_ERROR:
-        return ("The CAN adapter reports errors on the bus or has left it (bus-off); check bit rate, plug and "
-                "termination.")
-    return "The CAN adapter is error-passive; check bit rate, plug and termination." if flags else ""

@@ -50,6 +50,7 @@ def _add_window(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--can-interface", metavar="NAME", help="python-can interface, or simulated for a substitute")
     parser.add_argument("--can-channel", metavar="NAME", help="channel or device of the adapter")
     parser.add_argument("--can-bitrate", type=_whole_number, metavar="N", help="bit/s")
+    _add_can_mode(parser)
     parser.add_argument("--car-profile", metavar="NAME_OR_PATH", help="how the Car's bus tells its lock state")
 
 
@@ -88,6 +89,7 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
                      help="channel or device of the adapter, default %(default)s")
     car.add_argument("--can-bitrate", type=_whole_number, default=500000, metavar="N",
                      help="bit/s, default %(default)s")
+    _add_can_mode(car)
     car.add_argument("--car-profile", default="mtr_demo_car", metavar="NAME_OR_PATH",
                      help="how the Car's bus tells its lock state, default %(default)s")
     car.add_argument("--simulated-car", action="store_true", help="use a substitute inside the application")
@@ -142,6 +144,14 @@ def _add_keys(parser: argparse.ArgumentParser) -> None:
 def _add_unencrypted(parser: argparse._ActionsContainer) -> None:
     parser.add_argument("--unencrypted", action="store_true", default=None,
                         help="without encryption, where the robot allows it too: whoever is in its network can move it")
+
+
+def _add_can_mode(parser: argparse._ActionsContainer) -> None:
+    parser.add_argument("--can-data-bitrate", type=_whole_number, metavar="N",
+                        help="bit/s of CAN FD data; without it classic CAN")
+    parser.add_argument("--can-normal", action="store_true", default=None,
+                        help="take part in the bus, for a bench of one node; without it the adapter only listens, and "
+                             "sends nothing, not even an acknowledge")
 
 
 def _add_check(parser: argparse.ArgumentParser) -> None:

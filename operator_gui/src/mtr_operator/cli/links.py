@@ -23,4 +23,5 @@ def car_link(options: argparse.Namespace) -> CarLink:
         from mtr_operator.car_link.simulated_car import SimulatedCarLink
         return SimulatedCarLink(options.seed)
     from mtr_operator.car_link.bus import CanCarLink
-    return CanCarLink(options.can_interface, options.can_channel, options.can_bitrate, options.car_profile)
+    return CanCarLink(options.can_interface, options.can_channel, options.can_bitrate, options.car_profile,
+                      is_listening=not options.can_normal, data_bitrate=options.can_data_bitrate)

@@ -13,7 +13,8 @@ from mtr_operator.domain.errors import OperatorError
 # Options of the command line by the name of what they fill in.
 _ROBOT = {"host": "robot", "subscriber_port": "subscriber_port", "publisher_port": "publisher_port",
           "is_unencrypted": "unencrypted"}
-_CAN = {"interface": "can_interface", "channel": "can_channel", "bitrate_bps": "can_bitrate", "profile": "car_profile"}
+_CAN = {"interface": "can_interface", "channel": "can_channel", "bitrate_bps": "can_bitrate", "profile": "car_profile",
+        "is_normal": "can_normal", "data_bitrate_bps": "can_data_bitrate"}
 
 
 def open_window(options: argparse.Namespace) -> int:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import enum
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
+from typing import Mapping, Sequence
 
 from .requests import DesiredState
 from .robot_status import RobotStatus
@@ -79,13 +80,14 @@ class BusTraffic:
 
     load: part of the bits that carry frames, without stuffed bits, 0 to 1. cycle_s: of the lock message, None when
     fewer than two have come; expected_cycle_s: by the car's profile. clock_problem: why the time of frames is not known
-    on the robot's clock; empty when it is.
+    on the robot's clock; empty when it is. stamps: by which clock frames are timed; empty before the first.
     """
 
     load: float
     cycle_s: float | None
     expected_cycle_s: float
     clock_problem: str = ""
+    stamps: str = ""
 
 
 @dataclass(frozen=True)
@@ -227,6 +229,16 @@ class CarLink(ABC):
     def traffic(self) -> BusTraffic | None:
         """What comes over the bus; None where there is none to ask."""
         return None
+
+    @property
+    def record(self) -> Mapping[str, str]:
+        """How the Car is watched, for the record of a test: names and texts."""
+        return {}
+
+    @property
+    def notices(self) -> Sequence[str]:
+        """Sentences that the Operator has to know before a test, from connect() on."""
+        return ()
 
     @property
     def messages(self) -> BusMessages | None:

@@ -64,10 +64,10 @@ class Runner:
             self._notebook.add(SESSION, {RECOVERED: self._progress.notice})
         try:
             # Before the robot moves, for mapping too.
-            for sentence in self._scenario.cautions(parameters, self._car.facts):
+            for sentence in (*self._car.notices, *self._scenario.cautions(parameters, self._car.facts)):
                 self._robot.say(f"warning: {sentence}")
             prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
-            record = controller_record(self._loop.status.controller_name)
+            record = {**controller_record(self._loop.status.controller_name), **self._car.record}
             if record:
                 self._notebook.add(SESSION, record)
             lines = self._lines()

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter
 from mtr_operator.domain.ports import CarLink, RobotLink
+from mtr_operator.domain.results.document import OptionalInt
 from mtr_operator.robot_link.address import PUBLISHER_PORT, SUBSCRIBER_PORT, RobotAddress
 
 DEFAULT_BITRATE_BPS = 500_000
@@ -30,12 +31,18 @@ class RobotChoice:
 
 @dataclass(frozen=True)
 class CanChoice:
-    """Adapter on the Car's bus and the profile of the Car; interface as python-can names it, or SIMULATED."""
+    """Adapter on the Car's bus and the profile of the Car; interface as python-can names it, or SIMULATED.
+
+    data_bitrate_bps: of CAN FD, None for classic CAN. is_normal: the adapter takes part in the bus; without it sends
+    nothing.
+    """
 
     interface: str
     channel: str = ""
     bitrate_bps: int = DEFAULT_BITRATE_BPS
     profile: str = DEFAULT_PROFILE
+    data_bitrate_bps: OptionalInt = None
+    is_normal: bool = False
 
 
 @dataclass(frozen=True)
@@ -93,4 +100,5 @@ class LinkOpener:
             from mtr_operator.car_link.simulated_car import SimulatedCarLink
             return SimulatedCarLink()
         from mtr_operator.car_link.bus import CanCarLink
-        return CanCarLink(choice.interface, choice.channel, choice.bitrate_bps, choice.profile)
+        return CanCarLink(choice.interface, choice.channel, choice.bitrate_bps, choice.profile,
+                          is_listening=not choice.is_normal, data_bitrate=choice.data_bitrate_bps)

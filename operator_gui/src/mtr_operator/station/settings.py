@@ -60,8 +60,10 @@ class Settings:
 
     def with_connection(self, connection: Connection) -> Settings:
         """Settings after a success with this connection."""
-        # Doing without encryption is chosen anew at each start.
-        connection = dataclasses.replace(connection, robot=dataclasses.replace(connection.robot, is_unencrypted=False))
+        # Doing without encryption, and taking part in the Car's bus, are chosen anew at each start.
+        can = None if connection.can is None else dataclasses.replace(connection.can, is_normal=False)
+        connection = dataclasses.replace(connection, robot=dataclasses.replace(connection.robot, is_unencrypted=False),
+                                         can=can)
         host = connection.robot.host
         hosts = (host, *(other for other in self.hosts if other != host))[:REMEMBERED_HOSTS]
         return dataclasses.replace(self, connection=connection, hosts=hosts)

@@ -18,8 +18,6 @@ from .clock_map import LEAST_WAY_S, MIN_PAIRS, MIN_SPAN_S, ClockMap
 _WINDOW = 100
 # A rate so near to 1 is that of a robot, whose quartz is far better than any estimate from 10 s.
 _TRUE_RATE_TOLERANCE = 0.02
-# Wall time between the arrival of a frame and its stamp by the reading thread.
-_READ_DELAY_S = 0.002
 _BACKWARD_STEP_S = 1.0
 
 
@@ -36,6 +34,11 @@ class ArrivalClockMap(ClockMap):
         self._pairs: collections.deque[_Pair] = collections.deque(maxlen=_WINDOW)
         self._origin = _Pair(math.nan, math.nan)
         self._rate = 1.0
+
+    @property
+    def rate(self) -> float:
+        """See ClockMap."""
+        return self._rate
 
     def frame(self, local_s: float) -> None:
         """See ClockMap; frames tell this map nothing."""
@@ -66,7 +69,7 @@ class ArrivalClockMap(ClockMap):
             self._rate = 1.0
             self._origin = max(self._pairs, key=lambda pair: pair.stamp_s - pair.arrival_s)
         delay_s = statistics.median(self.to_robot(pair.arrival_s) - pair.stamp_s for pair in self._pairs)
-        self.sigma_s = math.hypot(delay_s, self._rate * _READ_DELAY_S, self._rate * LEAST_WAY_S)
+        self.sigma_s = math.hypot(delay_s, self._rate * LEAST_WAY_S)
 
 
 def _edge_over_mean(pairs: list[_Pair]) -> tuple[_Pair, _Pair]:

@@ -33,6 +33,11 @@ class ClockMap(ABC):
     def is_ready(self) -> bool:
         """False until enough pairs are known."""
 
+    @property
+    def rate(self) -> float:
+        """Robot time per local time."""
+        return 1.0
+
     @abstractmethod
     def to_robot(self, local_s: float) -> float:
         """Robot's time at a local time; only when is_ready."""

@@ -11,6 +11,8 @@ from typing import NamedTuple
 
 import can
 
+from .stamp_kind import StampKind
+
 # The kernel stamps frames with the laptop's clock of day (SO_TIMESTAMP, Linux' Documentation/networking/can.rst).
 _BY_KERNEL = frozenset({"socketcan"})
 # Their drivers hand the adapter's own clock on, in s from any origin.
@@ -20,17 +22,19 @@ _MAX_AGE_S = 1.0
 
 
 class FrameTime(NamedTuple):
-    """arrival_s: laptop's monotonic clock; stamp_s: adapter's clock, None when it has none."""
+    """arrival_s: laptop's monotonic clock; stamp_s: adapter's clock, None when it has none. kind: which one counts."""
 
     arrival_s: float
     stamp_s: float | None
+    kind: StampKind = StampKind.ARRIVAL
 
 
 def frame_time(interface: str, message: can.Message, now_s: float) -> FrameTime:
     """Time of a frame that was read at now_s of the laptop's monotonic clock."""
     if interface in _BY_ADAPTER and math.isfinite(message.timestamp) and message.timestamp > 0.0:
-        return FrameTime(now_s, message.timestamp)
+        return FrameTime(now_s, message.timestamp, StampKind.ADAPTER)
     if interface in _BY_KERNEL:
         age_s = time.time() - message.timestamp
-        return FrameTime(now_s - age_s if 0.0 <= age_s <= _MAX_AGE_S else now_s, None)
+        if 0.0 <= age_s <= _MAX_AGE_S:
+            return FrameTime(now_s - age_s, None, StampKind.KERNEL)
     return FrameTime(now_s, None)

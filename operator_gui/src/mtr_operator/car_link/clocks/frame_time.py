@@ -12,6 +12,7 @@ from .arrival_clock import ArrivalClockMap
 from .clock_map import LEAST_WAY_S, ClockMap
 from .delay_watch import DelayWatch
 from .robot_clock import RobotClock, sent_s
+from .stamp_kind import StampKind
 
 # Adapters hand frames on in batches, each 16 ms with common USB chips, 20 ms in simulation.
 _ADAPTER_STEP_S = 0.022
@@ -32,6 +33,7 @@ class FrameTime:
     Attributes:
         stamp_s: robot's time up to which Statuses have come.
         newest_s: local time of the newest frame, NaN before the first.
+        stamps: by which clock its frames are timed, None before the first.
     """
 
     def __init__(self) -> None:
@@ -47,6 +49,7 @@ class FrameTime:
         self._why_unmapped = ""
         self._in_doubt_since_s = math.inf
         self._is_stamped = False
+        self.stamps: StampKind | None = None
         self.newest_s = math.nan
 
     def goes_on_with(self, frame: CanFrame) -> bool:
@@ -61,6 +64,7 @@ class FrameTime:
     def frame(self, frame: CanFrame) -> tuple[float, bool]:
         """The frame's local time, and whether the adapter's clock was set before it."""
         local_s, was_set = self._local_s(frame), False
+        self.stamps = frame.stamps
         if self._is_by_adapter and self._delays.add(local_s, frame.arrival_s):
             was_set = True
             self._unwrapper = StampUnwrapper()
@@ -94,8 +98,10 @@ class FrameTime:
 
     def sigma_with(self, spread_s: float) -> float:
         """1 sigma of a mapped time that lies anywhere within a spread, NaN while there is no map."""
+        if self._map is None or self.stamps is None:
+            return math.nan
         way_s = LEAST_WAY_S if self._is_by_adapter else 0.0
-        return math.nan if self._map is None else math.hypot(self._map.sigma_s, way_s, spread_s / math.sqrt(12.0))
+        return math.hypot(self._map.sigma_s, way_s, self._map.rate * self.stamps.sigma_s, spread_s / math.sqrt(12.0))
 
     def to_robot(self, local_s: float) -> float:
         """Robot's time at a local time; only when is_ready."""

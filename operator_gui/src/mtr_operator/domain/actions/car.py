@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from dataclasses import dataclass
-from typing import Iterator
+from typing import Iterator, Mapping, Sequence
 
 from ..errors import ConnectionFailed, LinkLost, RobotFailed
 from ..ports import CarEvent, LockFacts, LockState
@@ -80,6 +80,16 @@ class Car:
     def facts(self) -> LockFacts:
         """What is known of it beforehand."""
         return self._loop.car_link.facts
+
+    @property
+    def notices(self) -> Sequence[str]:
+        """What the Operator has to know of its bus before a test."""
+        return self._loop.car_link.notices
+
+    @property
+    def record(self) -> Mapping[str, str]:
+        """How it is watched, for the record of the test."""
+        return self._loop.car_link.record
 
     def dimensions(self) -> CarDimensions:
         """Length and width as the robot measured them; Robot.prepare has waited for them."""

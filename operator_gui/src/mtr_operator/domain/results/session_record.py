@@ -16,6 +16,8 @@ REFUSED_COMMANDS = "messages that the robot refused"
 # Only in the record of a test over an encrypted link.
 LINK, CONTROLLED_BY = "link", "robot controlled with the key of"
 ENCRYPTED = "encrypted"
+# Only in the record of a test on a real bus: how the adapter was opened, and which clock timed its frames.
+CAN_ADAPTER, CAN_STAMPS = "CAN adapter", "CAN frames timed by"
 REFUSED_FRAMES = "frames of the Car that were not believed"
 
 

@@ -131,6 +131,8 @@ class BusWindow(QDialog):
         if view.messages.others:
             parts.append(self.tr("{count} frames of further messages are not shown.").format(
                 count=view.messages.others))
+        if view.traffic is not None and view.traffic.stamps:
+            parts.append(self.tr("Frames are timed by {clock}.").format(clock=translated(view.traffic.stamps)))
         return " ".join(parts)
 
     def _newest(self, view: BusView) -> str:

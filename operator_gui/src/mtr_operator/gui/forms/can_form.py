@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PyQt5.QtCore import pyqtSignal
-from PyQt5.QtWidgets import QComboBox, QLabel, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QCheckBox, QComboBox, QLabel, QVBoxLayout, QWidget
 
 from mtr_operator.car_link.profile import profile_names
 from mtr_operator.station.connection import DEFAULT_BITRATE_BPS, SIMULATED, CanChoice
@@ -17,12 +17,13 @@ _INTERFACES = ("pcan", "socketcan", "slcan", "kvaser", "vector", "ixxat")
 _CHANNELS = {"pcan": "PCAN_USBBUS1", "socketcan": "can0", "slcan": "/dev/ttyACM0", "kvaser": "0", "vector": "0",
              "ixxat": "0"}
 _BITRATES = ("125000", "250000", "500000", "1000000")
+_DATA_BITRATES = ("2000000", "5000000")
 
 
 class CanForm(QWidget):
-    """Attributes: interface, bitrate, profile: combo boxes. channel: field. Signals: submitted: Enter was pressed.
+    """Attributes: interface, bitrate, data_bitrate, profile: combo boxes. channel: field. normal: check box.
 
-    changed: something else was chosen or typed.
+    Signals: submitted: Enter was pressed. changed: something else was chosen or typed.
     """
 
     submitted = pyqtSignal()
@@ -39,6 +40,12 @@ class CanForm(QWidget):
         self.interface.addItem(self.tr("Simulated Car (to try the application)"), SIMULATED)
         self.channel = Field(self.tr("Channel"), self.tr("as the adapter's driver calls it"))
         self.bitrate = self._editable(_BITRATES)
+        self.data_bitrate = self._editable(_DATA_BITRATES)
+        self.data_bitrate.insertItem(0, self.tr("classic CAN"), 0)
+        self.data_bitrate.setCurrentIndex(0)
+        self.normal = QCheckBox(self.tr("Take part in the bus (a bench of one node)"))
+        self.normal.setToolTip(self.tr("The adapter acknowledges frames. Without it the adapter only listens and sends "
+                                       "nothing: a Car does not notice it."))
         self.profile = self._editable(profile_names())
         self.interface.currentIndexChanged.connect(self._suit_interface)
         self.channel.edit.returnPressed.connect(self.submitted)
@@ -51,11 +58,14 @@ class CanForm(QWidget):
         self._add(layout, self.tr("CAN adapter"), self.interface, self._hint)
         layout.addWidget(self.channel)
         self._add(layout, self.tr("Bit rate in bit/s"), self.bitrate)
+        self._add(layout, self.tr("CAN FD data in bit/s"), self.data_bitrate)
         self._add(layout, self.tr("Car profile"), self.profile)
+        layout.addWidget(self.normal)
         layout.addStretch(1)
         self._suit_interface()
         self.channel.changed.connect(self.changed)
-        for box in (self.interface, self.bitrate, self.profile):
+        self.normal.toggled.connect(lambda _: self.changed.emit())
+        for box in (self.interface, self.bitrate, self.data_bitrate, self.profile):
             box.currentTextChanged.connect(lambda _: self.changed.emit())
         self.changed.connect(lambda: self.channel.show_fault(""))
 
@@ -89,6 +99,9 @@ class CanForm(QWidget):
         self.channel.edit.setText(choice.channel)
         self.bitrate.setCurrentText(str(choice.bitrate_bps))
         self.profile.setCurrentText(choice.profile)
+        if choice.data_bitrate_bps is not None:
+            self.data_bitrate.setCurrentText(str(choice.data_bitrate_bps))
+        self.normal.setChecked(choice.is_normal)
 
     @property
     def choice(self) -> CanChoice | None:
@@ -96,9 +109,13 @@ class CanForm(QWidget):
         interface = self.interface.currentData()
         if interface is None:
             return None
-        bitrate = self.bitrate.currentText().strip()
-        return CanChoice(interface, self.channel.text.strip(), int(bitrate) if bitrate.isdecimal() else 0,
-                         self.profile.currentText().strip())
+        return CanChoice(interface, self.channel.text.strip(), _rate(self.bitrate), self.profile.currentText().strip(),
+                         self._data_bitrate, self.normal.isChecked())
+
+    @property
+    def _data_bitrate(self) -> int | None:
+        is_classic = self.data_bitrate.currentText() in ("", self.data_bitrate.itemText(0))
+        return None if is_classic else _rate(self.data_bitrate)
 
     def _index_of(self, interface: str | None) -> int:
         index = self.interface.findData(interface)
@@ -110,9 +127,14 @@ class CanForm(QWidget):
     def _suit_interface(self) -> None:
         interface = self.interface.currentData()
         needs_adapter = interface not in (None, SIMULATED)
-        for widget in (self.channel, self.bitrate, self.profile):
+        for widget in (self.channel, self.bitrate, self.data_bitrate, self.profile, self.normal):
             widget.setEnabled(needs_adapter)
         self._hint.setVisible(interface is None)
         known = self.channel.text in ("", *_CHANNELS.values())
         if needs_adapter and known:
             self.channel.edit.setText(_CHANNELS.get(interface, ""))
+
+
+def _rate(box: QComboBox) -> int:
+    text = box.currentText().strip()
+    return int(text) if text.isdecimal() else 0

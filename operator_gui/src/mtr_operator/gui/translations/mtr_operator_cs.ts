@@ -95,29 +95,34 @@
         <translation>Rámce dalších zpráv, které se nezobrazují: {count}.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="138"/>
+        <location filename="../bus/bus_window.py" line="140"/>
         <source>Nothing is known of the locks yet.</source>
         <translation>O zámcích zatím není nic známo.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="140"/>
+        <location filename="../bus/bus_window.py" line="142"/>
         <source>Now: {locks}.</source>
         <translation>Nyní: {locks}.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="141"/>
+        <location filename="../bus/bus_window.py" line="143"/>
         <source>Now: {locks}, key at {distance} m.</source>
         <translation>Nyní: {locks}, klíč ve vzdálenosti {distance} m.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="146"/>
+        <location filename="../bus/bus_window.py" line="148"/>
         <source>Last change {age} s ago: {locks}.</source>
         <translation>Poslední změna před {age} s: {locks}.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="146"/>
+        <location filename="../bus/bus_window.py" line="148"/>
         <source>Last change {age} s ago: {locks}, key at {distance} m.</source>
         <translation>Poslední změna před {age} s: {locks}, klíč ve vzdálenosti {distance} m.</translation>
+    </message>
+    <message>
+        <location filename="../bus/bus_window.py" line="135"/>
+        <source>Frames are timed by {clock}.</source>
+        <translation>Čas rámců udávají {clock}.</translation>
     </message>
 </context>
 <context>
@@ -216,44 +221,64 @@
 <context>
     <name>CanForm</name>
     <message>
-        <location filename="../forms/can_form.py" line="36"/>
+        <location filename="../forms/can_form.py" line="37"/>
         <source>None yet</source>
         <translation>Zatím žádný</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="39"/>
+        <location filename="../forms/can_form.py" line="40"/>
         <source>Simulated Car (to try the application)</source>
         <translation>Simulované auto (na vyzkoušení aplikace)</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="40"/>
+        <location filename="../forms/can_form.py" line="41"/>
         <source>Channel</source>
         <translation>Kanál</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="40"/>
+        <location filename="../forms/can_form.py" line="41"/>
         <source>as the adapter&apos;s driver calls it</source>
         <translation>jak jej nazývá ovladač adaptéru</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="45"/>
+        <location filename="../forms/can_form.py" line="52"/>
         <source>Without an adapter everything but a test works.</source>
         <translation>Bez adaptéru funguje vše kromě testu.</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="51"/>
+        <location filename="../forms/can_form.py" line="58"/>
         <source>CAN adapter</source>
         <translation>Adaptér CAN</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="53"/>
+        <location filename="../forms/can_form.py" line="60"/>
         <source>Bit rate in bit/s</source>
         <translation>Přenosová rychlost v bit/s</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="54"/>
+        <location filename="../forms/can_form.py" line="62"/>
         <source>Car profile</source>
         <translation>Profil auta</translation>
+    </message>
+    <message>
+        <location filename="../forms/can_form.py" line="44"/>
+        <source>classic CAN</source>
+        <translation>klasická CAN</translation>
+    </message>
+    <message>
+        <location filename="../forms/can_form.py" line="46"/>
+        <source>Take part in the bus (a bench of one node)</source>
+        <translation>Účastnit se sběrnice (stůl s jedním uzlem)</translation>
+    </message>
+    <message>
+        <location filename="../forms/can_form.py" line="47"/>
+        <source>The adapter acknowledges frames. Without it the adapter only listens and sends nothing: a Car does not notice it.</source>
+        <translation>Adaptér potvrzuje rámce. Jinak jen naslouchá a nic nevysílá: auto si ho nevšimne.</translation>
+    </message>
+    <message>
+        <location filename="../forms/can_form.py" line="61"/>
+        <source>CAN FD data in bit/s</source>
+        <translation>Data CAN FD v bit/s</translation>
     </message>
 </context>
 <context>
@@ -4453,6 +4478,76 @@
         <location filename="../texts/pairing.py" line="5"/>
         <source>Others may read the secret key in {}; say chmod 600 {}, or delete it and pair anew.</source>
         <translation>Tajný klíč v {} mohou číst i jiní; spusťte chmod 600 {}, nebo ho smažte a spárujte znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>the adapter&apos;s clock</source>
+        <translation>hodiny adaptéru</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>the kernel&apos;s clock</source>
+        <translation>hodiny jádra systému</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>this computer&apos;s clock when they are read</source>
+        <translation>hodiny tohoto počítače při čtení</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>CAN FD data bit rate is {}; allowed is {}, the bit rate, to {} bit/s.</source>
+        <translation>Rychlost dat CAN FD je {}; povoleno je {}, tedy rychlost sběrnice, až {} bit/s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>python-can&apos;s driver {} cannot open an adapter so that it only listens; use one of {}, or choose normal mode (--can-normal) for a bench of one node.</source>
+        <translation>Ovladač {} knihovny python-can neumí otevřít adaptér tak, aby jen naslouchal; použijte některý z {}, nebo zvolte normální režim (--can-normal) pro stůl s jedním uzlem.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>python-can&apos;s driver {} has no CAN FD; use one of {}, or leave the data bit rate out for classic CAN.</source>
+        <translation>Ovladač {} knihovny python-can nemá CAN FD; použijte některý z {}, nebo pro klasickou CAN rychlost dat vynechejte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The PCAN adapter {} does not take the order to listen only; use another adapter, or choose normal mode (--can-normal) for a bench of one node.</source>
+        <translation>Adaptér PCAN {} nepřijal příkaz jen naslouchat; použijte jiný adaptér, nebo zvolte normální režim (--can-normal) pro stůl s jedním uzlem.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>Whether the CAN interface {} only listens is not known, for the program ip does not tell; see that it is there and up, install iproute2, or choose normal mode (--can-normal) for a bench of one node.</source>
+        <translation>Není známo, zda rozhraní CAN {} jen naslouchá, protože program ip to neříká; ověřte, že existuje a je zapnuté, nainstalujte iproute2, nebo zvolte normální režim (--can-normal) pro stůl s jedním uzlem.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN interface {} takes part in the bus; have it only listen by {}, or choose normal mode (--can-normal) for a bench of one node.</source>
+        <translation>Rozhraní CAN {} se účastní sběrnice; nechte ho jen naslouchat pomocí {}, nebo zvolte normální režim (--can-normal) pro stůl s jedním uzlem.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN interface {} runs at {} bit/s, and {} bit/s is chosen; set one of them as the Car&apos;s bus is.</source>
+        <translation>Rozhraní CAN {} běží rychlostí {} bit/s, zvoleno je {} bit/s; nastavte jedno z nich podle sběrnice auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN adapter has lost frames: they were not read in time; end other programs, or use an adapter with more room for them.</source>
+        <translation>Adaptér CAN ztratil rámce: nebyly přečteny včas; ukončete jiné programy, nebo použijte adaptér s větší pamětí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The Car&apos;s bus carries CAN FD frames, and the adapter was opened for classic CAN; give the data bit rate of the bus.</source>
+        <translation>Na sběrnici auta jsou rámce CAN FD a adaptér byl otevřen pro klasickou CAN; zadejte rychlost dat sběrnice.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN bus brings error frames ({}) and not one frame at {} bit/s: the bit rate is another one, or the bus carries CAN FD.</source>
+        <translation>Ze sběrnice CAN přicházejí chybové rámce ({}) a ani jeden rámec při {} bit/s: rychlost je jiná, nebo sběrnice používá CAN FD.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The car&apos;s profile names an output that takes the handle, and the CAN adapter only listens: a person takes it; choose normal mode (--can-normal) to have it switched.</source>
+        <translation>Profil auta uvádí výstup, který bere za kliku, a adaptér CAN jen naslouchá: vezme za ni člověk; k ovládání výstupu zvolte normální režim (--can-normal).</translation>
     </message>
 </context>
 <context>

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from typing import Mapping, Sequence
+
 from mtr_operator.domain.ports import (
     BusMessages,
     BusTraffic,
@@ -53,6 +55,16 @@ class WatchedCarLink(CarLink):
     def traffic(self) -> BusTraffic | None:
         """See CarLink."""
         return self._link.traffic
+
+    @property
+    def record(self) -> Mapping[str, str]:
+        """See CarLink."""
+        return self._link.record
+
+    @property
+    def notices(self) -> Sequence[str]:
+        """See CarLink."""
+        return self._link.notices
 
     @property
     def messages(self) -> BusMessages | None:

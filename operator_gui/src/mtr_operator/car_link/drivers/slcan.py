@@ -20,12 +20,17 @@ _LINE_END = re.compile(rb"[\r\a]")
 _MAX_LINE = 512
 _SERIAL_TIMEOUT_S = 0.05
 _MAX_CLASSIC_DATA = 8
+# Bytes by the length code of a CAN FD frame, ISO 11898-1.
+_FD_LENGTHS = (*range(9), 12, 16, 20, 24, 32, 48, 64)
 _STAMP_DIGITS = 4
 _STAMP_LIMIT_MS = 60_000
 # Characters before the data of each kind of frame line.
-_HEAD = {"t": 5, "r": 5, "T": 10, "R": 10}
+_HEAD = {"t": 5, "r": 5, "T": 10, "R": 10, "d": 5, "D": 10, "b": 5, "B": 10}
+_WITH_DATA, _FD = "tTdDbB", "dDbB"
 
-# Bits of the answer to F.
+# Bits of the answer to F; the first two are cleared by it.
+FLAG_RECEIVE_FULL = 0x01
+FLAG_DATA_OVERRUN = 0x08
 FLAG_ERROR_PASSIVE = 0x20
 FLAG_BUS_ERROR = 0x80
 
@@ -36,12 +41,15 @@ class StampedSlcanBus(slcanBus):
     Attributes:
         stamp_ms: adapter's stamp of the frame that recv returned last, None when it has none.
         flags: newest answer to request_flags(), 0 before the first.
+        overruns: answers that told of lost frames.
         answers: lines that make sense as slcan; malformed: lines that do not.
     """
 
-    def __init__(self, channel: str, **options: Any):
+    def __init__(self, channel: str, data_bitrate: int | None = None, **options: Any):
+        """data_bitrate: in bit/s, for adapters with CAN FD."""
+        self._data_bitrate = data_bitrate
         self.stamp_ms: int | None = None
-        self.flags = 0
+        self.flags = self.overruns = 0
         self.answers = 0
         self.malformed = 0
         super().__init__(channel, timeout=_SERIAL_TIMEOUT_S, **{"sleep_after_open": 0.0, **options})
@@ -52,7 +60,7 @@ class StampedSlcanBus(slcanBus):
             self.serialPortOrig.exclusive = True
         except serial.SerialException:
             raise can.CanInitializationError("another program uses it") from None
-        super().set_bitrate(bitrate, data_bitrate)
+        super().set_bitrate(bitrate, data_bitrate or self._data_bitrate)
 
     def open(self) -> None:
         """Open the channel with time stamps; an adapter without them refuses Z1 and opens all the same."""
@@ -100,6 +108,7 @@ class StampedSlcanBus(slcanBus):
     def _take_answer(self, line: str) -> None:
         if re.fullmatch(r"F[0-9A-Fa-f]{2}\r", line):
             self.flags = int(line[1:3], 16)
+            self.overruns += bool(self.flags & (FLAG_RECEIVE_FULL | FLAG_DATA_OVERRUN))
         elif not re.fullmatch(r"(z|Z|[VvN][0-9A-Za-z]*)?[\r\a]", line):
             self.malformed += 1
             return
@@ -109,10 +118,11 @@ class StampedSlcanBus(slcanBus):
 def _stamp_of(line: str) -> int | None:
     """Stamp at the end of a frame's line, None without; ValueError when the line is no frame."""
     head = _HEAD[line[0]]
-    length = int(line[head - 1])
-    end = head + (2 * length if line[0] in "tT" else 0)
+    is_fd = line[0] in _FD
+    length = _FD_LENGTHS[int(line[head - 1], 16)] if is_fd else int(line[head - 1])
+    end = head + (2 * length if line[0] in _WITH_DATA else 0)
     stamp = line[end:-1]
-    if length > _MAX_CLASSIC_DATA or len(line) - 1 not in (end, end + _STAMP_DIGITS):
+    if not is_fd and length > _MAX_CLASSIC_DATA or len(line) - 1 not in (end, end + _STAMP_DIGITS):
         raise ValueError(line)
     stamp_ms = int(stamp, 16) if stamp else None
     if stamp_ms is not None and stamp_ms >= _STAMP_LIMIT_MS:

@@ -1,0 +1,77 @@
+"""Options with which python-can's drivers open an adapter that only listens, and one for CAN FD.
+
+An adapter that listens sends nothing: no frame, no acknowledge and no error flag. From the drivers' sources in
+python-can 4.6; tried with slcan and the virtual bus alone.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Any, Callable, Mapping
+
+import can
+
+SLCAN, PCAN, SOCKETCAN = "slcan", "pcan", "socketcan"
+_LISTENING: Mapping[str, Mapping[str, Any]] = {
+    SLCAN: {"listen_only": True},
+    PCAN: {"state": can.BusState.PASSIVE},
+    "kvaser": {"driver_mode": False},  # its name for silent, DRIVER_MODE_SILENT
+    "vector": {"listen_only": True},
+    "systec": {"state": can.BusState.PASSIVE},
+    "nixnet": {"listen_only": True},
+    "cantact": {"monitor": True},
+    "seeedstudio": {"operation_mode": "silent"},
+    # The kernel opens the adapter; kernel_link looks how.
+    SOCKETCAN: {},
+    # There is no wire, and nobody acknowledges.
+    "virtual": {},
+    "udp_multicast": {}}
+_PCAN_CLOCK_HZ = 80_000_000
+# CiA 601-3 has both sample points at 80 % for such clocks.
+_SAMPLE_POINT_PERCENT = 80.0
+
+
+class Unsupported(Exception):
+    """The driver cannot do it; the text is a sentence."""
+
+
+def listening_options(interface: str) -> dict[str, Any]:
+    """Options of an adapter that only listens; Unsupported where the driver has no such state."""
+    if interface not in _LISTENING:
+        raise Unsupported(f"python-can's driver {interface} cannot open an adapter so that it only listens; use one of "
+                          f"{', '.join(sorted(_LISTENING))}, or choose normal mode (--can-normal) for a bench of one "
+                          "node.")
+    return dict(_LISTENING[interface])
+
+
+def takes_part(interface: str, bus: Any) -> bool:
+    """True when an adapter was told to only listen, and its driver says that it does not."""
+    if interface != PCAN:
+        return False
+    # python-can does not look whether the driver has obeyed.
+    from can.interfaces.pcan.basic import PCAN_ERROR_OK, PCAN_LISTEN_ONLY, PCAN_PARAMETER_ON
+    result, mode = bus.m_objPCANBasic.GetValue(bus.m_PcanHandle, PCAN_LISTEN_ONLY)
+    return bool(result != PCAN_ERROR_OK or mode != PCAN_PARAMETER_ON)
+
+
+def fd_options(interface: str, bitrate_bps: int, data_bitrate_bps: int) -> dict[str, Any]:
+    """Options for CAN FD; Unsupported where the driver has none, ValueError for rates that it cannot have."""
+    if interface not in _FD:
+        raise Unsupported(f"python-can's driver {interface} has no CAN FD; use one of {', '.join(sorted(_FD))}, or "
+                          "leave the data bit rate out for classic CAN.")
+    return _FD[interface](bitrate_bps, data_bitrate_bps)
+
+
+def _pcan(bitrate_bps: int, data_bitrate_bps: int) -> dict[str, Any]:
+    return {"timing": can.BitTimingFd.from_sample_point(_PCAN_CLOCK_HZ, bitrate_bps, _SAMPLE_POINT_PERCENT,
+                                                        data_bitrate_bps, _SAMPLE_POINT_PERCENT)}
+
+
+_FD: Mapping[str, Callable[[int, int], dict[str, Any]]] = {
+    SLCAN: lambda _, data_bps: {"data_bitrate": data_bps},
+    PCAN: _pcan,
+    "kvaser": lambda _, data_bps: {"fd": True, "data_bitrate": data_bps},
+    "vector": lambda _, data_bps: {"fd": True, "data_bitrate": data_bps},
+    "nixnet": lambda _, data_bps: {"fd": True, "fd_bitrate": data_bps},
+    SOCKETCAN: lambda *_: {"fd": True},
+    "virtual": lambda *_: {"protocol": can.CanProtocol.CAN_FD},
+    "udp_multicast": lambda *_: {"fd": True}}

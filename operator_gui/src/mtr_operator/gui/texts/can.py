@@ -1,0 +1,31 @@
+"""Sentences on the adapter of the Car's bus and how it is opened, with {} for what varies."""
+# SPDX-License-Identifier: Apache-2.0
+from PyQt5.QtCore import QT_TRANSLATE_NOOP
+
+SENTENCES = (
+    QT_TRANSLATE_NOOP("Sentence", "the adapter's clock"),
+    QT_TRANSLATE_NOOP("Sentence", "the kernel's clock"),
+    QT_TRANSLATE_NOOP("Sentence", "this computer's clock when they are read"),
+    QT_TRANSLATE_NOOP("Sentence", "CAN FD data bit rate is {}; allowed is {}, the bit rate, to {} bit/s."),
+    QT_TRANSLATE_NOOP("Sentence", "python-can's driver {} cannot open an adapter so that it only listens; use one of "
+                                  "{}, or choose normal mode (--can-normal) for a bench of one node."),
+    QT_TRANSLATE_NOOP("Sentence", "python-can's driver {} has no CAN FD; use one of {}, or leave the data bit rate out "
+                                  "for classic CAN."),
+    QT_TRANSLATE_NOOP("Sentence", "The PCAN adapter {} does not take the order to listen only; use another adapter, or "
+                                  "choose normal mode (--can-normal) for a bench of one node."),
+    QT_TRANSLATE_NOOP("Sentence", "Whether the CAN interface {} only listens is not known, for the program ip does not "
+                                  "tell; see that it is there and up, install iproute2, or choose normal mode "
+                                  "(--can-normal) for a bench of one node."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN interface {} takes part in the bus; have it only listen by {}, or choose "
+                                  "normal mode (--can-normal) for a bench of one node."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN interface {} runs at {} bit/s, and {} bit/s is chosen; set one of them as "
+                                  "the Car's bus is."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN adapter has lost frames: they were not read in time; end other programs, or "
+                                  "use an adapter with more room for them."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car's bus carries CAN FD frames, and the adapter was opened for classic CAN; "
+                                  "give the data bit rate of the bus."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN bus brings error frames ({}) and not one frame at {} bit/s: the bit rate is "
+                                  "another one, or the bus carries CAN FD."),
+    QT_TRANSLATE_NOOP("Sentence", "The car's profile names an output that takes the handle, and the CAN adapter only "
+                                  "listens: a person takes it; choose normal mode (--can-normal) to have it switched."),
+)
