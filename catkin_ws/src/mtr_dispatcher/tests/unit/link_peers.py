@@ -13,7 +13,7 @@ from mtr_dispatcher.access.key_folder import KeyFolder
 from mtr_dispatcher.link_server import LinkServer, Ports
 from mtr_proto.keys import KeyPair
 
-LIMIT_S = 20.0
+LIMIT_S = 5.0
 COMMANDS_PER_S = 500
 END = (zmq.EVENT_HANDSHAKE_SUCCEEDED | zmq.EVENT_HANDSHAKE_FAILED_AUTH | zmq.EVENT_HANDSHAKE_FAILED_PROTOCOL
        | zmq.EVENT_HANDSHAKE_FAILED_NO_DETAIL)

@@ -8,9 +8,13 @@ from link_peers import COMMANDS_PER_S, LIMIT_S, Peer, Robot
 
 from mtr_dispatcher.access.authorised_keys import Role
 from mtr_dispatcher.access.gate import MAX_CONNECTION_BURST
+from mtr_dispatcher.access.handshakes import GONE, NOT_ENCRYPTED
 from mtr_dispatcher.command_codec import MAX_MESSAGE_BYTES
 from mtr_proto.keys import KeyPair
 
+# The greeting of ZMTP 3.0: signature, version, mechanism NULL, no server (rfc.zeromq.org/spec/23).
+ZMTP_VERSION_BYTES = 11
+PLAIN_GREETING = b"\xff" + bytes(8) + b"\x7f\x03\x00" + b"NULL".ljust(20, b"\0") + bytes(32)
 
 @pytest.fixture
 def context():
@@ -48,7 +52,20 @@ def test_unknown_key_is_refused_and_counted(robot, context):
 
 def test_client_without_encryption_is_refused_and_counted(robot, context):
     assert not Peer(context, robot, None).is_in
-    assert robot.failed() == ["not encrypted for this robot"]
+    assert set(robot.failed()) <= {NOT_ENCRYPTED, GONE}
+
+
+def test_plain_greeting_is_refused_and_counted(robot):
+    """It stays, unlike ZeroMQ's own client, which may be gone before the robot has read what it is."""
+    with socket.create_connection(("127.0.0.1", robot.ports[1])) as plain:
+        plain.sendall(PLAIN_GREETING)
+        assert robot.failed() == [NOT_ENCRYPTED]
+
+
+def test_peer_that_goes_before_it_has_said_what_it_is_is_counted(robot):
+    with socket.create_connection(("127.0.0.1", robot.ports[1])) as brief:
+        brief.sendall(PLAIN_GREETING[:ZMTP_VERSION_BYTES])
+    assert robot.failed() == [GONE]
 
 
 def test_client_that_takes_another_robot_for_this_one_is_not_let_in(robot, context):
@@ -58,7 +75,7 @@ def test_client_that_takes_another_robot_for_this_one_is_not_let_in(robot, conte
     peer.setsockopt(zmq.LINGER, 0)
     peer.curve_publickey, peer.curve_secretkey, peer.curve_serverkey = *keys, other
     peer.connect(f"tcp://127.0.0.1:{robot.ports[1]}")
-    assert "not encrypted for this robot" in robot.failed()
+    assert NOT_ENCRYPTED in robot.failed()
 
 
 def test_revoked_key_is_let_in_no_more_and_its_messages_count_for_nothing(robot, context):
