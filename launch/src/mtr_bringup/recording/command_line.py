@@ -25,9 +25,11 @@ from ..graph_watch.environment import as_around
 from ..preflight.command_line import master_answers
 from .bags import decisions_in
 from .decisions import differences
+from .player import Player
 from .profiles import DEFAULT_LIMIT_MB, MAX_LIMIT_MB, MIN_LIMIT_MB, PROFILES, CannotRecord, check_room, command_of
 
 CANNOT = 2
+MIN_RATE, MAX_RATE = 0.05, 20.0
 # Of nodes that are started again in a replay.
 KEPT_PARAMETERS = (names.ROBOT_DESCRIPTION, "/localization", "/car_locator", "/state_machine")
 
@@ -100,6 +102,26 @@ def run(command: List[str]) -> int:
     if asked:
         started[0].send_signal(signal.SIGINT)
     return started[0].wait()
+
+
+def play(arguments: Optional[List[str]] = None) -> int:
+    """rosrun mtr_bringup play BAG... [--rate R]: the inputs of a recording for localization, Car locator and state
+    machine, which replay.launch starts. Never faster than they follow, so that a busy machine takes longer and decides
+    the same."""
+    parser = argparse.ArgumentParser(prog="play", description=play.__doc__)
+    parser.add_argument("bags", type=pathlib.Path, nargs="+", help="files of one recording")
+    parser.add_argument("--rate", type=float, default=1.0, help="recorded seconds per second at most (1)")
+    options = parser.parse_args(rospy.myargv(sys.argv)[1:] if arguments is None else arguments)
+    problem = range_problem("Option --rate", options.rate, MIN_RATE, MAX_RATE, "")
+    if problem:
+        parser.error(problem)
+    try:
+        rospy.init_node("play")
+        rospy.loginfo(Player(options.bags, options.rate).play())
+    except RobotError as error:
+        print(error, file=sys.stderr)
+        return CANNOT
+    return 0
 
 
 def compare(arguments: Optional[List[str]] = None) -> int:

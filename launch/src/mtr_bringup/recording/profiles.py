@@ -37,6 +37,10 @@ class CannotRecord(RobotError):
     """Nothing is recorded; the sentence says why and what to do."""
 
 
+class CannotReplay(RobotError):
+    """Nothing is replayed; the sentence says why and what to do."""
+
+
 def check_room(folder: pathlib.Path, limit_mb: float, free_bytes: float) -> None:
     """CannotRecord unless the whole recording fits."""
     free_mb, needed_mb = free_bytes / MEGA, limit_mb + RESERVE_MB

@@ -1,0 +1,158 @@
+"""Plays the inputs of a recording, and waits for the nodes that decide anew."""
+# SPDX-License-Identifier: Apache-2.0
+import heapq
+import pathlib
+import threading
+import time
+from typing import Any, Dict, Iterator, List, NamedTuple, Sequence
+
+import rosbag
+import rosgraph
+import roslib.message
+import rospy
+from rosgraph_msgs.msg import Clock
+
+from mtr_core import names
+from mtr_msgs.msg import CarEstimate, LocalizedPose, RobotMode
+
+from .pace import Follower, Pace
+from .profiles import REPLAYED, CannotReplay
+
+# Localization answers each odometry message; the other two speak ten times a second.
+FOLLOWERS = {LocalizedPose: Follower(names.LOCALIZED_POSE, 0.1, names.WHEEL_ODOMETRY),
+             CarEstimate: Follower(names.CAR_ESTIMATE, 0.3), RobotMode: Follower(names.ROBOT_MODE, 0.3)}
+LISTENERS = ("/localization", "/car_locator", "/state_machine")
+# Steady time after which a silent node is left behind, and within which all of them have to have started.
+PATIENCE_S, START_LIMIT_S = 10.0, 60.0
+CLOCK_STEP_S = 0.01
+# Recorded time before the first message, in which the nodes' ticks begin.
+LEAD_S = 1.0
+QUEUE = 100
+
+
+class Played(NamedTuple):
+    """A message of the recording. time_s: when it was recorded."""
+
+    time_s: float
+    topic: str
+    message: Any
+
+
+class Player:
+    """Publishes /clock and the messages of the bags, at most `rate` times as fast as they were recorded."""
+
+    def __init__(self, bags: Sequence[pathlib.Path], rate: float):
+        self._bags, self._rate = bags, rate
+        self._topics = {rospy.resolve_name(name): name for name in REPLAYED}
+        self._pace = Pace(list(FOLLOWERS.values()), PATIENCE_S)
+        self._spoken = threading.Condition()
+        self._clock = rospy.Publisher("/clock", Clock, queue_size=QUEUE)
+        self._publishers: Dict[str, rospy.Publisher] = {}
+        self._answers = [rospy.Subscriber(follower.topic, kind, self._answered, follower.topic, queue_size=QUEUE)
+                         for kind, follower in FOLLOWERS.items()]
+
+    def play(self) -> str:
+        """Play to the end; a sentence about it. CannotReplay when it cannot begin."""
+        opened = opened_bags(self._bags)
+        try:
+            self._advertise(opened)
+            self._wait_for_listeners()
+            return self._run(opened)
+        finally:
+            for bag in opened:
+                bag.close()
+
+    def _run(self, bags: List[rosbag.Bag]) -> str:
+        begin_s = clock_s = min(bag.get_start_time() for bag in bags) - LEAD_S
+        self._pace.begin(begin_s)
+        started_s = time.monotonic()
+        for played in recorded(bags, list(self._topics)):
+            while clock_s < played.time_s and not rospy.is_shutdown():
+                clock_s = min(clock_s + CLOCK_STEP_S, played.time_s)
+                rospy.rostime.wallsleep(max(0.0, started_s + (clock_s - begin_s) / self._rate - time.monotonic()))
+                self._wait_for_followers(clock_s)
+                self._clock.publish(Clock(rospy.Time.from_sec(clock_s)))
+            if rospy.is_shutdown():
+                break
+            self._publishers[played.topic].publish(played.message)
+            with self._spoken:
+                self._pace.played(self._topics[played.topic], stamp_s_of(played))
+        self._wait_for_followers(clock_s)
+        waited = ", ".join(f"{seconds:.0f} s for {topic}" for topic, seconds in sorted(self._pace.waited_s.items()))
+        return (f"Played {clock_s - begin_s:.0f} s of the recording in {time.monotonic() - started_s:.0f} s; "
+                f"waited {waited or 'for nobody'}.")
+
+    def _answered(self, message: Any, topic: str) -> None:
+        with self._spoken:
+            self._pace.answered(topic, message.header.stamp.to_sec())
+            self._spoken.notify_all()
+
+    def _wait_for_followers(self, clock_s: float) -> None:
+        """Until nobody is behind, or who is has been silent too long."""
+        since_s: Dict[str, float] = {}
+        with self._spoken:
+            while not rospy.is_shutdown():
+                topic = self._pace.behind(clock_s)
+                if topic is None:
+                    return
+                before_s = time.monotonic()
+                self._spoken.wait(PATIENCE_S / 10.0)
+                now_s = time.monotonic()
+                if self._pace.has_waited(topic, now_s - before_s, now_s - since_s.setdefault(topic, before_s)):
+                    rospy.logwarn("Nothing on %s for %.0f s: the recording goes on without it; look into the log of "
+                                  "the node that publishes it.", topic, PATIENCE_S)
+
+    def _advertise(self, bags: List[rosbag.Bag]) -> None:
+        found = {topic: about for bag in bags
+                 for topic, about in bag.get_type_and_topic_info(list(self._topics)).topics.items()}
+        missing = rospy.resolve_name(names.WHEEL_ODOMETRY)
+        if missing not in found:
+            raise CannotReplay(f"The recording has no {missing}, the odometry of the base; record with the profile "
+                               "full, or name its topic (wheel_odometry:=).")
+        self._publishers = {topic: rospy.Publisher(topic, roslib.message.get_message_class(about.msg_type),
+                                                   queue_size=QUEUE) for topic, about in found.items()}
+
+    def _wait_for_listeners(self) -> None:
+        """Until the nodes have started and are connected with what is played."""
+        master, end_s = rosgraph.Master(rospy.get_name()), time.monotonic() + START_LIMIT_S
+        odometry = rospy.resolve_name(names.WHEEL_ODOMETRY)
+        while not rospy.is_shutdown():
+            _, listening, _ = master.getSystemState()
+            nodes = {topic: set(who) for topic, who in listening}
+            late = [node for node in LISTENERS if node not in nodes.get("/clock", set())]
+            if odometry in self._publishers and LISTENERS[0] not in nodes.get(odometry, set()):
+                late.append(LISTENERS[0])
+            unheard = [topic for topic, publisher in self._publishers.items()
+                       if publisher.get_num_connections() < len(nodes.get(topic, set()) & set(LISTENERS))]
+            if not late and not unheard:
+                return
+            if time.monotonic() > end_s:
+                raise CannotReplay(f"{' and '.join(late or unheard)} did not start within {START_LIMIT_S:.0f} s; look "
+                                   "into the log.")
+            rospy.rostime.wallsleep(0.1)
+
+
+def opened_bags(paths: Sequence[pathlib.Path]) -> List[rosbag.Bag]:
+    """The bags, or CannotReplay with a sentence."""
+    opened: List[rosbag.Bag] = []
+    for path in paths:
+        try:
+            opened.append(rosbag.Bag(str(path)))
+        except (rosbag.ROSBagException, OSError) as error:
+            for bag in opened:
+                bag.close()
+            raise CannotReplay(f"{path} cannot be read: {error}.") from None
+    return opened
+
+
+def recorded(bags: Sequence[rosbag.Bag], topics: Sequence[str]) -> Iterator[Played]:
+    """Messages of these topics in the order of their recording, from bags in any order."""
+    streams = [bag.read_messages(topics=topics) for bag in bags]
+    for topic, message, stamp in heapq.merge(*streams, key=lambda read: read.timestamp.to_nsec()):
+        yield Played(stamp.to_sec(), topic, message)
+
+
+def stamp_s_of(played: Played) -> float:
+    """Of the message itself, which a node answers; of the recording where it has none."""
+    header = getattr(played.message, "header", None)
+    return played.time_s if header is None else float(header.stamp.to_sec())

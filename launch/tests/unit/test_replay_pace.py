@@ -1,0 +1,76 @@
+"""How fast a recording is played: never faster than the nodes follow, and on without those that are silent."""
+# SPDX-License-Identifier: Apache-2.0
+import pytest
+import rosbag
+import rospy
+from std_msgs.msg import Header
+
+from mtr_bringup.recording.command_line import play
+from mtr_bringup.recording.pace import Follower, Pace
+from mtr_bringup.recording.player import opened_bags, recorded
+from mtr_bringup.recording.profiles import CannotReplay
+
+PATIENCE_S = 10.0
+
+
+@pytest.fixture
+def pace():
+    """Of a node that answers odometry, and one that speaks ten times a second; the recording begins at 100 s."""
+    made = Pace([Follower("/pose", 0.1, "/odom"), Follower("/car", 0.3)], PATIENCE_S)
+    made.begin(100.0)
+    return made
+
+
+def test_nobody_is_behind_before_anything_is_played(pace):
+    assert pace.behind(100.0) is None and pace.behind(100.29) is None
+
+
+def test_node_that_answers_owes_what_was_played_and_not_the_clock(pace):
+    pace.answered("/car", 105.0)
+    assert pace.behind(105.0) is None
+    pace.played("/odom", 104.9)
+    assert pace.behind(105.0) == "/pose"
+    pace.answered("/pose", 104.81)
+    assert pace.behind(105.0) is None
+
+
+def test_node_with_ticks_owes_the_clock(pace):
+    assert pace.behind(100.31) == "/car"
+    pace.answered("/car", 100.1)
+    assert pace.behind(100.39) is None and pace.behind(100.41) == "/car"
+
+
+def test_silent_node_is_given_up_and_counts_again_when_it_speaks(pace):
+    assert not pace.has_waited("/car", 6.0, 6.0) and pace.behind(101.0) == "/car"
+    assert pace.has_waited("/car", 4.0, 10.0) and pace.behind(101.0) is None
+    assert pace.waited_s == {"/car": 10.0}
+    pace.answered("/car", 100.5)
+    assert pace.behind(101.0) == "/car"
+
+
+def bag_of(path, *times_s):
+    with rosbag.Bag(str(path), "w") as bag:
+        for time_s in times_s:
+            bag.write("/a", Header(stamp=rospy.Time(time_s)), rospy.Time(time_s))
+            bag.write("/b", Header(), rospy.Time(time_s))
+
+
+def test_bags_in_any_order_are_played_in_the_order_of_their_times(tmp_path):
+    bag_of(tmp_path / "late.bag", 3, 5)
+    bag_of(tmp_path / "early.bag", 2, 4)
+    bags = opened_bags([tmp_path / "late.bag", tmp_path / "early.bag"])
+    assert [(played.time_s, played.topic) for played in recorded(bags, ["/a"])] == [(at, "/a") for at in range(2, 6)]
+
+
+def test_bag_that_is_none_is_told(tmp_path):
+    (tmp_path / "no.bag").write_bytes(b"no bag")
+    for name in ("no.bag", "away.bag"):
+        with pytest.raises(CannotReplay, match=f"{name} cannot be read: "):
+            opened_bags([tmp_path / name])
+
+
+@pytest.mark.parametrize("rate", ["0", "nan", "21", "fast"])
+def test_rate_that_cannot_be_is_refused(rate, capsys):
+    with pytest.raises(SystemExit) as caught:
+        play(["a.bag", "--rate", rate])
+    assert caught.value.code == 2 and "--rate" in capsys.readouterr().err
