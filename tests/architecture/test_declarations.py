@@ -18,7 +18,7 @@ KEYS = {
     "matplotlib": "python3-matplotlib", "mtr_drive_control_core": "mtr_drive_control",
     "mujoco": "python3-mujoco-pip", "numpy": "python3-numpy", "pytest": "python3-pytest", "rospkg": "python3-rospkg",
     # The laptop's application, which CI tests with the robot, and the firmware's emulator.
-    "mtr_operator": None, "PyQt5": None, "mtr_emulator": None,
+    "mtr_operator": None, "mtr_results": None, "PyQt5": None, "mtr_emulator": None,
     # Of `make mutants` and `make bench-range`, which install them.
     "cosmic_ray": None, "senpy": None,
     "scipy": "python3-scipy", "serial": "python3-serial", "setuptools": "python3-setuptools",
@@ -187,8 +187,25 @@ DISTRIBUTIONS = {"can": "python-can", "google": "protobuf", "serial": "pyserial"
 
 
 def test_the_application_declares_exactly_what_it_imports():
-    modules = {name for path in tracked("operator_gui/src/*.py") for name in imports(path) if not is_standard(name)}
-    used = {DISTRIBUTIONS.get(name, name) for name in modules - {"mtr_operator"}}
+    assert declared_by_the_application("dependencies") == used_by("mtr_operator")
+
+
+def test_the_store_of_results_declares_exactly_what_it_imports_beside_the_application():
+    # SQLAlchemy loads the driver by its name in an address.
+    used = used_by("mtr_results") - used_by("mtr_operator") | {"pg8000"}
+    assert declared_by_the_application("results") == used
+
+
+def used_by(package: str) -> Set[str]:
+    """Distributions that a package of the application imports."""
+    modules = {name for path in tracked(f"operator_gui/src/{package}/*.py") for name in imports(path)
+               if not is_standard(name)}
+    return {DISTRIBUTIONS.get(name, name) for name in modules - {"mtr_operator", "mtr_results"}}
+
+
+def declared_by_the_application(name: str) -> Set[str]:
+    """Distributions in a list of its pyproject.toml."""
     text = (TOP / "operator_gui" / "pyproject.toml").read_text(encoding="utf-8")
-    block = re.search(r"^dependencies = \[(.*?)^\]", text, re.MULTILINE | re.DOTALL)
-    assert block and set(re.findall(r'"([\w-]+)', block.group(1))) == used
+    block = re.search(rf"^{name} = \[(.*?)^\]", text, re.MULTILINE | re.DOTALL)
+    assert block
+    return set(re.findall(r'"([\w-]+)', block.group(1)))

@@ -8,6 +8,7 @@ from project import TOP, imports, package_folder
 
 PACKAGES = TOP / "catkin_ws" / "src"
 OPERATOR = TOP / "operator_gui" / "src" / "mtr_operator"
+RESULTS = TOP / "operator_gui" / "src" / "mtr_results"
 
 ROS = {"rospy", "roslib", "rostest", "rosbag", "roslaunch", "tf2_ros", "tf", "actionlib"}
 ROS_MESSAGES = {"std_msgs", "sensor_msgs", "nav_msgs", "geometry_msgs", "rosgraph_msgs", "visualization_msgs",
@@ -123,6 +124,33 @@ def test_only_the_robot_link_speaks_zeromq_and_protobuf(path):
 @pytest.mark.parametrize("path", [path for path in operator_files() if "car_link" not in path.parts], ids=ids)
 def test_only_the_car_link_speaks_can(path):
     assert not imports(path) & CAN
+
+
+@pytest.mark.parametrize("path", list(operator_files()), ids=ids)
+def test_the_application_works_without_the_store_of_results(path):
+    assert not imports(path) & {"mtr_results", "sqlalchemy", "alembic", "duckdb"}
+
+
+# What the store takes of the application: what decides, reads and reports, neither links nor windows.
+LIVE = {f"mtr_operator.{folder}" for folder in ("robot_link", "car_link", "station", "gui", "doctor")}
+
+
+@pytest.mark.parametrize("path", list(operator_files(RESULTS)), ids=ids)
+def test_the_store_of_results_knows_neither_ros_nor_qt_nor_links(path):
+    found = imports(path)
+    assert not found & (ROS | ROS_MESSAGES | OWN_ROBOT | QT | CAN | {"zmq", "serial", "mtr_proto"})
+    assert not {name for name in found for folder in LIVE if name == folder or name.startswith(f"{folder}.")}
+
+
+def without_databases() -> Iterator[pathlib.Path]:
+    """Files of the store of results that leave databases to others."""
+    yield from (path for path in operator_files(RESULTS)
+                if not {"model", "store", "migrations"} & set(path.parts) and path.name != "export.py")
+
+
+@pytest.mark.parametrize("path", list(without_databases()), ids=ids)
+def test_only_model_and_store_speak_to_databases(path):
+    assert not imports(path) & {"sqlalchemy", "alembic", "duckdb"}
 
 
 def test_messages_and_proto_depend_on_nothing_local():

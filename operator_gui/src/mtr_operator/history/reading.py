@@ -9,19 +9,17 @@ from mtr_operator.domain.identity.identity import NOBODY
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import STARTED
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
-from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.report.assessed import assess
 from mtr_operator.report.identity.identity_rows import identity_rows
-from mtr_operator.storage.progress_file import open_progress
 
 from .entry import TestEntry
+from .line_pairs import Side, open_side
 
 
 def read_entry(path: pathlib.Path) -> TestEntry:
     """The entry of the test in a progress file or journal; one with a problem where there is none."""
     try:
-        scenario, parameters, progress = open_progress(path, SCENARIOS)
-        return _entry(path, scenario, parameters, progress)
+        return entry_of(path, open_side(path))
     except OperatorError as error:
         return TestEntry(str(path), str(error))
     # One file must not keep the others from being seen, whatever is in it.
@@ -29,7 +27,9 @@ def read_entry(path: pathlib.Path) -> TestEntry:
         return TestEntry(str(path), f"The test in {path} cannot be read: {type(error).__name__}: {error}")
 
 
-def _entry(path: pathlib.Path, scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress) -> TestEntry:
+def entry_of(path: pathlib.Path, side: Side) -> TestEntry:
+    """The entry of a test that has been read from a file."""
+    scenario, parameters, progress = side.scenario, side.parameters, side.progress
     identity, results = progress.identity or NOBODY, progress.results
     total = 0 if progress.car is None else len(scenario.lines(parameters, progress.car))
     started = progress.session.get(STARTED, "")

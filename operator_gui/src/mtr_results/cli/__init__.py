@@ -1,0 +1,5 @@
+"""The command mtr-results."""
+# SPDX-License-Identifier: Apache-2.0
+from .entry import main
+
+__all__ = ["main"]

@@ -1,0 +1,77 @@
+"""The arguments of all commands."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import argparse
+import pathlib
+
+from ..store.place import ADDRESS_VARIABLE, default_address, default_spool
+from ..store.reading import PAGE
+from .exporting import export, query
+from .importing import import_tests, upgrade
+from .listing import list_tests, show_test
+from .meant import FILTERS
+
+
+def parser() -> argparse.ArgumentParser:
+    """Of mtr-results; what it parses has `run`, which takes it and returns the exit code."""
+    made = argparse.ArgumentParser(prog="mtr-results", description="Tests of the Operator's application in a store: "
+                                   "imported, searched, compared, reported.")
+    commands = made.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    _importing(commands)
+    _listing(commands)
+    _exporting(commands)
+    return made
+
+
+def _importing(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    command = commands.add_parser("import", parents=[_of_store()], help="tests into the store; again changes nothing")
+    command.add_argument("paths", nargs="*", type=pathlib.Path, metavar="PATH",
+                         help="progress file, folder of a test, or folder with such folders; none: only what waits")
+    command.add_argument("--campaign", default="", help="name under which the tests belong together")
+    command.add_argument("--spool", type=pathlib.Path, default=None,
+                         help=f"folder in which tests wait while the store is away (default {default_spool()})")
+    command.set_defaults(run=import_tests)
+    command = commands.add_parser("upgrade", parents=[_of_store()], help="a store of an older version to this one")
+    command.set_defaults(run=upgrade)
+
+
+def _listing(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    command = commands.add_parser("list", parents=[_of_store(), of_search()], help="tests, newest first")
+    command.set_defaults(run=list_tests)
+    command = commands.add_parser("show", parents=[_of_store()], help="all that is known of one test")
+    command.add_argument("test", help="its number, or the beginning of its key")
+    command.add_argument("--trials", action="store_true", help="each point of each attempt, too")
+    command.set_defaults(run=show_test)
+
+
+def _exporting(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    command = commands.add_parser("export", parents=[_of_store()], help="all tables as Parquet files")
+    command.add_argument("folder", type=pathlib.Path, help="made where there is none; its files are replaced")
+    command.set_defaults(run=export)
+    command = commands.add_parser("query", help="SQL over exported tables, by DuckDB")
+    command.add_argument("folder", type=pathlib.Path, help="of mtr-results export")
+    command.add_argument("sql", help="such as \"SELECT place, avg(first_m) FROM line JOIN measurement ...\"")
+    command.add_argument("--json", action="store_true", help="for a program")
+    command.set_defaults(run=query)
+
+
+def _of_store() -> argparse.ArgumentParser:
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument("--store", default=default_address(), metavar="PATH|URL",
+                        help=f"file of SQLite or postgresql://USER:PASSWORD@HOST/DATABASE; default %(default)s, or "
+                             f"the variable {ADDRESS_VARIABLE}")
+    common.add_argument("--files", type=pathlib.Path, default=None,
+                        help="folder of the contents of files; default beside the file of SQLite, on a server none")
+    common.add_argument("--json", action="store_true", help="for a program")
+    return common
+
+
+def of_search() -> argparse.ArgumentParser:
+    """Arguments by which tests are searched."""
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument("words", nargs="*", metavar="WORD", help="all have to occur in what is known of a test")
+    for name, meaning in FILTERS.items():
+        common.add_argument(f"--{name}", default="", help=meaning)
+    common.add_argument("--limit", type=int, default=PAGE, help="at most so many, 0 for all; default %(default)s")
+    return common

@@ -1,0 +1,32 @@
+"""The command line: what runs first, and what every error comes to."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import sys
+
+from mtr_operator.cli.exit_codes import EXIT_ERROR, EXIT_INTERRUPTED
+from mtr_operator.domain.errors import OperatorError
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run a command; the exit code."""
+    try:
+        from .commands import parser
+        options = parser().parse_args(arguments)
+        return int(options.run(options))
+    except OperatorError as error:
+        print(error, file=sys.stderr)
+        return EXIT_ERROR
+    except KeyboardInterrupt:
+        print("Interrupted.", file=sys.stderr)
+        return EXIT_INTERRUPTED
+    except BrokenPipeError:
+        # Whoever read the output has seen enough.
+        sys.stderr.close()
+        return EXIT_ERROR
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.startswith("mtr_"):
+            raise
+        print(f'The package {error.name} is not installed; pip install "operator_gui/[results]" installs all of them.',
+              file=sys.stderr)
+        return EXIT_ERROR

@@ -1,0 +1,53 @@
+"""The commands that put tests into the store."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import Iterator
+
+from mtr_operator.cli.exit_codes import EXIT_ERROR, EXIT_PASS
+
+from ..errors import StoreError
+from ..intake.source import tests_in
+from ..store.database import Database, engine_of
+from ..store.intake import REFUSED, Door, Intake
+from .meant import place_of
+from .output import print_json
+
+
+def import_tests(options: argparse.Namespace) -> int:
+    """Import what waits, then what is named; the exit code says whether all of it is in the store or waits for it."""
+    door = place_of(options).door()
+    found = []
+    for intake in _taken(door, options):
+        found.append(intake)
+        if not options.json:
+            print(f"{intake.outcome}: {intake.path}")
+            if intake.sentence:
+                print(intake.sentence, file=sys.stderr)
+    if options.json:
+        print_json([intake.to_document() for intake in found])
+    return EXIT_ERROR if any(intake.outcome == REFUSED for intake in found) else EXIT_PASS
+
+
+def _taken(door: Door, options: argparse.Namespace) -> Iterator[Intake]:
+    yield from door.take_waiting()
+    for path in options.paths:
+        try:
+            tests = tests_in(path)
+        except StoreError as error:
+            yield Intake(str(path), REFUSED, str(error))
+            continue
+        yield from (door.take(test, options.campaign) for test in tests)
+
+
+def upgrade(options: argparse.Namespace) -> int:
+    """Bring a store to this version."""
+    database = Database(engine_of(options.store))
+    database.make_ready(may_upgrade=True)
+    if options.json:
+        print_json({"store": database.where})
+    else:
+        print(f"The store {database.where} has the version of this program.")
+    return EXIT_PASS

@@ -1,0 +1,25 @@
+"""Which store and which tests a person means by the arguments of a command."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import argparse
+
+from ..store.place import Place
+from ..store.reading import Search
+
+# Name of the argument, and of the attribute of Search -> what it means.
+FILTERS = {"scenario": "its name: autolock, key_press, zone_map, handle_request", "car": "model and VIN, as listed",
+           "software": "of the Car", "key": "its serial number", "verdict": "pass, inconclusive or fail",
+           "campaign": "its name", "place": "where it was measured", "since": "day or moment, UTC: 2026-11-01",
+           "until": "day or moment, UTC; a day counts whole"}
+
+
+def place_of(options: argparse.Namespace) -> Place:
+    """The store."""
+    return Place(options.store, options.files, getattr(options, "spool", None))
+
+
+def search_of(options: argparse.Namespace) -> Search:
+    """The tests."""
+    return Search(" ".join(options.words), limit=max(0, options.limit),
+                  **{name: getattr(options, name) for name in FILTERS})

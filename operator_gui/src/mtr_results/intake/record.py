@@ -1,0 +1,119 @@
+"""One test as rows of the store's tables."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import datetime
+import hashlib
+import json
+import pathlib
+import zlib
+from dataclasses import dataclass
+from typing import Any, Mapping
+
+from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.identity.identity import NOBODY, Identity
+from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.results.session_record import ROBOT_SOFTWARE, STARTED
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.history.entry import TestEntry
+from mtr_operator.history.line_pairs import Side, open_side
+from mtr_operator.history.reading import entry_of
+from mtr_operator.storage.journal_file import Entry, journal_of
+from mtr_operator.storage.progress_document import progress_from_document
+from mtr_operator.storage.recovery import progress_path
+
+from ..errors import StoreError
+from .measurements import assessment_of, line_rows, measurement_rows, verdict_rows
+from .source import files_of
+from .trials import Row, trials_of
+
+# Of tests with the same journal, the one that reaches farther is the newer one.
+Reach = tuple[int, bool]
+
+
+@dataclass(frozen=True)
+class TestRecord:
+    """Rows of one test, without its number in the store.
+
+    Attributes:
+        test: columns of its own. car, key, equipment: whom and what it names. files: where each file lies, by name.
+    """
+
+    # The name would make pytest collect it.
+    __test__ = False
+
+    test: Row
+    car: Row
+    key: Row
+    equipment: list[Row]
+    lines: list[Row]
+    measurements: list[Row]
+    trials: list[Row]
+    verdicts: list[Row]
+    files: Mapping[str, pathlib.Path]
+
+    @property
+    def reach(self) -> Reach:
+        """How far the test came in this copy, and whether the copy has each point."""
+        return self.test["entries"], self.test["has_journal"]
+
+
+def read_record(path: pathlib.Path) -> TestRecord:
+    """The test in a progress file or journal; OperatorError says why there is none."""
+    side = open_side(path)
+    try:
+        journal = journal_of(progress_path(path))
+        # A journal that does not fit is not what the progress was taken from.
+        fits = side.progress.kept is not None and journal.mark is not None and journal.mark.id == side.progress.kept.id
+        return _record(entry_of(path, side), side, journal.entries if fits else (), files_of(path))
+    except OperatorError:
+        raise
+    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, OSError) as error:
+        raise StoreError(f"The test in {path} cannot be read: {type(error).__name__}: {error}") from None
+
+
+def _record(entry: TestEntry, side: Side, entries: tuple[Entry, ...],
+            files: Mapping[str, pathlib.Path]) -> TestRecord:
+    progress, identity = side.progress, side.progress.identity or NOBODY
+    document = json.dumps(progress.to_document(), sort_keys=True, allow_nan=False).encode("utf-8")
+    assessment, trials = assessment_of(side), trials_of(entries, progress.results)
+    test = {"test_key": entry.test_id, "entries": entry.entries, "has_journal": bool(entries),
+            "digest": hashlib.sha256(document).hexdigest(), "document": zlib.compress(document), **_session(progress),
+            **{name: getattr(identity, name) for name in ("operator", "place", "weather", "notes", "key_battery_v")},
+            "scenario": side.scenario.name, "car_length_m": progress.car.length if progress.car else None,
+            "car_width_m": progress.car.width if progress.car else None,
+            **{name: getattr(entry, name) for name in ("done", "total", "invalid", "is_complete", "verdict", "words")}}
+    return TestRecord(test, {"vin": identity.car_vin, "model": identity.car_model, "software": identity.car_software},
+                      {"serial": identity.key_serial, "type": identity.key_type}, _equipment(identity),
+                      [*line_rows(side, {row["line"] for row in trials})], measurement_rows(side, assessment, entries),
+                      trials, [*verdict_rows(assessment)], files)
+
+
+def _session(progress: Progress) -> Row:
+    session = progress.session
+    started = session.get(STARTED, "")
+    return {"started": started, "started_utc": in_utc(started), "car_profile": session.get("car profile", ""),
+            "robot": session.get("robot", ""), "software": session.get("software", ""),
+            "robot_software": session.get(ROBOT_SOFTWARE, "")}
+
+
+def in_utc(moment: str) -> str:
+    """An ISO moment in UTC, by which tests of several places are ordered; empty when it is none."""
+    with contextlib.suppress(ValueError):
+        return datetime.datetime.fromisoformat(moment).astimezone(datetime.timezone.utc).isoformat()
+    return ""
+
+
+def _equipment(identity: Identity) -> list[Row]:
+    return [{name: "" if value is None else str(value) for name, value in dataclasses.asdict(each).items()}
+            for each in identity.equipment]
+
+
+def side_of(document: bytes) -> Side:
+    """The test in a compressed document, as it was when it was imported."""
+    stored: dict[str, Any] = json.loads(zlib.decompress(document))
+    scenario = SCENARIOS[stored["scenario"]]
+    parameters = scenario.parameters_type.from_mapping(stored["parameters"])
+    return Side(scenario, parameters, progress_from_document(stored, scenario, parameters.to_mapping()))

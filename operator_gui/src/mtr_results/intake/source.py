@@ -1,0 +1,62 @@
+"""Where tests lie: progress files, folders with them, and bundles, which are tests in one file each."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import contextlib
+import pathlib
+from typing import Callable, ContextManager, Iterator
+
+from mtr_operator.history.places import stamps
+from mtr_operator.storage.journal_file import SUFFIX
+from mtr_operator.storage.photos import photo_folder
+from mtr_operator.storage.progress_file import FILE_NAME
+from mtr_operator.storage.recovery import progress_path
+
+from ..errors import StoreError
+
+BUNDLE_SUFFIX = ".mtr.zip"
+# A file with a test in it -> how it is opened: a context with the progress file of what was unpacked. Whatever makes
+# bundles enters itself here; it has verified what it hands out.
+Opener = Callable[[pathlib.Path], ContextManager[pathlib.Path]]
+OPENERS: dict[str, Opener] = {}
+
+
+def tests_in(path: pathlib.Path) -> list[pathlib.Path]:
+    """Files of the tests at a path, sorted: the file itself, the test in a folder, or those in the folders within it;
+    StoreError when there is none."""
+    if not path.is_dir():
+        if not path.exists():
+            raise StoreError(f"There is no {path}; name a progress file, a bundle or a folder with tests.")
+        return [path]
+    own = path / FILE_NAME
+    if own.exists() or own.with_suffix(SUFFIX).exists():
+        return [own if own.exists() else own.with_suffix(SUFFIX)]
+    bundles = [found for suffix in {BUNDLE_SUFFIX, *OPENERS} for found in path.glob(f"*{suffix}")]
+    found = sorted([*map(pathlib.Path, stamps([path])), *bundles])
+    if not found:
+        raise StoreError(f"The folder {path} holds no test: neither {FILE_NAME} nor folders with one.")
+    return found
+
+
+@contextlib.contextmanager
+def opened(path: pathlib.Path) -> Iterator[pathlib.Path]:
+    """Context with the progress file of the test in a file; StoreError for a bundle that nothing here opens."""
+    for suffix, opener in OPENERS.items():
+        if path.name.endswith(suffix):
+            with opener(path) as unpacked:
+                yield unpacked
+            return
+    if path.name.endswith(BUNDLE_SUFFIX):
+        raise StoreError(f"{path} is a bundle, which this version cannot open; import the folder of the test.")
+    yield path
+
+
+def files_of(path: pathlib.Path) -> dict[str, pathlib.Path]:
+    """Files of the test with this progress file, by their names: all of its folder when it has one of its own, else
+    those that bear its name; photos included, what is hidden not."""
+    record = progress_path(path)
+    beside = ([*record.parent.iterdir()] if record.name == FILE_NAME else [record, record.with_suffix(SUFFIX)])
+    photos = photo_folder(record)
+    inside = [*photos.iterdir()] if photos.is_dir() else []
+    return {str(found.relative_to(record.parent)): found for found in sorted([*beside, *inside])
+            if found.is_file() and not found.name.startswith(".")}

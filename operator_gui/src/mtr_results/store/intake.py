@@ -1,0 +1,68 @@
+"""Tests in files into the store, or into the spool while it is away."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import pathlib
+from dataclasses import dataclass
+from typing import Any, Iterator
+
+from mtr_operator.domain.errors import OperatorError
+from mtr_operator.storage.progress_file import FILE_NAME
+
+from ..errors import StoreAway
+from ..intake.record import read_record
+from ..intake.source import opened
+from .database import Database
+from .kept_files import KeptFiles
+from .spool import Spool
+from .writing import add
+
+SPOOLED, REFUSED = "spooled", "refused"
+
+
+@dataclass(frozen=True)
+class Intake:
+    """What became of one test. outcome: of Outcome, or SPOOLED or REFUSED. sentence: why, empty when it is in."""
+
+    path: str
+    outcome: str
+    sentence: str = ""
+
+    def to_document(self) -> dict[str, Any]:
+        """Plain values."""
+        return {"path": self.path, "outcome": self.outcome, "sentence": self.sentence}
+
+
+class Door:
+    """Through which tests come in. database: None while the store is away; why says so."""
+
+    def __init__(self, database: Database | None, files: KeptFiles | None, spool: Spool, why: str = ""):
+        self._database = database
+        self._files = files
+        self._spool = spool
+        self._why = why
+
+    def take_waiting(self) -> Iterator[Intake]:
+        """Tests of the spool, as far as the store takes them; one that it refuses goes on waiting, for a person."""
+        for place in self._spool.waiting() if self._database is not None else ():
+            found = self.take(place / FILE_NAME, self._spool.campaign_of(place))
+            if found.outcome not in (REFUSED, SPOOLED):
+                self._spool.remove(place)
+            yield found
+            if found.outcome == SPOOLED:
+                return
+
+    def take(self, path: pathlib.Path, campaign: str = "") -> Intake:
+        """One test in a file; no error reaches the caller, so that one bad file stops no other."""
+        try:
+            with opened(path) as record_path:
+                record = read_record(record_path)
+                if self._database is not None:
+                    try:
+                        return Intake(str(path), add(self._database, self._files, record, campaign).value)
+                    except StoreAway as error:
+                        self._database, self._why = None, str(error)
+                place = self._spool.put(record, record_path, campaign)
+        except OperatorError as error:
+            return Intake(str(path), REFUSED, str(error))
+        return Intake(str(path), SPOOLED, f"{self._why} The test waits in {place}, and goes in with the next import.")

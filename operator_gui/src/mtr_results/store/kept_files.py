@@ -1,0 +1,76 @@
+"""Contents of files, each once, under the check sum that it has."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import pathlib
+import tempfile
+from typing import Mapping
+
+from ..errors import StoreAway, StoreError
+
+# A photo of a good camera has 20 MB, a recording more than a store of results wants.
+MAX_BYTES = 64 * 1024 * 1024
+MAX_FILES = 200
+
+
+class KeptFiles:
+    """A folder with contents. Two programs may keep the same at once: each writes the same bytes to the same name."""
+
+    def __init__(self, folder: pathlib.Path):
+        self.folder = folder
+
+    def keep(self, files: Mapping[str, pathlib.Path]) -> list[dict[str, object]]:
+        """Rows of files, whose contents are kept; StoreAway when that fails."""
+        if len(files) > MAX_FILES:
+            raise StoreError(f"There are {len(files)} files with the test; at most {MAX_FILES} are kept.")
+        return [{"name": name, **self._keep(path)} for name, path in files.items()]
+
+    def path_of(self, sha256: str) -> pathlib.Path:
+        """Where a content lies, if it is kept."""
+        return self.folder / sha256[:2] / sha256
+
+    def read(self, sha256: str) -> bytes:
+        """A content; StoreError when it is not there, or not what it was."""
+        try:
+            content = self.path_of(sha256).read_bytes()
+        except OSError:
+            raise StoreError(f"The content {sha256[:12]}... is not in {self.folder}; restore that folder's "
+                             "copy.") from None
+        if hashlib.sha256(content).hexdigest() != sha256:
+            raise StoreError(f"The content {sha256[:12]}... in {self.folder} was changed; restore that folder's copy.")
+        return content
+
+    def _keep(self, path: pathlib.Path) -> dict[str, object]:
+        try:
+            size = path.stat().st_size
+            if size > MAX_BYTES:
+                raise StoreError(f"The file {path} has {size // 1024 ** 2} MiB; at most {MAX_BYTES // 1024 ** 2} MiB "
+                                 "are kept.")
+            content = path.read_bytes()
+        except OSError as error:
+            raise StoreError(f"The file {path} cannot be read: {error.strerror or error}.") from None
+        sha256 = hashlib.sha256(content).hexdigest()
+        target = self.path_of(sha256)
+        if not target.exists():
+            self._write(target, content)
+        return {"sha256": sha256, "size": len(content)}
+
+    def _write(self, target: pathlib.Path, content: bytes) -> None:
+        temporary = ""
+        try:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            # A name of its own: another program may be writing the same.
+            with tempfile.NamedTemporaryFile(dir=target.parent, prefix=".", delete=False) as file:
+                temporary = file.name
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(temporary, target)
+        except OSError as error:
+            with contextlib.suppress(OSError):
+                os.unlink(temporary)
+            raise StoreAway(f"The folder {self.folder} of the store's files is away: "
+                            f"{error.strerror or error}.") from None

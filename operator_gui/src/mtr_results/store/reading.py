@@ -1,0 +1,144 @@
+"""What is in the store: tests that fit a search, and all that is known of one."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Sequence
+
+from sqlalchemy import Connection, Select, func, literal, select
+
+from mtr_operator.history.line_pairs import Side
+
+from ..errors import StoreError
+from ..intake.record import side_of
+from ..model.subjects import Campaign, Car, Equipment, Key, TestEquipment
+from ..model.tests import File, Line, Measurement, Test, Trial, Verdict
+
+Row = dict[str, Any]
+PAGE = 100
+# Columns of a list, in their order; those of other tables come with them.
+LISTED = ("id", "test_key", "started", "scenario", "done", "total", "invalid", "is_complete", "verdict", "operator",
+          "place", "car_profile")
+_CAR = func.trim(Car.model + literal(" ") + Car.vin).label("car")
+_SPECIAL = str.maketrans({char: f"\\{char}" for char in "\\%_"})
+
+
+@dataclass(frozen=True)
+class Search:
+    """Which tests; what is empty fits all.
+
+    Attributes:
+        text: words that all have to occur. car: model and VIN as they are listed; software: of the Car.
+        since, until: ISO days or moments, UTC; until counts whole. limit: 0 for all.
+    """
+
+    text: str = ""
+    scenario: str = ""
+    car: str = ""
+    software: str = ""
+    key: str = ""
+    verdict: str = ""
+    campaign: str = ""
+    place: str = ""
+    since: str = ""
+    until: str = ""
+    limit: int = PAGE
+    offset: int = 0
+
+
+def find(connection: Connection, search: Search) -> list[Row]:
+    """Tests that fit, newest first."""
+    columns = [getattr(Test, name) for name in LISTED]
+    found = select(*columns, _CAR, Car.software.label("car_software"), Key.serial.label("key"),
+                   Campaign.name.label("campaign"))
+    ordered = _fitting(found, search).order_by(Test.started_utc.desc(), Test.id.desc()).offset(search.offset)
+    rows = connection.execute(ordered.limit(search.limit) if search.limit else ordered)
+    return [{**row, "campaign": row["campaign"] or ""} for row in rows.mappings()]
+
+
+def count(connection: Connection, search: Search) -> int:
+    """How many tests fit, on all pages."""
+    return int(connection.execute(_fitting(select(func.count(Test.id)), search)).scalar_one())
+
+
+def values_of(connection: Connection) -> dict[str, list[str]]:
+    """Values by which a person may search, sorted."""
+    wanted = {"scenario": Test.scenario, "car": _CAR, "software": Car.software, "key": Key.serial,
+              "verdict": Test.verdict, "campaign": Campaign.name, "place": Test.place}
+    found = {name: connection.execute(_joined(select(column).distinct())).scalars() for name, column in wanted.items()}
+    return {name: sorted({value for value in values if value}) for name, values in found.items()}
+
+
+def number_of(connection: Connection, word: str) -> int:
+    """Of the test that a person names by its number or the beginning of its key; StoreError when that is not one."""
+    if word.isdecimal() and len(word) < 10:
+        by_number = connection.execute(select(Test.id).where(Test.id == int(word))).scalar()
+        if by_number is not None:
+            return int(by_number)
+    keys = select(Test.id).where(Test.test_key.startswith(word.translate(_SPECIAL), escape="\\")).limit(2)
+    found = connection.execute(keys).scalars().all() if word else []
+    if len(found) != 1:
+        what = "no test" if not found else "more than one test"
+        raise StoreError(f"{word or 'An empty name'} is {what} of the store; mtr-results list shows their numbers.")
+    return int(found[0])
+
+
+def side(connection: Connection, number: int) -> Side:
+    """All of a test, as the application has it; StoreError when there is none of this number."""
+    document = connection.execute(select(Test.document).where(Test.id == number)).scalar()
+    if document is None:
+        raise StoreError(f"There is no test {number} in the store; mtr-results list shows their numbers.")
+    return side_of(document)
+
+
+def test_row(connection: Connection, number: int) -> Row:
+    """What the table of tests says of one, with its car, key, campaign and equipment."""
+    columns = [column for column in Test.__table__.c if column.name not in ("document", "words")]
+    wanted = _joined(select(*columns, Car.vin, Car.model, Car.software.label("car_software"),
+                            Key.serial.label("key_serial"), Key.type.label("key_type"),
+                            Campaign.name.label("campaign"))).where(Test.id == number)
+    found = connection.execute(wanted).mappings().one_or_none()
+    if found is None:
+        raise StoreError(f"There is no test {number} in the store; mtr-results list shows their numbers.")
+    equipment = connection.execute(select(Equipment.name, Equipment.serial, Equipment.calibrated, Equipment.valid_until)
+                                   .join(TestEquipment, TestEquipment.equipment_id == Equipment.id)
+                                   .where(TestEquipment.test_id == number).order_by(Equipment.name))
+    return {**found, "campaign": found["campaign"] or "", "equipment": [dict(row) for row in equipment.mappings()]}
+
+
+def parts(connection: Connection, number: int) -> dict[str, list[Row]]:
+    """Lines, measurements, trials, verdicts and files of a test, each in its order."""
+    return {name: _rows(connection, table, number) for name, table in (
+        ("lines", Line), ("measurements", Measurement), ("trials", Trial), ("verdicts", Verdict), ("files", File))}
+
+
+def _rows(connection: Connection, table: Any, number: int) -> list[Row]:
+    wanted = select(table.__table__).where(table.test_id == number).order_by(*table.__table__.primary_key)
+    return [{name: value for name, value in row.items() if name != "test_id"}
+            for row in connection.execute(wanted).mappings()]
+
+
+def _joined(wanted: Select[Any]) -> Select[Any]:
+    return (wanted.select_from(Test).join(Car, Test.car_id == Car.id).join(Key, Test.key_id == Key.id)
+            .outerjoin(Campaign, Test.campaign_id == Campaign.id))
+
+
+def _fitting(wanted: Select[Any], search: Search) -> Select[Any]:
+    found = _joined(wanted)
+    for column, value in ((Test.scenario, search.scenario), (_CAR, search.car), (Car.software, search.software),
+                          (Key.serial, search.key), (Test.verdict, search.verdict), (Campaign.name, search.campaign),
+                          (Test.place, search.place)):
+        if value:
+            found = found.where(column == value)
+    for word in _words(search.text):
+        found = found.where(Test.words.like(f"%{word}%", escape="\\"))
+    if search.since:
+        found = found.where(Test.started_utc >= search.since)
+    if search.until:
+        # A day holds all moments that begin with it.
+        found = found.where(Test.started_utc < search.until + "~")
+    return found
+
+
+def _words(text: str) -> Sequence[str]:
+    return [word.translate(_SPECIAL) for word in text.lower().split()]
