@@ -16,11 +16,14 @@ using mtr_surfel_map::GrowingMap;
 using mtr_surfel_map::KeyFrame;
 using mtr_surfel_map::OccupancyGrid;
 using mtr_surfel_map::PoseVector;
+using mtr_surfel_map::RangeBias;
 using mtr_surfel_map::ScanPoint;
 using mtr_surfel_map::ScanPoints;
 using mtr_surfel_map::Surfel;
 using mtr_surfel_map::SurfelMap;
 using mtr_surfel_map::SurfelMatch;
+
+using mtr_surfel_map::kLidars;
 
 using mtr_surfel_map::compose;
 using mtr_surfel_map::occupancy_of;

@@ -31,7 +31,7 @@ std::vector<Beam> beams_of(const AdjustedMap& map) {
     for (const ScanPoint& point : frame.scan.points) {
       if (point.range_m < kMaxM) {
         beams.push_back({transformed(frame.pose, point.position - point.range_m * point.direction),
-                         transformed(frame.pose, point.position - map.range_bias_m * point.direction)});
+                         transformed(frame.pose, map.range_bias.corrected(point))});
       }
     }
   }

@@ -25,7 +25,7 @@ from .estimate import Estimate, LocatorTask
 from .offline import FilesUnusable
 from .parameters import RefinementParameters
 from .poses import PoseMode, RobotPose
-from .scan import Scan
+from .scan import RangeBias, Scan
 from .surfels import surfels_from
 from .survey.surface_map import SurfaceMap
 
@@ -49,11 +49,11 @@ def robot_pose_from(message: LocalizedPose) -> RobotPose:
                      tuple(message.covariance))
 
 
-def scan_from(message: LaserScan, base_from_lidar: Pose2) -> Scan:
+def scan_from(message: LaserScan, base_from_lidar: Pose2, is_rear: bool) -> Scan:
     """A sweep of one LiDAR."""
     return Scan(message.header.stamp.to_nsec() * 1e-9, message.time_increment, message.angle_min,
                 message.angle_increment, message.range_min, message.range_max, np.asarray(message.ranges),
-                base_from_lidar)
+                base_from_lidar, is_rear)
 
 
 def scan_mounts(lidars: LidarMounts) -> Dict[str, Pose2]:
@@ -73,7 +73,7 @@ def scans_in(bag: pathlib.Path, lidars: LidarMounts) -> Iterator[Scan]:
     try:
         with rosbag.Bag(str(bag)) as recorded:
             for topic, message, _ in recorded.read_messages(topics=list(mounts)):
-                yield scan_from(message, mounts[topic])
+                yield scan_from(message, mounts[topic], topic == names.REAR_SCAN)
     except (rosbag.ROSBagException, OSError) as error:
         raise FilesUnusable(f"{bag} cannot be read: {error}.") from None
 
@@ -87,7 +87,7 @@ def surface_map_from(message: SurfaceMapMessage) -> SurfaceMap:
     surfels = surfels_from(np.column_stack(columns) if whole else np.empty((0, 6)))
     problem = problem_of(message.problems, message.message) if whole else problems.MAP_DAMAGED()
     return SurfaceMap(message.map_car_id, message.revision, message.valid and whole, surfels, frames, problem,
-                      message.range_bias_m)
+                      RangeBias(message.range_bias_m, message.rear_range_bias_m))
 
 
 def estimate_message(estimate: Estimate, stamp: Any) -> CarEstimate:

@@ -20,13 +20,13 @@ from .measure.close_up import CloseUp, WayRound
 from .parameters import LocatorParameters
 from .poses import PoseHistory, RobotPose
 from .rectangle import Rectangle
-from .scan import Scan, returns_in_map
+from .scan import RangeBias, Scan, returns_in_map
 from .surfels import surfels_from
 
 SURFACES, SURFACE_COLUMNS = "surfaces.csv", ("x_m", "y_m", "normal_rad", "length_m", "sigma_m", "hits")
 KEY_FRAMES, KEY_FRAME_COLUMNS = "key_frames.csv", ("stamp_s", "x_m", "y_m", "heading_rad")
 TRAJECTORY, TRAJECTORY_COLUMNS = "trajectory.csv", ("stamp_s", "x_m", "y_m", "heading_rad", "valid", "map_revision")
-SUMMARY, RANGE_BIAS = "summary.json", "range_bias_m"
+SUMMARY, FRONT_BIAS, REAR_BIAS = "summary.json", "range_bias_m", "rear_range_bias_m"
 DEFAULTS = LocatorParameters()
 
 
@@ -68,7 +68,7 @@ def close_up_of(folder: pathlib.Path, scans: Iterable[Scan], car: Pose2) -> Opti
         seen = returns_in_map(scan, history) if history else None
         if seen is not None:
             way.add(seen, scan.base_from_lidar)
-    return way.close_up(frames, _range_bias_m(folder)) if rows is not None else None
+    return way.close_up(frames, _range_bias(folder)) if rows is not None else None
 
 
 def _with_pose(history: Optional[PoseHistory], row: FloatArray) -> Optional[PoseHistory]:
@@ -82,14 +82,17 @@ def _with_pose(history: Optional[PoseHistory], row: FloatArray) -> Optional[Pose
     return history
 
 
-def _range_bias_m(folder: pathlib.Path) -> float:
+def _range_bias(folder: pathlib.Path) -> RangeBias:
     path = folder / SUMMARY
     try:
-        return float(json.loads(path.read_text(encoding="utf-8"))[RANGE_BIAS])
+        summary = json.loads(path.read_text(encoding="utf-8"))
+        front = float(summary[FRONT_BIAS])
+        # Before each LiDAR had its own, one number was that of both.
+        return RangeBias(front, float(summary.get(REAR_BIAS, front)))
     except OSError as error:
         raise FilesUnusable(f"{path} cannot be read: {error.strerror}.") from None
-    except (KeyError, TypeError, ValueError):
-        raise FilesUnusable(f"{path} has no number {RANGE_BIAS}.") from None
+    except (AttributeError, KeyError, TypeError, ValueError):
+        raise FilesUnusable(f"{path} has no number {FRONT_BIAS}.") from None
 
 
 def summary_of(fit: CarFit) -> List[str]:

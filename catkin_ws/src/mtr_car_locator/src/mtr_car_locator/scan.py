@@ -1,7 +1,7 @@
 """From a laser scan to points in map, each beam from where the robot was at its own time."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
-from typing import Optional
+from typing import NamedTuple, Optional
 
 import numpy as np
 
@@ -13,7 +13,10 @@ from .poses import PoseHistory
 
 @dataclass(frozen=True)
 class Scan:
-    """One sweep; start_s is the first beam's time, ranges_m (n,), base_from_lidar the mounting of the LiDAR."""
+    """One sweep; start_s is the first beam's time, ranges_m (n,), base_from_lidar the mounting of the LiDAR.
+
+    is_rear: of the rear LiDAR, else of the front one.
+    """
 
     start_s: float
     beam_period_s: float
@@ -23,6 +26,14 @@ class Scan:
     range_max_m: float
     ranges_m: FloatArray
     base_from_lidar: Pose2
+    is_rear: bool = False
+
+
+class RangeBias(NamedTuple):
+    """Constant errors of the LiDARs' ranges, in m."""
+
+    front_m: float = 0.0
+    rear_m: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -33,6 +44,7 @@ class Returns:
     viewer: FloatArray
     time_s: float
     robot: Pose2
+    is_rear: bool = False
 
 
 def returns_in_map(scan: Scan, poses: PoseHistory) -> Optional[Returns]:
@@ -52,4 +64,4 @@ def returns_in_map(scan: Scan, poses: PoseHistory) -> Optional[Returns]:
     cos, sin = np.cos(heading), np.sin(heading)
     points = np.column_stack((x + cos * ahead - sin * aside, y + sin * ahead + cos * aside))
     time_s = scan.start_s + (count // 2) * scan.beam_period_s
-    return Returns(points, np.array(middle.apply(mount.x, mount.y)), time_s, middle)
+    return Returns(points, np.array(middle.apply(mount.x, mount.y)), time_s, middle, scan.is_rear)

@@ -68,7 +68,8 @@ class ScanSource:
                             for topic in self._mounts]
         # A clock that was set back must not leave the scans unused until it has come to that time again.
         self._usable_from_ns = min(self._usable_from_ns, tick_ns + CONNECTING_NS)
-        return [scan_from(message, mount) for queue, mount in zip(self._queues, self._mounts.values())
+        return [scan_from(message, mount, topic == names.REAR_SCAN)
+                for queue, (topic, mount) in zip(self._queues, self._mounts.items())
                 for message in queue.take(tick_ns) if message.header.stamp.to_nsec() >= self._usable_from_ns]
 
     def _close(self) -> None:

@@ -97,12 +97,12 @@ def test_surface_map_becomes_surfels_and_a_damaged_one_is_not_valid():
     message = SurfaceMap(map_car_id=77, revision=3, valid=True, x=[1.0, 2.0], y=[0.0, 0.0], normal=[0.0, math.pi / 2.0],
                          length=[0.1, 0.2], sigma=[0.003, 0.004], hits=[9, 8],
                          key_frames=[KeyFrame(stamp=genpy.Time(5, 250_000_000), x=1.0, y=2.0, heading=0.3)],
-                         range_bias_m=0.012)
+                         range_bias_m=0.012, rear_range_bias_m=-0.004)
     found = surface_map_from(message)
     assert (found.map_id, found.revision, found.valid, len(found.surfels)) == (77, 3, True, 2)
     assert found.surfels.normal[1] == pytest.approx((0.0, 1.0), abs=1e-6)
     assert found.key_frames.tolist() == [[5.25, 1.0, 2.0, 0.3]]
-    assert found.range_bias_m == 0.012
+    assert found.range_bias == (0.012, -0.004)
     message.hits = [9]
     assert not surface_map_from(message).valid and "damaged" in surface_map_from(message).message.text
 
@@ -163,6 +163,7 @@ def test_scans_in_a_bag_come_in_order_with_their_mounting(tmp_path):
     found = list(scans_in(bag, LIDARS))
     assert [scan.start_s for scan in found] == [1.0, 2.0]
     assert [scan.base_from_lidar for scan in found] == list(LIDARS)
+    assert [scan.is_rear for scan in found] == [False, True]
 
 
 @pytest.mark.parametrize("content", [None, b"no bag"])

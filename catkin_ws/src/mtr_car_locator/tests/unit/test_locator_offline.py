@@ -92,7 +92,7 @@ def replayed(folder):
         poses = [(time_s, pose_at(time_s)) for time_s in np.arange(FIRST_S, FIRST_S + LOOP_S, step_s)]
         rows = "\n".join(f"{time_s:.6f},{pose.x},{pose.y},{pose.heading},1,0" for time_s, pose in poses)
         (folder / name).write_text(f"stamp_s,x_m,y_m,heading_rad,{more}\n{rows}\n")
-    (folder / "summary.json").write_text(f'{{"range_bias_m": {BIAS_M}}}')
+    (folder / "summary.json").write_text(f'{{"range_bias_m": {BIAS_M}, "rear_range_bias_m": 9.0}}')
     return folder
 
 

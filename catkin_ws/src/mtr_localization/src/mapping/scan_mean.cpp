@@ -61,8 +61,8 @@ ScanPoints ScanMean::mean() const {
       }
     }
     if (2.0 * count >= scans_) {
-      scan.points.push_back(
-          {sum.position / count, sum.direction.normalized(), sum.range_m / count, sum.rise_m / count});
+      scan.points.push_back({sum.position / count, sum.direction.normalized(), sum.range_m / count, sum.rise_m / count,
+                             points.front().lidar});
     }
   }
   return scan;

@@ -69,6 +69,7 @@ void write_summary(const Result& result, const std::string& bag, const std::stri
   const std::vector<Estimate>& track = result.trajectory;
   const auto valid = std::count_if(track.begin(), track.end(), [](const Estimate& pose) { return pose.valid; });
   const double duration_s = track.empty() ? 0.0 : seconds(track.back().stamp_ns - track.front().stamp_ns);
+  const RangeBias& bias = map.range_bias;
   std::ofstream file = open(path);
   file << "{\n  \"bag\": " << quoted(bag) << ",\n  \"duration_s\": " << duration_s
        << ",\n  \"imu_samples\": " << result.imu_samples << ",\n  \"wheel_samples\": " << result.wheel_samples
@@ -77,8 +78,10 @@ void write_summary(const Result& result, const std::string& bag, const std::stri
        << ",\n  \"poses_valid\": " << valid << ",\n  \"map_valid\": " << (map.valid ? "true" : "false")
        << ",\n  \"map_revision\": " << result.map.revision << ",\n  \"map_from_s\": " << seconds(result.map.stamp_ns)
        << ",\n  \"map_message\": " << quoted(map.message.text) << ",\n  \"key_frames\": " << map.key_frames.size()
-       << ",\n  \"surfels\": " << map.surfels.size() << ",\n  \"range_bias_m\": " << map.range_bias_m
-       << ",\n  \"range_bias_sigma_m\": " << map.range_bias_sigma_m
+       << ",\n  \"surfels\": " << map.surfels.size() << ",\n  \"range_bias_m\": " << bias.value_m[0]
+       << ",\n  \"range_bias_sigma_m\": " << std::sqrt(bias.covariance(0, 0))
+       << ",\n  \"rear_range_bias_m\": " << bias.value_m[1]
+       << ",\n  \"rear_range_bias_sigma_m\": " << std::sqrt(bias.covariance(1, 1))
        << ",\n  \"cpu_ms_per_scan\": " << (result.sweeps_used > 0 ? 1e3 * result.tracking_s / result.sweeps_used : 0.0)
        << ",\n  \"worst_latency_ms\": " << result.max_ms << ",\n  \"adjustment_cpu_s\": " << result.adjustment_s
        << ",\n  \"wall_s\": " << result.wall_s << ",\n";

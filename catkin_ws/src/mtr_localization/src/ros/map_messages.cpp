@@ -9,6 +9,7 @@
 
 #include "mtr_core/clock.hpp"
 #include "mtr_core/names.hpp"
+#include "scans/sweep.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -109,7 +110,8 @@ mtr_msgs::SurfaceMap message_of(const MapResult& result) {
   for (std::size_t i = 0; i < std::min(result.map.key_frames.size(), result.map.pose_covariances.size()); ++i) {
     message.key_frames.push_back(message_of(result.map.key_frames[i], result.map.pose_covariances[i]));
   }
-  message.range_bias_m = result.map.range_bias_m;
+  message.range_bias_m = result.map.range_bias.value_m[static_cast<int>(Lidar::kFront)];
+  message.rear_range_bias_m = result.map.range_bias.value_m[static_cast<int>(Lidar::kRear)];
   message.message = result.map.message.text;
   message.problems = mtr_core::messages_of<mtr_msgs::Problem>(result.map.message);
   return message;

@@ -51,8 +51,9 @@ void Outputs::publish_map(const MapResult& result, bool with_grid) {
   if (with_grid) {
     grids_.publish(grid_message_of(result));
   }
-  ROS_INFO("Map %u: %zu surfaces of %zu key-frames, range bias %.1f mm.", result.revision, result.map.surfels.size(),
-           result.map.key_frames.size(), 1e3 * result.map.range_bias_m);
+  ROS_INFO("Map %u: %zu surfaces of %zu key-frames, range biases %.1f and %.1f mm (front, rear).", result.revision,
+           result.map.surfels.size(), result.map.key_frames.size(), 1e3 * result.map.range_bias.value_m[0],
+           1e3 * result.map.range_bias.value_m[1]);
 }
 
 void Outputs::publish_map_from_odom(std::int64_t stamp_ns, const PoseVector& map_from_odom) {

@@ -68,7 +68,7 @@ class Converter {
     const double climb = slope_.dot(direction);
     if (climb * range > -kNearGroundM) {
       const Eigen::Vector2d beam = range * (direction - 0.5 * climb * slope_);
-      scan_.points.push_back({lidar + beam, direction, range, climb * range});
+      scan_.points.push_back({lidar + beam, direction, range, climb * range, static_cast<int>(sweep_.lidar)});
     }
   }
 

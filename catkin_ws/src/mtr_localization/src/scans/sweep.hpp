@@ -12,8 +12,8 @@
 
 namespace mtr_localization {
 
+/// Numbered as in ScanPoint.
 enum class Lidar { kFront = 0, kRear = 1 };
-inline constexpr int kLidars = 2;
 
 /// Ranges of one turn; what is no finite number within the limits is no return.
 struct Sweep {

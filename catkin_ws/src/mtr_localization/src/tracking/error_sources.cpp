@@ -41,8 +41,8 @@ ErrorSources grouped(const std::vector<Surfel>& surfels, double cell_m) {
 ErrorSources error_sources_of(const std::vector<Surfel>& surfels) {
   double cell_m = kFirstCellM;
   ErrorSources sources = grouped(surfels, cell_m);
-  // One place is left for the range's constant error. Large cells hold everything, so this ends.
-  while (sources.count > kMaxErrorSources - 1) {
+  // Places are left for the constant errors of the LiDARs' ranges. Large cells hold everything, so this ends.
+  while (sources.count > kMaxErrorSources - kLidars) {
     cell_m *= 1.5;
     sources = grouped(surfels, cell_m);
   }

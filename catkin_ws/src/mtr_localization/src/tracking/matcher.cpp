@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/matcher.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
@@ -83,13 +84,13 @@ void ScanMatcher::for_each_match(const PoseVector& pose, const ScanPoints& scan,
   for (std::size_t i = 0; i < scan.points.size(); i += std::max<std::size_t>(stride, 1)) {
     const ScanPoint& point = scan.points[i];
     const Eigen::Vector2d direction = turn * point.direction;
-    const Eigen::Vector2d lever = turn * point.position - map.range_bias_m * direction;
+    const Eigen::Vector2d lever = turn * map.range_bias.corrected(point);
     const double gate =
         std::min(parameters_.max_match_m, kMinGateM + 3.0 * (position_sigma + heading_sigma * point.range_m));
     const Eigen::Vector2d position = pose.head<2>() + lever;
     const auto match = map.surfaces.match(position, gate, direction);
     if (!match || passes_beside(*match, position, direction, position_sigma + heading_sigma * point.range_m)) {
-      visit(nullptr, Eigen::Vector3d::Zero(), 0.0, 0.0, 0.0, 0.0);
+      visit(nullptr, point, Eigen::Vector3d::Zero(), 0.0, 0.0, 0.0, 0.0);
       continue;
     }
     const Eigen::Vector2d& normal = match->surfel->normal;
@@ -101,26 +102,27 @@ void ScanMatcher::for_each_match(const PoseVector& pose, const ScanPoints& scan,
                             square(parameters_.beam_angle_sigma_rad * point.range_m) * (1.0 - square(along)) +
                             square(lasting);
     const double distance = match->distance_along_normal_m - match->surfel->lean * point.rise_m;
-    visit(match->surfel, slope, distance, variance, lasting, along);
+    visit(match->surfel, point, slope, distance, variance, lasting, along);
   }
 }
 
 ScanMatcher::Sums ScanMatcher::sum_at(const PoseVector& pose, const ScanPoints& scan, const ReferenceMap& map,
                                       const PosePrior& prior) const {
   Sums sums;
-  for_each_match(
-      pose, scan, map, prior,
-      [&](const Surfel* surfel, const Eigen::Vector3d& slope, double distance, double variance, double, double) {
-        ++sums.points;
-        if (surfel) {
-          const double in_sigmas = square(distance) / variance;
-          const double weight = parameters_.independent_share / variance / (1.0 + in_sigmas / square(kCauchy));
-          sums.information += weight * slope * slope.transpose();
-          sums.gradient += weight * distance * slope;
-          sums.squares += in_sigmas;
-          ++sums.matched;
-        }
-      });
+  for_each_match(pose, scan, map, prior,
+                 [&](const Surfel* surfel, const ScanPoint&, const Eigen::Vector3d& slope, double distance,
+                     double variance, double, double) {
+                   ++sums.points;
+                   if (surfel) {
+                     const double in_sigmas = square(distance) / variance;
+                     const double weight =
+                         parameters_.independent_share / variance / (1.0 + in_sigmas / square(kCauchy));
+                     sums.information += weight * slope * slope.transpose();
+                     sums.gradient += weight * distance * slope;
+                     sums.squares += in_sigmas;
+                     ++sums.matched;
+                   }
+                 });
   return sums;
 }
 
@@ -158,14 +160,14 @@ ScanFit ScanMatcher::fit(const ScanPoints& scan, const ReferenceMap& map, const 
   const auto is_near = [&](const ScanPoint& point) {
     const Eigen::Matrix2d turn = rotation(prior.pose.z());
     const Eigen::Vector2d direction = turn * point.direction;
-    const Eigen::Vector2d position = prior.pose.head<2>() + turn * point.position - map.range_bias_m * direction;
+    const Eigen::Vector2d position = prior.pose.head<2>() + turn * map.range_bias.corrected(point);
     return map.surfaces.match(position, parameters_.max_match_m, direction).has_value();
   };
   std::size_t next = 0;
   const auto stride = std::max<std::size_t>(
       1, static_cast<std::size_t>(std::ceil(static_cast<double>(level.points.size()) / parameters_.max_points)));
   for_each_match(prior.pose, level, map, prior,
-                 [&](const Surfel* surfel, const Eigen::Vector3d&, double, double, double, double) {
+                 [&](const Surfel* surfel, const ScanPoint&, const Eigen::Vector3d&, double, double, double, double) {
                    fit.exact += surfel != nullptr;
                    fit.near += surfel != nullptr || is_near(level.points[next]);
                    next += stride;
@@ -179,18 +181,20 @@ void ScanMatcher::add_error_sources(const PoseVector& pose, const ScanPoints& sc
     correction.vector_by_source.resize(3, 0);
     return;
   }
-  correction.vector_by_source.setZero(3, map.sources.count + 1);
+  correction.vector_by_source.setZero(3, map.error_sources());
+  // Independent errors that make the biases' covariance, one column each.
+  const Eigen::Matrix<double, kLidars, kLidars> bias_errors = map.range_bias.covariance.llt().matrixL();
   const Surfel* first = map.surfaces.surfels().data();
   for_each_match(
       pose, scan, map, prior,
-      [&](const Surfel* surfel, const Eigen::Vector3d& slope, double distance, double variance, double lasting,
-          double along) {
+      [&](const Surfel* surfel, const ScanPoint& point, const Eigen::Vector3d& slope, double distance, double variance,
+          double lasting, double along) {
         if (surfel) {
           const Eigen::Vector3d information_vector =
               parameters_.independent_share / variance / (1.0 + square(distance) / variance / square(kCauchy)) * slope;
           const auto source = map.sources.of_surfel[static_cast<std::size_t>(surfel - first)];
           correction.vector_by_source.col(source) += lasting * information_vector;
-          correction.vector_by_source.col(map.sources.count) -= map.range_bias_sigma_m * along * information_vector;
+          correction.vector_by_source.rightCols<kLidars>() -= along * information_vector * bias_errors.row(point.lidar);
         }
       });
 }

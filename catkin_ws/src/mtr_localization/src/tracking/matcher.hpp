@@ -16,9 +16,11 @@ namespace mtr_localization {
 struct ReferenceMap {
   SurfelMap surfaces;
   ErrorSources sources;
-  /// Taken off each range before it is compared, and its 1 sigma.
-  double range_bias_m = 0.0;
-  double range_bias_sigma_m = 0.0;
+  /// Taken off each range before it is compared.
+  RangeBias range_bias;
+
+  /// Of the surfaces, and what the LiDARs' biases may be off.
+  int error_sources() const { return sources.count + kLidars; }
 };
 
 /// Where the pose was before the scan, and how far it may be off.

@@ -86,8 +86,7 @@ int ScanTracker::enter(const AdjustedMap& adjusted, const FilterStep& here) {
   auto map = std::make_unique<ReferenceMap>();
   map->sources = error_sources_of(adjusted.surfels);
   map->surfaces = SurfelMap(adjusted.surfels);
-  map->range_bias_m = adjusted.range_bias_m;
-  map->range_bias_sigma_m = adjusted.range_bias_sigma_m;
+  map->range_bias = adjusted.range_bias;
   search_.reset();
   map_ = std::move(map);
   contradictions_.reset();
@@ -95,8 +94,7 @@ int ScanTracker::enter(const AdjustedMap& adjusted, const FilterStep& here) {
   note_agreement(here);
   fitted_ns_ = here.stamp_ns;
   patience_s_ = parameters_.lost_hidden_after_s;
-  // The constant error of the range is one more.
-  return map_->sources.count + 1;
+  return map_->error_sources();
 }
 
 void ScanTracker::lose(const mtr_core::Problem& reason) {

@@ -43,8 +43,10 @@ class MatcherTest : public ::testing::Test {
       const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
       double range = synthetic::cast(world, kTruth.head<2>(), rotation(kTruth.z()) * direction);
       if (range > 0.0) {
-        range += range_bias_m + 0.01 * normal(random);
-        points.points.push_back({range * direction, direction, range, rise_m});
+        // As if the two LiDARs sent every other beam.
+        const int lidar = static_cast<int>(points.points.size() % kLidars);
+        range += range_bias_m[lidar] + 0.01 * normal(random);
+        points.points.push_back({range * direction, direction, range, rise_m, lidar});
       }
     }
     return points;
@@ -65,7 +67,7 @@ class MatcherTest : public ::testing::Test {
   synthetic::World world;
   std::vector<Surfel> surfels;
   ReferenceMap map;
-  double range_bias_m = 0.0;
+  Eigen::Vector2d range_bias_m = Eigen::Vector2d::Zero();
   double rise_m = 0.0;
   std::mt19937 random{1};
   std::normal_distribution<double> normal;
@@ -98,12 +100,24 @@ TEST_F(MatcherTest, WhatStandsInFrontOfTheWallsIsIgnored) {
   EXPECT_LT((match({0.03, -0.02, 0.01}).pose - kTruth).head<2>().norm(), 0.004);
 }
 
-TEST_F(MatcherTest, KnownRangeBiasIsTakenOff) {
+TEST_F(MatcherTest, KnownRangeBiasesAreTakenOff) {
   wall({4.0, -3.0}, {4.0, 3.0});
   wall({-1.0, 3.0}, {4.0, 3.0});
-  range_bias_m = 0.03;
-  map.range_bias_m = 0.03;
+  range_bias_m = {0.03, -0.05};
+  map.range_bias.value_m = range_bias_m;
   EXPECT_LT((match({0.0, 0.0, 0.0}).pose - kTruth).head<2>().norm(), 0.003);
+}
+
+TEST_F(MatcherTest, BiasesThatAreNotSureAreErrorsOfThePose) {
+  wall({4.0, -3.0}, {4.0, 3.0});
+  wall({-1.0, 3.0}, {4.0, 3.0});
+  map.range_bias.covariance << 4e-6, 0.0, 0.0, 9e-6;
+  const auto columns = match({0.0, 0.0, 0.0}).correction.vector_by_source.rightCols<kLidars>().eval();
+  // Half of the beams come from each, so the larger sigma moves the pose half as much again.
+  EXPECT_NEAR(columns.col(1).norm() / columns.col(0).norm(), 1.5, 0.1);
+  map.range_bias.covariance << 4e-6, -4e-6, -4e-6, 4.000001e-6;
+  const auto opposed = match({0.0, 0.0, 0.0}).correction.vector_by_source.rightCols<kLidars>().eval();
+  EXPECT_LT(opposed.norm(), 0.2 * columns.norm());
 }
 
 TEST_F(MatcherTest, KnownLeanIsTakenOffWhatIsMetHigher) {

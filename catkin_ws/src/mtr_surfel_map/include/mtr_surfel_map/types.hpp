@@ -11,6 +11,9 @@
 
 namespace mtr_surfel_map {
 
+/// LiDARs of a robot: the front one is number 0, the rear one 1.
+inline constexpr int kLidars = 2;
+
 /// One beam's return without motion distortion, in base_link at the stamp of its ScanPoints.
 struct ScanPoint {
   Eigen::Vector2d position;
@@ -19,6 +22,8 @@ struct ScanPoint {
   double range_m;
   /// Above the LiDAR's height, by the robot's tilt; negative below it.
   double rise_m = 0.0;
+  /// Number of the LiDAR that sent it.
+  int lidar = 0;
 };
 
 /// Returns of one or more sweeps (front and rear) that hold at the same instant.
@@ -66,6 +71,17 @@ struct Surfel {
   double lean_sigma = kLeanSigma;
 };
 
+/// Constant error of each LiDAR's ranges (m, by its number) and its covariance (m^2): each LiDAR has its own.
+struct RangeBias {
+  Eigen::Matrix<double, kLidars, 1> value_m = Eigen::Matrix<double, kLidars, 1>::Zero();
+  Eigen::Matrix<double, kLidars, kLidars> covariance = Eigen::Matrix<double, kLidars, kLidars>::Zero();
+
+  /// Error of this point's range.
+  double of(const ScanPoint& point) const { return value_m[point.lidar]; }
+  /// Where the point is without it, in base_link.
+  Eigen::Vector2d corrected(const ScanPoint& point) const { return point.position - of(point) * point.direction; }
+};
+
 /// Result of the adjustment of all key frames.
 struct AdjustedMap {
   /// False: the key frames gave no map that can be trusted; see message.
@@ -74,9 +90,8 @@ struct AdjustedMap {
   /// The key frames as given, with adjusted poses.
   std::vector<KeyFrame> key_frames;
   std::vector<Eigen::Matrix3d> pose_covariances;
-  /// Constant error of the LiDAR's range, which the surfels are free of, and its 1 sigma.
-  double range_bias_m = 0.0;
-  double range_bias_sigma_m = 0.0;
+  /// The surfels are free of it.
+  RangeBias range_bias;
   /// Why it is not valid, or what is to be known of it.
   mtr_core::Problem message;
 };

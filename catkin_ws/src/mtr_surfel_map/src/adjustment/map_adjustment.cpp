@@ -56,12 +56,12 @@ Round fine_round(const AdjustmentParameters& parameters) {
 
 std::vector<Surfel> surfels_of(const Adjustment& state, const Round& round, int number) {
   const double shift = std::fmod(kShift * number, 1.0) * round.max_surfel_m;
-  return build_surfels(points_in_map(state.key_frames, state.range_bias_m),
+  return build_surfels(points_in_map(state.key_frames, state.range_bias),
                        {round.max_surfel_m, round.min_surfel_m, round.thickness_m, {shift, shift}});
 }
 
 std::vector<Observation> observe(const Adjustment& state, double gate_m, const AdjustmentParameters& parameters) {
-  return observe(state.key_frames, state.range_bias_m, SurfelMap(state.surfels), gate_m, parameters);
+  return observe(state.key_frames, state.range_bias, SurfelMap(state.surfels), gate_m, parameters);
 }
 
 /// Returns the largest motion of a place.
@@ -117,8 +117,9 @@ AdjustedMap result_of(const Adjustment& state, const std::vector<Observation>& o
       map.surfels.back().lean_sigma = std::min(kLeanSigma, factor * uncertainty.leans[i]);
     }
   }
-  map.range_bias_m = state.range_bias_m;
-  map.range_bias_sigma_m = std::hypot(factor * uncertainty.range_bias_m, kMinBiasSigmaM);
+  map.range_bias = state.range_bias;
+  // What looks like a bias looks so to all LiDARs alike.
+  map.range_bias.covariance = (factor * factor * uncertainty.range_bias).array() + kMinBiasSigmaM * kMinBiasSigmaM;
   map.message = problem_with(state, observations, fit, parameters);
   map.valid = !map.message;
   return map;

@@ -21,7 +21,7 @@ struct Sums {
   double weight = 0.0;
   double variance = 0.0;
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  Eigen::Vector2d direction = Eigen::Vector2d::Zero();
+  Eigen::Matrix<double, 2, kLidars> directions = Eigen::Matrix<double, 2, kLidars>::Zero();
   double rise_m = 0.0;
   double lowest_rise_m = std::numeric_limits<double>::infinity();
   double highest_rise_m = -std::numeric_limits<double>::infinity();
@@ -41,11 +41,11 @@ class Collector {
   Collector(const SurfelMap& map, double gate_m, const AdjustmentParameters& parameters)
       : map_(map), gate_m_(gate_m), parameters_(parameters), sums_(map.surfels().size()) {}
 
-  void add(const KeyFrame& frame, double range_bias_m) {
+  void add(const KeyFrame& frame, const RangeBias& range_bias) {
     const Eigen::Matrix2d turn = rotation(frame.pose[2]);
     const double noise_m = parameters_.range_noise_m / std::sqrt(std::max(1, frame.sweeps));
     for (const ScanPoint& point : frame.scan.points) {
-      const Eigen::Vector2d position = point.position - range_bias_m * point.direction;
+      const Eigen::Vector2d position = range_bias.corrected(point);
       const Eigen::Vector2d seen_along = turn * point.direction;
       const std::optional<SurfelMatch> match = map_.match(turn * position + frame.pose.head<2>(), gate_m_, seen_along);
       if (match) {
@@ -64,7 +64,7 @@ class Collector {
       Sums& sums = sums_[surfel];
       const double surface = parameters_.surface_sigma_m;
       const double variance = sums.variance / (sums.weight * sums.weight) + surface * surface;
-      observations.push_back({key_frame, surfel, sums.position / sums.weight, sums.direction / sums.weight,
+      observations.push_back({key_frame, surfel, sums.position / sums.weight, sums.directions / sums.weight,
                               std::sqrt(variance), sums.beams, sums.rise_m / sums.weight, sums.lowest_rise_m,
                               sums.highest_rise_m});
       sums = Sums{};
@@ -81,7 +81,7 @@ class Collector {
     sums.weight += weight;
     sums.variance += weight * weight * variance;
     sums.position += weight * point.position;
-    sums.direction += weight * point.direction;
+    sums.directions.col(point.lidar) += weight * point.direction;
     sums.rise_m += weight * point.rise_m;
     sums.lowest_rise_m = std::min(sums.lowest_rise_m, point.rise_m);
     sums.highest_rise_m = std::max(sums.highest_rise_m, point.rise_m);
@@ -97,25 +97,25 @@ class Collector {
 
 }  // namespace
 
-SeenPoints points_in_map(const std::vector<KeyFrame>& key_frames, double range_bias_m) {
+SeenPoints points_in_map(const std::vector<KeyFrame>& key_frames, const RangeBias& range_bias) {
   SeenPoints points;
   for (std::size_t i = 0; i < key_frames.size(); ++i) {
     const KeyFrame& frame = key_frames[i];
     const Eigen::Matrix2d turn = rotation(frame.pose[2]);
     for (const ScanPoint& point : frame.scan.points) {
-      const Eigen::Vector2d position = turn * (point.position - range_bias_m * point.direction);
+      const Eigen::Vector2d position = turn * range_bias.corrected(point);
       points.push_back({position + frame.pose.head<2>(), turn * point.direction, point.range_m, static_cast<int>(i)});
     }
   }
   return points;
 }
 
-std::vector<Observation> observe(const std::vector<KeyFrame>& key_frames, double range_bias_m, const SurfelMap& map,
-                                 double gate_m, const AdjustmentParameters& parameters) {
+std::vector<Observation> observe(const std::vector<KeyFrame>& key_frames, const RangeBias& range_bias,
+                                 const SurfelMap& map, double gate_m, const AdjustmentParameters& parameters) {
   std::vector<Observation> observations;
   Collector collector(map, gate_m, parameters);
   for (std::size_t i = 0; i < key_frames.size(); ++i) {
-    collector.add(key_frames[i], range_bias_m);
+    collector.add(key_frames[i], range_bias);
     collector.flush(static_cast<int>(i), observations);
   }
   return observations;

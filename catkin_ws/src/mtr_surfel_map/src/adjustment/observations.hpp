@@ -18,8 +18,9 @@ struct Observation {
   int key_frame;
   int surfel;
   Eigen::Vector2d position;
-  /// Mean of the beams' directions: a range error e moves the position by e * direction.
-  Eigen::Vector2d direction;
+  /// Column by column for each LiDAR its part of the mean of the beams' directions: range errors e of the LiDARs move
+  /// the position by directions * e.
+  Eigen::Matrix<double, 2, kLidars> directions;
   /// 1 sigma of the position along the surfel's normal.
   double sigma_m;
   int beams;
@@ -29,11 +30,11 @@ struct Observation {
   double highest_rise_m = 0.0;
 };
 
-/// All returns in map, free of a range bias.
-SeenPoints points_in_map(const std::vector<KeyFrame>& key_frames, double range_bias_m);
+/// All returns in map, free of range biases.
+SeenPoints points_in_map(const std::vector<KeyFrame>& key_frames, const RangeBias& range_bias);
 
 /// Views of the surfels by returns that lie within the gate of them.
-std::vector<Observation> observe(const std::vector<KeyFrame>& key_frames, double range_bias_m, const SurfelMap& map,
-                                 double gate_m, const AdjustmentParameters& parameters);
+std::vector<Observation> observe(const std::vector<KeyFrame>& key_frames, const RangeBias& range_bias,
+                                 const SurfelMap& map, double gate_m, const AdjustmentParameters& parameters);
 
 }  // namespace mtr_surfel_map

@@ -39,7 +39,9 @@ NormalEquations equations_of(const Adjustment& state, const std::vector<Observat
   for (std::size_t i = 1; i < state.key_frames.size(); ++i) {
     equations.add(motion_residual(state, i));
   }
-  equations.add(prior(state.range_bias_m, parameters.range_bias_sigma_m, layout.range_bias()));
+  for (int lidar = 0; lidar < kLidars; ++lidar) {
+    equations.add(prior(state.range_bias.value_m[lidar], parameters.range_bias_sigma_m, layout.range_bias() + lidar));
+  }
   equations.add(prior(state.wheel_scale, parameters.wheel_scale_sigma, layout.wheel_scale()));
   equations.add(prior(state.gyro_scale, parameters.gyro_scale_sigma, layout.gyro_scale()));
   for (const Eigen::Index place : {0, 1, 2}) {
@@ -64,7 +66,7 @@ double take(const Step& step, Adjustment& state) {
     state.surfels[i].position += change[0] * state.surfels[i].normal;
     state.surfels[i].lean += change[1];
   }
-  state.range_bias_m += step.joint[layout.range_bias()];
+  state.range_bias.value_m += step.joint.segment<kLidars>(layout.range_bias());
   state.wheel_scale += step.joint[layout.wheel_scale()];
   state.gyro_scale += step.joint[layout.gyro_scale()];
   return max_m;
@@ -126,7 +128,7 @@ Uncertainty uncertainty_of(const Adjustment& state, const std::vector<Observatio
     uncertainty.surfels_m.push_back(surfels(0, i));
     uncertainty.leans.push_back(surfels(1, i));
   }
-  uncertainty.range_bias_m = std::sqrt(joint(layout.range_bias(), layout.range_bias()));
+  uncertainty.range_bias = joint.block<kLidars, kLidars>(layout.range_bias(), layout.range_bias());
   return uncertainty;
 }
 

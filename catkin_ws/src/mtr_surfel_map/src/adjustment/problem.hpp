@@ -1,5 +1,5 @@
 /// @file
-/// Least squares over poses, surface offsets, range bias and scales of wheels and gyro for a given association.
+/// Least squares over poses, surface offsets, range biases and scales of wheels and gyro for a given association.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -31,7 +31,7 @@ struct Uncertainty {
   std::vector<double> surfels_m;
   /// 1 sigma of the surfels' leans.
   std::vector<double> leans;
-  double range_bias_m = 0.0;
+  Eigen::Matrix<double, kLidars, kLidars> range_bias = Eigen::Matrix<double, kLidars, kLidars>::Zero();
 };
 
 /// Moves poses and surfels to where all views agree best; the first pose stays. Returns the largest motion of a place.

@@ -27,20 +27,21 @@ Eigen::Matrix3d motion_covariance_of(const KeyFrame& frame, double factor) {
 
 }  // namespace
 
-Residual<1, 4> surface_residual(const Adjustment& state, const Observation& seen) {
+Residual<1, 3 + kLidars> surface_residual(const Adjustment& state, const Observation& seen) {
   const Surfel& surfel = state.surfels[seen.surfel];
   const PoseVector& pose = state.key_frames[seen.key_frame].pose;
   const Eigen::Matrix2d turn = rotation(pose[2]);
-  const Eigen::Vector2d seen_along = turn * seen.direction;
-  const Eigen::Vector2d lever = turn * seen.position - state.range_bias_m * seen_along;
+  const Eigen::Vector2d lever = turn * (seen.position - seen.directions * state.range_bias.value_m);
   const Eigen::Vector2d& normal = surfel.normal;
-  Residual<1, 4> residual;
+  Residual<1, 3 + kLidars> residual;
   const double distance_m = normal.dot(lever + pose.head<2>() - surfel.position);
   residual.value[0] = (distance_m - surfel.lean * seen.rise_m) / seen.sigma_m;
-  residual.jacobian << normal.x(), normal.y(), normal.y() * lever.x() - normal.x() * lever.y(), -normal.dot(seen_along);
+  residual.jacobian << normal.x(), normal.y(), normal.y() * lever.x() - normal.x() * lever.y(),
+      -normal.transpose() * turn * seen.directions;
   residual.jacobian /= seen.sigma_m;
   const Eigen::Index place = Layout::pose(seen.key_frame);
-  residual.places = {place, place + 1, place + 2, layout_of(state).range_bias()};
+  const Eigen::Index bias = layout_of(state).range_bias();
+  residual.places = {place, place + 1, place + 2, bias, bias + 1};
   const double part = residual.value[0] / kSurfaceKernel;
   residual.weight = 1.0 / (1.0 + part * part);
   return residual;

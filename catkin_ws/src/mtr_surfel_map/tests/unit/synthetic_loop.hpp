@@ -21,6 +21,8 @@ struct LoopOptions {
   unsigned seed = 1;
   double range_noise_m = 0.01;
   double range_bias_m = 0.0;
+  /// Added to the ranges of the front LiDAR, taken off those of the rear one.
+  double opposed_bias_m = 0.0;
   /// Of the wheels: true distance over theirs, less 1.
   double wheel_scale = 0.003;
   /// Of the gyro: true turn over its turn, less 1.
@@ -124,12 +126,13 @@ class Drive {
     tilt_rad_ = kept * tilt_rad_ + std::sqrt(1.0 - kept * kept) * options_.tilt_sigma_rad *
                                        Eigen::Vector2d(normal_(random_), normal_(random_));
     ScanPoints scan;
-    sweep(world, robot, {0.2, 0.0, 0.0}, scan);
-    sweep(world, robot, {-0.2, 0.0, M_PI}, scan);
+    sweep(world, robot, {0.2, 0.0, 0.0}, 0, scan);
+    sweep(world, robot, {-0.2, 0.0, M_PI}, 1, scan);
     return scan;
   }
 
-  void sweep(const World& world, const PoseVector& robot, const PoseVector& mount, ScanPoints& scan) {
+  void sweep(const World& world, const PoseVector& robot, const PoseVector& mount, int lidar, ScanPoints& scan) {
+    const double bias_m = options_.range_bias_m + (lidar == 0 ? 1.0 : -1.0) * options_.opposed_bias_m;
     constexpr int kBeams = 720;
     const double field = 1.5 * M_PI;
     std::uniform_int_distribution<int> any_beam(0, kBeams - 1);
@@ -137,21 +140,21 @@ class Drive {
     for (int drop = 0; drop < options_.drops; ++drop) {
       wet[static_cast<std::size_t>(any_beam(random_))] = true;
     }
-    const PoseVector lidar = compose(robot, mount);
+    const PoseVector from = compose(robot, mount);
     for (int beam = 0; beam < kBeams; ++beam) {
       const double angle = -field / 2.0 + field * beam / (kBeams - 1);
-      double range = cast(world, lidar.head<2>(), rotation(lidar[2] + angle) * Eigen::Vector2d::UnitX());
+      double range = cast(world, from.head<2>(), rotation(from[2] + angle) * Eigen::Vector2d::UnitX());
       if (wet[static_cast<std::size_t>(beam)]) {
         range = std::uniform_real_distribution<double>(0.3, range > 0.0 ? range : 10.0)(random_);
       } else if (range > 0.0) {
-        const Eigen::Vector2d beam_in_world = rotation(lidar[2] + angle) * Eigen::Vector2d::UnitX();
-        const bool meets_car = (lidar.head<2>() + range * beam_in_world).norm() < 2.5;
+        const Eigen::Vector2d beam_in_world = rotation(from[2] + angle) * Eigen::Vector2d::UnitX();
+        const bool meets_car = (from.head<2>() + range * beam_in_world).norm() < 2.5;
         range += meets_car ? 0.2 * range * tilt_rad_.dot(beam_in_world) : 0.0;
       }
       if (range > 0.1 && range < 30.0) {
-        const double measured = range + options_.range_bias_m + draw(options_.range_noise_m);
+        const double measured = range + bias_m + draw(options_.range_noise_m);
         const Eigen::Vector2d direction = rotation(mount[2] + angle) * Eigen::Vector2d::UnitX();
-        scan.points.push_back({mount.head<2>() + measured * direction, direction, measured});
+        scan.points.push_back({mount.head<2>() + measured * direction, direction, measured, 0.0, lidar});
       }
     }
   }

@@ -90,7 +90,7 @@ Adjustment some_state() {
   state.key_frames[1].motion = {0.5, -0.1, 0.2};
   state.key_frames[1].motion_covariance << 4e-4, 1e-4, 0.0, 1e-4, 5e-4, 1e-5, 0.0, 1e-5, 1e-4;
   state.surfels.push_back({{3.0, 1.0}, Eigen::Vector2d(-0.6, 0.8), 0.3, 0.0, 10});
-  state.range_bias_m = 0.02;
+  state.range_bias.value_m << 0.02, -0.01;
   state.wheel_scale = 0.004;
   state.gyro_scale = -0.003;
   return state;
@@ -99,8 +99,8 @@ Adjustment some_state() {
 /// The state with one of the joint unknowns changed.
 Adjustment changed(Adjustment state, Eigen::Index place, double change) {
   const Layout layout = layout_of(state);
-  if (place == layout.range_bias()) {
-    state.range_bias_m += change;
+  if (place >= layout.range_bias() && place < layout.range_bias() + kLidars) {
+    state.range_bias.value_m[place - layout.range_bias()] += change;
   } else if (place == layout.wheel_scale()) {
     state.wheel_scale += change;
   } else if (place == layout.gyro_scale()) {
@@ -115,9 +115,11 @@ constexpr double kStep = 1e-6;
 
 TEST(AdjustmentResiduals, DerivativesOfAViewAreItsDifferences) {
   const Adjustment state = some_state();
-  const Observation seen{1, 0, {-2.2, 1.9}, Eigen::Vector2d(-0.8, 0.6), 0.005, 4};
-  const Residual<1, 4> residual = surface_residual(state, seen);
-  for (std::size_t i = 0; i < 4; ++i) {
+  Observation seen{1, 0, {-2.2, 1.9}, {}, 0.005, 4};
+  // Two thirds of the beams came from the front LiDAR.
+  seen.directions << -0.53, -0.3, 0.4, 0.1;
+  const Residual<1, 3 + kLidars> residual = surface_residual(state, seen);
+  for (std::size_t i = 0; i < residual.places.size(); ++i) {
     const Adjustment moved = changed(state, residual.places[i], kStep);
     const double difference = (surface_residual(moved, seen).value[0] - residual.value[0]) / kStep;
     EXPECT_NEAR(residual.jacobian[static_cast<Eigen::Index>(i)], difference, 2e-3) << i;

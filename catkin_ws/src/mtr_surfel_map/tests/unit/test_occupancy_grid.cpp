@@ -55,7 +55,7 @@ TEST(OccupancyGrid, WallIsOccupiedWhatLiesBeforeItFreeAndBehindItUnknown) {
 
 TEST(OccupancyGrid, RangeBiasIsTakenOff) {
   AdjustedMap map = wall_at(3.02);
-  map.range_bias_m = 0.2;
+  map.range_bias.value_m[0] = 0.2;
   EXPECT_EQ(occupancy_of(map).at({0.2, 2.82}), OccupancyGrid::kOccupied);
 }
 

@@ -8,7 +8,7 @@ import numpy as np
 from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
-from ..scan import Returns
+from ..scan import RangeBias, Returns
 from ..surfels import rotated_back
 
 # The Car's farthest corner is so far from where the Car was guessed: half its diagonal and the Operator's error.
@@ -45,9 +45,10 @@ class WayRound:
             return
         self._last[lidar] = seen.robot
         near = np.all(np.abs(seen.points - self._centre) < HALF_SIDE_M, axis=1)
-        self._sweeps.append(Returns(seen.points[near].astype(np.float32), seen.viewer, seen.time_s, seen.robot))
+        self._sweeps.append(Returns(seen.points[near].astype(np.float32), seen.viewer, seen.time_s, seen.robot,
+                                    seen.is_rear))
 
-    def close_up(self, key_frames: FloatArray, range_bias_m: float) -> Optional[CloseUp]:
+    def close_up(self, key_frames: FloatArray, range_bias: RangeBias) -> Optional[CloseUp]:
         """What was collected between the first and the last key-frame; None when that is nothing.
 
         key_frames: rows (time in s, x, y, heading) after adjustment. Each sweep is moved as the key-frames before and
@@ -62,7 +63,7 @@ class WayRound:
             return None
         raw = np.array([[sweep.robot.x, sweep.robot.y, sweep.robot.heading] for sweep in self._sweeps])[order]
         changes = _changes(frames, times[order], raw)
-        moved = [_moved(self._sweeps[index], change, range_bias_m)
+        moved = [_moved(self._sweeps[index], change, range_bias)
                  for index, change in zip(order, _interpolated(times[order], frames[:, 0], changes))
                  if frames[0, 0] <= times[index] <= frames[-1, 0]]
         return CloseUp(*(np.concatenate(columns) for columns in zip(*moved))) if moved else None
@@ -86,7 +87,8 @@ def _interpolated(wanted_s: FloatArray, known_s: FloatArray, rows: FloatArray) -
     return np.column_stack([np.interp(wanted_s, known_s, rows[:, column]) for column in range(3)])
 
 
-def _moved(sweep: Returns, change: FloatArray, range_bias_m: float) -> Tuple[FloatArray, FloatArray]:
+def _moved(sweep: Returns, change: FloatArray, range_bias: RangeBias) -> Tuple[FloatArray, FloatArray]:
+    bias_m = range_bias.rear_m if sweep.is_rear else range_bias.front_m
     away = sweep.points - sweep.viewer
     beams = rotated_back(away / np.maximum(np.linalg.norm(away, axis=1), 1e-6)[:, np.newaxis], -change[2])
-    return rotated_back(sweep.points, -change[2]) + change[:2] - range_bias_m * beams, beams
+    return rotated_back(sweep.points, -change[2]) + change[:2] - bias_m * beams, beams

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from mtr_core.arrays import FloatArray
 from mtr_core.problems import NO_PROBLEM, Problem
 
+from ..scan import RangeBias
 from ..surfels import Surfels
 
 
@@ -26,7 +27,7 @@ class SurfaceMap:
         revision: poses with this number are in it.
         key_frames: rows (time in s, x, y, heading) of base_link.
         message: why it is not valid.
-        range_bias_m: constant error of the LiDARs' ranges, which the surfels are free of.
+        range_bias: constant errors of the LiDARs' ranges, which the surfels are free of.
     """
 
     map_id: int
@@ -35,4 +36,4 @@ class SurfaceMap:
     surfels: Surfels
     key_frames: FloatArray
     message: Problem = NO_PROBLEM
-    range_bias_m: float = 0.0
+    range_bias: RangeBias = RangeBias()

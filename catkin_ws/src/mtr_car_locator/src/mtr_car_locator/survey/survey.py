@@ -117,7 +117,7 @@ class Survey:
             if not surfaces.valid:
                 raise NotLocated(surfaces.message or problems.NO_MAP())
             if robot.map_revision == surfaces.revision:
-                self._fit(surfaces.surfels, self._way.close_up(surfaces.key_frames, surfaces.range_bias_m))
+                self._fit(surfaces.surfels, self._way.close_up(surfaces.key_frames, surfaces.range_bias))
         elif now_s - self._frozen_since_s > self._parameters.map_limit_s:
             raise NotLocated(problems.MAP_LATE(limit_s=self._parameters.map_limit_s))
 
