@@ -23,6 +23,7 @@ from mtr_benchmarks.localization.drives.selection import (
     CAMPAIGN,
     CARS,
     KIDNAP,
+    OPPOSED,
     PLAIN,
     RANGE_BIAS,
     SCENES,
@@ -182,5 +183,6 @@ def test_variants_differ_from_a_plain_drive_in_one_error_only():
     for each in every:
         twin = plain[each.options.scene, each.options.seed]
         differing = {name for name in vars(twin) if getattr(twin, name) != getattr(each.options, name)}
-        assert differing == {PLAIN: set(), RANGE_BIAS: {"range_bias_m"}, TILT: {"tilt_deg"}, KIDNAP: {"kidnap"},
+        assert differing == {PLAIN: set(), RANGE_BIAS: {"range_bias_m"}, OPPOSED: {"opposed_bias_m"},
+                             TILT: {"tilt_deg"}, KIDNAP: {"kidnap"},
                              CAMPAIGN: {"duration_s", "sweeps_apart"}}[each.variant]

@@ -13,6 +13,7 @@ from mtr_benchmarks.localization.drives.selection import (
     ABDUCT,
     CAMPAIGN,
     KIDNAP,
+    OPPOSED,
     PLAIN,
     RANGE_BIAS,
     SCENES,
@@ -67,10 +68,11 @@ def drive(scene, variant, seed):
     return BenchmarkDrive(selection.options(scene, seed), variant)
 
 
-def all_results(key_m=0.004, biased_m=0.006, tilted_m=0.005):
+def all_results(key_m=0.004, biased_m=0.006, tilted_m=0.005, opposed_m=0.0025):
     """Two seeds of everything that the table asks for."""
     found = [result(scene, variant, seed, each_m) for scene in SCENES for seed in (1, 2)
-             for variant, each_m in ((PLAIN, key_m), (RANGE_BIAS, biased_m), (TILT, tilted_m))]
+             for variant, each_m in ((PLAIN, key_m), (RANGE_BIAS, biased_m), (TILT, tilted_m),
+                                    (OPPOSED, opposed_m))]
     lifted = kidnapped_errors({(4.0, 4.5): 2.0, (4.5, 9.0): float("nan")})
     return [*found, result("lot", CAMPAIGN, 1, key_m),
             DriveResult(drive("lot", KIDNAP, 1), {THIS_SYSTEM: MethodOutcome(lifted, 0.5, CAR)}, {}, SEGMENTS),
@@ -229,11 +231,21 @@ def test_rows_without_a_must_are_met_whatever_they_are():
     assert [row.as_json()["must"] for row in worse] == [None, None] and all_met(worse)
 
 
-@pytest.mark.parametrize(("variant", "name"), [(RANGE_BIAS, position_rows.BIAS.name), (TILT, position_rows.TILTED.name),
-                                                 (KIDNAP, kidnapping.DETECTION.name), (ABDUCT, abduction.WRONG.name)])
+@pytest.mark.parametrize(("variant", "name"), [
+    (RANGE_BIAS, position_rows.BIAS.name), (TILT, position_rows.TILTED.name),
+    (OPPOSED, position_rows.OPPOSED_BIAS.name), (KIDNAP, kidnapping.DETECTION.name),
+    (ABDUCT, abduction.WRONG.name)])
 def test_failed_drive_with_a_further_error_is_not_met(variant, name):
     assert rows(all_results())[name]["met"] is True
     assert rows([*all_results(), failed("lot", variant, THIS_SYSTEM)])[name]["met"] is False
+
+
+@pytest.mark.parametrize("opposed_m, met", [(0.0025, True), (0.0035, False)])
+def test_mean_error_with_opposed_ranges_is_judged_near_the_car(opposed_m, met):
+    others = [DriveResult(drive("open", OPPOSED, seed), {THIS_SYSTEM: MethodOutcome(each, 0.5, CAR)}, {}, [])
+              for seed, each in ((7, errors(np.nan)), (8, errors(1.0, beyond_m=9.9)))]
+    found = rows([*all_results(opposed_m=opposed_m), *others])[position_rows.OPPOSED_BIAS.name]
+    assert found["value"] == pytest.approx(opposed_m) and found["met"] is met
 
 
 def test_row_says_for_how_long_the_position_was_unknown():

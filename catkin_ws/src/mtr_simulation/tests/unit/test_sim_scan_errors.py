@@ -44,6 +44,24 @@ def test_range_bias_moves_every_return():
     assert np.all(np.isinf(seen[~finite]))
 
 
+@pytest.mark.parametrize("rear, sign", [(False, 1.0), (True, -1.0)])
+def test_opposed_bias_moves_the_lidars_apart(rear, sign):
+    finite = np.isfinite(RANGES)
+    seen = with_errors(RANGES, ScanErrors(opposed_bias_m=0.01), stream(1, "test"), rear)
+    assert np.allclose(seen[finite] - RANGES[finite], sign * 0.01)
+
+
+def test_opposed_bias_reaches_each_lidar():
+    plain, opposed = (Sim(1, BESIDE, SimParameters(lidar=LidarParameters(noise_m=0.0, errors=ScanErrors(
+        opposed_bias_m=bias_m)))) for bias_m in (0.0, 0.01))
+    both = [sim.step() and sim.step() for sim in (plain, opposed)]
+    for name, bias_m in (("front_scan", 0.01), ("rear_scan", -0.01)):
+        true, seen = (getattr(sensors, name).ranges_m for sensors in both)
+        finite = np.isfinite(true) & np.isfinite(seen)
+        assert np.count_nonzero(finite) > 20
+        assert np.median(seen[finite] - true[finite]) == pytest.approx(bias_m, abs=1e-5)
+
+
 def test_range_bias_reaches_the_scans():
     plain, biased = (scans(1, noise_m=0.0, errors=ScanErrors(range_bias_m=bias))[0].ranges_m for bias in (0.0, 0.02))
     both = np.isfinite(plain)

@@ -8,6 +8,7 @@ from typing import Dict, Optional, Tuple
 import mujoco
 import numpy as np
 
+from mtr_core import names
 from mtr_core import sensor_figures as figures
 from mtr_core.arrays import FloatArray
 from mtr_core.parameters import ParameterSet, number
@@ -84,7 +85,7 @@ class Lidar:
         self._model, self._data, self._parameters, self.fault = model, data, parameters, LidarFault.NONE
         seed, name = noise
         self._noise, self._error_noise = stream(seed, name), stream(seed, f"{name}_errors")
-        self._place = mount.position
+        self._place, self._is_rear = mount.position, mount.frame == names.REAR_LIDAR
         self._rays = _rays(parameters, mount)
         self._slices, delays = _slices(parameters, model.opt.timestep)
         # How a ray turns by the time of its beam for each rad/s that the robot turns.
@@ -110,7 +111,7 @@ class Lidar:
         """The completed sweep that began at stamp_ns; None from a silent LiDAR."""
         parameters, seen = self._parameters, self._distances
         noisy = np.where(seen < 0.0, math.inf, seen)
-        noisy = with_errors(noisy, parameters.errors, self._error_noise)
+        noisy = with_errors(noisy, parameters.errors, self._error_noise, self._is_rear)
         noisy = noisy + parameters.noise_m * self._noise.standard_normal(parameters.beams)
         noisy[noisy < parameters.range_min_m] = -math.inf
         noisy[noisy > parameters.range_max_m] = math.inf

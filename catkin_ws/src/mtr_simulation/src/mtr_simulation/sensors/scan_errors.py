@@ -20,20 +20,23 @@ class ScanErrors(ParameterSet):
 
     Attributes:
         range_bias_m: added to every range.
+        opposed_bias_m: added to every range of the front LiDAR and taken off those of the rear one.
         mixed_pixel_share: of the beams at an edge, that return a range between both sides.
         dropout_share: of all beams, that see nothing (black paint, glass).
         echo_share: of all beams, that return from a drop in the air: isolated points that are there for one sweep.
     """
 
     range_bias_m: float = number(*figures.SIMULATED_RANGE_BIAS_M)
+    opposed_bias_m: float = number(*figures.SIMULATED_RANGE_BIAS_M)
     mixed_pixel_share: float = number(*figures.SIMULATED_MIXED_PIXEL_SHARE)
     dropout_share: float = number(*figures.SIMULATED_DROPOUT_SHARE)
     echo_share: float = number(*figures.SIMULATED_ECHO_SHARE)
 
 
-def with_errors(ranges_m: FloatArray, errors: ScanErrors, noise: np.random.Generator) -> FloatArray:
+def with_errors(ranges_m: FloatArray, errors: ScanErrors, noise: np.random.Generator,
+                is_rear: bool = False) -> FloatArray:
     """Ranges of one sweep with these errors; infinity is a beam that sees nothing."""
-    seen = ranges_m + errors.range_bias_m
+    seen = ranges_m + errors.range_bias_m + (-1.0 if is_rear else 1.0) * errors.opposed_bias_m
     if errors.mixed_pixel_share:
         seen = _mixed(seen, errors.mixed_pixel_share, noise)
     if errors.dropout_share:

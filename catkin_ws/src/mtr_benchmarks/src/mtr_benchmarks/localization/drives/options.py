@@ -28,6 +28,7 @@ class DriveOptions(ParameterSet):
         lidar_height_m: of the LiDARs' plane above the ground.
         range_noise_m: 1 sigma; the most that the data sheets of LiDARs of this class allow.
         range_bias_m: constant error of all ranges.
+        opposed_bias_m: constant error of the front LiDAR's ranges, and less it of the rear one's.
         tilt_deg: root mean square of the ground's slope.
         mount_tilt_deg: pitch of the LiDARs' mounting, which nobody knows of.
         gyro_scale_error: relative.
@@ -49,6 +50,7 @@ class DriveOptions(ParameterSet):
     seed: int = number(1, 0, 2**31 - 1)
     range_noise_m: float = number(*figures.WORST_RANGE_NOISE_M)
     range_bias_m: float = number(*figures.SIMULATED_RANGE_BIAS_M)
+    opposed_bias_m: float = number(*figures.SIMULATED_RANGE_BIAS_M)
     tilt_deg: float = number(0.0, 0.0, 5.0, "deg")
     mount_tilt_deg: float = number(0.0, -5.0, 5.0, "deg")
     dropout_share: float = number(*figures.SIMULATED_DROPOUT_SHARE._replace(value=0.005))
@@ -85,7 +87,8 @@ class DriveOptions(ParameterSet):
 
     def sim(self) -> Sim:
         """The simulated robot at its start."""
-        errors = ScanErrors(range_bias_m=self.range_bias_m, echo_share=self.echo_share,
+        errors = ScanErrors(range_bias_m=self.range_bias_m, opposed_bias_m=self.opposed_bias_m,
+                            echo_share=self.echo_share,
                             mixed_pixel_share=self.mixed_pixel_share, dropout_share=self.dropout_share)
         lidar = LidarParameters(height_m=self.lidar_height_m, noise_m=self.range_noise_m,
                                 pitch_rad=math.radians(self.mount_tilt_deg), errors=errors)

@@ -29,8 +29,8 @@ from .site_bodies import random_jump, site_bodies
 from .wandering import Wanderer
 
 # Options are the fields of DriveOptions, some without their unit.
-ALIASES = {"lidar_height_m": "lidar-height", "range_bias_m": "range-bias", "range_noise_m": "range-noise",
-           "duration_s": "duration"}
+ALIASES = {"lidar_height_m": "lidar-height", "range_bias_m": "range-bias", "opposed_bias_m": "opposed-bias",
+           "range_noise_m": "range-noise", "duration_s": "duration"}
 MAP_CAR_ID = 1
 # The map is frozen when the loop is complete.
 PHASES = {START: MappingOrder.IDLE, LOOP: MappingOrder.COLLECT}

@@ -7,13 +7,14 @@ from .options import DriveOptions
 
 SCENES = ("lot", "far", "cones", "open")
 CARS = ("hatchback", "sedan", "van")
-PLAIN, RANGE_BIAS, TILT, KIDNAP, CAMPAIGN, ABDUCT = "plain", "range_bias", "tilt", "kidnap", "campaign", "abduct"
-SEEDS, VARIANT_SEEDS, KIDNAP_SEEDS, QUICK_SEEDS = 10, 5, 3, 2
+PLAIN, RANGE_BIAS, OPPOSED, TILT, KIDNAP, CAMPAIGN, ABDUCT = (
+    "plain", "range_bias", "opposed_bias", "tilt", "kidnap", "campaign", "abduct")
+SEEDS, VARIANT_SEEDS, OPPOSED_SEEDS, KIDNAP_SEEDS, QUICK_SEEDS = 10, 5, 3, 3, 2
 # Robots that are carried away while they drive, in each scene.
 ABDUCTIONS, QUICK_ABDUCTIONS = 50, 2
 # A drive that proves nothing is repeated with its seed and a multiple of this, which no other drive has.
 NEXT_SEED = 100_000
-RANGE_BIAS_M, TILT_DEG = 0.02, 1.0
+RANGE_BIAS_M, OPPOSED_BIAS_M, TILT_DEG = 0.02, 0.01, 1.0
 KIDNAP_SCENES = ("lot", "open")
 # A working day. Its sweeps are recorded four times as seldom, so that the recording has 2 GB and not 8.
 CAMPAIGN_S, QUICK_CAMPAIGN_S, CAMPAIGN_SWEEPS_APART = 8.0 * 3600.0, 900.0, 4
@@ -33,7 +34,8 @@ class BenchmarkDrive(NamedTuple):
 
 def all_drives(quick: bool = False) -> List[BenchmarkDrive]:
     """Drives with other errors use the first of the plain drives' seeds, so that they differ in nothing else."""
-    seeds, variant_seeds, kidnap_seeds = ((QUICK_SEEDS,) * 3 if quick else (SEEDS, VARIANT_SEEDS, KIDNAP_SEEDS))
+    seeds, variant_seeds, opposed_seeds, kidnap_seeds = (
+        (QUICK_SEEDS,) * 4 if quick else (SEEDS, VARIANT_SEEDS, OPPOSED_SEEDS, KIDNAP_SEEDS))
     # The longest first, so that it does not end alone.
     campaign = replace(options("lot", 1), duration_s=QUICK_CAMPAIGN_S if quick else CAMPAIGN_S,
                        sweeps_apart=CAMPAIGN_SWEEPS_APART)
@@ -44,6 +46,8 @@ def all_drives(quick: bool = False) -> List[BenchmarkDrive]:
             plain = options(scene, seed)
             drives.append(BenchmarkDrive(replace(plain, range_bias_m=RANGE_BIAS_M), RANGE_BIAS))
             drives.append(BenchmarkDrive(replace(plain, tilt_deg=TILT_DEG), TILT))
+    drives += [BenchmarkDrive(replace(options(scene, seed), opposed_bias_m=OPPOSED_BIAS_M), OPPOSED) for scene in SCENES
+               for seed in range(1, opposed_seeds + 1)]
     drives += [BenchmarkDrive(replace(options(scene, seed), kidnap=True), KIDNAP) for scene in KIDNAP_SCENES
                for seed in range(1, kidnap_seeds + 1)]
     return drives
