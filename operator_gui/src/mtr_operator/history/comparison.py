@@ -22,7 +22,7 @@ from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.estimation.interval import LEVEL
 from mtr_operator.domain.results.figure import Figure, Kind, figure_of
 from mtr_operator.domain.results.line_result import LineResult, LineStatus, MeasuredDistance
-from mtr_operator.domain.verdict.assessment import Assessor
+from mtr_operator.domain.verdict.assessment import Assessment, Assessor
 from mtr_operator.storage.given_files import calibration_of
 
 from .line_pairs import LinePair, Side, line_pairs
@@ -100,7 +100,7 @@ def compare(first: Side, second: Side) -> Comparison:
     if not first.progress.results or not second.progress.results:
         raise OperatorError("A test that has measured nothing cannot be compared.")
     pairs, only_first, only_second = line_pairs(first, second)
-    sides = _Reader(first), _Reader(second)
+    sides = DistanceReader(first), DistanceReader(second)
     found: list[Difference] = []
     for pair in pairs:
         for index, word in enumerate(first.scenario.distance_words):
@@ -108,7 +108,7 @@ def compare(first: Side, second: Side) -> Comparison:
     return Comparison(first, second, tuple(found), only_first, only_second)
 
 
-class _Reader:
+class DistanceReader:
     """What one test says of its distances."""
 
     def __init__(self, side: Side):
@@ -124,11 +124,22 @@ class _Reader:
 
     def ends(self, result: LineResult, distance: MeasuredDistance) -> Ends | None:
         """95 % interval; None where the measurement does not say how sure it is."""
-        # What works nowhere may have been asleep.
-        return self._assessor.interval(result, distance) if distance.word in self._alive else None
+        return self._assessor.interval(result, distance) if self.is_alive(distance.word) else None
+
+    def is_alive(self, word: str) -> bool:
+        """False where the key worked on no line of the test: it may have been asleep."""
+        return word in self._alive
+
+    def assessment(self) -> Assessment:
+        """Budgets and verdicts of the test."""
+        return self._assessor.assess(self._side.progress)
+
+    def unshown_sigma_m(self, result: LineResult, word: str) -> float:
+        """1 sigma of the errors that repeating the test does not show, or not all of."""
+        return self._assessor.guard_sigma(result, word)
 
 
-def _difference(pair: LinePair, word: str, index: int, sides: tuple[_Reader, _Reader]) -> Difference:
+def _difference(pair: LinePair, word: str, index: int, sides: tuple[DistanceReader, DistanceReader]) -> Difference:
     results = pair.first, pair.second
     distances = [result.distances[index] for result in results]
     first, second = (side.figure(distance) for side, distance in zip(sides, distances))
@@ -144,12 +155,12 @@ def _difference(pair: LinePair, word: str, index: int, sides: tuple[_Reader, _Re
         if found is None:
             return replace(known, reason=f"Test {number} does not say how sure this distance is.")
         ends.append(found)
-    low_m, high_m = _interval(values, ends[0], ends[1])
+    low_m, high_m = difference_interval(values, ends[0], ends[1])
     return replace(known, low_m=low_m, high_m=high_m)
 
 
-def _interval(values: Sequence[float | None], first: Ends, second: Ends) -> Ends:
-    """Ends of the difference."""
+def difference_interval(values: Sequence[float | None], first: Ends, second: Ends) -> Ends:
+    """95 % interval of the second of two values less the first, from those of both; None for a value nobody knows."""
     a, b = (_middle(value, ends) for value, ends in zip(values, (first, second)))
     if a is None or b is None:
         return second[0] - first[1], second[1] - first[0]

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import functools
 import pathlib
 from typing import Any, Callable, NamedTuple, TypeVar
 
@@ -30,7 +31,13 @@ def load_calibration(path: pathlib.Path = DEFAULT_CALIBRATION) -> CalibrationRec
 
 def calibration_of(progress: Progress) -> CalibrationRecord:
     """With which a test was measured; the design's where its files are older than such records."""
-    return load_calibration() if progress.calibration is None else progress.calibration
+    return _design() if progress.calibration is None else progress.calibration
+
+
+@functools.lru_cache(maxsize=1)
+def _design() -> CalibrationRecord:
+    """A part of the program: read once."""
+    return load_calibration()
 
 
 class GivenPaths(NamedTuple):

@@ -7,6 +7,8 @@ import pathlib
 
 from ..store.place import ADDRESS_VARIABLE, default_address, default_spool
 from ..store.reading import PAGE
+from ..store.sets import FACTORS
+from .comparing import compare, show_trend, spread
 from .exporting import export, query
 from .importing import import_tests, upgrade
 from .listing import list_tests, show_test
@@ -20,6 +22,7 @@ def parser() -> argparse.ArgumentParser:
     commands = made.add_subparsers(dest="command", required=True, metavar="COMMAND")
     _importing(commands)
     _listing(commands)
+    _comparing(commands)
     _exporting(commands)
     return made
 
@@ -43,6 +46,34 @@ def _listing(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> N
     command.add_argument("test", help="its number, or the beginning of its key")
     command.add_argument("--trials", action="store_true", help="each point of each attempt, too")
     command.set_defaults(run=show_test)
+
+
+def _comparing(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    of_set = "tests by their numbers, 12,17, or by what they have, campaign=winter,key=0042"
+    command = commands.add_parser("compare", parents=[_of_store()], help="two tests, or two sets of tests")
+    command.add_argument("first", help=of_set)
+    command.add_argument("second", help="likewise")
+    command.set_defaults(run=compare)
+    of_distance = argparse.ArgumentParser(add_help=False)
+    of_distance.add_argument("set", help=of_set)
+    of_distance.add_argument("--line", type=int, default=0, help="number of the line in the first test; default all")
+    of_distance.add_argument("--word", default="", help="what the distance is called; default all")
+    command = commands.add_parser("spread", parents=[_of_store(), of_distance],
+                                  help="repeatability, reproducibility, and what each factor adds")
+    command.add_argument("--by", default="key,car,place", help=f"of {','.join(FACTORS)}; default %(default)s",
+                         type=_factors)
+    command.set_defaults(run=spread)
+    command = commands.add_parser("trend", parents=[_of_store(), of_distance], help="over time, with control limits")
+    command.add_argument("--baseline", type=int, default=0,
+                         help="so many of the first tests make the limits; default all")
+    command.set_defaults(run=show_trend)
+
+
+def _factors(text: str) -> str:
+    unknown = [name for name in text.split(",") if name not in FACTORS]
+    if unknown:
+        raise argparse.ArgumentTypeError(f"{unknown[0]} is no factor; there are {', '.join(FACTORS)}.")
+    return text
 
 
 def _exporting(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -87,6 +87,42 @@ def test_exported_tables_hold_every_row_and_answer_queries(run, tmp_path):
     assert run("query", folder, "SELECT nonsense")[0] == 2 == run("query", tmp_path / "empty", "SELECT 1")[0]
 
 
+@pytest.fixture
+def two_sets(run, tmp_path):
+    """In the store: three tests of key A and three of key B, whose range is 0.7 m shorter."""
+    for key, base_m in (("A", 5.6), ("B", 4.9)):
+        for number, more_m in enumerate((0.0, 0.05, -0.05)):
+            distances_m = [base_m + more_m + 0.01 * line for line in range(4)]
+            measured.in_folder(tmp_path / "tests" / f"{key}{number}", *distances_m, mark=f"{key}{number}",
+                               started=f"2026-11-2{number}T10:00:0{number}Z" if key == "A" else
+                               f"2026-11-2{number}T11:00:00+00:00", identity=Identity(key_serial=key))
+    assert run("import", tmp_path / "tests")[0] == 0
+
+
+@pytest.mark.usefixtures("two_sets")
+def test_compare_of_two_sets_and_of_two_tests(run):
+    status, out, _ = run("compare", "key=A", "key=B")
+    assert status == 0 and out.count("nearer *") == 5 and "Different among all (Holm)" in out
+    found = json.loads(run("compare", "key=A", "key=B", "--json")[1])
+    assert found["is_different"] and found["rows"][0]["difference"] == pytest.approx(-0.7)
+    assert [row["quantity"] for row in found["rows"]] == ["distance"] * 4 + ["area"]
+    assert "No difference is shown" in run("compare", "A0", "A1")[1]
+    assert "No test fits" in run("compare", "key=A", "key=C")[2]
+    assert "NAME=VALUE" in run("compare", "colour=red", "A0")[2]
+
+
+@pytest.mark.usefixtures("two_sets")
+def test_spread_and_trend_of_each_distance(run):
+    out = run("spread", "scenario=key_press", "--by", "key,car", "--line", "1")[1]
+    assert "6 tests, 0 without a value" in out and "key (2): " in out and "car: all tests have the same one" in out
+    spread = json.loads(run("spread", "scenario=key_press", "--json", "--line", "1")[1])[0]
+    assert spread["repeatability_m"] == pytest.approx(0.05, rel=1e-2)
+    assert spread["reproducibility_m"] > 0.4
+    found = json.loads(run("trend", "scenario=key_press", "--json")[1])
+    assert len(found["tests"]) == 6 and len(found["distances"]) == 4
+    assert "mean 5.250 m" in run("trend", "scenario=key_press", "--line", "1")[1]
+
+
 def test_upgrade_of_a_new_store_makes_it(run):
     status, out, _ = run("upgrade")
     assert status == 0 and "has the version of this program" in out

@@ -63,7 +63,7 @@ class Assessor:
         judgement = None
         if progress.limits is not None:
             judgement = judge(progress.limits, self._lines, progress.results,
-                              Circumstances(self._guard_sigma, self._unreached))
+                              Circumstances(self.guard_sigma, self._unreached))
         return Assessment(budgets, judgement, self._to_outline(progress))
 
     def interval(self, result: LineResult, distance: MeasuredDistance) -> tuple[float, float] | None:
@@ -71,7 +71,7 @@ class Assessor:
         measurement does not say how sure it is."""
         if distance.low_m is None and distance.high_m is None:
             return None
-        return guarded(distance, SIGMAS_OF_LEVEL * self._guard_sigma(result, distance.word))
+        return guarded(distance, SIGMAS_OF_LEVEL * self.guard_sigma(result, distance.word))
 
     def _budget(self, result: LineResult, distance: MeasuredDistance) -> DistanceBudget:
         attempts_m = _attempts_sigma(distance)
@@ -96,8 +96,8 @@ class Assessor:
         left_m = _recorded(result, word, "lateral_offset_m") or 0.0
         return x - left_m * ray.direction_y, y + left_m * ray.direction_x
 
-    def _guard_sigma(self, result: LineResult, word: str) -> float:
-        """All but what repeated attempts show."""
+    def guard_sigma(self, result: LineResult, word: str) -> float:
+        """1 sigma of all errors but those that repeated attempts show, in m."""
         distance = next(item for item in result.distances if item.word == word)
         measurement = Measurement(_place_sigma(result, distance), 0.0, self._outline(result))
         terms = terms_of(measurement, self._carriage(result, word), self._record)

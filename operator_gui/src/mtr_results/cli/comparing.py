@@ -1,0 +1,104 @@
+"""The commands that set tests against each other."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import argparse
+from typing import Any, Iterator
+
+from mtr_operator.cli.exit_codes import EXIT_PASS
+from mtr_operator.report.table import line_name
+
+from ..statistics.comparison import compare_sets
+from ..statistics.components import components
+from ..statistics.documents import comparison_document, spread_document, trend_document
+from ..statistics.places import Tests
+from ..statistics.texts import MEANING, interval_text, row_texts
+from ..statistics.trend import trend
+from ..store.sets import TestSet, read_set
+from .meant import place_of
+from .output import print_json, print_table
+
+_HEADINGS = ("", "first", "second", "second - first", "95 %", "chance of all", "")
+
+
+def compare(options: argparse.Namespace) -> int:
+    """Print how the second set differs from the first."""
+    with place_of(options).open().reading() as connection:
+        first, second = (read_set(connection, text) for text in (options.first, options.second))
+    found = compare_sets(first.sides, second.sides)
+    if options.json:
+        print_json(comparison_document(found))
+        return EXIT_PASS
+    for number, side in ((1, first), (2, second)):
+        print(f"Side {number}: {side.text}, {len(side.rows)} tests from {side.rows[0]['started']}")
+    print_table(_HEADINGS, [row_texts(row) for row in found.rows])
+    for name, mine, its in found.holes:
+        print(f"holes on {name}: {mine or 'none'} / {its or 'none'}")
+    print("verdicts: " + " / ".join(", ".join(f"{count} {word}" for word, count in each.items())
+                                    for each in found.verdicts))
+    for number, names in ((1, found.only_first), (2, found.only_second)):
+        if names:
+            print(f"Only on side {number}: {', '.join(names)}")
+    print(MEANING)
+    print(found.summary)
+    return EXIT_PASS
+
+
+def spread(options: argparse.Namespace) -> int:
+    """Print where the spread of each distance comes from."""
+    tests, chosen = _read(options)
+    factors = {name: chosen.values(name) for name in options.by.split(",") if name}
+    found = []
+    for line, word, name in _distances(tests, options.line, options.word):
+        known = [tests.distance(test, line, word) for test in range(len(tests.sides))]
+        kept = [index for index, each in enumerate(known) if each is not None and each.value is not None]
+        values = [each.value for each in known if each is not None and each.value is not None]
+        of_kept = {factor: [levels[index] for index in kept] for factor, levels in factors.items()}
+        found.append((name, line, word, len(known) - len(kept), components(values, of_kept)))
+    if options.json:
+        print_json([{"line": line, "name": name, "what": word, "without_value": without, **spread_document(each)}
+                    for name, line, word, without, each in found])
+        return EXIT_PASS
+    for name, _, word, without, each in found:
+        print(f"{name} {word}: {each.count} tests, {without} without a value")
+        if each.reason:
+            print(f"  {each.reason}")
+            continue
+        print(f"  mean {each.mean:.3f} m, repeatability {each.repeatability:.3f} m, reproducibility "
+              f"{each.reproducibility:.3f} m (1 sigma)")
+        for part in each.components:
+            print(f"  {part.factor} ({part.levels}): {part.sigma:.3f} m, 95 % {interval_text(part.low, part.high)}")
+        for sentence in each.left_out:
+            print(f"  left out: {sentence}")
+    return EXIT_PASS
+
+
+def show_trend(options: argparse.Namespace) -> int:
+    """Print each distance over time, with control limits."""
+    tests, chosen = _read(options)
+    document = []
+    for line, word, name in _distances(tests, options.line, options.word):
+        found = trend([tests.distance(test, line, word) for test in range(len(tests.sides))], options.baseline)
+        document.append({"line": line, "name": name, "what": word, **trend_document(found)})
+        if not options.json:
+            limits = found.reason or f"mean {found.centre:.3f} m, limits {found.low:.3f} to {found.high:.3f} m"
+            print(f"{name} {word}: {limits}")
+            for index in found.beyond:
+                print(f"  beyond: test {chosen.rows[index]['id']} of {chosen.rows[index]['started']}")
+    if options.json:
+        print_json({"tests": [row["id"] for row in chosen.rows], "distances": document})
+    return EXIT_PASS
+
+
+def _read(options: argparse.Namespace) -> tuple[Tests, TestSet]:
+    with place_of(options).open().reading() as connection:
+        chosen = read_set(connection, options.set)
+    return Tests(chosen.sides), chosen
+
+
+def _distances(tests: Tests, line: int, word: str) -> Iterator[tuple[int, str, Any]]:
+    """Line, word and name; line 0 and an empty word stand for all."""
+    for result in tests.first.progress.results:
+        if line in (0, result.number):
+            yield from ((result.number, each, line_name(tests.first.scenario, result)) for each in tests.words
+                        if word in ("", each))

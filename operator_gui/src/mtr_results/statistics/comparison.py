@@ -1,0 +1,189 @@
+"""Two sets of tests beside each other, a set being one test or repetitions: distances, areas, coverage, verdicts.
+
+A distance is called different only where the whole 95 % interval of its difference lies on one side of zero, and
+different among all only where it also remains after Holm's correction for their number.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import collections
+from dataclasses import dataclass
+from typing import Any, Sequence
+
+from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.verdict.verdict import Verdict
+from mtr_operator.history.line_pairs import Side
+from mtr_operator.report.table import line_name
+
+from .areas import area, rings
+from .estimate import Change, Estimate, Known, change, estimate
+from .multiplicity import ALPHA, holm
+from .places import Tests
+
+FARTHER, NEARER, NOT_SHOWN, NOT_KNOWN = "farther", "nearer", "no difference shown", "not known"
+DISTANCE, AREA, COVERAGE = "distance", "area", "coverage"
+UNITS = {DISTANCE: "m", AREA: "m\N{SUPERSCRIPT TWO}", COVERAGE: ""}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One quantity in both sets.
+
+    Attributes:
+        quantity: DISTANCE, AREA or COVERAGE. line: number in the first test, None for the whole Car. name: for a
+            person. word: what the distance is called. adjusted: the chance of the difference among all rows of its
+            quantity.
+    """
+
+    quantity: str
+    line: int | None
+    name: str
+    word: str
+    first: Estimate
+    second: Estimate
+    change: Change
+    adjusted: float = 1.0
+
+    @property
+    def verdict(self) -> str:
+        """What may be said of it alone."""
+        if self.change.reason or (self.first.is_open and self.second.is_open and self.change.chance > ALPHA
+                                  and self.change.value is None):
+            return NOT_KNOWN
+        if self.change.low > 0.0:
+            return FARTHER
+        return NEARER if self.change.high < 0.0 else NOT_SHOWN
+
+    @property
+    def is_different(self) -> bool:
+        """Also among all rows of its quantity."""
+        return self.verdict in (FARTHER, NEARER) and self.adjusted <= ALPHA
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Attributes: tests: both sets, one after the other. split: how many are the first. rows: distances line by line,
+    then areas and coverage. holes: places of holes of each set, by line; only where there is one. verdicts: of the
+    tests of each set, with how many. only_first, only_second: names of lines that no test of the other set has."""
+
+    tests: Tests
+    split: int
+    rows: tuple[Row, ...]
+    holes: tuple[tuple[str, str, str], ...]
+    verdicts: tuple[dict[str, int], dict[str, int]]
+    only_first: tuple[str, ...]
+    only_second: tuple[str, ...]
+
+    @property
+    def is_different(self) -> bool:
+        """A distance, an area or a coverage differs, and not by the number of comparisons."""
+        return any(row.is_different for row in self.rows)
+
+    def counts(self) -> dict[str, int]:
+        """How many distances came to what."""
+        return dict(collections.Counter(row.verdict for row in self.rows if row.quantity == DISTANCE))
+
+    @property
+    def summary(self) -> str:
+        """One sentence."""
+        counts = ", ".join(f"{number} {verdict}" for verdict, number in self.counts().items()) or "no line in common"
+        remaining = [row for row in self.rows if row.is_different]
+        if not remaining:
+            return f"No difference is shown: {counts} of the distances one by one, and none among all of them (Holm)."
+        named = ", ".join(f"{row.name} {row.word}".strip() for row in remaining[:8])
+        return (f"Different among all (Holm): {named}{' and more' if len(remaining) > 8 else ''}; one by one the "
+                f"distances are: {counts}.")
+
+
+def compare_sets(first: Sequence[Side], second: Sequence[Side]) -> Comparison:
+    """Compare; OperatorError for tests that cannot be."""
+    if not first or not second:
+        raise OperatorError("A side of the comparison has no test; mtr-results list shows what there is.")
+    tests = Tests([*first, *second])
+    split = len(first)
+    lines = [line for line in tests.first.scenario.lines(tests.first.parameters, tests.first.progress.measured_car)
+             if _in_both(tests, split, line.number)]
+    rows = [*_adjusted(_distances(tests, split, lines)), *_adjusted(_areas(tests, split, lines)),
+            *_adjusted(_coverages(tests, split, lines))]
+    return Comparison(tests, split, tuple(rows), _holes(tests, split), _verdicts(tests, split),
+                      *_alone(tests, split))
+
+
+def _in_both(tests: Tests, split: int, line: int) -> bool:
+    return all(any(line in results for results in side) for side in (tests.results[:split], tests.results[split:]))
+
+
+def _row(what: tuple[str, int | None, str, str], known: Sequence[Known | None], split: int) -> Row:
+    first, second = (estimate([each for each in side if each is not None]) for side in (known[:split], known[split:]))
+    return Row(*what, first, second, change(first, second))
+
+
+def _distances(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
+    return [_row((DISTANCE, line.number, _name(tests, line.number), word),
+                 [tests.distance(test, line.number, word) for test in range(len(tests.sides))], split)
+            for line in lines for word in tests.words]
+
+
+def _areas(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
+    rows = []
+    for height, ring in rings(lines):
+        name = "area" if height is None else f"area at {height:.2f} m"
+        for word in tests.words:
+            known = [area(ring, _known(tests, test, ring, word)) for test in range(len(tests.sides))]
+            rows.append(_row((AREA, None, name, word), known, split))
+    return rows
+
+
+def _known(tests: Tests, test: int, ring: Sequence[Any], word: str) -> dict[int, Known]:
+    found = ((line.number, tests.distance(test, line.number, word)) for line in ring)
+    return {number: known for number, known in found if known is not None}
+
+
+def _coverages(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
+    rows = []
+    for line in lines:
+        known = [tests.coverage(test, line.number) for test in range(len(tests.sides))]
+        if any(known):
+            rows.append(_row((COVERAGE, line.number, _name(tests, line.number), "coverage"), known, split))
+    return rows
+
+
+def _adjusted(rows: Sequence[Row]) -> list[Row]:
+    known = [row for row in rows if not row.change.reason]
+    adjusted = dict(zip(map(id, known), holm([row.change.chance for row in known])))
+    return [Row(**{**vars(row), "adjusted": adjusted.get(id(row), 1.0)}) for row in rows]
+
+
+def _name(tests: Tests, line: int) -> str:
+    result = next(results[line] for results in tests.results if line in results)
+    word = tests.first.scenario.line_word
+    # The number is that of the first test, whoever the result is of.
+    return line_name(tests.first.scenario, result) if line == result.number else f"{word} {line} ({result.place})"
+
+
+def _holes(tests: Tests, split: int) -> tuple[tuple[str, str, str], ...]:
+    found = []
+    for line in sorted({line for results in tests.results for line in results}):
+        mine, its = (", ".join(dict.fromkeys(text for results in side if line in results
+                                         for text in getattr(results[line], "holes_m", "").split()))
+                     for side in (tests.results[:split], tests.results[split:]))
+        if mine or its:
+            found.append((_name(tests, line), mine, its))
+    return tuple(found)
+
+
+def _verdicts(tests: Tests, split: int) -> tuple[dict[str, int], dict[str, int]]:
+    words = []
+    for test in range(len(tests.sides)):
+        judgement = tests.assessment(test).judgement
+        words.append((Verdict.NOT_SET if judgement is None else judgement.verdict).word)
+    return dict(collections.Counter(words[:split])), dict(collections.Counter(words[split:]))
+
+
+def _alone(tests: Tests, split: int) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    first, second = ({line for results in side for line in results}
+                     for side in (tests.results[:split], tests.results[split:]))
+    only_first = tuple(_name(tests, line) for line in sorted(first - second))
+    # Lines at places that the very first test has not are known by their names alone.
+    elsewhere = dict.fromkeys(name for alone in tests.alone[split:] for name in alone)
+    return only_first, (*(_name(tests, line) for line in sorted(second - first)), *elsewhere)

@@ -1,0 +1,69 @@
+"""What was found as plain values, for JSON and for pages; null where an end is open."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from .comparison import UNITS, Comparison, Row
+from .components import Component, Spread
+from .estimate import Estimate, Known
+from .trend import Trend
+
+Document = dict[str, Any]
+
+
+def finite(number: float | None) -> float | None:
+    """None for what is not known."""
+    return number if number is not None and math.isfinite(number) else None
+
+
+def comparison_document(comparison: Comparison) -> Document:
+    """All rows, and what is not comparable."""
+    return {"scenario": comparison.tests.first.scenario.name, "summary": comparison.summary,
+            "is_different": comparison.is_different, "rows": [row_document(row) for row in comparison.rows],
+            "holes": [{"line": name, "first": first, "second": second} for name, first, second in comparison.holes],
+            "verdicts": list(comparison.verdicts), "only_first": list(comparison.only_first),
+            "only_second": list(comparison.only_second)}
+
+
+def row_document(row: Row) -> Document:
+    """One quantity in both sets."""
+    return {"quantity": row.quantity, "unit": UNITS[row.quantity], "line": row.line, "name": row.name, "what": row.word,
+            "first": estimate_document(row.first), "second": estimate_document(row.second),
+            "difference": row.change.value, "low": finite(row.change.low), "high": finite(row.change.high),
+            "chance": row.change.chance, "chance_of_all": row.adjusted, "change": row.verdict,
+            "is_different": row.is_different, "reason": row.change.reason}
+
+
+def estimate_document(estimate: Estimate) -> Document:
+    """Value and interval."""
+    return {"value": estimate.value, "low": finite(estimate.low), "high": finite(estimate.high),
+            "tests": estimate.count, "spread": estimate.spread}
+
+
+def spread_document(spread: Spread) -> Document:
+    """Components with intervals."""
+    return {"tests": spread.count, "mean_m": finite(spread.mean), "reason": spread.reason,
+            "components": [_component(component) for component in spread.components],
+            "repeatability_m": finite(spread.repeatability), "reproducibility_m": finite(spread.reproducibility),
+            "left_out": list(spread.left_out)}
+
+
+def _component(component: Component) -> Document:
+    return {"factor": component.factor, "levels": component.levels, "sigma_m": component.sigma,
+            "low_m": component.low, "high_m": finite(component.high)}
+
+
+def trend_document(trend: Trend) -> Document:
+    """Points in their order, and the limits."""
+    return {"centre_m": finite(trend.centre), "low_m": finite(trend.low), "high_m": finite(trend.high),
+            "reason": trend.reason, "points": [{**_known(point.known), "is_beyond": point.is_beyond}
+                                               for point in trend.points]}
+
+
+def _known(known: Known | None) -> Document:
+    if known is None:
+        return {"value_m": None, "low_m": None, "high_m": None}
+    low, high = (known.low, known.high) if known.ends is None else known.ends
+    return {"value_m": known.value, "low_m": finite(low), "high_m": finite(high)}

@@ -1,0 +1,97 @@
+"""A quantity as one test or a set of tests knows it: a value with its 95 % interval, or an end of it alone.
+
+The mean of repeated tests has the interval of Student's t from their spread, widened by what no repetition shows (the
+errors of robot and calibration, which all tests have alike). Where a test knows only that the quantity lies beyond an
+end, that end stands for it: the mean then has one end as well, and no value.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Sequence
+
+import numpy as np
+
+from mtr_operator.domain.estimation.interval import SIGMAS_OF_LEVEL
+from mtr_operator.history.comparison import difference_interval
+
+from .multiplicity import chance, quantile
+
+
+@dataclass(frozen=True)
+class Known:
+    """Of one test. value: None where only ends are known; low, high: between which it lies for sure, the value itself
+    where there is one. ends: 95 % interval, None where the method gives none. shared: 1 sigma of what repeating the
+    test does not show."""
+
+    value: float | None
+    low: float
+    high: float
+    ends: tuple[float, float] | None
+    shared: float = 0.0
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Of one test, or the mean of several. count: of tests. freedom: degrees of freedom of the interval. spread: 1
+    sigma between the tests, None for one. low, high: 95 % interval, infinite where an end is open. reason: why there is
+    no interval, a sentence; empty when there is one."""
+
+    value: float | None
+    low: float
+    high: float
+    count: int
+    freedom: float = math.inf
+    spread: float | None = None
+    reason: str = ""
+
+    @property
+    def is_open(self) -> bool:
+        """An end of the interval is not known."""
+        return not (math.isfinite(self.low) and math.isfinite(self.high))
+
+
+@dataclass(frozen=True)
+class Change:
+    """Of one quantity, second less first. chance: see multiplicity; 1 where nothing is known."""
+
+    value: float | None
+    low: float
+    high: float
+    chance: float
+    reason: str = ""
+
+
+def estimate(known: Sequence[Known]) -> Estimate:
+    """What tests say together of one quantity."""
+    if not known:
+        return Estimate(None, -math.inf, math.inf, 0, reason="No test measured it.")
+    if len(known) == 1:
+        only = known[0]
+        if only.ends is None:
+            return Estimate(only.value, -math.inf, math.inf, 1, reason="One test that does not say how sure it is.")
+        return Estimate(only.value, *only.ends, 1)
+    count, shared = len(known), max(each.shared for each in known)
+    lows, highs = (np.array([getattr(each, name) for each in known]) for name in ("low", "high"))
+    low, high = _end(lows, -1.0, shared), _end(highs, 1.0, shared)
+    if any(each.value is None for each in known):
+        return Estimate(None, low, high, count, count - 1.0)
+    return Estimate(float(np.mean(lows)), low, high, count, count - 1.0, float(np.std(lows, ddof=1)))
+
+
+def _end(values: np.ndarray[tuple[int], np.dtype[np.float64]], sign: float, shared: float) -> float:
+    if not np.all(np.isfinite(values)):
+        return sign * math.inf
+    reach = quantile(len(values) - 1.0) * float(np.std(values, ddof=1)) / math.sqrt(len(values))
+    return float(np.mean(values)) + sign * math.hypot(reach, SIGMAS_OF_LEVEL * shared)
+
+
+def change(first: Estimate, second: Estimate) -> Change:
+    """The difference of two estimates, with the interval that follows from both (MOVER)."""
+    value = None if first.value is None or second.value is None else second.value - first.value
+    for number, each in ((1, first), (2, second)):
+        if each.reason:
+            return Change(value, -math.inf, math.inf, 1.0, f"Side {number}: {each.reason}")
+    low, high = difference_interval([first.value, second.value], (first.low, first.high), (second.low, second.high))
+    return Change(value, low, high, chance(value, low, high, min(first.freedom, second.freedom)))

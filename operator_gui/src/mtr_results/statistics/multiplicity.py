@@ -1,0 +1,50 @@
+"""Many differences at once: how likely each is by chance, and which remain when all of them are judged together.
+
+Of 40 intervals of 95 % two miss zero by chance. Holm (1979, Scandinavian Journal of Statistics 6, 65) keeps the chance
+that any difference is called one at 5 %, however the distances depend on each other.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from typing import Sequence
+
+from scipy.special import ndtr, ndtri, stdtr, stdtrit
+
+from mtr_operator.domain.estimation.interval import LEVEL
+
+ALPHA = 1.0 - LEVEL
+# Student's t has no larger table; beyond it is the normal distribution.
+_NORMAL_FROM = 1e6
+
+
+def quantile(freedom: float) -> float:
+    """Half the width of a 95 % interval in standard errors, with these degrees of freedom."""
+    probability = (1.0 + LEVEL) / 2.0
+    return float(ndtri(probability) if freedom > _NORMAL_FROM else stdtrit(freedom, probability))
+
+
+def chance(value: float | None, low: float, high: float, freedom: float = math.inf) -> float:
+    """Two-sided probability of such a difference where there is none, from the 95 % interval of the difference.
+
+    Where only an end of the interval is known nothing more is: 0.05 when that end is beyond zero, else 1.
+    """
+    end = low if (low + high if value is None else value) > 0.0 else high
+    if value is None or not math.isfinite(end):
+        return ALPHA if low > 0.0 or high < 0.0 else 1.0
+    reach = abs(value - end)
+    if reach == 0.0:
+        return 1.0 if value == 0.0 else 0.0
+    errors = abs(value) / reach * quantile(freedom)
+    return float(2.0 * (ndtr(-errors) if freedom > _NORMAL_FROM else stdtr(freedom, -errors)))
+
+
+def holm(chances: Sequence[float]) -> list[float]:
+    """Adjusted: what is at most 0.05 is a difference among all of them."""
+    order = sorted(range(len(chances)), key=lambda index: chances[index])
+    adjusted = [1.0] * len(chances)
+    least = 0.0
+    for rank, index in enumerate(order):
+        least = max(least, min(1.0, (len(chances) - rank) * chances[index]))
+        adjusted[index] = least
+    return adjusted

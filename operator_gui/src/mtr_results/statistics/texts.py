@@ -1,0 +1,42 @@
+"""Values and intervals as a person reads them: what is open says so."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+
+from .comparison import Row
+from .estimate import Estimate
+
+MEANING = ("A quantity is called different only where the whole 95 % interval of its difference lies on one side of "
+           "zero, and different among all only where that remains after Holm's correction for their number (*). Where "
+           "one of them is only known to lie beyond an end, so is the difference.")
+
+
+def interval_text(low: float, high: float, sign: str = "") -> str:
+    """Ends, or the one that is known; empty without."""
+    if math.isfinite(low) and math.isfinite(high):
+        return f"{low:{sign}.2f} to {high:{sign}.2f}"
+    if math.isfinite(low):
+        return f"at least {low:{sign}.2f}"
+    return f"at most {high:{sign}.2f}" if math.isfinite(high) else ""
+
+
+def estimate_text(estimate: Estimate) -> str:
+    """A value, or what is known of it."""
+    if estimate.value is not None:
+        return f"{estimate.value:.2f}"
+    return interval_text(estimate.low, estimate.high) or "unknown"
+
+
+def row_texts(row: Row) -> tuple[str, ...]:
+    """Cells of a table: name, both sides, difference, its interval, chance among all, what may be said."""
+    change = row.change
+    return (f"{row.name} {row.word if row.word not in row.name else ''}".rstrip(), estimate_text(row.first),
+            estimate_text(row.second), "" if change.value is None else f"{change.value:+.2f}",
+            "" if change.reason else interval_text(change.low, change.high, "+"),
+            "" if change.reason else chance_text(row.adjusted), row.verdict + (" *" if row.is_different else ""))
+
+
+def chance_text(chance: float) -> str:
+    """Never a zero."""
+    return "< 0.001" if chance < 0.001 else f"{chance:.3f}"

@@ -1,0 +1,72 @@
+"""Sets of tests by what a person writes: "12", "12,17", or "campaign=winter,key=0042"."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+from sqlalchemy import Connection
+
+from mtr_operator.history.line_pairs import Side
+
+from ..errors import StoreError
+from ..statistics.places import MAX_TESTS
+from .reading import Row, Search, find, number_of, side, test_row
+
+_NAMES = [field.name for field in fields(Search) if field.name not in ("limit", "offset")]
+
+
+@dataclass(frozen=True)
+class TestSet:
+    """Attributes: text: as it was written. rows: of the tests, oldest first. sides: the tests, in the same order."""
+
+    # The name would make pytest collect it.
+    __test__ = False
+
+    text: str
+    rows: list[Row]
+    sides: list[Side]
+
+    def values(self, factor: str) -> list[str]:
+        """What each test has of a factor by which tests differ."""
+        return [level(row, factor) for row in self.rows]
+
+
+# Factor -> columns of a test that make its level.
+FACTORS = {"key": ("key_serial", "key_type"), "car": ("vin", "model"), "software": ("car_software",),
+           "place": ("place",), "operator": ("operator",), "robot": ("robot",), "campaign": ("campaign",)}
+
+
+def level(row: Row, factor: str) -> str:
+    """Which key, car, place ... a test has."""
+    return " ".join(filter(None, (str(row[name] or "") for name in FACTORS[factor])))
+
+
+def read_set(connection: Connection, text: str) -> TestSet:
+    """The tests that are meant; StoreError when there is none, or too many to be looked at together."""
+    if "=" in text:
+        search = _search(text)
+        numbers = [row["id"] for row in reversed(find(connection, search))]
+        if len(numbers) > MAX_TESTS:
+            raise StoreError(f"More than {MAX_TESTS} tests fit {text}; narrow the search.")
+    else:
+        numbers = [number_of(connection, word.strip()) for word in text.split(",")]
+    if not numbers:
+        raise StoreError(f"No test fits {text}; mtr-results list shows what there is.")
+    return _ordered(connection, text, list(dict.fromkeys(numbers)))
+
+
+def _ordered(connection: Connection, text: str, numbers: list[int]) -> TestSet:
+    rows = sorted((test_row(connection, number) for number in numbers), key=lambda row: (row["started_utc"], row["id"]))
+    return TestSet(text, rows, [side(connection, row["id"]) for row in rows])
+
+
+def _search(text: str) -> Search:
+    wanted: dict[str, Any] = {}
+    for part in text.split(","):
+        name, _, value = part.partition("=")
+        if name.strip() not in _NAMES or not value.strip():
+            raise StoreError(f"{part} is no part of a set; give numbers of tests, or NAME=VALUE with "
+                             f"{', '.join(_NAMES)}.")
+        wanted[name.strip()] = value.strip()
+    return replace(Search(limit=MAX_TESTS + 1), **wanted)
