@@ -10,7 +10,7 @@ import sensor_msgs.msg
 from mtr_core import names, schedule
 from mtr_core.lockstep import Ticker, clock, publisher, run_node
 from mtr_core.problems import NO_PROBLEM, messages_of
-from mtr_core.quiet_start import QuietStart
+from mtr_core.quiet_log import QuietStart
 from mtr_msgs.msg import LiftCommand, MotionLock, Problem, VelocityCommand
 
 from .core import RELEASED, Controller, Joy, Outcome

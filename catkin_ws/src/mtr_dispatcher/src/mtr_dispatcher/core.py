@@ -72,6 +72,12 @@ class Dispatcher:
         self._recent.add(notice, now_s)
         return notice.problem.text
 
+    def connections_cut_off(self, count: int, now_s: float) -> str:
+        """Tell the Operator of connections that were cut off since the start; the sentence for the log."""
+        notice = Notice("connections_cut_off", WARNING, problems.CONNECTIONS_CUT_OFF(count=count))
+        self._recent.add(notice, now_s)
+        return notice.problem.text
+
     def desired(self, now_s: float) -> SessionState:
         """What the robot shall do at now_s of the steady clock."""
         return self.session.desired(now_s)

@@ -1,17 +1,18 @@
 """The robot's end of the link: two bound ZeroMQ sockets whose memory nobody outside can fill."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Any, List, NamedTuple, Optional
+from typing import Any, Counter, List, NamedTuple, Optional
 
 import zmq
 
 from mtr_core.errors import RobotError
 
+from .access.connection_watch import ConnectionWatch
 from .access.curve import Curve, authenticator, encrypt
-from .access.handshakes import HandshakeWatch
+from .access.peer_limits import PeerLimits, allowances
 from .command_codec import MAX_MESSAGE_BYTES
 
-# Whole messages that wait per connection. Parts of an unfinished one are not counted by ZeroMQ: see `rebind`.
+# Whole messages that wait per connection. Parts of an unfinished one are not counted by ZeroMQ: see peer_limits.py.
 RECEIVE_QUEUE = 10
 SEND_QUEUE = 100
 MESSAGES_PER_TURN = 100
@@ -21,6 +22,8 @@ HEARTBEAT_TIMEOUT_MS = 5000
 LINGER_MS = 200
 # Who has not said within it who he is loses the connection.
 HANDSHAKE_MS = 2000
+# Of what has arrived and was not taken yet the system keeps no more; else it takes up to 6 MB of a connection.
+RECEIVE_BUFFER_BYTES = 64 * 1024
 
 
 class LinkError(RobotError):
@@ -48,7 +51,7 @@ class LinkServer:
     def __init__(self, ports: Ports, curve: Optional[Curve] = None) -> None:
         self._ports, self._curve = ports, curve
         self._authenticator: Optional[Any] = None
-        self._watches: List[HandshakeWatch] = []
+        self._watches: List[ConnectionWatch] = []
         self._open()
 
     def bind(self) -> None:
@@ -76,9 +79,9 @@ class LinkServer:
         """Send one Status to every application that listens."""
         self._publisher.send(status)
 
-    def failed_handshakes(self) -> List[str]:
-        """A word for each connection since the last call that spoke another language than the link's."""
-        return [word for watch in self._watches for word in watch.failed()]
+    def cut_off(self) -> Counter[str]:
+        """Connections since the last call that spoke not as the link does, or too much, by what was wrong."""
+        return sum((watch.counted() for watch in self._watches), Counter())
 
     def receive(self, timeout_s: float = 0.0) -> List[Received]:
         """Messages that have arrived, in order; waits up to timeout_s for the first one."""
@@ -94,6 +97,7 @@ class LinkServer:
             data = [frame.bytes for frame in frames]
             joined = data[0] if len(data) == 1 else b"\xff".join([b"", *data])
             messages.append(Received(joined, self._key_of(frames[0])))
+            self._limits.delivered(int(frames[0].get(zmq.SRCFD)), len(frames), sum(map(len, data)))
         return messages
 
     def close(self) -> None:
@@ -101,6 +105,9 @@ class LinkServer:
         self._destroy(LINGER_MS)
 
     def _destroy(self, linger_ms: int) -> None:
+        for watch in self._watches:
+            watch.close()
+        self._watches = []
         if self._authenticator is not None:
             self._authenticator.stop()
             self._authenticator = None
@@ -122,13 +129,16 @@ class LinkServer:
         self._subscriber = self._socket(zmq.SUB)
         self._subscriber.setsockopt(zmq.RCVHWM, RECEIVE_QUEUE)
         self._subscriber.setsockopt(zmq.SUBSCRIBE, b"")
-        if self._curve is not None:
-            self._watches = [HandshakeWatch(socket) for socket in (self._publisher, self._subscriber)]
+        of_status, of_commands = allowances(is_encrypted=self._curve is not None)
+        self._limits = PeerLimits(of_commands)
+        self._watches = [ConnectionWatch(self._publisher, PeerLimits(of_status)),
+                         ConnectionWatch(self._subscriber, self._limits)]
 
     def _socket(self, kind: int) -> "zmq.Socket[bytes]":
         socket = self._context.socket(kind)
         # Beyond it ZeroMQ cuts the connection; on the port of Status it bounds a subscription.
         socket.setsockopt(zmq.MAXMSGSIZE, MAX_MESSAGE_BYTES)
+        socket.setsockopt(zmq.RCVBUF, RECEIVE_BUFFER_BYTES)
         socket.setsockopt(zmq.HEARTBEAT_IVL, HEARTBEAT_MS)
         socket.setsockopt(zmq.HEARTBEAT_TIMEOUT, HEARTBEAT_TIMEOUT_MS)
         socket.setsockopt(zmq.HANDSHAKE_IVL, HANDSHAKE_MS)

@@ -3,7 +3,7 @@
 import pathlib
 import secrets
 import time
-from typing import List, Optional
+from typing import Counter, List, Mapping, Optional
 
 import rospkg
 import rospy
@@ -12,6 +12,7 @@ from rosgraph_msgs.msg import Log
 from mtr_core import names, schedule
 from mtr_core.liveness import NS, ClockWatch
 from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
+from mtr_core.quiet_log import Throttle
 from mtr_description.robot_description import described_robot
 from mtr_msgs.msg import (
     CarCheck,
@@ -26,6 +27,7 @@ from mtr_msgs.msg import (
 )
 from mtr_proto.keys import fingerprint
 
+from .access.connection_watch import HANDSHAKE_FAILURES
 from .access.curve import Curve, is_possible
 from .access.gate import ANYBODY, Gate
 from .access.key_folder import FOLDER_NAME, KeyFolder
@@ -44,7 +46,6 @@ from .status.emergency import EmergencyWatch
 from .status.inputs import STALE_AFTER_S, Inputs
 from .status.notices import ERROR, WARNING
 from .status.texts import cut
-from .throttle import Throttle
 
 # While simulated time waits for the application the Status is sent again, for one that connects meanwhile.
 STATUS_AGAIN_WALL_S = 0.1
@@ -64,7 +65,9 @@ class DispatcherNode:
         """gate: who may use the link; None when it is not encrypted."""
         self._parameters, self._core, self._server, self._gate = parameters, core, server, gate
         self._eyes = eyes
-        self._refused, self._logged = 0, Rates(LOGGED_PER_S, MAX_LOGGED_BURST)
+        self._refused = 0
+        self._cut_off: Counter[str] = Counter()
+        self._logged = Rates(LOGGED_PER_S, MAX_LOGGED_BURST)
         self._wait = OperatorWait(parameters.operator_lost_after_wall_s)
         self._published: Optional[SessionState] = None
         self._confirmed: Optional[List[object]] = None
@@ -137,8 +140,9 @@ class DispatcherNode:
         self._publish_desired(now)
 
     def _receive(self, now_ns: int, timeout_s: float) -> bool:
+        self._watch_connections(self._steady_s(now_ns))
         if self._gate is not None:
-            self._watch_connections(self._gate, self._steady_s(now_ns))
+            self._watch_keys(self._gate, self._steady_s(now_ns))
         messages = self._server.receive(timeout_s)
         # The time after waiting: what came while this process was stopped is as old as it is.
         now_s = self._steady_s(now_ns)
@@ -159,14 +163,25 @@ class DispatcherNode:
         else:
             self._warn(result, sentence)
 
-    def _watch_connections(self, gate: Gate, now_s: float) -> None:
-        for word in self._server.failed_handshakes():
-            gate.count(word)
+    def _watch_connections(self, now_s: float) -> None:
+        found, gate = self._server.cut_off(), self._gate
+        for word in HANDSHAKE_FAILURES.values():
+            # Nobody is refused for his handshake on a link without keys.
+            failed = found.pop(word, 0)
+            for _ in range(failed):
+                if gate is not None:
+                    gate.count(word)
+        if found:
+            self._cut_off += found
+            self._warn("cut off", self._core.connections_cut_off(sum(self._cut_off.values()), now_s)
+                       + f" {_listed(self._cut_off)}.")
+
+    def _watch_keys(self, gate: Gate, now_s: float) -> None:
         refused = dict(gate.refused)
         if sum(refused.values()) != self._refused:
             self._refused = sum(refused.values())
             said = self._core.refused_connections(self._refused, now_s)
-            self._warn("connections", f"{said} {', '.join(f'{count} {what}' for what, count in refused.items())}.")
+            self._warn("connections", f"{said} {_listed(refused)}.")
         if gate.has_lost_keys():
             rospy.logwarn("A key was revoked: all connections are cut off, and the paired ones come back.")
             self._server.rebind()
@@ -225,6 +240,10 @@ class DispatcherNode:
         if message.level >= Log.WARN:
             severity = WARNING if message.level == Log.WARN else ERROR
             self._core.log.add(message.header.stamp.to_sec(), severity, message.name.lstrip("/"), message.msg)
+
+
+def _listed(counts: Mapping[str, int]) -> str:
+    return ", ".join(f"{count} {what}" for what, count in counts.items())
 
 
 def make(parameters: Parameters) -> DispatcherNode:

@@ -30,6 +30,9 @@ SESSION_OF_ANOTHER = Sentence("dispatcher.session_of_another",
                               "{name} has sent a Command in the name of another; it was ignored.")
 CONNECTIONS_REFUSED = Sentence("dispatcher.connections_refused",
                                "{count} connections without a key that the robot knows were refused since its start.")
+CONNECTIONS_CUT_OFF = Sentence(
+    "dispatcher.connections_cut_off",
+    "{count} connections were cut off since the robot's start: each brought more than messages, or was one too many.")
 UNENCRYPTED = Sentence("dispatcher.unencrypted",
                        "The link is not encrypted: whoever is in its network can move the robot.")
 

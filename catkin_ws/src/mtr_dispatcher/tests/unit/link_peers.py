@@ -58,7 +58,7 @@ class Robot:
         while len(words) < number:
             assert time.monotonic() < end_s, f"only {words} failed"
             self.server.receive(0.01)
-            words += self.server.failed_handshakes()
+            words += self.server.cut_off().elements()
         return words
 
 

@@ -7,8 +7,8 @@ import zmq
 from link_peers import COMMANDS_PER_S, LIMIT_S, Peer, Robot
 
 from mtr_dispatcher.access.authorised_keys import Role
+from mtr_dispatcher.access.connection_watch import GONE, NOT_ENCRYPTED
 from mtr_dispatcher.access.gate import MAX_CONNECTION_BURST
-from mtr_dispatcher.access.handshakes import GONE, NOT_ENCRYPTED
 from mtr_dispatcher.command_codec import MAX_MESSAGE_BYTES
 from mtr_proto.keys import KeyPair
 

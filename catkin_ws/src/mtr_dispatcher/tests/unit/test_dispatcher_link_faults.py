@@ -23,7 +23,6 @@ from mtr_dispatcher.status.inputs import Inputs
 from mtr_dispatcher.status.interventions import Interventions
 from mtr_dispatcher.status.notices import MAX_FOREIGN, ForeignApplications
 from mtr_dispatcher.status.texts import MAX_TEXT
-from mtr_dispatcher.throttle import Throttle
 from mtr_msgs.msg import CarEstimate, DriveStatus, MotionStatus, PeripheralsState, RobotMode
 from mtr_msgs.msg import Problem as ProblemMessage
 from mtr_proto import robot_link_pb2 as link
@@ -177,13 +176,6 @@ def test_order_of_another_session_is_not_confirmed():  # A9a
     old = numbers.number_of(5, 1)
     assert numbers.number_of(6, 1) != old
     assert numbers.id_of(6, old) == numbers.id_of(5, old) == 0
-
-
-def test_flood_of_different_messages_is_one_line_of_log_per_kind():  # D4
-    throttle = Throttle(10.0)
-    said = [throttle.passed("bad", f"A message of {size} bytes.", 0.0005 * size) for size in range(10_000)]
-    assert len([sentence for sentence in said if sentence]) == 1 and throttle.passed("other", "x", 5.0) == "x"
-    assert throttle.passed("bad", "Once more.", 10.0) == "Once more. (9999 more of this kind before.)"
 
 
 def test_status_stays_readable_whatever_nodes_and_strangers_say():  # D5

@@ -12,7 +12,7 @@ from mtr_core.crc import is_sound
 from mtr_core.liveness import NS, is_fresh, steady_stamp_ns
 from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
 from mtr_core.lockstep.samples import Samples
-from mtr_core.quiet_start import QuietStart
+from mtr_core.quiet_log import QuietStart
 from mtr_core.requests import PressReport
 from mtr_description.robot_description import described_robot
 from mtr_msgs.msg import (

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import threading
+import time
 import xmlrpc.client
 from dataclasses import dataclass
 from typing import Tuple
@@ -11,6 +12,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from mtr_core.errors import ConfigurationError, check_range
 from mtr_core.lockstep import run_node
+from mtr_core.quiet_log import Throttle
 
 from .board_topics import FIRMWARE_TOPICS, board_topics
 from .connections import Connections, md5_of
@@ -22,6 +24,8 @@ from .session import SerialSession, SessionEvent
 from .status import LINKED, SerialLineStatus, Severity, StatusReports, line_status
 
 LOG = (rospy.logdebug, rospy.loginfo, rospy.logwarn, rospy.logerr, rospy.logfatal)
+# Of a line of the board's log, characters; and how often it may say one of a level, s.
+MAX_LOGGED, LOG_PERIOD_S = 200, 1.0
 LEVELS = (DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR)
 # Changes in quick succession all leave.
 DIAGNOSTICS_QUEUED = 10
@@ -55,7 +59,7 @@ class SerialBridgeNode(LineObserver):
     """Owns the line, and serves in ROS what the device offers."""
 
     def __init__(self, parameters: BridgeParameters):
-        self._parameters = parameters
+        self._parameters, self._throttle = parameters, Throttle(LOG_PERIOD_S)
         session = SerialSession(parameters, md5_of, lambda: rospy.Time.now().to_nsec(),
                                 board_topics(parameters.topics))
         self._line = SerialLine(lambda: SerialPort(parameters.port, parameters.baud), session, self)
@@ -83,9 +87,15 @@ class SerialBridgeNode(LineObserver):
         elif event.opened:
             self._open(event.opened)
         elif event.log:
-            LOG[min(event.log.level, len(LOG) - 1)]("Firmware: %s", event.log.text)
+            self._pass_on(min(event.log.level, len(LOG) - 1), event.log.text)
         elif event.refused:
             rospy.logerr("%s", event.refused)
+
+    def _pass_on(self, level: int, text: str) -> None:
+        """Log what the board says; one that never stops gets a line of each level and period."""
+        said = self._throttle.passed(level, text[:MAX_LOGGED], time.monotonic())
+        if said:
+            LOG[level]("Firmware: %s", said)
 
     def _open(self, endpoint: Endpoint) -> None:
         info = endpoint.info

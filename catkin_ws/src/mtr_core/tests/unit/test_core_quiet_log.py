@@ -1,6 +1,6 @@
 """What is missing at the start is a warning only when it lasts."""
 # SPDX-License-Identifier: Apache-2.0
-from mtr_core.quiet_start import QUIET_S, QuietStart
+from mtr_core.quiet_log import QUIET_S, QuietStart, Throttle
 
 BEGIN_S = 1000.0
 
@@ -16,3 +16,10 @@ def test_after_everything_was_good_each_fault_is_a_warning_at_once():
     start.warns(BEGIN_S, is_good=False)
     start.warns(BEGIN_S + 0.1, is_good=True)
     assert start.warns(BEGIN_S + 0.2, is_good=False)
+
+
+def test_flood_of_different_messages_is_one_line_of_log_per_kind():  # D4
+    throttle = Throttle(10.0)
+    said = [throttle.passed("bad", f"A message of {size} bytes.", 0.0005 * size) for size in range(10_000)]
+    assert len([sentence for sentence in said if sentence]) == 1 and throttle.passed("other", "x", 5.0) == "x"
+    assert throttle.passed("bad", "Once more.", 10.0) == "Once more. (9999 more of this kind before.)"
