@@ -10,10 +10,9 @@ import pytest
 import zmq
 from link_peers import free_ports
 
-from mtr_dispatcher.access.connection_watch import TOO_MUCH
+from mtr_dispatcher.access.connection_watch import TOO_MUCH, ConnectionWatch
 from mtr_dispatcher.access.peer_limits import (
     COMMAND_BURST_BYTES,
-    MAX_CONNECTIONS,
     TOO_MANY,
     TOO_SOON,
     Allowance,
@@ -125,21 +124,28 @@ def test_peer_that_brings_more_than_messages_is_cut_off_and_memory_stays(served,
     assert seen["heard"] > 0 and seen["grown_mib"] < MAX_GROWTH_MIB
 
 
-def test_one_connection_too_many_is_cut_off_and_those_before_stay(served):
-    first = greeted(served.ports[1], b"PUB")
-    others = [socket.create_connection(("127.0.0.1", served.ports[1])) for _ in range(MAX_CONNECTIONS)]
-    others[-1].settimeout(LIMIT_S)
-    with contextlib.suppress(ConnectionError):
-        while others[-1].recv(4096):
-            pass
-    first.sendall(b"\x00\x05order" * 3)
-    seen = served.end(lambda: None)
-    for connection in (first, *others):
-        connection.close()
-    assert seen["cut"] == {TOO_MANY: 1} and seen["heard"] > 0
-
-
 LIMITS = Allowance(burst_bytes=1000.0, bytes_per_s=10.0, connections=2, pause_s=5.0, overhead_bytes=2)
+
+
+def test_one_connection_too_many_is_cut_off_and_those_before_stay():
+    context = zmq.Context()
+    bound = context.socket(zmq.SUB)
+    port = bound.bind_to_random_port("tcp://127.0.0.1")
+    watch = ConnectionWatch(bound, PeerLimits(LIMITS))
+    try:
+        first, second = (greeted(port, b"PUB") for _ in range(LIMITS.connections))
+        with first, second, socket.create_connection(("127.0.0.1", port), timeout=LIMIT_S) as third:
+            with contextlib.suppress(ConnectionError):
+                while third.recv(4096):
+                    pass
+            assert watch.counted()[TOO_MANY] == 1
+            for stays in (first, second):
+                stays.setblocking(False)
+                with pytest.raises(BlockingIOError):
+                    stays.recv(1)
+    finally:
+        watch.close()
+        context.destroy(0)
 
 
 def test_what_became_messages_is_not_counted_however_much_it_is():

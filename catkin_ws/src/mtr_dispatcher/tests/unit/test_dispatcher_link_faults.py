@@ -272,6 +272,14 @@ def test_operator_reads_which_node_cannot_start_and_why_until_it_has():
     assert "node_cannot_start" not in {note.code for note in later.notifications}
 
 
+@pytest.mark.parametrize("code, is_told", [("drive_control.imu_frozen", True), ("drive_control.lidar_silent", True),
+                                           ("drive_control.obstacle", False), ("dispatcher.no_application", False)])
+def test_operator_reads_which_sensor_stops_the_wheels(code, is_told):
+    drive = DriveStatus(message="Why.", problems=[ProblemMessage(code=code, text="Why.")])
+    notices = {notice.code: notice.text for notice in Link().status(drive=drive).notifications}
+    assert notices.get("drive_control") == ("Why." if is_told else None)
+
+
 @pytest.mark.parametrize("parameter", [None, [], "text", 7, {}])
 def test_what_anybody_has_set_on_the_master_is_no_failure_of_a_node(parameter):
     failures = StartFailures(lambda: parameter)

@@ -90,6 +90,8 @@ class ConnectionWatch:
                 self._cut_off(number, why)
 
     def _cut_off(self, number: int, why: str) -> None:
+        # Before the peer can see it.
+        self._count(why)
         peer = self._peers.pop(number)
         self._limits.close(number)
         with contextlib.suppress(OSError), _socket_of(number) as connection:
@@ -97,7 +99,6 @@ class ConnectionWatch:
                 # ZeroMQ reads the end and closes; without lingering the peer is told at once, whatever it still sends.
                 connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, _NO_LINGERING)
                 connection.shutdown(socket.SHUT_RDWR)
-        self._count(why)
 
     def _count(self, why: str) -> None:
         with self._lock:

@@ -105,9 +105,11 @@ class CheckFields(Stamped, Protocol):
 
 
 class DriveFields(Stamped, Protocol):
-    """Of DriveStatus: who moves the wheels, and counts since drive control's start."""
+    """Of DriveStatus: who moves the wheels, what is wrong, and counts since drive control's start."""
 
     source: str
+    message: str
+    problems: Sequence[ProblemFields]
     manual_drives: int
     blockages: int
     lock_stops: int

@@ -3,7 +3,7 @@
 import math
 from typing import Dict, Iterator, List, NamedTuple, Tuple
 
-from mtr_core.problems import Problem, problem_of
+from mtr_core.problems import NO_PROBLEM, Problem, problem_of
 from mtr_core.states import State
 
 from .. import problems
@@ -19,6 +19,9 @@ SHOWN_S = 3.0
 FOREIGN_SHOWN_S = 10.0
 # One of them is named; a stranger can invent any number.
 MAX_FOREIGN = 16
+# Codes of drive control's sentences about sensors and base; others tell of obstacles, locks and sources.
+PARTS_OF_DRIVE = tuple(f"drive_control.{part}" for part in (
+    "lidar_", "odometry_", "imu_", "base_", "wheels_slip", "second_publisher"))
 
 
 class Notice(NamedTuple):
@@ -87,6 +90,7 @@ def standing_notices(desired: SessionState, fresh: Inputs, parameters: Parameter
     if fresh.pose is not None and not fresh.pose.valid:
         yield Notice("not_localized", ERROR, problem_of(fresh.pose.problems, fresh.pose.message)
                      or problems.POSITION_UNKNOWN())
+    yield from _drive_notices(fresh)
     yield from _peripherals_notices(fresh, parameters.low_battery)
     if parameters.warn_without_emergency_stop and fresh.emergency_stop is EmergencyStop.ABSENT:
         yield Notice("no_emergency_stop", ERROR, problems.NO_EMERGENCY_STOP())
@@ -99,6 +103,13 @@ def _mode_notices(fresh: Inputs) -> Iterator[Notice]:
         yield Notice("fault", ERROR, problem_of(fresh.mode.problems, fresh.mode.message))
     elif fresh.mode.message and not fresh.mode.hold_id:
         yield Notice("mode", INFO, problem_of(fresh.mode.problems, fresh.mode.message))
+
+
+def _drive_notices(fresh: Inputs) -> Iterator[Notice]:
+    """What stops the wheels and nobody else tells: sensors and the base themselves."""
+    problem = problem_of(fresh.drive.problems, fresh.drive.message) if fresh.drive is not None else NO_PROBLEM
+    if problem.code.startswith(PARTS_OF_DRIVE):
+        yield Notice("drive_control", ERROR, problem)
 
 
 def _peripherals_notices(fresh: Inputs, low_battery: float) -> Iterator[Notice]:
