@@ -21,7 +21,8 @@ OWN_ROBOT = {"mtr_core"}
 ROS_OF_CORE = {"mtr_core.lockstep", "mtr_core.conversions"}
 
 # Files of a robot package that may import ROS: the shell around the core.
-SHELL = {"node.py", "conversions.py", "robot_description.py", "connections.py", "sensors.py", "calibrate_lift.py"}
+SHELL = {"node.py", "conversions.py", "robot_description.py", "connections.py", "sensors.py", "calibrate_lift.py",
+         "inject.py"}
 # Packages whose job is the border itself.
 BORDER_PACKAGES = {"mtr_benchmarks", "mtr_bringup", "mtr_tests"}
 

@@ -76,6 +76,19 @@ class LaunchFiles(unittest.TestCase):
                 self.assertIn(["/jackal_velocity_controller/cmd_vel", "/base/cmd_vel"], node.remap_args)
         self.assertIs(robot.params["/localization/publish_odom_tf"].value, False)
 
+    def test_faults_can_be_injected_only_where_it_was_asked_for_and_then_stand_between_drivers_and_nodes(self):
+        self.assertNotIn("/fault_injection", str([node.remap_args for node in load("robot.launch", []).nodes]))
+        robot = load("robot.launch", ["fault_injection:=true", "front_scan:=/scan"])
+        self.assertEqual(set(get_node_list(robot)), NODES["robot.launch"] | {"/fault_injection"})
+        remaps = {node.name: node.remap_args for node in robot.nodes}
+        self.assertEqual(robot.params["/fault_injection/front_scan"].value, "/scan")
+        self.assertFalse([new for _, new in remaps["fault_injection"] if new.startswith("/fault_injection")])
+        for name in ("drive_control", "localization", "car_locator", "dispatcher"):
+            self.assertIn(["/front/scan", "/fault_injection/front/scan"], remaps[name])
+        self.assertIn(["/firmware/state", "/fault_injection/firmware/state"], remaps["peripherals"])
+        self.assertNotIn(["/firmware/state", "/fault_injection/firmware/state"], remaps["serial_bridge"])
+        self.assertIs(robot.params["/fault_injection/simulated"].value, False)
+
     def test_each_node_of_robot_and_simulation_has_an_executable(self):
         for node in load("sim.launch", NEEDED["sim.launch"]).nodes:
             with self.subTest(node.name):

@@ -13,7 +13,7 @@ from mtr_benchmarks.liveness.judge import (
     excess_of_wheels,
     longest_pause_s,
 )
-from mtr_benchmarks.liveness.set_clock import SettableClock
+from mtr_fault_injection.set_clock import SettableClock
 
 GROWTH = Growth(1.0, 2.0)
 TELL = "import time; print(time.time(), time.monotonic(), flush=True); input()\n" * 2

@@ -60,6 +60,11 @@ FIRMWARE_ECHO = "/firmware/echo"
 FIRMWARE_STATE = "/firmware/state"
 FIRMWARE_HEALTH = "/firmware/health"
 
+# Of the node that injects faults, and in front of the topics that it passes on
+FAULT_INJECTION = "/fault_injection"
+INJECT_FAULT = "/fault_injection/inject"
+ACTIVE_FAULTS = "/fault_injection/active"
+
 # Simulation
 SIM_HOLD = "/sim/hold"
 SIM_TRUTH = "/sim/truth"

@@ -20,6 +20,7 @@ from mtr_core.schedule import CLOCK_STEP, LIDAR, SIMULATION_START_NS, slot
 from mtr_core.se2 import Pose2
 from mtr_description.base_controller import CONTROLLER, base_controller_of
 from mtr_description.robot_description import described_robot
+from mtr_msgs.msg import ActiveFaults
 
 from . import conversions
 from .clock import connections
@@ -102,6 +103,7 @@ class SimulatorNode:
         self._listen(names.WHEEL_COMMAND, Twist, lambda twist: sim.command(twist.linear.x, twist.angular.z))
         self._listen(names.SIM_HANDLE_REQUEST, Bool, lambda request: self._world.request_handle(locks=request.data))
         self._listen(names.SIM_KIDNAP, Pose2D, self._kidnap)
+        self._listen(names.ACTIVE_FAULTS, ActiveFaults, self._set_faults)
         for topic, message_type, handle in self._firmware.subscriptions:
             self._listen(topic, message_type, handle)
         rospy.Subscriber(names.SIM_HOLD, Header, self._hold, tcp_nodelay=True)
@@ -120,6 +122,9 @@ class SimulatorNode:
         self._world.kidnap(Pose2(there.x, there.y, there.theta))
         rospy.loginfo("The robot was carried to x %.2f m, y %.2f m, heading %.0f deg in the Car's frame.", there.x,
                       there.y, math.degrees(there.theta))
+
+    def _set_faults(self, active: ActiveFaults) -> None:
+        self._world.set_faults({fault.part: fault.kind for fault in active.faults})
 
     def _hold(self, message: Header) -> None:
         self._barrier.hold(message.frame_id, message.stamp.to_nsec(), message.seq)

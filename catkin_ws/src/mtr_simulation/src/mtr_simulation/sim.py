@@ -21,7 +21,7 @@ from .physics.tyres import Surface, TyreParameters, Tyres
 from .physics.wheels import BaseParameters, Wheels
 from .sensors.battery import battery
 from .sensors.imu import Imu, ImuParameters
-from .sensors.lidar import Lidar, LidarFault, LidarParameters
+from .sensors.lidar import Lidar, LidarParameters
 from .sensors.readings import Scan, Sensors
 from .site.person import Person
 from .site.scenario import Scenario
@@ -102,12 +102,6 @@ class Sim:
         # The servo is a spring: what the carriage weighs is added, so that it does not sag.
         weight = (self.robot.carriage_mass_kg + self.robot.key_mass_kg) * GRAVITY_MPS2
         self._data.ctrl[self._lift_servo] = height_m + weight / LIFT_STIFFNESS_NPM
-
-    def set_lidar_faults(self, front: LidarFault, rear: LidarFault = LidarFault.NONE) -> None:
-        """What the LiDARs do from now on instead of working."""
-        for frame, fault in ((names.FRONT_LIDAR, front), (names.REAR_LIDAR, rear)):
-            if frame in self._lidars:
-                self._lidars[frame].fault = fault
 
     def kidnap(self, world_from_base: Pose2) -> None:
         """Lift the robot and put it down elsewhere: no time passes and the wheels do not turn."""

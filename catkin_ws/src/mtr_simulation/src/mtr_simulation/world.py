@@ -1,13 +1,15 @@
 """Robot, firmware and Car together, one tick at a time."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Any, Optional, Set
+from typing import Any, Mapping, Optional, Set
 
 from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS
 from mtr_core.se2 import Pose2
+from mtr_fault_injection import parts
+from mtr_fault_injection.parts import Kind
 
 from .car.choice import Car, chosen_car
 from .car.ecu import Command
-from .car.slcan_port import SlcanPort
+from .car.slcan_port import Fault, SlcanPort
 from .firmware.simulated import SimulatedFirmware
 from .parameters import SimulatorParameters
 from .physics.robot import RobotModel
@@ -17,6 +19,8 @@ from .sim import Sim, SimParameters
 from .site.scenario import named_scenario
 from .true_state import TrueState
 from .truth.log import EventLog, NoTruthLog, TruthLog
+
+CAN_FAULTS = {Kind.OFF.value: Fault.SILENCE, Kind.GARBAGE.value: Fault.GARBAGE, Kind.STOP.value: Fault.BUS_OFF}
 
 
 class World:
@@ -68,6 +72,14 @@ class World:
     def kidnap(self, car_from_base: Pose2) -> None:
         """Somebody lifts the robot and puts it down elsewhere, in the Car's frame."""
         self.sim.kidnap(self._world_from_car @ car_from_base)
+
+    def set_faults(self, faults: Mapping[str, str]) -> None:
+        """What parts of the hardware do from now on instead of working, by the names of mtr_fault_injection."""
+        if isinstance(self.firmware, SimulatedFirmware):
+            self.firmware.lift_is_stuck = parts.LIFT in faults
+            self.firmware.servos_are_dead = parts.SERVOS in faults
+        if self._port:
+            self._port.fault = CAN_FAULTS.get(faults.get(parts.CAN, ""), Fault.NONE)
 
     def close(self) -> None:
         """Take the CAN adapter away, end the firmware, and close the truth's file."""

@@ -207,3 +207,21 @@ def test_board_without_power_hears_nothing():
 def test_state_has_the_fields_of_the_message():
     messages = pytest.importorskip("mtr_msgs.msg")
     assert SimulatedFirmware().state()._fields == tuple(messages.FirmwareState.__slots__)[:-1]
+
+
+def test_lift_that_is_stuck_stays_where_it_is_and_says_so(bench):
+    bench.run(1000, 0.5)
+    stuck_m = bench.firmware.lift_height_m
+    bench.firmware.lift_is_stuck = True
+    bench.run(1000, 0.5)
+    assert 0.0 < bench.firmware.lift_height_m == stuck_m == bench.state.lift_height_m
+    bench.firmware.lift_is_stuck = False
+    bench.run(1000, 0.5)
+    assert bench.firmware.lift_height_m > stuck_m
+
+
+def test_servos_that_are_dead_press_nothing_and_nobody_says_so(bench):
+    bench.firmware.servos_are_dead = True
+    bench.firmware.press(7, 1, 1.0, 200)
+    bench.run(1000)
+    assert set(bench.pulses) == {(1000, 1000)} and bench.state.press_state == DONE

@@ -9,7 +9,7 @@ import pytest
 from mtr_core.se2 import Pose2
 from mtr_simulation.noise import stream
 from mtr_simulation.physics.robot import shipped_robot
-from mtr_simulation.sensors.lidar import LidarFault, LidarParameters
+from mtr_simulation.sensors.lidar import LidarParameters
 from mtr_simulation.sensors.scan_errors import EDGE_M, ScanErrors, with_errors
 from mtr_simulation.sim import Sim, SimParameters
 from mtr_simulation.site.scenario import Scenario
@@ -95,28 +95,6 @@ def test_drops_of_rain_are_elsewhere_in_the_next_sweep():
     first, second = (with_errors(RANGES, ScanErrors(echo_share=0.05), noise) != RANGES for _ in range(2))
     assert np.any(first)
     assert np.mean(first & second) < 0.5 * np.mean(first)
-
-
-def test_silent_lidar_says_nothing_until_it_works_again():
-    sim = Sim(1, BESIDE)
-    sim.set_lidar_faults(LidarFault.SILENT)
-    silent = [sim.step() for _ in range(4)]
-    sim.set_lidar_faults(LidarFault.NONE)
-    working = [sim.step() for _ in range(4)]
-    assert not any(each.front_scan for each in silent)
-    assert any(each.rear_scan for each in silent)
-    assert any(each.front_scan for each in working)
-
-
-def test_frozen_lidar_repeats_its_last_ranges_with_new_stamps():
-    sim = Sim(1, BESIDE)
-    sim.step()
-    before = sim.step().front_scan
-    sim.set_lidar_faults(LidarFault.FROZEN)
-    sim.step()
-    frozen = sim.step().front_scan
-    assert np.array_equal(frozen.ranges_m, before.ranges_m)
-    assert frozen.stamp_ns > before.stamp_ns
 
 
 def test_lidar_that_looks_down_sees_the_ground_where_its_height_says():

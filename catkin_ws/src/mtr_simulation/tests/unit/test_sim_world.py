@@ -13,6 +13,7 @@ from mtr_core import names
 from mtr_simulation import conversions
 from mtr_simulation.car.ecu import Command
 from mtr_simulation.car.honest.car import HonestCar
+from mtr_simulation.car.slcan_port import Fault
 from mtr_simulation.parameters import SimulatorParameters
 from mtr_simulation.sensors.imu import ImuParameters
 from mtr_simulation.world import World
@@ -121,3 +122,13 @@ def test_firmware_message_has_the_firmware_s_clock(world):
 def test_battery_message_says_how_much_is_left(world):
     sensors = steps(world, 1)
     assert conversions.battery_message(sensors.time_ns, sensors.battery).percentage == pytest.approx(0.95, abs=0.001)
+
+
+@pytest.mark.parametrize("kind, fault", [("off", Fault.SILENCE), ("garbage", Fault.GARBAGE), ("stop", Fault.BUS_OFF)])
+def test_injected_faults_of_the_hardware_are_there_until_they_are_gone(tmp_path, kind, fault):
+    world = World(SimulatorParameters(scenario="open", car_port_link=str(tmp_path / "can")))
+    world.set_faults({"can": kind, "lift": "stuck", "servos": "off", "imu": "off"})
+    assert world._port.fault is fault and world.firmware.lift_is_stuck and world.firmware.servos_are_dead
+    world.set_faults({})
+    assert world._port.fault is Fault.NONE and not (world.firmware.lift_is_stuck or world.firmware.servos_are_dead)
+    world.close()

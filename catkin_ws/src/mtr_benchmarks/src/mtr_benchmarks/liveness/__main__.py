@@ -9,10 +9,11 @@ import sys
 from dataclasses import asdict
 from typing import List, Optional
 
+from mtr_fault_injection.set_clock import SettableClock
+
 from ..harness.report import BenchmarkReport, finish
 from . import clock_steps, stalls
 from .live_robot import MACHINE_CLOCK, SIMULATED_CLOCK, LiveRobot
-from .set_clock import SettableClock
 
 SHORT_STALLS_S = (1.0,)
 SHORT_STEPS_S = (0.4, -0.4, 3600.0, -3600.0)

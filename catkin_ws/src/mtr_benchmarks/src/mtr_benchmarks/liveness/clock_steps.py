@@ -4,11 +4,12 @@ import time
 from dataclasses import dataclass
 from typing import List, Sequence, Tuple
 
+from mtr_fault_injection.set_clock import SettableClock
+
 from ..harness.rows import Requirement, Row
 from .alarms import AlarmWatch
 from .judge import longest_pause_s
 from .live_robot import LiveRobot
-from .set_clock import SettableClock
 
 STEPS_S = (0.05, -0.05, 0.4, -0.4, 5.0, -5.0, 60.0, -60.0, 3600.0, -3600.0)
 # What a step does shows within the longest time-out of a node.

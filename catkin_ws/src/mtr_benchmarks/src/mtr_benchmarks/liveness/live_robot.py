@@ -4,10 +4,8 @@ import math
 import os
 import pathlib
 import time
-import xmlrpc.client
 from typing import Any, Callable, Dict, List, Optional
 
-import rosgraph
 import rospy
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
@@ -15,6 +13,7 @@ from sensor_msgs.msg import Joy
 
 from mtr_bringup.stack import Stack, StackOptions
 from mtr_core import names, schedule
+from mtr_fault_injection.processes import process_of
 from mtr_proto import robot_link_pb2 as link
 
 from ..harness.operator_link import OperatorLink
@@ -168,9 +167,7 @@ class LiveRobot:
 
     def process_of(self, node: str) -> int:
         """Id of a node's process."""
-        uri = rosgraph.Master(rospy.get_name()).lookupNode(node)
-        node_api: Any = xmlrpc.client.ServerProxy(uri)
-        return int(node_api.getPid(rospy.get_name())[2])
+        return process_of(self._stack.master_uri, node)
 
     def _take_status(self) -> None:
         self.status_times_s.append(time.monotonic())

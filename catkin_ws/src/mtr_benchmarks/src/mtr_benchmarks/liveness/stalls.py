@@ -1,12 +1,12 @@
 """Each node is stopped (SIGSTOP) for a while in the middle of a drive; what the wheels are told when it goes on."""
 # SPDX-License-Identifier: Apache-2.0
-import os
-import signal
 import time
 from dataclasses import dataclass
 from typing import Iterable, List, Sequence
 
 from mtr_description.shipped import shipped_base
+from mtr_fault_injection.parts import Kind
+from mtr_fault_injection.processes import ProcessFault
 
 from ..harness.rows import Requirement, Row
 from .judge import Excess, Growth, between, excess_of_commands, excess_of_wheels
@@ -54,13 +54,13 @@ class Stall:
 def stall(robot: LiveRobot, node: str, duration_s: float) -> Stall:
     """Stop a node of a robot that drives, and let it go on."""
     robot.wait_for_motion(MOVES_AGAIN_S)
-    process, begin_s = robot.process_of(f"/{node}"), time.monotonic()
+    begin_s = time.monotonic()
     speed_mps = robot.wheels[-1].linear_mps
-    os.kill(process, signal.SIGSTOP)
+    fault = ProcessFault(Kind.STOP, lambda: [robot.process_of(node)])
     try:
         robot.watch(duration_s)
     finally:
-        os.kill(process, signal.SIGCONT)
+        fault.end()
     continued_s = time.monotonic()
     robot.watch(SEEN_AFTER_S)
     robot.wait_for_motion(MOVES_AGAIN_S)

@@ -5,7 +5,7 @@ import math
 from typing import Deque, NamedTuple, Optional, Tuple
 
 from .lift import Lift
-from .press import Presser, PressRequest, PressState
+from .press import RELEASED_US, Presser, PressRequest, PressState
 
 SILENCE_LIMIT_NS = 1_000_000_000
 FAULT_LINK_LOST = 3
@@ -43,10 +43,13 @@ class SimulatedFirmware:
 
     Attributes:
         refused_commands: commands that asked for what cannot be; the lift ignored them.
+        lift_is_stuck: the lift does not move, and its sensor says so.
+        servos_are_dead: they do not move, and nothing says so.
     """
 
     def __init__(self, clock_start_us: int = CLOCK_START_US):
         self.refused_commands = 0
+        self.lift_is_stuck = self.servos_are_dead = False
         self._clock_start_us = clock_start_us
         self._boot_ns: Optional[int] = None
         self._now_ns = 0
@@ -70,8 +73,8 @@ class SimulatedFirmware:
 
     @property
     def servo_us(self) -> Tuple[float, float]:
-        """Pulse widths of lock and unlock servo."""
-        return self._presser.servo_us
+        """Pulse widths of lock and unlock servo, as they press on the key."""
+        return (RELEASED_US, RELEASED_US) if self.servos_are_dead else self._presser.servo_us
 
     def command(self, lift_height_m: float, led_pattern: int, stop: bool = False,
                 latest_us: Optional[int] = None) -> None:
@@ -121,7 +124,7 @@ class SimulatedFirmware:
         self._now_ns = time_ns
         if time_ns - self._received_ns > SILENCE_LIMIT_NS:
             self._lose_link()
-        if dt_s > 0.0:
+        if dt_s > 0.0 and not self.lift_is_stuck:
             self._lift.step(dt_s)
         released_ns = self._presser.step(time_ns)
         if released_ns is not None:

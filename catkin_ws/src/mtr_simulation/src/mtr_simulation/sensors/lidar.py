@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, field
-from enum import Enum
 from typing import Dict, Optional, Tuple
 
 import mujoco
@@ -63,26 +62,15 @@ class LidarParameters(ParameterSet):
         return self.field_of_view_rad / (self.beams - 1)
 
 
-class LidarFault(Enum):
-    """What a LiDAR may do instead of working; FROZEN gives the last ranges again and again, with new stamps."""
-
-    NONE = "none"
-    SILENT = "silent"
-    FROZEN = "frozen"
-
-
 class Lidar:
     """One LiDAR.
 
     A sweep is cast in slices; each is cast in the physics step that is nearest in time to its middle.
-
-    Attributes:
-        fault: what it does instead of working.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, mount: Mount, parameters: LidarParameters,
                  noise: Tuple[int, str]):
-        self._model, self._data, self._parameters, self.fault = model, data, parameters, LidarFault.NONE
+        self._model, self._data, self._parameters = model, data, parameters
         seed, name = noise
         self._noise, self._error_noise = stream(seed, name), stream(seed, f"{name}_errors")
         self._place, self._is_rear = mount.position, mount.frame == names.REAR_LIDAR
@@ -94,7 +82,6 @@ class Lidar:
         self._distances = np.zeros(parameters.beams)
         self._geoms = np.zeros(parameters.beams, dtype=np.int32)
         self._excluded = model.body("base_link").id
-        self._last: Optional[FloatArray] = None
 
     def cast(self, base: BaseState, step: int) -> None:
         """Cast the beams of one physics step of the sweep; step counts from the sweep's start."""
@@ -107,21 +94,17 @@ class Lidar:
                            self._excluded, self._geoms[first:last], self._distances[first:last], last - first,
                            self._parameters.range_max_m)
 
-    def scan(self, stamp_ns: int) -> Optional[Scan]:
-        """The completed sweep that began at stamp_ns; None from a silent LiDAR."""
+    def scan(self, stamp_ns: int) -> Scan:
+        """The completed sweep that began at stamp_ns."""
         parameters, seen = self._parameters, self._distances
         noisy = np.where(seen < 0.0, math.inf, seen)
         noisy = with_errors(noisy, parameters.errors, self._error_noise, self._is_rear)
         noisy = noisy + parameters.noise_m * self._noise.standard_normal(parameters.beams)
         noisy[noisy < parameters.range_min_m] = -math.inf
         noisy[noisy > parameters.range_max_m] = math.inf
-        if self.fault is LidarFault.SILENT:
-            return None
-        if self.fault is LidarFault.NONE or self._last is None:
-            self._last = noisy.astype(np.float32)
         return Scan(stamp_ns, -parameters.field_of_view_rad / 2.0, parameters.angle_increment_rad,
                     parameters.time_increment_s, parameters.rotation_s, parameters.range_min_m,
-                    parameters.range_max_m, self._last)
+                    parameters.range_max_m, noisy.astype(np.float32))
 
 
 def _rays(parameters: LidarParameters, mount: Mount) -> FloatArray:

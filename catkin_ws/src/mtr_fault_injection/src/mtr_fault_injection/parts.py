@@ -1,0 +1,91 @@
+"""The catalogue: which part can have which fault. Everything else refers to these names."""
+# SPDX-License-Identifier: Apache-2.0
+import enum
+from typing import Dict, NamedTuple, Tuple
+
+from mtr_core.errors import RobotError
+
+NONE = "none"
+
+
+class FaultError(RobotError):
+    """A fault cannot be injected; the text says what is possible."""
+
+
+class Kind(enum.Enum):
+    """What a part does instead of working."""
+
+    OFF = "off"            # nothing comes, or nothing is done
+    STUCK = "stuck"        # the same again and again, with new stamps; a lift that does not move
+    GARBAGE = "garbage"    # numbers that mean nothing, bytes that are no message
+    SLOW = "slow"          # everything `amount` s late; of a node and of the computer: little time to work
+    STOP = "stop"          # SIGSTOP, and SIGCONT at the end; a CAN controller that has left the bus
+    KILL = "kill"          # SIGKILL, and again for as long as the fault lasts
+    LOSE = "lose"          # a share of `amount` of the messages is lost
+    DOUBLE = "double"      # each message twice
+    REORDER = "reorder"    # each second message before the one ahead of it
+    FORWARD = "forward"    # the clock is `amount` s ahead
+    BACK = "back"          # the clock is `amount` s behind
+    CLAIM = "claim"        # another Operator sends Commands
+
+
+class Place(enum.Enum):
+    """Where a fault takes hold."""
+
+    MESSAGES = "messages"      # between a driver and the nodes
+    SIMULATOR = "simulator"    # in the simulated hardware
+    LINK = "link"              # in the relay of the link
+    NODE = "node"              # on a process
+    MACHINE = "machine"        # on the computer
+
+
+class Part(NamedTuple):
+    """Something that can have faults. kinds: which."""
+
+    name: str
+    place: Place
+    kinds: Tuple[Kind, ...]
+
+
+_OF_MESSAGES = (Kind.OFF, Kind.STUCK, Kind.GARBAGE, Kind.SLOW)
+_OF_LINK = (Kind.OFF, Kind.SLOW, Kind.LOSE, Kind.DOUBLE, Kind.REORDER)
+_OF_NODES = (Kind.STOP, Kind.KILL, Kind.SLOW)
+SENSORS = ("front_lidar", "rear_lidar", "imu", "odometry", "gnss", "battery", "board")
+NODES = ("base_guard", "car_locator", "controller_input", "dispatcher", "drive_control", "graph_watch", "localization",
+         "motion_planner", "peripherals", "serial_bridge", "state_machine")
+LIFT, SERVOS, CAN = "lift", "servos", "can"
+LINK_COMMANDS, LINK_STATUSES, OPERATOR = "link_commands", "link_statuses", "operator"
+CLOCK, DISK, CPU = "clock", "disk", "cpu"
+_ALL = (
+    *(Part(name, Place.MESSAGES, _OF_MESSAGES) for name in SENSORS),
+    Part(LIFT, Place.SIMULATOR, (Kind.STUCK,)),
+    Part(SERVOS, Place.SIMULATOR, (Kind.OFF,)),
+    Part(CAN, Place.SIMULATOR, (Kind.OFF, Kind.GARBAGE, Kind.STOP)),
+    Part(LINK_COMMANDS, Place.LINK, _OF_LINK),
+    Part(LINK_STATUSES, Place.LINK, _OF_LINK),
+    Part(OPERATOR, Place.LINK, (Kind.CLAIM, Kind.GARBAGE)),
+    *(Part(name, Place.NODE, _OF_NODES) for name in NODES),
+    Part(CLOCK, Place.MACHINE, (Kind.FORWARD, Kind.BACK)),
+    Part(DISK, Place.MACHINE, (Kind.OFF,)),
+    Part(CPU, Place.MACHINE, (Kind.SLOW, Kind.STOP)),
+)
+PARTS: Dict[str, Part] = {part.name: part for part in _ALL}
+# s, s, and a share: what a fault takes that does not say how much.
+USUAL_AMOUNTS: Dict[Kind, float] = {Kind.SLOW: 0.5, Kind.FORWARD: 0.4, Kind.BACK: 0.4, Kind.LOSE: 0.3}
+MAX_AMOUNTS: Dict[Kind, float] = {Kind.SLOW: 10.0, Kind.FORWARD: 86400.0, Kind.BACK: 86400.0, Kind.LOSE: 1.0}
+
+
+def part_of(name: str) -> Part:
+    """The part of a name, or FaultError."""
+    if name not in PARTS:
+        raise FaultError(f"There is no part {name!r}; there are: {', '.join(PARTS)}.")
+    return PARTS[name]
+
+
+def kind_of(part: Part, name: str) -> Kind:
+    """The kind of fault of a name that a part can have, or FaultError."""
+    for kind in part.kinds:
+        if kind.value == name:
+            return kind
+    raise FaultError(f"The part {part.name} cannot be {name!r}; it can be: "
+                     f"{', '.join(kind.value for kind in part.kinds)}, {NONE}.")

@@ -1,0 +1,74 @@
+"""What a fault does to the messages of a sensor or of the board. No ROS inside."""
+# SPDX-License-Identifier: Apache-2.0
+import collections
+import copy
+import math
+import random
+from typing import Any, Deque, List, Optional, Tuple
+
+from .parts import Kind
+from .schedule import Fault
+
+HEADER = "header"
+_BITS = {"uint8": 8, "uint16": 16, "uint32": 32, "uint64": 64}
+_FLOATS = ("float32", "float64")
+# Beside numbers of the usual size: what a broken device or a wrong cast gives.
+_NONSENSE = (math.nan, math.inf, -math.inf, 1e30, -1e30)
+_USUAL = 1000.0
+_SHARE_OF_NONSENSE = 0.5
+
+
+class Spoiler:
+    """The messages of one topic on their way."""
+
+    def __init__(self, seed: int):
+        self._random = random.Random(seed)
+        self._last: Optional[Any] = None
+        self._late: Deque[Tuple[float, Any]] = collections.deque()
+
+    def passed(self, message: Any, fault: Optional[Fault], now_s: float) -> List[Any]:
+        """What arrives instead of a message that was sent now; None: nothing is wrong. now_s: of any steady clock."""
+        kind = fault.kind if fault else None
+        if kind is not Kind.STUCK:
+            self._last = message
+        if kind is Kind.OFF:
+            return []
+        if kind is Kind.STUCK:
+            return [self._stuck(message)]
+        if kind is Kind.GARBAGE:
+            return [garbled(message, self._random)]
+        self._late.append((now_s, message))
+        delay_s = fault.amount if fault and kind is Kind.SLOW else 0.0
+        arrived = []
+        while self._late and now_s - self._late[0][0] >= delay_s:
+            arrived.append(self._late.popleft()[1])
+        return arrived
+
+    def _stuck(self, message: Any) -> Any:
+        """What was said last, as if it were new."""
+        if self._last is None:
+            self._last = message
+        again = copy.copy(self._last)
+        if hasattr(message, HEADER):
+            again.header = message.header
+        return again
+
+
+def garbled(message: Any, source: random.Random) -> Any:
+    """A message of the same type and sizes with numbers that mean nothing; its header stays, so that it is fresh."""
+    spoilt = copy.copy(message)
+    for name, kind in zip(message.__slots__, message._slot_types):
+        if name != HEADER:
+            setattr(spoilt, name, _garbled_value(getattr(message, name), kind, source))
+    return spoilt
+
+
+def _garbled_value(value: Any, kind: str, source: random.Random) -> Any:
+    single, is_array, _ = kind.partition("[")
+    if is_array:
+        return value if isinstance(value, bytes) else [_garbled_value(each, single, source) for each in value]
+    if single in _FLOATS:
+        return source.choice(_NONSENSE) if source.random() < _SHARE_OF_NONSENSE else source.uniform(-_USUAL, _USUAL)
+    if single in _BITS:
+        return source.getrandbits(_BITS[single])
+    return garbled(value, source) if hasattr(value, "_slot_types") else value
