@@ -37,6 +37,7 @@ def argument_parser() -> argparse.ArgumentParser:
     _add_compare(commands.add_parser("compare", help="compare two tests, distance by distance, with intervals"))
     _add_pair(commands.add_parser("pair", help="pair this computer with a robot that shows a code"))
     _add_keys(commands.add_parser("keys", help="list this computer's key and the robots that it is paired with"))
+    _add_learn(commands.add_parser("learn", help="learn how a Car's bus tells its locks, and write its profile"))
     commands.add_parser("doctor", help="say what this computer lacks; exit code 2 when something is missing")
     return parser
 
@@ -83,6 +84,13 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
                              "window's settings, if there is one")
     _add_robot(parser)
     car = parser.add_argument_group("Car")
+    _add_adapter(car)
+    car.add_argument("--car-profile", default="mtr_demo_car", metavar="NAME_OR_PATH",
+                     help="how the Car's bus tells its lock state, default %(default)s")
+    car.add_argument("--simulated-car", action="store_true", help="use a substitute inside the application")
+
+
+def _add_adapter(car: argparse._ActionsContainer) -> None:
     car.add_argument("--can-interface", default="pcan", metavar="NAME",
                      help="python-can interface: pcan, socketcan, slcan, ...; default %(default)s")
     car.add_argument("--can-channel", default="PCAN_USBBUS1", metavar="NAME",
@@ -90,9 +98,16 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
     car.add_argument("--can-bitrate", type=_whole_number, default=500000, metavar="N",
                      help="bit/s, default %(default)s")
     _add_can_mode(car)
-    car.add_argument("--car-profile", default="mtr_demo_car", metavar="NAME_OR_PATH",
-                     help="how the Car's bus tells its lock state, default %(default)s")
-    car.add_argument("--simulated-car", action="store_true", help="use a substitute inside the application")
+
+
+def _add_learn(parser: argparse.ArgumentParser) -> None:
+    parser.description = ("Asks you to lock and unlock the Car with its own key, listens to its bus meanwhile, and "
+                          "writes the message and signal that followed. Nothing is sent.")
+    parser.add_argument("--out", type=pathlib.Path, required=True, metavar="FILE",
+                        help="profile to be written, such as my_car.yaml; its database goes beside it")
+    parser.add_argument("--prompts", type=_whole_number, default=10, metavar="N",
+                        help="how often you are asked, an even number from 4 to 40, default %(default)s")
+    _add_adapter(parser)
 
 
 def _add_demo(parser: argparse.ArgumentParser) -> None:

@@ -66,6 +66,12 @@ def keys(options: argparse.Namespace) -> None:
     show_keys(options)
 
 
+def learn_car(options: argparse.Namespace) -> None:
+    """Learn a Car's profile from its bus; what listens to it is imported only when it is asked for."""
+    from mtr_operator.car_link.learn.command_line import learn
+    learn(options)
+
+
 def list_parameters(options: argparse.Namespace) -> None:
     """Print a table of a scenario's parameters."""
     rows = [("parameter", "default", "range", "meaning")]
@@ -92,5 +98,5 @@ def _accept_any_character() -> None:
 # What each command calls; an exit code, or None when it has done what was asked for.
 _COMMANDS: dict[str, Callable[[argparse.Namespace], int | None]] = {
     "params": list_parameters, "check": check, "history": list_history, "compare": compare_tests, "plan": plan,
-    "demo": run_demo, "run": run_test, "pair": pair, "keys": keys,
+    "demo": run_demo, "run": run_test, "pair": pair, "keys": keys, "learn": learn_car,
     "doctor": lambda _: EXIT_PASS if doctor() else EXIT_ERROR}

@@ -39,6 +39,10 @@ class ConnectionFailed(OperatorError):
     """Robot or Car cannot be reached."""
 
 
+class NothingLearned(OperatorError):
+    """The Car's bus shows nothing that follows its locks."""
+
+
 class LinkLost(OperatorError):
     """Robot or Car fell silent during a test."""
 

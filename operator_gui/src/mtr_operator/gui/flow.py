@@ -57,7 +57,7 @@ class Flow(QObject):
 
     Attributes:
         model: what is known of robot, Car and test. store: settings. connection: in use.
-        pairing: with a robot that is not connected yet.
+        pairing: with a robot that is not connected yet. opener: of links.
     Signals:
         connected, refused(part, text): how an attempt to connect ended.
         can_opened, can_refused(text): how a change of the CAN adapter ended.
@@ -87,7 +87,7 @@ class Flow(QObject):
         self.store = store
         self.connection = Connection()
         self.step = Step.WELCOME
-        self._opener = opener
+        self.opener = opener
         self.pairing = Pairing(opener, self)
         self._worker: Worker | None = None
         self._is_connected = False
@@ -102,7 +102,7 @@ class Flow(QObject):
     def connect_to(self, connection: Connection) -> None:
         """Try to connect; connected or refused follows."""
         self.connection = connection
-        self._worker = Worker(connection, self._opener, self.bridge.mailbox)
+        self._worker = Worker(connection, self.opener, self.bridge.mailbox)
         self._worker.start()
         self._disk.start()
 
@@ -110,6 +110,11 @@ class Flow(QObject):
         """Change the CAN adapter; can_opened or can_refused follows."""
         self._wanted_can = choice
         self._links.use_can(choice)
+
+    @property
+    def can_in_use(self) -> CanChoice | None:
+        """The CAN adapter that is open now; None when none is."""
+        return self.connection.can if self._is_connected else None
 
     def close(self) -> bool:
         """Stop the robot and disconnect; True when that has succeeded in time."""

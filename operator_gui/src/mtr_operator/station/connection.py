@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Callable
 
 from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter
 from mtr_operator.domain.ports import CarLink, RobotLink
 from mtr_operator.domain.results.document import OptionalInt
 from mtr_operator.robot_link.address import PUBLISHER_PORT, SUBSCRIBER_PORT, RobotAddress
+
+if TYPE_CHECKING:
+    from mtr_operator.car_link.can_frame import CanFrame
+    from mtr_operator.car_link.learn.listener import Listener
 
 DEFAULT_BITRATE_BPS = 500_000
 DEFAULT_PROFILE = "mtr_demo_car"
@@ -91,6 +96,15 @@ class LinkOpener:
         """
         from mtr_operator.robot_link.access.pairing import pair
         return pair(host.strip(), code).role
+
+    def listener(self, choice: CanChoice, heard: Callable[[CanFrame], None]) -> Listener:
+        """What listens to the bus of a Car that has no profile yet, not started; InvalidParameter for an adapter that
+        cannot be."""
+        from mtr_operator.car_link.adapter import AdapterSettings
+        from mtr_operator.car_link.learn.listener import Listener
+        return Listener(AdapterSettings(choice.interface, choice.channel, choice.bitrate_bps,
+                                        is_listening=not choice.is_normal, data_bitrate_bps=choice.data_bitrate_bps),
+                        heard)
 
     def car(self, choice: CanChoice | None) -> CarLink:
         """A new link, not connected yet."""

@@ -19,6 +19,7 @@ from .settings import NotSettings, Settings, settings_from_document
 
 FOLDER_NAME = "mtr-operator"
 FILE_NAME = "settings.json"
+PROFILE_FOLDER_NAME = "cars"
 _MAX_BYTES = 256 * 1024
 
 
@@ -86,6 +87,11 @@ class SettingsStore:
     def laboratory_path(self) -> pathlib.Path:
         """The laboratory's file for these settings."""
         return laboratory_path(self._path)
+
+    @property
+    def profile_folder(self) -> pathlib.Path:
+        """Where profiles of Cars are kept that were learned here."""
+        return self._path.with_name(PROFILE_FOLDER_NAME)
 
     def change(self, settings: Settings) -> None:
         """Use these from now on, and write them; a failure stands in `problem` and stops nobody."""

@@ -7,7 +7,6 @@ from PyQt5.QtGui import QHideEvent, QShowEvent
 from PyQt5.QtWidgets import (
     QDialog,
     QHBoxLayout,
-    QHeaderView,
     QLabel,
     QPushButton,
     QTableView,
@@ -18,6 +17,7 @@ from PyQt5.QtWidgets import (
 from mtr_operator.station.bus.bus_view import BusView
 
 from ..fitting.place import open_within
+from ..fitting.plain_table import plain_table
 from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..i18n import number
@@ -62,18 +62,10 @@ class BusWindow(QDialog):
         open_within(self, _SIZE)
 
     def _make_table(self) -> QTableView:
-        table = QTableView()
+        table = plain_table(self.tr("Messages of the bus"), _TABLE_HEIGHT)
         table.setModel(self._model)
-        table.setAccessibleName(self.tr("Messages of the bus"))
-        table.setSelectionBehavior(QTableView.SelectRows)
-        table.setAlternatingRowColors(True)
-        table.setTabKeyNavigation(False)
-        table.verticalHeader().hide()
         # Of the rows that are seen alone: a bus has hundreds, and their widths are asked for five times a second.
         table.horizontalHeader().setResizeContentsPrecision(0)
-        table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
-        table.setMinimumHeight(_TABLE_HEIGHT)
         return table
 
     def _lay_out(self) -> None:

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from PyQt5.QtCore import pyqtSignal
-from PyQt5.QtWidgets import QCheckBox, QComboBox, QLabel, QVBoxLayout, QWidget
+from PyQt5.QtCore import Qt, pyqtSignal
+from PyQt5.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.car_link.profile import profile_names
 from mtr_operator.station.connection import DEFAULT_BITRATE_BPS, SIMULATED, CanChoice
@@ -21,13 +21,16 @@ _DATA_BITRATES = ("2000000", "5000000")
 
 
 class CanForm(QWidget):
-    """Attributes: interface, bitrate, data_bitrate, profile: combo boxes. channel: field. normal: check box.
+    """Attributes: interface, bitrate, data_bitrate, profile: combo boxes. channel: field. normal: check box. learn:
+    button.
 
-    Signals: submitted: Enter was pressed. changed: something else was chosen or typed.
+    Signals: submitted: Enter was pressed. changed: something else was chosen or typed. learn_wanted: of the Car that
+    has no profile yet.
     """
 
     submitted = pyqtSignal()
     changed = pyqtSignal()
+    learn_wanted = pyqtSignal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -60,6 +63,11 @@ class CanForm(QWidget):
         self._add(layout, self.tr("Bit rate in bit/s"), self.bitrate)
         self._add(layout, self.tr("CAN FD data in bit/s"), self.data_bitrate)
         self._add(layout, self.tr("Car profile"), self.profile)
+        self.learn = QPushButton(self.tr("Learn a new Car from its bus"))
+        self.learn.setProperty("role", "flat")
+        self.learn.setAutoDefault(False)
+        self.learn.clicked.connect(self.learn_wanted)
+        layout.addWidget(self.learn, 0, Qt.AlignmentFlag.AlignLeft)
         layout.addWidget(self.normal)
         layout.addStretch(1)
         self._suit_interface()
@@ -127,7 +135,7 @@ class CanForm(QWidget):
     def _suit_interface(self) -> None:
         interface = self.interface.currentData()
         needs_adapter = interface not in (None, SIMULATED)
-        for widget in (self.channel, self.bitrate, self.data_bitrate, self.profile, self.normal):
+        for widget in (self.channel, self.bitrate, self.data_bitrate, self.profile, self.normal, self.learn):
             widget.setEnabled(needs_adapter)
         self._hint.setVisible(interface is None)
         known = self.channel.text in ("", *_CHANNELS.values())

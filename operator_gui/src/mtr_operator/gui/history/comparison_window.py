@@ -7,10 +7,8 @@ from PyQt5.QtWidgets import (
     QComboBox,
     QDialog,
     QHBoxLayout,
-    QHeaderView,
     QLabel,
     QPushButton,
-    QTableView,
     QVBoxLayout,
     QWidget,
 )
@@ -22,6 +20,7 @@ from mtr_operator.history.line_pairs import Side
 from mtr_operator.report.protocol_rows import date_text
 
 from ..fitting.place import open_within
+from ..fitting.plain_table import plain_table
 from ..fitting.scroller import Scroller
 from ..i18n import number
 from ..names import domain_word, identity_title, scenario_title
@@ -49,16 +48,8 @@ class ComparisonWindow(QDialog):
             self.word.addItem(domain_word(word).capitalize(), word)
         self.word.setVisible(self.word.count() > 1)
         self.panel = PicturePanel(appearance)
-        self.table = QTableView()
+        self.table = plain_table(self.tr("Difference of each distance"), _TABLE_HEIGHT)
         self.table.setModel(ComparisonModel(comparison, self))
-        self.table.setAccessibleName(self.tr("Difference of each distance"))
-        self.table.setSelectionBehavior(QTableView.SelectRows)
-        self.table.setAlternatingRowColors(True)
-        self.table.setTabKeyNavigation(False)
-        self.table.verticalHeader().hide()
-        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        self.table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
-        self.table.setMinimumHeight(_TABLE_HEIGHT)
         self.summary = QLabel(self._summary())
         self.summary.setWordWrap(True)
         self._lay_out()

@@ -26,6 +26,7 @@ from mtr_operator.history.line_pairs import open_side
 from mtr_operator.history.search import matching, problems_of, values_of
 
 from ..fitting.breaks import breakable
+from ..fitting.plain_table import plain_table
 from ..fitting.scroller import Scroller
 from ..names import domain_word
 from ..sentences import translated
@@ -33,6 +34,7 @@ from ..theme.scale import L, M, S
 from .history_model import HistoryModel
 from .history_reader import HistoryReader
 
+_TABLE_HEIGHT = 120
 _BOX_LETTERS = 10
 _PROBLEMS_SHOWN = 2
 
@@ -89,20 +91,12 @@ class HistoryScreen(QWidget):
         return box
 
     def _make_table(self) -> QTableView:
-        table = QTableView()
+        table = plain_table(self.tr("Tests; choose one to open it, or two to compare them"), _TABLE_HEIGHT)
         table.setModel(self._model)
-        table.setAccessibleName(self.tr("Tests; choose one to open it, or two to compare them"))
-        table.setSelectionBehavior(QTableView.SelectRows)
         table.setSelectionMode(QTableView.ExtendedSelection)
-        table.setAlternatingRowColors(True)
-        table.setTabKeyNavigation(False)
-        table.verticalHeader().hide()
         # Of ten thousand rows only those in sight are measured.
         table.horizontalHeader().setResizeContentsPrecision(0)
-        table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         table.verticalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
-        table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
-        table.setMinimumHeight(120)
         table.selectionModel().selectionChanged.connect(lambda *_: self._show_choice())
         table.doubleClicked.connect(lambda _: self._open())
         return table

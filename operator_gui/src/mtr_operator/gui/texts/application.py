@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
-from . import can, figures, handle, identity, keeping, limits, pairing, passes
+from . import can, figures, handle, identity, keeping, learn, limits, pairing, passes
 
 SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "wait for robot and Car"),
@@ -104,7 +104,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "It is larger than {} MiB."),
     *keeping.SENTENCES,
     *limits.SENTENCES, *identity.SENTENCES, *pairing.SENTENCES,
-    *can.SENTENCES, *handle.SENTENCES, *passes.SENTENCES, *figures.SENTENCES,
+    *can.SENTENCES, *handle.SENTENCES, *passes.SENTENCES, *figures.SENTENCES, *learn.SENTENCES,
     QT_TRANSLATE_NOOP("Sentence", "It cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is truncated or not a JSON file."),
     QT_TRANSLATE_NOOP("Sentence", "The progress file belongs to another Car: its {} was {} m, now it measures {} m."),

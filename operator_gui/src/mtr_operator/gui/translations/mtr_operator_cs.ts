@@ -65,62 +65,62 @@
         <translation>Živý pohled na sběrnici</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="67"/>
+        <location filename="../bus/bus_window.py" line="65"/>
         <source>Messages of the bus</source>
         <translation>Zprávy sběrnice</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="80"/>
+        <location filename="../bus/bus_window.py" line="72"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="83"/>
+        <location filename="../bus/bus_window.py" line="75"/>
         <source>The Car&apos;s locks, and below them the key&apos;s distance from the Car&apos;s outline</source>
         <translation>Zámky auta a pod nimi vzdálenost klíče od obrysu auta</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="125"/>
+        <location filename="../bus/bus_window.py" line="117"/>
         <source>There is no bus: the Car is a substitute inside the application.</source>
         <translation>Žádná sběrnice tu není: auto je náhradou uvnitř aplikace.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="129"/>
+        <location filename="../bus/bus_window.py" line="121"/>
         <source>Load {load} %, {count} messages.</source>
         <translation>Zatížení {load} %, zpráv: {count}.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="132"/>
+        <location filename="../bus/bus_window.py" line="124"/>
         <source>{count} frames of further messages are not shown.</source>
         <translation>Rámce dalších zpráv, které se nezobrazují: {count}.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="140"/>
+        <location filename="../bus/bus_window.py" line="132"/>
         <source>Nothing is known of the locks yet.</source>
         <translation>O zámcích zatím není nic známo.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="142"/>
+        <location filename="../bus/bus_window.py" line="134"/>
         <source>Now: {locks}.</source>
         <translation>Nyní: {locks}.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="143"/>
+        <location filename="../bus/bus_window.py" line="135"/>
         <source>Now: {locks}, key at {distance} m.</source>
         <translation>Nyní: {locks}, klíč ve vzdálenosti {distance} m.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="148"/>
+        <location filename="../bus/bus_window.py" line="140"/>
         <source>Last change {age} s ago: {locks}.</source>
         <translation>Poslední změna před {age} s: {locks}.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="148"/>
+        <location filename="../bus/bus_window.py" line="140"/>
         <source>Last change {age} s ago: {locks}, key at {distance} m.</source>
         <translation>Poslední změna před {age} s: {locks}, klíč ve vzdálenosti {distance} m.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="135"/>
+        <location filename="../bus/bus_window.py" line="127"/>
         <source>Frames are timed by {clock}.</source>
         <translation>Čas rámců udávají {clock}.</translation>
     </message>
@@ -221,64 +221,112 @@
 <context>
     <name>CanForm</name>
     <message>
-        <location filename="../forms/can_form.py" line="37"/>
+        <location filename="../forms/can_form.py" line="40"/>
         <source>None yet</source>
         <translation>Zatím žádný</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="40"/>
+        <location filename="../forms/can_form.py" line="43"/>
         <source>Simulated Car (to try the application)</source>
         <translation>Simulované auto (na vyzkoušení aplikace)</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="41"/>
+        <location filename="../forms/can_form.py" line="44"/>
         <source>Channel</source>
         <translation>Kanál</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="41"/>
+        <location filename="../forms/can_form.py" line="44"/>
         <source>as the adapter&apos;s driver calls it</source>
         <translation>jak jej nazývá ovladač adaptéru</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="52"/>
+        <location filename="../forms/can_form.py" line="55"/>
         <source>Without an adapter everything but a test works.</source>
         <translation>Bez adaptéru funguje vše kromě testu.</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="58"/>
+        <location filename="../forms/can_form.py" line="61"/>
         <source>CAN adapter</source>
         <translation>Adaptér CAN</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="60"/>
+        <location filename="../forms/can_form.py" line="63"/>
         <source>Bit rate in bit/s</source>
         <translation>Přenosová rychlost v bit/s</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="62"/>
+        <location filename="../forms/can_form.py" line="65"/>
         <source>Car profile</source>
         <translation>Profil auta</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="44"/>
+        <location filename="../forms/can_form.py" line="47"/>
         <source>classic CAN</source>
         <translation>klasická CAN</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="46"/>
+        <location filename="../forms/can_form.py" line="49"/>
         <source>Take part in the bus (a bench of one node)</source>
         <translation>Účastnit se sběrnice (stůl s jedním uzlem)</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="47"/>
+        <location filename="../forms/can_form.py" line="50"/>
         <source>The adapter acknowledges frames. Without it the adapter only listens and sends nothing: a Car does not notice it.</source>
         <translation>Adaptér potvrzuje rámce. Jinak jen naslouchá a nic nevysílá: auto si ho nevšimne.</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="61"/>
+        <location filename="../forms/can_form.py" line="64"/>
         <source>CAN FD data in bit/s</source>
         <translation>Data CAN FD v bit/s</translation>
+    </message>
+    <message>
+        <location filename="../forms/can_form.py" line="66"/>
+        <source>Learn a new Car from its bus</source>
+        <translation>Naučit nové auto z jeho sběrnice</translation>
+    </message>
+</context>
+<context>
+    <name>CandidateModel</name>
+    <message>
+        <location filename="../learn/candidate_model.py" line="40"/>
+        <source>Identifier</source>
+        <translation>Identifikátor</translation>
+    </message>
+    <message>
+        <location filename="../learn/candidate_model.py" line="40"/>
+        <source>Byte.bits</source>
+        <translation>Bajt.bity</translation>
+    </message>
+    <message>
+        <location filename="../learn/candidate_model.py" line="40"/>
+        <source>Locked</source>
+        <translation>Zamčeno</translation>
+    </message>
+    <message>
+        <location filename="../learn/candidate_model.py" line="40"/>
+        <source>Unlocked</source>
+        <translation>Odemčeno</translation>
+    </message>
+    <message>
+        <location filename="../learn/candidate_model.py" line="40"/>
+        <source>Followed</source>
+        <translation>Odpovídalo</translation>
+    </message>
+    <message>
+        <location filename="../learn/candidate_model.py" line="40"/>
+        <source>Later by</source>
+        <translation>Později o</translation>
+    </message>
+    <message>
+        <location filename="../learn/candidate_model.py" line="40"/>
+        <source>Cycle</source>
+        <translation>Perioda</translation>
+    </message>
+    <message>
+        <location filename="../learn/candidate_model.py" line="40"/>
+        <source>Besides</source>
+        <translation>Dále</translation>
     </message>
 </context>
 <context>
@@ -839,47 +887,47 @@
 <context>
     <name>ComparisonWindow</name>
     <message>
-        <location filename="../history/comparison_window.py" line="44"/>
+        <location filename="../history/comparison_window.py" line="43"/>
         <source>Two tests compared</source>
         <translation>Porovnání dvou testů</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="47"/>
+        <location filename="../history/comparison_window.py" line="46"/>
         <source>Distance</source>
         <translation>Vzdálenost</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="54"/>
+        <location filename="../history/comparison_window.py" line="51"/>
         <source>Difference of each distance</source>
         <translation>Rozdíl každé vzdálenosti</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="72"/>
+        <location filename="../history/comparison_window.py" line="63"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="114"/>
+        <location filename="../history/comparison_window.py" line="105"/>
         <source>First: {test}</source>
         <translation>První: {test}</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="115"/>
+        <location filename="../history/comparison_window.py" line="106"/>
         <source>Second: {test}</source>
         <translation>Druhý: {test}</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="117"/>
+        <location filename="../history/comparison_window.py" line="108"/>
         <source>{counts}. By chance alone about {expected} would differ.</source>
         <translation>{counts}. Jen náhodou by se jich lišilo asi {expected}.</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="119"/>
+        <location filename="../history/comparison_window.py" line="110"/>
         <source>A distance is called farther or nearer in the second test only where the whole 95 % interval of its difference is on that side of zero.</source>
         <translation>Vzdálenost je v druhém testu označena dále nebo blíže jen tam, kde celý 95% interval rozdílu leží na té straně nuly.</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="123"/>
+        <location filename="../history/comparison_window.py" line="114"/>
         <source>Lines of one test only: {first} of the first, {second} of the second.</source>
         <translation>Přímky jen jednoho testu: {first} prvního, {second} druhého.</translation>
     </message>
@@ -887,42 +935,42 @@
 <context>
     <name>ConnectionWindow</name>
     <message>
-        <location filename="../windows/connection_window.py" line="36"/>
+        <location filename="../windows/connection_window.py" line="37"/>
         <source>Connect to the robot</source>
         <translation>Připojení k robotu</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="64"/>
+        <location filename="../windows/connection_window.py" line="66"/>
         <source>Connect</source>
         <translation>Připojit</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="68"/>
+        <location filename="../windows/connection_window.py" line="70"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="68"/>
+        <location filename="../windows/connection_window.py" line="70"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="127"/>
+        <location filename="../windows/connection_window.py" line="129"/>
         <source>The IP address or port provided is invalid.</source>
         <translation>Zadaná IP adresa nebo port je neplatný.</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="118"/>
+        <location filename="../windows/connection_window.py" line="120"/>
         <source>Connecting to {host} ...</source>
         <translation>Připojuji se k {host} ...</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="128"/>
+        <location filename="../windows/connection_window.py" line="130"/>
         <source>Connection failed, check the parameters.</source>
         <translation>Připojení selhalo, zkontrolujte parametry.</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="133"/>
+        <location filename="../windows/connection_window.py" line="135"/>
         <source>The CAN adapter cannot be used.</source>
         <translation>Adaptér CAN nelze použít.</translation>
     </message>
@@ -1324,57 +1372,57 @@
 <context>
     <name>HistoryScreen</name>
     <message>
-        <location filename="../history/history_screen.py" line="63"/>
+        <location filename="../history/history_screen.py" line="65"/>
         <source>Search: VIN, key, day, operator, note</source>
         <translation>Hledat: VIN, klíč, den, operátor, poznámka</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="64"/>
+        <location filename="../history/history_screen.py" line="66"/>
         <source>Search</source>
         <translation>Hledat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="66"/>
+        <location filename="../history/history_screen.py" line="68"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="67"/>
+        <location filename="../history/history_screen.py" line="69"/>
         <source>Key</source>
         <translation>Klíč</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="68"/>
+        <location filename="../history/history_screen.py" line="70"/>
         <source>Verdict</source>
         <translation>Verdikt</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="207"/>
+        <location filename="../history/history_screen.py" line="201"/>
         <source>Open</source>
         <translation>Otevřít</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="74"/>
+        <location filename="../history/history_screen.py" line="76"/>
         <source>Repeat</source>
         <translation>Opakovat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="75"/>
+        <location filename="../history/history_screen.py" line="77"/>
         <source>A new test with the same parameters, car and key</source>
         <translation>Nový test se stejnými parametry, autem a klíčem</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="76"/>
+        <location filename="../history/history_screen.py" line="78"/>
         <source>Compare two</source>
         <translation>Porovnat dva</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="77"/>
+        <location filename="../history/history_screen.py" line="79"/>
         <source>Open a file</source>
         <translation>Otevřít soubor</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="78"/>
+        <location filename="../history/history_screen.py" line="80"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
@@ -1384,27 +1432,27 @@
         <translation>Testy; vyberte jeden k otevření, nebo dva k porovnání</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="117"/>
+        <location filename="../history/history_screen.py" line="111"/>
         <source>Tests so far</source>
         <translation>Dosavadní testy</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="144"/>
+        <location filename="../history/history_screen.py" line="138"/>
         <source>The folders are being read.</source>
         <translation>Složky se čtou.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="182"/>
+        <location filename="../history/history_screen.py" line="176"/>
         <source>{count} tests, {shown} of them shown.</source>
         <translation>Testů: {count}, zobrazeno: {shown}.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="185"/>
+        <location filename="../history/history_screen.py" line="179"/>
         <source>{count} more files cannot be read.</source>
         <translation>Dalších {count} souborů nelze přečíst.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="207"/>
+        <location filename="../history/history_screen.py" line="201"/>
         <source>Continue</source>
         <translation>Pokračovat</translation>
     </message>
@@ -1514,6 +1562,99 @@
         <location filename="../forms/language_box.py" line="22"/>
         <source>Language</source>
         <translation>Jazyk</translation>
+    </message>
+</context>
+<context>
+    <name>LearnWindow</name>
+    <message>
+        <location filename="../learn/learn_window.py" line="58"/>
+        <source>Learn a Car</source>
+        <translation>Naučit auto</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="121"/>
+        <source>Begin</source>
+        <translation>Začít</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="71"/>
+        <source>Prompts that are answered</source>
+        <translation>Zodpovězené výzvy</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="74"/>
+        <source>Name of the Car</source>
+        <translation>Název auta</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="74"/>
+        <source>Letters, digits, - and _; the profile is kept under it.</source>
+        <translation>Písmena, číslice, - a _; profil se pod ním uchová.</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="75"/>
+        <source>Keep the profile</source>
+        <translation>Uchovat profil</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="85"/>
+        <source>What followed the locks</source>
+        <translation>Co odpovídalo zámkům</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="95"/>
+        <source>Close</source>
+        <translation>Zavřít</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="119"/>
+        <source>You lock and unlock the Car with its own key {count} times, when you are asked; meanwhile its bus is listened to. Nothing is sent.</source>
+        <translation>Na výzvu auto {count}krát zamknete a odemknete jeho vlastním klíčem; přitom se naslouchá jeho sběrnici. Nic se neposílá.</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="133"/>
+        <source>The adapter is opened.</source>
+        <translation>Otevírá se adaptér.</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="166"/>
+        <source>{count} frames so far.</source>
+        <translation>Zatím rámců: {count}.</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="172"/>
+        <source>It is done</source>
+        <translation>Hotovo</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="173"/>
+        <source>{number} of {count}: lock the Car with its own key.</source>
+        <translation>{number} z {count}: zamkněte auto jeho vlastním klíčem.</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="174"/>
+        <source>{number} of {count}: unlock the Car, all doors.</source>
+        <translation>{number} z {count}: odemkněte auto, všechny dveře.</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="175"/>
+        <source>Leave the Car alone for a moment.</source>
+        <translation>Nechte auto chvíli v klidu.</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="186"/>
+        <source>The recording is looked through.</source>
+        <translation>Prohlíží se záznam.</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="201"/>
+        <source>The message {id} tells the locks.</source>
+        <translation>O zámcích vypovídá zpráva {id}.</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="226"/>
+        <source>Kept in {path}.</source>
+        <translation>Uchováno v {path}.</translation>
     </message>
 </context>
 <context>
@@ -4549,6 +4690,76 @@
         <source>The car&apos;s profile names an output that takes the handle, and the CAN adapter only listens: a person takes it; choose normal mode (--can-normal) to have it switched.</source>
         <translation>Profil auta uvádí výstup, který bere za kliku, a adaptér CAN jen naslouchá: vezme za ni člověk; k ovládání výstupu zvolte normální režim (--can-normal).</translation>
     </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>The number of prompts is {}; allowed are even numbers from {} to {}.</source>
+        <translation>Počet výzev je {}; povolena jsou sudá čísla od {} do {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>Nothing came over the bus; check bit rate, plug and whether the Car is awake.</source>
+        <translation>Po sběrnici nic nepřišlo; zkontrolujte přenosovou rychlost, konektor a zda auto nespí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>No bit of any message followed all prompts; repeat it, and act only when asked. A Car that tells its locks on another bus cannot be learned from this one.</source>
+        <translation>Žádný bit žádné zprávy neodpovídal všem výzvám; opakujte to a jednejte jen na výzvu. Auto, které o zámcích vypovídá na jiné sběrnici, se z této naučit nelze.</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>The profile is called {}; allowed are letters, digits, - and _, and .yaml at the end.</source>
+        <translation>Profil se jmenuje {}; povolena jsou písmena, číslice, - a _ a na konci .yaml.</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>The file {} is there already; choose another name.</source>
+        <translation>Soubor {} již existuje; zvolte jiný název.</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>The input has ended before all prompts were answered; learn needs a terminal.</source>
+        <translation>Vstup skončil dříve, než byly zodpovězeny všechny výzvy; learn potřebuje terminál.</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>{} more messages followed all prompts as well, such as lights or mirrors; the one that came first is proposed. Compare it with the Car&apos;s documents.</source>
+        <translation>Všem výzvám odpovídaly také další zprávy ({}), například světla nebo zrcátka; navržena je ta, která přišla první. Porovnejte ji s dokumentací auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>If what stands still between the prompts were chance, {} bits would follow all of them; more prompts make it surer.</source>
+        <translation>Kdyby to, co se mezi výzvami nemění, bylo náhodné, odpovídalo by všem výzvám {} bitů; více výzev dá větší jistotu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>What is proposed also changed when nobody was asked to act; repeat it, and act only when asked.</source>
+        <translation>Navržené se měnilo i tehdy, když nikdo nebyl vyzván; opakujte to a jednejte jen na výzvu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>counter {}</source>
+        <translation>čítač {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>counts changes {}</source>
+        <translation>čítá změny {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>check sum in byte {}</source>
+        <translation>kontrolní součet v bajtu {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>{} more changes</source>
+        <translation>dalších změn: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>not cyclic</source>
+        <translation>není periodická</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -4591,137 +4802,137 @@
 <context>
     <name>SettingsWindow</name>
     <message>
-        <location filename="../windows/settings_window.py" line="38"/>
+        <location filename="../windows/settings_window.py" line="39"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="42"/>
+        <location filename="../windows/settings_window.py" line="43"/>
         <source>Results</source>
         <translation>Výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="43"/>
+        <location filename="../windows/settings_window.py" line="44"/>
         <source>Progress of tests</source>
         <translation>Průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="44"/>
+        <location filename="../windows/settings_window.py" line="45"/>
         <source>IP address</source>
         <translation>IP adresa</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="45"/>
+        <location filename="../windows/settings_window.py" line="46"/>
         <source>Subscriber port</source>
         <translation>Port odběratele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="46"/>
+        <location filename="../windows/settings_window.py" line="47"/>
         <source>Publisher port</source>
         <translation>Port vydavatele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="47"/>
+        <location filename="../windows/settings_window.py" line="48"/>
         <source>As the system</source>
         <translation>Podle systému</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="47"/>
+        <location filename="../windows/settings_window.py" line="48"/>
         <source>Light</source>
         <translation>Světlý</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="47"/>
+        <location filename="../windows/settings_window.py" line="48"/>
         <source>Dark</source>
         <translation>Tmavý</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="58"/>
+        <location filename="../windows/settings_window.py" line="59"/>
         <source>Use this adapter</source>
         <translation>Použít tento adaptér</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="184"/>
+        <location filename="../windows/settings_window.py" line="187"/>
         <source>The CAN adapter is in use.</source>
         <translation>Adaptér CAN se používá.</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="107"/>
+        <location filename="../windows/settings_window.py" line="110"/>
         <source>Folders</source>
         <translation>Složky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="124"/>
+        <location filename="../windows/settings_window.py" line="127"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="110"/>
+        <location filename="../windows/settings_window.py" line="113"/>
         <source>Appearance</source>
         <translation>Vzhled</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="111"/>
+        <location filename="../windows/settings_window.py" line="114"/>
         <source>Theme</source>
         <translation>Motiv</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="111"/>
+        <location filename="../windows/settings_window.py" line="114"/>
         <source>Language</source>
         <translation>Jazyk</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="131"/>
+        <location filename="../windows/settings_window.py" line="134"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="90"/>
+        <location filename="../windows/settings_window.py" line="93"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="138"/>
+        <location filename="../windows/settings_window.py" line="141"/>
         <source>Change</source>
         <translation>Změnit</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="139"/>
+        <location filename="../windows/settings_window.py" line="142"/>
         <source>Change the folder: {what}</source>
         <translation>Změnit složku: {what}</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="152"/>
+        <location filename="../windows/settings_window.py" line="155"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="159"/>
+        <location filename="../windows/settings_window.py" line="162"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="199"/>
+        <location filename="../windows/settings_window.py" line="202"/>
         <source>The CAN adapter that you have chosen is not in use yet. Use it?</source>
         <translation>Zvolený adaptér CAN se zatím nepoužívá. Použít jej?</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="202"/>
+        <location filename="../windows/settings_window.py" line="205"/>
         <source>Use it</source>
         <translation>Použít</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="202"/>
+        <location filename="../windows/settings_window.py" line="205"/>
         <source>Leave it as it was</source>
         <translation>Ponechat původní</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="50"/>
+        <location filename="../windows/settings_window.py" line="51"/>
         <source>Sounds</source>
         <translation>Zvuky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="51"/>
+        <location filename="../windows/settings_window.py" line="52"/>
         <source>One beep when the robot begins to move, two when the test is done, three at trouble</source>
         <translation>Jedno pípnutí, když se robot rozjíždí, dvě po skončení testu, tři při potížích</translation>
     </message>

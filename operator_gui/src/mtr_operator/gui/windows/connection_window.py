@@ -17,6 +17,7 @@ from ..forms.can_form import CanForm
 from ..forms.language_box import LanguageBox
 from ..forms.pairing_form import PairingForm
 from ..forms.robot_form import RobotForm
+from ..learn.offer import LearnOffer
 from ..sentences import translated
 from ..theme.scale import L, M, S
 from .card import Card
@@ -47,6 +48,7 @@ class ConnectionWindow(QWidget):
         self.language = LanguageBox(flow.store.settings.language)
         self.language.currentIndexChanged.connect(self._change_language)
         self._lay_out()
+        LearnOffer(flow, self.can, self)
         self.button.clicked.connect(self._connect)
         self.robot.submitted.connect(self._connect)
         self.can.submitted.connect(self._connect)

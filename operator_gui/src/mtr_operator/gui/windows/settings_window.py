@@ -19,6 +19,7 @@ from ..flow import Flow
 from ..forms.can_form import CanForm
 from ..forms.field import Field
 from ..forms.language_box import LanguageBox
+from ..learn.offer import LearnOffer
 from ..sentences import translated
 from ..theme.appearance import Appearance
 from ..theme.scale import XS, L, M, S
@@ -60,13 +61,15 @@ class SettingsWindow(QDialog):
         self.message.setWordWrap(True)
         self.message.setProperty("role", "soft")
         self._lay_out()
+        LearnOffer(flow, self.can, self)
         self.theme.currentIndexChanged.connect(self._change_theme)
         self.language.currentIndexChanged.connect(self._change_language)
         self.sounds.toggled.connect(self._change_sounds)
         self.use_can.clicked.connect(self._change_can)
         flow.can_opened.connect(self._show_can_in_use)
         flow.can_refused.connect(self._show_can_refused)
-        self.use_can.setEnabled(flow.model.phase not in RUNNING)
+        for button in (self.use_can, self.can.learn):
+            button.setEnabled(button.isEnabled() and flow.model.phase not in RUNNING)
         self.ensurePolished()
         open_within(self, self.sizeHint().expandedTo(QSize(_WIDTH, 0)))
 

@@ -1,0 +1,77 @@
+"""The command that learns a new Car's profile: it asks a person to lock and unlock the Car, and listens to its bus."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import argparse
+import contextlib
+import sys
+import time
+from typing import Callable, Iterator, Sequence, TextIO
+
+from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.ports import LockState
+
+from ..adapter import AdapterSettings
+from .findings import Findings
+from .learning import Learning, Listen
+from .listener import Listener
+from .session import REST_S, Stage
+from .words import HEADINGS, cells, doubts
+from .written_profile import check_name, message_name, write_profile
+
+_POLL_S = 0.05
+_GAP = "  "
+_QUESTIONS = {LockState.LOCKED: "lock the Car with its own key", LockState.UNLOCKED: "unlock the Car, all doors"}
+
+
+def learn(options: argparse.Namespace) -> None:
+    """Learn on the adapter that the options name, and write the profile."""
+    settings = AdapterSettings(options.can_interface, options.can_channel, options.can_bitrate,
+                               is_listening=not options.can_normal, data_bitrate_bps=options.can_data_bitrate)
+    learn_by(lambda heard: Listener(settings, heard), options)
+
+
+def learn_by(listen: Listen, options: argparse.Namespace, stdin: TextIO | None = None,
+             clock: Callable[[], float] = time.monotonic, wait: Callable[[float], None] = time.sleep) -> None:
+    """Learn, print what was found and write the profile; stdin, clock, wait: of the process by default."""
+    check_name(options.out)
+    learning = Learning(listen, options.prompts, clock)
+    with contextlib.closing(learning):
+        _listen(learning, stdin or sys.stdin, wait)
+    findings = learning.findings()
+    for line in _table(findings):
+        print(line)
+    for doubt in doubts(findings):
+        print(doubt, file=sys.stderr)
+    write_profile(options.out, findings)
+    best = findings.proposal
+    print(f"Message {message_name(best)} tells the locks; the profile is in {options.out}. Try it: --car-profile "
+          f"{options.out}")
+
+
+def _listen(learning: Learning, stdin: TextIO, wait: Callable[[float], None]) -> None:
+    """Ask until all is recorded; Enter is the answer to a question."""
+    session, before = learning.session, Stage.OPENING
+    learning.start()
+    while (stage := learning.tick()) is not Stage.COMPLETE:
+        if stage is Stage.REST and before is not stage:
+            _say(f"Listening for {REST_S:.0f} s; leave the Car alone.")
+        before = stage
+        if stage is not Stage.ASKED:
+            wait(_POLL_S)
+            continue
+        _say(f"{session.number}/{session.prompts}: {_QUESTIONS[session.wanted]}, then press Enter and leave it alone.")
+        if not stdin.readline():
+            raise InvalidParameter("The input has ended before all prompts were answered; learn needs a terminal.")
+        learning.done()
+
+
+def _say(sentence: str) -> None:
+    print(sentence, file=sys.stderr, flush=True)
+
+
+def _table(findings: Findings) -> Iterator[str]:
+    rows: list[Sequence[str]] = [HEADINGS, *(cells(each, findings.stays) for each in findings.candidates)]
+    widths = [max(len(row[column]) for row in rows) for column in range(len(HEADINGS))]
+    for row in rows:
+        yield _GAP.join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip()

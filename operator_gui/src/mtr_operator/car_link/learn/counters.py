@@ -1,0 +1,97 @@
+"""Recognises counters and check sums: what goes on with each frame, or by one with each change of the locks."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import NamedTuple, Sequence
+
+from .bits import BITS_PER_BYTE, Held, field_of
+from .recording import Message
+
+# Counters of frames have 2 to 8 bits in one byte.
+_MIN_WIDTH = 2
+# Lost frames make a counter jump.
+_MIN_SHARE = 0.9
+# Frames of which the rest was seen before, so that the same check sum had to follow.
+_MIN_REPEATS = 16
+# More of them say nothing new, and take time.
+_MIN_FRAMES, _MAX_FRAMES = 32, 2000
+
+
+class Field(NamedTuple):
+    """Some neighbouring bits of one byte; start: number of the lowest one, from 0 in the first byte."""
+
+    start: int
+    width: int
+
+    @property
+    def byte(self) -> int:
+        """In which byte, from 0."""
+        return self.start // BITS_PER_BYTE
+
+    def holds(self, bit: int) -> bool:
+        """True when that bit is one of them."""
+        return self.start <= bit < self.start + self.width
+
+
+def frame_counter(message: Message) -> Field | None:
+    """The bits that count the frames of a message; None when none do."""
+    values = [sample.value for sample in message.samples[:_MAX_FRAMES]]
+    if len(values) < _MIN_FRAMES or not message.length:
+        return None
+    share, _, best = max((_share(values, field), field.width, field) for field in _fields(message.length))
+    return best if share >= _MIN_SHARE else None
+
+
+def change_counter(parts: Sequence[Held], length: int) -> Field | None:
+    """The bits that stand still, and go on by one from each stay to the next; the widest; None when none do."""
+    found = [field for field in _fields(length) if _counts_stays(parts, field)]
+    return max(found, key=lambda field: field.width) if found else None
+
+
+def check_sum(message: Message, counter: Field | None) -> int | None:
+    """Number of the byte that changes with each count, and is always the same with the same rest; None when none is.
+
+    counter: what counts the frames; without one nothing that changes is told from a measured value.
+    """
+    if counter is None:
+        return None
+    found = (byte for byte in range(message.length) if byte != counter.byte and _is_check_sum(message, byte))
+    return next(found, None)
+
+
+def _fields(length: int) -> list[Field]:
+    """All places for a counter."""
+    return [Field(byte * BITS_PER_BYTE + low, width) for byte in range(length)
+            for low in range(BITS_PER_BYTE - _MIN_WIDTH + 1) for width in range(_MIN_WIDTH, BITS_PER_BYTE - low + 1)]
+
+
+def _share(values: Sequence[int], field: Field) -> float:
+    """Part of the frames that go on by one from the frame before."""
+    modulus, start, width = 1 << field.width, field.start, field.width
+    parts = [field_of(value, start, width) for value in values]
+    return sum((now - before) % modulus == 1 for before, now in zip(parts, parts[1:])) / (len(parts) - 1)
+
+
+def _counts_stays(parts: Sequence[Held], field: Field) -> bool:
+    mask = (1 << field.width) - 1 << field.start
+    if any(part.still & mask != mask for part in parts):
+        return False
+    values = [field_of(part.value, *field) for part in parts]
+    return all((now - before) % (1 << field.width) == 1 for before, now in zip(values, values[1:]))
+
+
+def _is_check_sum(message: Message, byte: int) -> bool:
+    mask = 0xFF << byte * BITS_PER_BYTE
+    sums: dict[int, int] = {}
+    repeats = moves = 0
+    before = -1
+    for sample in message.samples:
+        rest, value = sample.value & ~mask, sample.value & mask
+        if rest in sums:
+            repeats += 1
+            if sums[rest] != value:
+                return False
+        sums[rest] = value
+        moves += value != before
+        before = value
+    return repeats >= _MIN_REPEATS and moves >= _MIN_SHARE * len(message.samples)

@@ -1,0 +1,72 @@
+"""A Car's profile learned by window or command line: an adapter that is listened to, and the course of the prompts."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import threading
+import time
+from typing import Callable
+
+from mtr_operator.domain.errors import ConnectionFailed, OperatorError
+
+from ..can_frame import CanFrame
+from .findings import Findings, findings_of
+from .listener import Listener
+from .session import DEFAULT_PROMPTS, LearnSession, Stage
+
+# Makes what listens; it is given what takes each frame.
+Listen = Callable[[Callable[[CanFrame], None]], Listener]
+
+
+class Learning:
+    """Owns the adapter from start() to close(). listen: see Listen. clock: the laptop's, monotonic, in s.
+
+    Attributes: session: where it is. found: what the recording shows, None before look_through() has ended.
+    """
+
+    def __init__(self, listen: Listen, prompts: int = DEFAULT_PROMPTS,
+                 clock: Callable[[], float] = time.monotonic):
+        self.session = LearnSession(prompts)
+        self._clock = clock
+        self._listener = listen(self.session.recording.frame)
+        self._failure: OperatorError | None = None
+        self.found: Findings | None = None
+        self._opening = threading.Thread(target=self._open, name="learn-open", daemon=True)
+
+    def start(self) -> None:
+        """Open the adapter in a thread: some take a second."""
+        self._opening.start()
+
+    def tick(self) -> Stage:
+        """Time has passed; the stage at hand. ConnectionFailed when the adapter cannot be used, or not any more."""
+        if self._failure is not None:
+            raise self._failure
+        if self._listener.problem:
+            raise ConnectionFailed(self._listener.problem)
+        return self.session.tick(self._clock())
+
+    def done(self) -> None:
+        """The person says that the Car is as it was asked for."""
+        self.session.done(self._clock())
+
+    def findings(self) -> Findings:
+        """What a complete recording shows; takes up to some seconds after a long one of a full bus."""
+        self.found = findings_of(self.session.recording)
+        return self.found
+
+    def look_through(self) -> None:
+        """The same in a thread; `found` has it afterwards."""
+        threading.Thread(target=self.findings, name="learn-look", daemon=True).start()
+
+    def close(self) -> None:
+        """Let the adapter go; safe to call twice."""
+        if self._opening.is_alive():
+            self._opening.join()
+        self._listener.stop()
+
+    def _open(self) -> None:
+        try:
+            self._listener.start()
+        except OperatorError as error:
+            self._failure = error
+            return
+        self.session.begin(self._clock())

@@ -1,0 +1,51 @@
+"""Listens to the Car's bus without a profile; nothing is ever sent."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import time
+from typing import Callable
+
+from ..adapter import AdapterSettings, open_adapter
+from ..can_frame import CanFrame
+from ..reader import CanReader, FrameSink
+
+
+class Listener(FrameSink):
+    """Owns the adapter between start() and stop(). heard: called in its thread with each data frame. clock: the
+    laptop's, monotonic, in s."""
+
+    def __init__(self, settings: AdapterSettings, heard: Callable[[CanFrame], None],
+                 clock: Callable[[], float] = time.monotonic):
+        self._heard = heard
+        self._fault = ""
+        self._reader = CanReader(lambda: open_adapter(settings), self, settings.interface, clock)
+
+    def start(self) -> None:
+        """Open the adapter and listen; ConnectionFailed when that is not possible."""
+        self._reader.start()
+
+    def stop(self) -> None:
+        """Close the adapter."""
+        self._reader.stop()
+
+    @property
+    def problem(self) -> str:
+        """What is wrong with the adapter now, one sentence; empty when nothing is."""
+        return self._fault
+
+    def frame(self, frame: CanFrame) -> None:
+        """See FrameSink."""
+        self._heard(frame)
+
+    def error_frame(self) -> None:
+        """See FrameSink: one alone says nothing, and many are told as a fault of the controller."""
+
+    def frames_lost(self) -> None:
+        """See FrameSink: what follows the locks is seen in the frames that came."""
+
+    def fault(self, text: str) -> None:
+        """See FrameSink."""
+        self._fault = text
+
+    def reopened(self) -> None:
+        """See FrameSink."""

@@ -1,0 +1,106 @@
+"""`mtr-operator learn`: a person at the terminal, and a Car that does as the person does, on a clock of their own."""
+# SPDX-License-Identifier: Apache-2.0
+import argparse
+
+import pytest
+
+from mtr_operator.car_link.can_frame import CanFrame
+from mtr_operator.car_link.fake_message import DemoLockMessage
+from mtr_operator.car_link.learn.command_line import learn_by
+from mtr_operator.car_link.profile import load_profile
+from mtr_operator.cli.commands import run_command
+from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter, NothingLearned
+
+CYCLE_S = 0.02
+
+
+class Bench:
+    """Adapter, Car and person. obeys: the Car does as it is told. lines: how often the person answers."""
+
+    def __init__(self, obeys=True, lines=99, problem=""):
+        self.now_s, self.problem = 100.0, ""
+        self._late_problem = problem
+        self._obeys, self._lines = obeys, lines
+        self._message = DemoLockMessage()
+        self._heard = None
+        self.stopped = 0
+        self.options = argparse.Namespace(prompts=4)
+
+    def listen(self, heard):
+        self._heard = heard
+        return self
+
+    def start(self):
+        pass
+
+    def stop(self):
+        self.stopped += 1
+
+    def wait(self, duration_s):
+        end_s = self.now_s + duration_s
+        while self.now_s < end_s:
+            self.now_s += CYCLE_S
+            self._heard(CanFrame(0x320, False, self._message.next(), self.now_s))
+
+    def readline(self):
+        if not self._lines:
+            return ""
+        self._lines -= 1
+        self.problem = self._late_problem
+        self.wait(0.5)
+        if self._obeys:
+            self._message.is_locked = not self._message.is_locked
+        self.wait(0.5)
+        return "\n"
+
+    def learn(self, path):
+        self.options.out = path
+        learn_by(self.listen, self.options, self, lambda: self.now_s, self.wait)
+
+
+def test_profile_is_written_and_said(tmp_path, capsys):
+    bench = Bench()
+    # The Car is unlocked when it is asked to be locked first.
+    bench._message.is_locked = False
+    bench.learn(tmp_path / "golf.yaml")
+    told = capsys.readouterr()
+    assert "1/4: lock the Car with its own key" in told.err
+    assert "4/4: unlock the Car" in told.err
+    assert "320" in told.out and "4/4" in told.out
+    assert load_profile(str(tmp_path / "golf.yaml")).signal == "LockState"
+    assert bench.stopped == 1
+
+
+def test_car_that_does_nothing_leaves_no_file_and_a_sentence(tmp_path):
+    with pytest.raises(NothingLearned, match="No bit of any message followed"):
+        Bench(obeys=False).learn(tmp_path / "golf.yaml")
+    assert not list(tmp_path.iterdir())
+
+
+def test_end_of_the_input_is_said(tmp_path):
+    bench = Bench(lines=2)
+    with pytest.raises(InvalidParameter, match="needs a terminal"):
+        bench.learn(tmp_path / "golf.yaml")
+    assert bench.stopped == 1
+
+
+def test_adapter_that_is_pulled_out_ends_it(tmp_path):
+    with pytest.raises(ConnectionFailed, match="has failed"):
+        Bench(problem="The CAN adapter has failed: gone.").learn(tmp_path / "golf.yaml")
+
+
+def test_file_that_is_there_is_refused_before_anything_is_asked(tmp_path, capsys):
+    (tmp_path / "golf.yaml").write_text("mine", encoding="utf-8")
+    assert run_command(["learn", "--out", str(tmp_path / "golf.yaml")]) == 2
+    assert "is there already; choose another name." in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("arguments", "sentence"), [
+    (["--can-interface", "nonsense"], "CAN interface is 'nonsense'"),
+    (["--prompts", "7"], "allowed are even numbers from 4 to 40"),
+    (["--can-interface", "slcan", "--can-channel", "/dev/no_such_thing"], "There is no CAN adapter at"),
+])
+def test_unsuitable_adapter_or_number_is_one_sentence(tmp_path, capsys, arguments, sentence):
+    assert run_command(["learn", "--out", str(tmp_path / "golf.yaml"), *arguments]) == 2
+    told = capsys.readouterr().err.strip()
+    assert sentence in told and "\n" not in told
