@@ -11,6 +11,8 @@ from mtr_operator.gui.pictures.export import pdf, svg
 from mtr_operator.gui.pictures.identity_tables import identity_table, signed
 from mtr_operator.gui.pictures.protocol_picture import Protocol
 from mtr_operator.gui.pictures.protocol_sheet import ProtocolSheet
+from mtr_operator.gui.screens.annotation_dialog import AnnotationDialog
+from mtr_operator.storage.lock import Lock
 from mtr_operator.storage.progress_file import open_progress
 
 REQUIRED = "required: [car_vin, operator]\ndefaults: {place: Hall 2}\n"
@@ -98,3 +100,57 @@ def test_protocol_has_a_page_with_the_identity_and_lines_to_sign_on(operator, op
     assert [row.cells[0][0] for row in pages[-1] if row.is_signed] == ["Nov\u00e1k", ""]
     assert len(signed([40 * [pages[-1][0]]], known, 40)) == 2, "a full page gets no signatures"
     assert pdf(ProtocolSheet(known)).startswith(b"%PDF") and b"WVW1" in svg(ProtocolSheet(known))
+
+
+def annotated(protocol, operator, notes, *photos):
+    """Have notes and photos added to the test that the protocol shows."""
+    operator.wait(protocol.annotate.isEnabled)
+    operator.click(protocol.annotate)
+    dialog = next(each for each in protocol.findChildren(AnnotationDialog) if each.isVisible())
+    assert not dialog.keep.isEnabled()
+    dialog.notes.show_text(notes)
+    dialog.photos.show_paths(photos)
+    return dialog
+
+
+def test_notes_and_photos_added_after_a_test_are_in_record_protocol_and_files(operator, tmp_path):
+    before, after = tmp_path / "car.jpg", tmp_path / "more" / "car.jpg"
+    after.parent.mkdir()
+    before.write_bytes(b"before")
+    after.write_bytes(b"after")
+    form = operator.choose("key_press").identity
+    enter(form, car_vin="WVW1", notes="Doors shut.")
+    form.photos.show_paths((before,))
+    operator.window.settings["key_press"].form.fields["angle_between_radials_rad"].edit.setText("90")
+    operator.wait(operator.window.settings["key_press"].start.isEnabled)
+    operator.click(operator.window.settings["key_press"].start)
+    protocol = operator.finish()
+    dialog = annotated(protocol, operator, "Doors shut.\nRain from line 3 on.", after)
+    assert dialog.kept.text() == "With the test already: car.jpg." and dialog.keep.isEnabled()
+    operator.click(dialog.keep)
+    folder = operator.folder / "results" / operator.model.test.name
+    # The record is written before the files of the report.
+    operator.wait(lambda: "car_2.jpg" in (folder / "results.csv").read_text(encoding="utf-8"))
+    operator.wait(protocol.annotate.isEnabled)
+    _, _, progress = open_progress(operator.model.test.path, SCENARIOS)
+    assert progress.identity.notes == "Doors shut.\nRain from line 3 on."
+    assert [photo.name for photo in progress.identity.photos] == ["car.jpg", "car_2.jpg"]
+    assert "notes and photos added" in progress.session
+    assert (folder / "photos" / "car_2.jpg").read_bytes() == b"after"
+    assert any("Rain from line 3 on." in cell for row in identity_table(protocol.protocol) for cell, *_ in row.cells)
+
+
+def test_notes_that_cannot_be_kept_are_said_and_nothing_is_changed(operator, tmp_path):
+    operator.begin()
+    protocol = operator.finish()
+    dialog = annotated(protocol, operator, "x" * 4001)
+    assert "at most 4000 characters" in dialog.notes.note.text() and not dialog.keep.isEnabled()
+    dialog.notes.show_text("Rain.")
+    dialog.photos.show_paths((tmp_path / "gone.jpg",))
+    assert not dialog.keep.isEnabled()
+    dialog.photos.show_paths(())
+    # Another application has taken the test up meanwhile.
+    with Lock(operator.model.test.path):
+        operator.click(dialog.keep)
+        operator.wait(lambda: "Another application" in protocol.notice.text())
+    assert open_progress(operator.model.test.path, SCENARIOS)[2].identity is None

@@ -8,8 +8,10 @@ from typing import ClassVar, Sequence
 
 from PyQt5.QtCore import QObject, QThread, pyqtSignal
 
-from mtr_operator.domain.errors import OutputError
+from mtr_operator.domain.errors import OperatorError, OutputError
 from mtr_operator.report import budget_json, results_csv
+from mtr_operator.station.identity_entry import Annotation
+from mtr_operator.station.test import Test
 from mtr_operator.storage import progress_file
 from mtr_operator.storage.atomic import output_folder, write_bytes
 from mtr_operator.storage.photos import copy_photos, photo_folder
@@ -25,18 +27,21 @@ _PICTURES = {PNG: export.png, PDF: export.pdf, SVG: export.svg}
 
 
 class ReportWriter(QThread):
-    """Signals: written(paths), refused(text)."""
+    """Signals: written(paths), refused(text): of the files; not_annotated(text): nothing was written, for the notes or
+    photos could not be kept."""
 
     written = pyqtSignal(list)
     refused = pyqtSignal(str)
+    not_annotated = pyqtSignal(str)
     _running: ClassVar[set[ReportWriter]] = set()
 
-    def __init__(self, protocol: Protocol, record: pathlib.Path, folder: pathlib.Path, kinds: Sequence[str],
-                 parent: QObject | None = None):
-        """record: progress file of the test, beside which its photos are."""
+    def __init__(self, protocol: Protocol, test: Test, folder: pathlib.Path, kinds: Sequence[str],
+                 annotation: Annotation | None = None, parent: QObject | None = None):
+        """protocol: of the test. annotation: to be kept with it first."""
         super().__init__(parent)
         self._protocol = protocol
-        self._record = record
+        self._test = test
+        self._annotation = annotation
         self._folder = folder
         self._kinds = tuple(kinds)
         self._running.add(self)
@@ -51,14 +56,31 @@ class ReportWriter(QThread):
     def run(self) -> None:
         """See QThread."""
         try:
-            with output_folder(self._folder):
-                self.written.emit([self._write(kind) for kind in self._kinds])
-        except OutputError as error:
-            self.refused.emit(str(error))
+            if self._annotated():
+                self._write_all()
         # Qt ends the process when an exception leaves this function.
         except Exception as error:
             logging.exception("The protocol was not written because of a defect of the application.")
             self.refused.emit(f"The application has a defect: {type(error).__name__}: {error}")
+
+    def _annotated(self) -> bool:
+        """Keep what is to be added; False when that is not possible."""
+        if self._annotation is None:
+            return True
+        try:
+            self._test.annotate(self._annotation)
+        except OperatorError as error:
+            self.not_annotated.emit(str(error))
+            return False
+        self._protocol.progress.identity = self._test.progress.identity
+        return True
+
+    def _write_all(self) -> None:
+        try:
+            with output_folder(self._folder):
+                self.written.emit([self._write(kind) for kind in self._kinds])
+        except OutputError as error:
+            self.refused.emit(str(error))
 
     def _write(self, kind: str) -> pathlib.Path:
         protocol = self._protocol
@@ -71,7 +93,7 @@ class ReportWriter(QThread):
             copy = self._folder / progress_file.FILE_NAME
             progress_file.save_progress(copy, protocol.progress)
             if protocol.progress.identity is not None:
-                copy_photos(protocol.progress.identity.photos, photo_folder(self._record), photo_folder(copy))
+                copy_photos(protocol.progress.identity.photos, photo_folder(self._test.path), photo_folder(copy))
             return path
         path = self._folder / f"protocol.{kind}"
         write_bytes(path, _PICTURES[kind](ProtocolSheet(protocol)))

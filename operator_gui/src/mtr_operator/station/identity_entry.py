@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import datetime
-from typing import Any, Mapping
+import pathlib
+from typing import Any, Mapping, NamedTuple
 
 from mtr_operator.domain.errors import InvalidIdentity
 from mtr_operator.domain.identity.equipment_text import equipment_from_text, equipment_text
@@ -16,6 +17,19 @@ from mtr_operator.storage.photos import check_photos
 from .number_text import parse_number, written
 from .settings import Settings
 from .settings_file import SettingsStore
+
+
+class Annotation(NamedTuple):
+    """What is added to a test that is over. notes: all of them, also those of before; photos: further ones."""
+
+    notes: str
+    photos: tuple[pathlib.Path, ...]
+
+    def check(self, identity: Identity) -> None:
+        """Raise InvalidIdentity when a test with this identity cannot take it."""
+        identity_from({"notes": self.notes})
+        check_photos(self.photos, len(identity.photos))
+
 
 # Fields with a text each; photos are files.
 FIELDS = tuple(name for name in TITLES if name != "photos")

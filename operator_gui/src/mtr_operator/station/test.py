@@ -11,8 +11,9 @@ from dataclasses import dataclass, field
 from typing import Iterator
 
 from mtr_operator.domain.identity.identity import Identity, Photo
+from mtr_operator.domain.results.journal import IDENTITY
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.results.session_record import CONTINUED, now, session_record, written
+from mtr_operator.domain.results.session_record import ANNOTATED, CONTINUED, now, session_record, written
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.scenarios import SCENARIOS
@@ -27,6 +28,7 @@ from mtr_operator.storage.store import Store
 
 from .connection import SIMULATED, CanChoice, Connection
 from .estimate import USUAL_CAR
+from .identity_entry import Annotation
 
 NOTHING_SAID = GivenIdentity()
 _MOMENT = "%Y-%m-%d_%H-%M-%S"
@@ -107,6 +109,18 @@ class Test:
             photos = keep_photos(self.photos, photo_folder(self.path))
             self.progress.identity = dataclasses.replace(identity, photos=photos)
             self._sources, self.photos = self.photos, ()
+
+    def annotate(self, annotation: Annotation) -> None:
+        """Keep notes and further photos of a test that does not run; an OperatorError says why that fails. The record
+        says when that was."""
+        identity = self.progress.identity or Identity()
+        annotation.check(identity)
+        with self.opened() as store:
+            photos = keep_photos(annotation.photos, photo_folder(self.path), identity.photos)
+            self.progress.identity = dataclasses.replace(identity, notes=annotation.notes.strip(), photos=photos)
+            self.progress.session[ANNOTATED] = written(now())
+            store.add(IDENTITY, self.progress.identity.to_document())
+            store.save()
 
     def discard_photos(self) -> None:
         """Nothing was measured: leave no copies; the photos wait for the next run."""

@@ -25,10 +25,10 @@ def photo_folder(path: pathlib.Path) -> pathlib.Path:
     return path.with_name(_FOLDER if path.stem == _RECORD else f"{path.stem}.{_FOLDER}")
 
 
-def check_photos(paths: Sequence[pathlib.Path]) -> None:
-    """Raise InvalidIdentity for the first file that is no photo that can be kept."""
-    if len(paths) > MAX_PHOTOS:
-        raise InvalidIdentity(f"There are {len(paths)} photos; at most {MAX_PHOTOS} are kept with a test.")
+def check_photos(paths: Sequence[pathlib.Path], kept_count: int = 0) -> None:
+    """Raise InvalidIdentity for the first file that is no photo that can be kept. kept_count: how many are already."""
+    if kept_count + len(paths) > MAX_PHOTOS:
+        raise InvalidIdentity(f"There are {kept_count + len(paths)} photos; at most {MAX_PHOTOS} are kept with a test.")
     for path in paths:
         if path.suffix.lower() not in SUFFIXES:
             raise InvalidIdentity(f"The file {path} is no photo; kept are {', '.join(SUFFIXES)}.")
@@ -40,10 +40,14 @@ def check_photos(paths: Sequence[pathlib.Path]) -> None:
             raise InvalidIdentity(f"The photo {path} is no file of at most {MAX_BYTES // 1024 ** 2} MiB.")
 
 
-def keep_photos(paths: Sequence[pathlib.Path], folder: pathlib.Path) -> tuple[Photo, ...]:
-    """Copy photos into a folder, under their names or with a number behind them; OutputError when that fails."""
-    check_photos(paths)
-    kept: list[Photo] = []
+def keep_photos(paths: Sequence[pathlib.Path], folder: pathlib.Path,
+                former: Sequence[Photo] = ()) -> tuple[Photo, ...]:
+    """Copy photos into a folder, under their names or with a number behind them; OutputError when that fails.
+
+    former: those that are kept there already; they come first in what is returned.
+    """
+    check_photos(paths, len(former))
+    kept = list(former)
     for path in paths:
         try:
             content = path.read_bytes()

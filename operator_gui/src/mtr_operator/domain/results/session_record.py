@@ -11,6 +11,7 @@ STARTED, CONTINUED, ROBOT_SOFTWARE = "started", "continued", "robot software"
 # Only in the record of a test in which it happened.
 ENDED_BY, RECOVERED = "ended before its end", "recovered"
 MEASURED_AGAIN = "measured again"
+ANNOTATED = "notes and photos added"
 REFUSED_STATUSES = "messages of the robot that were not used"
 REFUSED_COMMANDS = "messages that the robot refused"
 # Only in the record of a test over an encrypted link.

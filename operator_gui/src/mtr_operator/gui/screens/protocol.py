@@ -10,15 +10,17 @@ from typing import Callable
 
 from PyQt5.QtCore import Qt, QTimer, QUrl, pyqtSignal
 from PyQt5.QtGui import QDesktopServices
-from PyQt5.QtWidgets import QHBoxLayout, QHeaderView, QLabel, QPushButton, QTableView, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QTableView, QVBoxLayout, QWidget
 
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.report.protocol_rows import date_text
 from mtr_operator.station.checks.checklist import hindrances
 from mtr_operator.station.events import Outcome
+from mtr_operator.station.identity_entry import Annotation
 from mtr_operator.station.test import report_folder
 
 from ..dialogs import ask_folder
+from ..fitting.plain_table import plain_table
 from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..forms.hold_button import HoldButton
@@ -30,6 +32,7 @@ from ..sentences import translated
 from ..theme.appearance import Appearance
 from ..theme.scale import M, S
 from ..verdict_text import verdict_text
+from .annotation_dialog import AnnotationDialog
 from .budget_model import BudgetModel
 from .results_model import ResultsModel
 
@@ -43,7 +46,7 @@ class ProtocolScreen(QWidget):
     """Attributes: protocol: what is shown. panel: the picture. table: the results. budget: of the row chosen.
     notice: what was saved.
 
-    save, save_pdf, save_svg, show_folder, again, done: buttons; again is held, for it moves the robot.
+    save, save_pdf, save_svg, show_folder, annotate, again, done: buttons; again is held, for it moves the robot.
 
     Signals: closed: the Operator is done with it.
     """
@@ -65,9 +68,10 @@ class ProtocolScreen(QWidget):
         self.title.setProperty("role", "heading")
         self.date.setProperty("role", "soft")
         self.notice.setWordWrap(True)
-        self.table = self._make_table(self.tr("Results; choose a row to see its points, or several to measure them "
-                                              "again"))
-        self.budget = self._make_table(self.tr("What the uncertainty of the chosen row is made of"))
+        self.table = plain_table(self.tr("Results; choose a row to see its points, or several to measure them again"),
+                                 _TABLE_HEIGHT)
+        self.table.setSelectionMode(QTableView.ExtendedSelection)
+        self.budget = plain_table(self.tr("What the uncertainty of the chosen row is made of"), _BUDGET_HEIGHT)
         self.budget.setSelectionMode(QTableView.NoSelection)
         self.budget.hide()
         self.save = self._button(self.tr("Save"), "primary", lambda: self._write((CSV, PNG)))
@@ -77,6 +81,7 @@ class ProtocolScreen(QWidget):
         self.show_folder = self._button(self.tr("Show folder"), "", self._open_folder)
         self.again = HoldButton(self.tr("Hold to measure again"))
         self.again.held.connect(self._measure_again)
+        self.annotate = self._button(self.tr("Notes and photos"), "", self._open_annotation)
         self.done = self._button(self.tr("New test"), "", self.closed.emit)
         self._lay_out()
 
@@ -90,19 +95,6 @@ class ProtocolScreen(QWidget):
     def protocol(self) -> Protocol:
         """What is shown."""
         return self._picture.protocol
-
-    @staticmethod
-    def _make_table(name: str) -> QTableView:
-        table = QTableView()
-        table.setAccessibleName(name)
-        table.setSelectionBehavior(QTableView.SelectRows)
-        table.setSelectionMode(QTableView.ExtendedSelection)
-        table.setAlternatingRowColors(True)
-        table.setTabKeyNavigation(False)
-        table.verticalHeader().hide()
-        table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
-        return table
 
     @staticmethod
     def _button(text: str, role: str, act: Callable[[], None]) -> QPushButton:
@@ -127,12 +119,11 @@ class ProtocolScreen(QWidget):
         side.addWidget(self.budget, 2)
         side.addWidget(self.notice)
         side.addWidget(self.again)
+        side.addWidget(self.annotate)
         side.addLayout(first)
         side.addLayout(second)
         holder = Scroller(side)
         holder.setMaximumWidth(_SIDE_WIDTH)
-        for table, height in ((self.table, _TABLE_HEIGHT), (self.budget, _BUDGET_HEIGHT)):
-            table.setMinimumHeight(height)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(M, M, M, M)
         layout.setSpacing(M)
@@ -216,19 +207,31 @@ class ProtocolScreen(QWidget):
         if nearest_m <= limit_m:
             self.table.selectRow(row)
 
-    def _write(self, kinds: tuple[str, ...]) -> None:
+    def _write(self, kinds: tuple[str, ...], annotation: Annotation | None = None) -> None:
         folder = report_folder(self._flow.store.settings.result_folder, self._flow.model.current_test)
         self._folder = folder
         self._set_saving(True)
         self._kinds = kinds
         # No child of the screen, and no lambda: it may outlive both when the window closes or is made anew.
-        self._writer = ReportWriter(self.protocol, self._flow.model.current_test.path, folder, kinds)
+        self._writer = ReportWriter(self.protocol, self._flow.model.current_test, folder, kinds, annotation)
         self._writer.written.connect(self._show_written)
         self._writer.refused.connect(self._show_refused)
+        self._writer.not_annotated.connect(self._show_not_annotated)
         self._writer.start()
 
+    def _open_annotation(self) -> None:
+        """Ask for notes and photos beside this window, whose Stop stays at hand."""
+        dialog = AnnotationDialog(self._flow.model.current_test.progress.identity, self)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.accepted.connect(lambda: self._annotate(dialog.annotation))
+        dialog.show()
+
+    def _annotate(self, annotation: Annotation) -> None:
+        """Keep them in the record, and write the files anew."""
+        self._write((CSV, PNG), annotation)
+
     def _set_saving(self, is_saving: bool) -> None:
-        for button in (self.save, self.save_pdf, self.save_svg):
+        for button in (self.save, self.save_pdf, self.save_svg, self.annotate):
             button.setEnabled(not is_saving)
 
     def _show_written(self, paths: list[pathlib.Path]) -> None:
@@ -244,6 +247,10 @@ class ProtocolScreen(QWidget):
         self._set_saving(False)
         self._show_notice(translated(text) + " " + self.tr("Choose another folder; nothing is lost."))
         QTimer.singleShot(0, self._ask_folder)
+
+    def _show_not_annotated(self, text: str) -> None:
+        self._set_saving(False)
+        self._show_notice(translated(text))
 
     def _ask_folder(self) -> None:
         folder = ask_folder(self, self.tr("Folder for results"), pathlib.Path.home())

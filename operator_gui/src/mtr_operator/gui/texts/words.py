@@ -79,6 +79,7 @@ WORDS = (
     QT_TRANSLATE_NOOP("Word", "started"),
     QT_TRANSLATE_NOOP("Word", "continued"),
     QT_TRANSLATE_NOOP("Word", "measured again"),
+    QT_TRANSLATE_NOOP("Word", "notes and photos added"),
     QT_TRANSLATE_NOOP("Word", "ended before its end"),
     QT_TRANSLATE_NOOP("Word", "recovered"),
     QT_TRANSLATE_NOOP("Word", "messages of the robot that were not used"),

@@ -2,6 +2,34 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="cs_CZ" sourcelanguage="en">
 <context>
+    <name>AnnotationDialog</name>
+    <message>
+        <location filename="../screens/annotation_dialog.py" line="32"/>
+        <source>Notes and photos</source>
+        <translation>Poznámky a fotografie</translation>
+    </message>
+    <message>
+        <location filename="../screens/annotation_dialog.py" line="40"/>
+        <source>With the test already: {names}.</source>
+        <translation>U testu již: {names}.</translation>
+    </message>
+    <message>
+        <location filename="../screens/annotation_dialog.py" line="42"/>
+        <source>Further photos</source>
+        <translation>Další fotografie</translation>
+    </message>
+    <message>
+        <location filename="../screens/annotation_dialog.py" line="43"/>
+        <source>Keep with the test</source>
+        <translation>Uchovat u testu</translation>
+    </message>
+    <message>
+        <location filename="../screens/annotation_dialog.py" line="53"/>
+        <source>Close</source>
+        <translation>Zavřít</translation>
+    </message>
+</context>
+<context>
     <name>BatterySymbol</name>
     <message>
         <location filename="../header/symbols.py" line="45"/>
@@ -2732,94 +2760,99 @@
 <context>
     <name>ProtocolScreen</name>
     <message>
-        <location filename="../screens/protocol.py" line="73"/>
+        <location filename="../screens/protocol.py" line="77"/>
         <source>Save</source>
         <translation>Uložit</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="74"/>
+        <location filename="../screens/protocol.py" line="78"/>
         <source>Save as CSV and PNG</source>
         <translation>Uložit jako CSV a PNG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="75"/>
+        <location filename="../screens/protocol.py" line="79"/>
         <source>Save PDF</source>
         <translation>Uložit PDF</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="76"/>
+        <location filename="../screens/protocol.py" line="80"/>
         <source>Save SVG</source>
         <translation>Uložit SVG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="77"/>
+        <location filename="../screens/protocol.py" line="81"/>
         <source>Show folder</source>
         <translation>Ukázat složku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="80"/>
+        <location filename="../screens/protocol.py" line="85"/>
         <source>New test</source>
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="151"/>
+        <location filename="../screens/protocol.py" line="142"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="240"/>
+        <location filename="../screens/protocol.py" line="243"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="245"/>
+        <location filename="../screens/protocol.py" line="248"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="249"/>
+        <location filename="../screens/protocol.py" line="256"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="185"/>
+        <location filename="../screens/protocol.py" line="176"/>
         <source>Verdict: {verdict}.</source>
         <translation>Verdikt: {verdict}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="70"/>
+        <location filename="../screens/protocol.py" line="74"/>
         <source>What the uncertainty of the chosen row is made of</source>
         <translation>Z čeho se skládá nejistota vybraného řádku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="257"/>
+        <location filename="../screens/protocol.py" line="264"/>
         <source>No file manager opens it; the files are in {folder}</source>
         <translation>Žádný správce souborů ji neotevře; soubory jsou ve složce {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="68"/>
+        <location filename="../screens/protocol.py" line="71"/>
         <source>Results; choose a row to see its points, or several to measure them again</source>
         <translation>Výsledky; volbou řádku uvidíte jeho body, více řádků lze změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="78"/>
+        <location filename="../screens/protocol.py" line="82"/>
         <source>Hold to measure again</source>
         <translation>Podržením změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="159"/>
+        <location filename="../screens/protocol.py" line="150"/>
         <source>Not saved as CSV and PNG yet.</source>
         <translation>Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="193"/>
+        <location filename="../screens/protocol.py" line="184"/>
         <source>{count} lines, {invalid} of them invalid.</source>
         <translation>Počet přímek: {count}, z toho neplatných: {invalid}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="194"/>
+        <location filename="../screens/protocol.py" line="185"/>
         <source>{count} lines.</source>
         <translation>Počet přímek: {count}.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="84"/>
+        <source>Notes and photos</source>
+        <translation>Poznámky a fotografie</translation>
     </message>
 </context>
 <context>
@@ -5644,6 +5677,11 @@
         <location filename="../texts/words.py" line="5"/>
         <source>Border unknown</source>
         <translation>Hranice neznámá</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="5"/>
+        <source>notes and photos added</source>
+        <translation>poznámky a fotografie doplněny</translation>
     </message>
 </context>
 </TS>
