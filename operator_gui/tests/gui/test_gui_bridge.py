@@ -2,10 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 import threading
 
+import pytest
+from PyQt5.QtWidgets import QApplication
+
+from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.gui.bridge import FRAME_MS, Bridge
 from mtr_operator.gui.pictures.layers.layer import Layer
+from mtr_operator.gui.pictures.layers.robot_layer import RobotLayer
+from mtr_operator.gui.pictures.layers.surroundings import GridLayer
 from mtr_operator.gui.pictures.picture_view import PictureView
 from mtr_operator.gui.theme.appearance import Appearance
 from mtr_operator.station.events import ActionBegun, RobotSnapshot
@@ -86,6 +92,66 @@ def test_what_stands_still_is_painted_once(qtbot):
     view.refresh()
     view.grab()
     assert still.count == 2
+
+
+def test_brief_layer_is_painted_when_it_changes_and_not_with_each_frame(qtbot):
+    view, still, brief, moving = PictureView(Appearance()), Counting(False), Counting(False), Counting(True)
+    brief.is_brief = True
+    qtbot.addWidget(view)
+    view.show()
+    view.show_layers([still, brief, moving])
+    for _ in range(10):
+        view.grab()
+    assert (still.count, brief.count, moving.count) == (1, 1, 10)
+    view.refresh_brief()
+    view.grab()
+    assert (still.count, brief.count) == (1, 2)
+    view.add_news(still)
+    view.grab()
+    assert brief.count == 3
+
+
+class Yard(GridLayer):
+    """Sixteen metres of it are shown."""
+
+    def points(self):
+        return (-8.0, -8.0), (8.0, 8.0)
+
+
+class SeenView(PictureView):
+    """Keeps the regions that were painted."""
+
+    def __init__(self):
+        super().__init__(Appearance())
+        self.regions = []
+
+    def paintEvent(self, event):
+        self.regions.append(event.region().boundingRect())
+        super().paintEvent(event)
+
+
+@pytest.mark.parametrize("way", [(0.02, 0.0, 0.1), (1.5, -1.0, 2.0)])
+def test_robot_that_moves_leaves_no_trace_and_costs_only_its_surroundings(qtbot, way):
+    view, robot = SeenView(), RobotLayer()
+    qtbot.addWidget(view)
+    view.resize(600, 600)
+    robot.key, robot.sigma_m, robot.pose = (0.26, 0.0), 0.02, Pose(3.0, 1.0, 0.5)
+    view.show_layers([Yard(), robot])
+    view.show()
+    qtbot.waitExposed(view)
+    qtbot.waitUntil(lambda: bool(view.regions))
+    QApplication.processEvents()
+    view.regions.clear()
+    for step in range(3):
+        robot.pose = Pose(3.0 + way[0] * step, 1.0 + way[1] * step, 0.5 + way[2] * step)
+        view.move_layer(robot)
+        qtbot.waitUntil(lambda step=step: len(view.regions) > step)
+    assert all(region.width() * region.height() < 0.6 * 600 * 600 for region in view.regions)
+    shown = view.screen().grabWindow(view.winId()).toImage()
+    view.update()
+    qtbot.waitUntil(lambda: len(view.regions) == 4)
+    assert shown == view.screen().grabWindow(view.winId()).toImage()
+    assert not shown.isNull()
 
 
 def test_full_can_bus_is_read_outside_the_gui_thread(operator, monkeypatch):

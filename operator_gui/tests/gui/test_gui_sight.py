@@ -33,6 +33,7 @@ def test_obstacle_is_ringed_in_the_colour_of_what_it_does(operator, zone, colour
     screen = operator.begin("autolock")
     operator.application.flow.stop()
     screen.picture.sight.view = View(np.empty((0, 2)), (), (4.0, 0.0), zone, ((3.0, 0.0), 0.7))
+    screen.panel.view.refresh_brief()
     palette = operator.application.appearance.palette
     seen = colours(screen.panel.view)
     assert QColor(getattr(palette, colour)).name() in seen

@@ -27,6 +27,7 @@ class BatterySymbol(QWidget):
         self._appearance = appearance
         self._percent: int | None = None
         self._is_stale = False
+        self._told = ""
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         appearance.changed.connect(self.update)
         self.show_percent(None)
@@ -46,6 +47,9 @@ class BatterySymbol(QWidget):
             self.tr("Battery of the robot: {percent} %").format(percent=percent)
         if age_s is not None:
             text += " " + self.tr("({age} s ago)").format(age=f"{age_s:.0f}")
+        if text == self._told:
+            return
+        self._told = text
         self.setAccessibleName(text)
         self.setToolTip(text)
         self.update()

@@ -9,6 +9,7 @@ from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.results.picture import Stretch
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.station.estimate import USUAL_CAR, plan_of
+from mtr_operator.station.sight.view import View
 from mtr_operator.station.view_model import ViewModel
 
 from .glide import Glide
@@ -50,7 +51,7 @@ class MeasurementPicture:
         """The next frame is due."""
         if self._glide.is_moving(now_s):
             self.robot.pose = self._glide.at(now_s)
-            self._panel.view.update()
+            self._panel.view.move_layer(self.robot)
 
     def _show_robot(self, now_s: float) -> None:
         snapshot = self._model.robot
@@ -62,13 +63,19 @@ class MeasurementPicture:
         robot.pose, robot.key, robot.sigma_m = self._glide.at(now_s), (status.key_x, status.key_y), \
             status.position_sigma_m
         robot.is_stale = self._model.is_stale
-        self.sight.view = None if self._model.is_stale or not status.pose_valid else self._model.view
+        self._show_sight(None if robot.is_stale or not status.pose_valid else self._model.view)
         waypoint = snapshot.waypoint
         robot.waypoint = None if waypoint is None else waypoint.pose
         if self._model.trail is not self.trail.places:
             self.trail.places = self._model.trail
             self._panel.view.refresh()
-        self._panel.view.add_news(self.trail)
+        if self.trail.has_news:
+            self._panel.view.add_news(self.trail)
+
+    def _show_sight(self, view: View | None) -> None:
+        if view is not self.sight.view:
+            self.sight.view = view
+            self._panel.view.refresh_brief()
 
     def _arrange(self) -> None:
         model, test = self._model, self._model.current_test

@@ -22,12 +22,12 @@ _MARGIN_PX = 44.0
 
 
 class PictureView(QWidget):
-    """Layers that do not move are painted once into a pixmap.
+    """Layers that do not move are painted once into a pixmap, and brief ones over it into another.
 
     Attributes:
         layers: what is painted, the first one lowest. viewport: what is seen.
         ruler: the ruler's layer. is_measuring: a drag measures and does not pan.
-        still_paints: how often the pixmap was painted.
+        still_paints: how often the first pixmap was painted.
     Signals:
         clicked(x, y): a place of the Car coordinate system. measured: the ruler is another one.
     """
@@ -40,6 +40,8 @@ class PictureView(QWidget):
         self._appearance = appearance
         self.layers: tuple[Layer, ...] = ()
         self._still: QPixmap | None = None
+        self._brief: QPixmap | None = None
+        self._extents: dict[Layer, QRectF] = {}
         self._is_fitted = True
         self._pressed: QPoint | None = None
         self._dragged: QPoint | None = None
@@ -47,6 +49,8 @@ class PictureView(QWidget):
         self.ruler = RulerLayer()
         self.is_measuring = False
         self.still_paints = 0
+        # All of it is painted: what lies below need not be.
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAccessibleName(self.tr("Car and robot from above; plus and minus zoom, arrows move the picture"))
@@ -72,8 +76,19 @@ class PictureView(QWidget):
             self._fit()
         self.update()
 
+    def refresh_brief(self) -> None:
+        """A brief layer has changed."""
+        self._brief = None
+        self.update()
+
+    def move_layer(self, layer: Layer) -> None:
+        """A layer that moves is elsewhere, and nothing else has changed."""
+        now = layer.extent(self.viewport)
+        self.update(now.united(self._extents.get(layer, now)).toAlignedRect())
+
     def add_news(self, layer: Layer) -> None:
         """Something was added to a layer that does not move; the rest is not painted anew."""
+        self._brief = None
         if self._still is not None:
             painter = QPainter(self._still)
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -105,12 +120,15 @@ class PictureView(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:
         """See QWidget."""
         if self._still is None:
-            self._still = self._paint_still()
+            self._still, self._brief = self._paint_still(), None
+        if self._brief is None:
+            self._brief = self._paint_brief(self._still)
         painter = QPainter(self)
-        painter.drawPixmap(0, 0, self._still)
+        painter.drawPixmap(0, 0, self._brief)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         moving = [layer for layer in (*self.layers, self.ruler) if layer.is_moving]
         paint_all(moving, Canvas(painter, self.viewport, self._appearance.palette))
+        self._extents = {layer: layer.extent(self.viewport) for layer in moving}
         focus = self._appearance.palette.accent if self.hasFocus() else self._appearance.palette.line
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setPen(QPen(QColor(focus), 2))
@@ -177,7 +195,7 @@ class PictureView(QWidget):
         self.update()
 
     def _fit(self) -> None:
-        points = [point for layer in self.layers if not layer.is_moving for point in layer.points()]
+        points = [point for layer in self.layers if _is_still(layer) for point in layer.points()]
         self.viewport = self.viewport.fitted(points, _MARGIN_PX)
 
     def _place(self, pixel: QPoint) -> Point:
@@ -189,10 +207,25 @@ class PictureView(QWidget):
         pixmap = QPixmap(self.size() * ratio)
         pixmap.setDevicePixelRatio(ratio)
         pixmap.fill(QColor(self._appearance.palette.surface))
+        self._paint_into(pixmap, [layer for layer in self.layers if _is_still(layer)])
+        return pixmap
+
+    def _paint_brief(self, still: QPixmap) -> QPixmap:
+        """Still and brief layers; the still ones themselves where there are no others."""
+        brief = [layer for layer in self.layers if layer.is_brief and layer.is_visible]
+        if not brief:
+            return still
+        pixmap = QPixmap(still)
+        self._paint_into(pixmap, brief)
+        return pixmap
+
+    def _paint_into(self, pixmap: QPixmap, layers: Sequence[Layer]) -> None:
         painter = QPainter(pixmap)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setFont(self.font())
-        still = [layer for layer in self.layers if not layer.is_moving]
-        paint_all(still, Canvas(painter, self.viewport, self._appearance.palette))
+        paint_all(layers, Canvas(painter, self.viewport, self._appearance.palette))
         painter.end()
-        return pixmap
+
+
+def _is_still(layer: Layer) -> bool:
+    return not layer.is_moving and not layer.is_brief

@@ -30,7 +30,8 @@ class Canvas:
 
     def polygon(self, points: Sequence[Point]) -> QPolygonF:
         """Places of points."""
-        return QPolygonF([self.at(point) for point in points])
+        to_screen = self.viewport.to_screen
+        return QPolygonF([QPointF(*to_screen(point)) for point in points])
 
     def pen(self, colour: str, width: float = 1.0, style: Qt.PenStyle = Qt.PenStyle.SolidLine,
             alpha: float = 1.0) -> QPen:
@@ -64,11 +65,12 @@ class Layer(ABC):
     """One kind of thing in a picture.
 
     Attributes:
-        is_moving: it changes with every Status; the others are painted once and kept.
+        is_moving: it changes with every frame; the others are painted once and kept.
+        is_brief: it changes some times a second; it is kept over the others until then.
         is_visible: it is painted.
     """
 
-    is_moving = False
+    is_moving = is_brief = False
     is_visible = True
 
     @abstractmethod
@@ -78,6 +80,10 @@ class Layer(ABC):
     def paint_added(self, canvas: Canvas) -> None:
         """Paint what has been added since, over what is there already; a layer that cannot tell paints everything."""
         self.paint(canvas)
+
+    def extent(self, viewport: Viewport) -> QRectF:
+        """Where it paints on the screen; of a layer that moves, so that the rest need not be painted anew."""
+        return QRectF(0.0, 0.0, viewport.width, viewport.height)
 
     def points(self) -> Sequence[Point]:
         """Places that should be seen when everything is to be seen."""

@@ -6,16 +6,19 @@ import itertools
 import math
 from typing import Iterator, Sequence
 
-from PyQt5.QtCore import QPointF, Qt
+from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor
 
 from mtr_operator.domain.geometry.pose import Point, Pose
 
+from ..viewport import Viewport
 from .layer import Canvas, Layer
 
 # Clearpath's data sheet of the Jackal: 508 mm x 430 mm.
 _LENGTH_M, _WIDTH_M = 0.508, 0.430
 _KEY_RADIUS_PX = 5.0
+# From the middle to a corner; pens and the key's mark lie beyond what they mark.
+_REACH_M, _EDGE_PX = math.hypot(_LENGTH_M, _WIDTH_M) / 2.0, 8.0
 _SIGMA_ALPHA = 0.2
 
 
@@ -37,6 +40,14 @@ class RobotLayer(Layer):
     def points(self) -> Sequence[Point]:
         """See Layer."""
         return () if self.pose is None else ((self.pose.x, self.pose.y),)
+
+    def extent(self, viewport: Viewport) -> QRectF:
+        """See Layer: the robot with its key and its haze; the waypoint stays where it is between two Statuses."""
+        if self.pose is None:
+            return QRectF()
+        far_m = max(_REACH_M + math.hypot(*self.key), 2.0 * self.sigma_m if self.sigma_m == self.sigma_m else 0.0)
+        far = far_m * viewport.px_per_m + _EDGE_PX
+        return QRectF(-far, -far, 2.0 * far, 2.0 * far).translated(*viewport.to_screen((self.pose.x, self.pose.y)))
 
     def paint(self, canvas: Canvas) -> None:
         """See Layer."""
@@ -90,6 +101,11 @@ class TrailLayer(Layer):
     def __init__(self) -> None:
         self.places: Sequence[Point | None] = ()
         self._painted = 0
+
+    @property
+    def has_news(self) -> bool:
+        """True when places were added that are not painted yet."""
+        return len(self.places) != self._painted
 
     def paint(self, canvas: Canvas) -> None:
         """See Layer."""

@@ -6,14 +6,13 @@ from typing import Any
 
 import numpy as np
 from PyQt5.QtCore import QPointF, QRectF, Qt
-from PyQt5.QtGui import QColor, QPainter, QPen, QPolygonF
+from PyQt5.QtGui import QColor, QPainter, QPen
 
 from mtr_operator.domain.surroundings import StopZone
 from mtr_operator.station.sight.obstacle_map import CELL_M
 from mtr_operator.station.sight.view import View
 
 from ...i18n import number
-from ..viewport import Viewport
 from .layer import Canvas, Layer
 
 _RING_PX, _LABEL_PX = 11.0, 24.0
@@ -23,19 +22,17 @@ _STOPPED = (StopZone.BLOCKED, StopZone.BLIND)
 class SightLayer(Layer):
     """Attributes: view: None while nothing is known, or what is known is old."""
 
-    is_moving = True
+    is_brief = True
 
     def __init__(self) -> None:
         self.view: View | None = None
-        # What is seen changes five times a second, and is painted thirty times.
-        self._placed: tuple[View | None, Viewport | None, QPolygonF, QPolygonF] = (None, None, QPolygonF(), QPolygonF())
 
     def paint(self, canvas: Canvas) -> None:
         """See Layer."""
         view, painter, palette = self.view, canvas.painter, canvas.palette
         if view is None:
             return
-        points, path = self._places(canvas, view)
+        points, path = canvas.polygon(view.points.tolist()), canvas.polygon(view.path)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
         painter.setPen(_flat(canvas.pen(palette.ink_soft, 3.0)))
         painter.drawPoints(points)
@@ -44,14 +41,6 @@ class SightLayer(Layer):
         painter.drawPolyline(path)
         if view.obstacle is not None:
             self._paint_obstacle(canvas, *view.obstacle)
-
-    def _places(self, canvas: Canvas, view: View) -> tuple[QPolygonF, QPolygonF]:
-        """Returns and path on the screen."""
-        seen, viewport, points, path = self._placed
-        if seen is not view or viewport != canvas.viewport:
-            points, path = canvas.polygon(view.points.tolist()), canvas.polygon(view.path)
-            self._placed = view, canvas.viewport, points, path
-        return points, path
 
     def _paint_obstacle(self, canvas: Canvas, place: tuple[float, float], distance_m: float) -> None:
         is_stopped = self.view is not None and self.view.zone in _STOPPED
