@@ -10,7 +10,7 @@ from typing import Any, Callable, List, Optional
 
 from PyQt5.QtCore import QObject, QPoint, pyqtSignal
 from PyQt5.QtGui import QPixmap
-from PyQt5.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QWidget
+from PyQt5.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QScrollArea, QWidget
 
 from mtr_operator.gui.app import Application, make_qt
 from mtr_operator.gui.forms.hold_button import HoldButton
@@ -66,6 +66,10 @@ class Person:
             time.sleep(POLL_S)
         raise TimeoutError(f"{what} did not appear; visible is: {self._gui.ask(visible_texts)}")
 
+    def ask(self, function: Callable[[], Any]) -> Any:
+        """Result of a function in the GUI thread."""
+        return self._gui.ask(function)
+
     def click(self, text: str) -> None:
         """Click the button with this text."""
         self._click_at(self.until(f"The button {text!r}", lambda: place_of(button_of(text))))
@@ -94,7 +98,9 @@ class Person:
         """Choose an entry of the list with this label."""
         self._click_at(self.until(f"The list {label!r}", lambda: place_of(field_of(label, QComboBox))))
         self._click_at(self.until(f"The entry {entry!r}", lambda: place_of_entry(label, entry)))
-        self.until(f"{entry!r} chosen", lambda: entry in field_of(label, QComboBox).currentText())
+        # A choice of another language takes the label away.
+        self.until(f"{entry!r} chosen", lambda: (box := field_of(label, QComboBox)) is None
+                   or entry in box.currentText())
 
     def look(self, folder: pathlib.Path, name: str) -> None:
         """Keep a picture of what the screen shows where the window is, in both themes."""
@@ -149,14 +155,22 @@ def button_of(text: str) -> Optional[QWidget]:
 
 
 def field_of(label: str, kind: type) -> Optional[QWidget]:
-    """Field that belongs to a label."""
+    """Field that belongs to a label, or is called so for a screen reader."""
     found = [each.buddy() for each in shown(QLabel) if each.text() == label and isinstance(each.buddy(), kind)]
+    found += [each for each in shown(kind) if each.accessibleName() == label]
     return found[0] if found else None
 
 
 def place_of(widget: Optional[QWidget]) -> Optional[QPoint]:
-    """Middle of a widget on the screen."""
-    return None if widget is None else widget.mapToGlobal(widget.rect().center())
+    """Middle of a widget on the screen; what is out of sight is scrolled to, as the wheel does."""
+    if widget is None:
+        return None
+    parent = widget.parentWidget()
+    while parent is not None:
+        if isinstance(parent, QScrollArea) and not widget.visibleRegion().contains(widget.rect()):
+            parent.ensureWidgetVisible(widget)
+        parent = parent.parentWidget()
+    return widget.mapToGlobal(widget.rect().center())
 
 
 def place_of_entry(label: str, entry: str) -> Optional[QPoint]:

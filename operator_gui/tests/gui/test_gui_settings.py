@@ -74,6 +74,14 @@ def test_events_after_a_change_of_language_reach_the_new_window_alone__B19(opera
     assert (said, caught) == ([operator.window], [])
 
 
+def test_settings_that_were_opened_while_a_test_ran_take_an_adapter_once_it_rests__B12(operator, window):
+    screen = operator.begin()
+    operator.wait(lambda: not window.use_can.isEnabled())
+    operator.click(operator.window.header.stop)
+    operator.wait(screen.resume.isEnabled)
+    operator.wait(window.use_can.isEnabled)
+
+
 def test_adapter_that_was_chosen_and_not_used_is_asked_about__B12(window, operator, monkeypatch):
     answers = []
     monkeypatch.setattr("mtr_operator.gui.windows.settings_window.confirm",

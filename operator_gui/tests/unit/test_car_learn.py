@@ -25,7 +25,7 @@ class Sender:
     """A message of a bus. data(is_locked, count): bytes of a frame; cycle_s; delay_s: after the locks; on_change: comes
     at once, and never else when cycle_s is None."""
 
-    def __init__(self, can_id, data, cycle_s=0.1, delay_s=0.0, on_change=False, is_extended=False):
+    def __init__(self, can_id, data, cycle_s=0.1, *, delay_s=0.0, on_change=False, is_extended=False):
         self.can_id, self.data, self.cycle_s, self.delay_s = can_id, data, cycle_s, delay_s
         self.on_change, self.is_extended = on_change, is_extended
         self.count, self.due_s, self.told = 0, 0.0, True
@@ -78,8 +78,8 @@ def honest_sender():
     def data(is_locked, count):
         if is_locked is not events[-1]:
             events.append(is_locked)
-        return bytes(message.encode({"LockState": 0 if is_locked else 2, "LockCause": 2, "EventCounter": len(events) - 1,
-                                     "AliveCounter": count % 16}))
+        return bytes(message.encode({"LockState": 0 if is_locked else 2, "LockCause": 2,
+                                     "EventCounter": len(events) - 1, "AliveCounter": count % 16}))
     return Sender(0x411, data, 0.2)
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.requests import DesiredState, Press, Waypoint
-from mtr_operator.domain.robot_status import WaypointResult
+from mtr_operator.domain.robot_status import Mode, WaypointResult
 from mtr_operator.robot_link.virtual.robot import VirtualRobot, VirtualWorld
 from mtr_operator.robot_link.virtual.route import Box, advance, route
 
@@ -39,6 +39,14 @@ def driven(robot, desired, seconds):
     for _ in range(round(seconds * 10)):
         robot.step()
     return robot.status()
+
+
+def test_car_is_mapped_for_whoever_asks_for_it_and_not_after_a_stop():
+    robot = VirtualRobot(1, VirtualWorld(starting_s=0.0, mapping_s=2.0))
+    assert driven(robot, DesiredState(), 3).mode is Mode.READY_TO_MAP_CAR
+    assert driven(robot, DesiredState(map_car_id=1), 1).mode is Mode.MAPPING_CAR
+    assert driven(robot, DesiredState(map_car_id=1, stop=True), 9).car is None
+    assert driven(robot, DesiredState(map_car_id=1), 1.2).car is not None
 
 
 def test_robot_keeps_to_the_speed_and_reports_it():

@@ -6,7 +6,7 @@ import logging
 import pathlib
 from typing import ClassVar, Sequence
 
-from PyQt5.QtCore import QObject, QThread, pyqtSignal
+from PyQt5.QtCore import QThread, pyqtSignal
 
 from mtr_operator.domain.errors import OperatorError, OutputError
 from mtr_operator.report import budget_json, results_csv
@@ -36,9 +36,9 @@ class ReportWriter(QThread):
     _running: ClassVar[set[ReportWriter]] = set()
 
     def __init__(self, protocol: Protocol, test: Test, folder: pathlib.Path, kinds: Sequence[str],
-                 annotation: Annotation | None = None, parent: QObject | None = None):
+                 annotation: Annotation | None = None):
         """protocol: of the test. annotation: to be kept with it first."""
-        super().__init__(parent)
+        super().__init__()
         self._protocol = protocol
         self._test = test
         self._annotation = annotation

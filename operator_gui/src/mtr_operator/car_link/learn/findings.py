@@ -75,8 +75,8 @@ class Findings(NamedTuple):
         if self.frames == 0:
             raise NothingLearned("Nothing came over the bus; check bit rate, plug and whether the Car is awake.")
         if self.best is None:
-            raise NothingLearned("No bit of any message followed all prompts; repeat it, and act only when asked. A Car "
-                                 "that tells its locks on another bus cannot be learned from this one.")
+            raise NothingLearned("No bit of any message followed all prompts; repeat it, and act only when asked. A "
+                                 "Car that tells its locks on another bus cannot be learned from this one.")
         return self.best
 
 

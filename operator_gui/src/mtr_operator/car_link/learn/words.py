@@ -52,8 +52,8 @@ def doubts(findings: Findings) -> tuple[str, ...]:
     sure = [each for each in findings.candidates if each.followed == findings.stays]
     others = {each.id for each in sure} - {sure[0].id} if sure else set()
     if others:
-        told.append(f"{len(others)} more messages followed all prompts as well, such as lights or mirrors; the one that "
-                    "came first is proposed. Compare it with the Car's documents.")
+        told.append(f"{len(others)} more messages followed all prompts as well, such as lights or mirrors; the one "
+                    "that came first is proposed. Compare it with the Car's documents.")
     if findings.by_chance > MAX_BY_CHANCE:
         told.append(f"If what stands still between the prompts were chance, {findings.by_chance:.1f} bits would follow "
                     "all of them; more prompts make it surer.")

@@ -1,4 +1,4 @@
-"""A table that is only looked at: whole rows, as wide as what stands in them, scrolled by pixels where there is no room."""
+"""A table that is only looked at: whole rows, as wide as what stands in them, scrolled where there is no room."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 

@@ -41,6 +41,7 @@ class CanForm(QWidget):
         for name in _INTERFACES:
             self.interface.addItem(name, name)
         self.interface.addItem(self.tr("Simulated Car (to try the application)"), SIMULATED)
+        self._may_learn = True
         self.channel = Field(self.tr("Channel"), self.tr("as the adapter's driver calls it"))
         self.bitrate = self._editable(_BITRATES)
         self.data_bitrate = self._editable(_DATA_BITRATES)
@@ -76,6 +77,11 @@ class CanForm(QWidget):
         for box in (self.interface, self.bitrate, self.data_bitrate, self.profile):
             box.currentTextChanged.connect(lambda _: self.changed.emit())
         self.changed.connect(lambda: self.channel.show_fault(""))
+
+    def allow_learning(self, may_learn: bool) -> None:
+        """Whether the adapter can be spared for it."""
+        self._may_learn = may_learn
+        self.learn.setEnabled(may_learn and self.channel.isEnabled())
 
     def show_fault(self, sentence: str) -> None:
         """Say, at the field for it, why the adapter cannot be used."""
@@ -135,8 +141,9 @@ class CanForm(QWidget):
     def _suit_interface(self) -> None:
         interface = self.interface.currentData()
         needs_adapter = interface not in (None, SIMULATED)
-        for widget in (self.channel, self.bitrate, self.data_bitrate, self.profile, self.normal, self.learn):
+        for widget in (self.channel, self.bitrate, self.data_bitrate, self.profile, self.normal):
             widget.setEnabled(needs_adapter)
+        self.learn.setEnabled(needs_adapter and self._may_learn)
         self._hint.setVisible(interface is None)
         known = self.channel.text in ("", *_CHANNELS.values())
         if needs_adapter and known:

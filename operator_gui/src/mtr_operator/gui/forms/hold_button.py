@@ -9,6 +9,8 @@ from PyQt5.QtGui import QColor, QFocusEvent, QHideEvent, QKeyEvent, QPainter, QP
 from PyQt5.QtWidgets import QPushButton, QToolTip, QWidget
 
 _PAINT_MS = 30
+# Of a tip: its frame, and the distance at which Qt puts it below a place.
+_TIP_PX = 50
 _BAR_PX = 6.0
 _ENTER = (Qt.Key.Key_Return, Qt.Key.Key_Enter)
 
@@ -91,7 +93,9 @@ class HoldButton(QPushButton):
 
     def _let_go(self) -> None:
         if self._begun_s is not None:
-            QToolTip.showText(self.mapToGlobal(QPoint(0, self.height())), self.toolTip(), self)
+            # At the lower edge of a screen a tip below would be moved over the button, and take the next press.
+            above = QPoint(0, -self.fontMetrics().height() - _TIP_PX)
+            QToolTip.showText(self.mapToGlobal(above), self.toolTip(), self)
         self._cancel()
 
     def _cancel(self) -> None:

@@ -71,7 +71,8 @@ class LearnWindow(QDialog):
         self.progress.setAccessibleName(self.tr("Prompts that are answered"))
         self.progress.setMaximum(DEFAULT_PROMPTS)
         self.table = self._make_table()
-        self.name = Field(self.tr("Name of the Car"), self.tr("Letters, digits, - and _; the profile is kept under it."))
+        self.name = Field(self.tr("Name of the Car"),
+                          self.tr("Letters, digits, - and _; the profile is kept under it."))
         self.keep = QPushButton(self.tr("Keep the profile"))
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD_MS)

@@ -32,17 +32,17 @@
 <context>
     <name>BatterySymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="45"/>
+        <location filename="../header/symbols.py" line="46"/>
         <source>Battery of the robot: unknown</source>
         <translation>Baterie robotu: neznámá</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="46"/>
+        <location filename="../header/symbols.py" line="47"/>
         <source>Battery of the robot: {percent} %</source>
         <translation>Baterie robotu: {percent} %</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="48"/>
+        <location filename="../header/symbols.py" line="49"/>
         <source>({age} s ago)</source>
         <translation>(před {age} s)</translation>
     </message>
@@ -259,57 +259,57 @@
         <translation>Simulované auto (na vyzkoušení aplikace)</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="44"/>
+        <location filename="../forms/can_form.py" line="45"/>
         <source>Channel</source>
         <translation>Kanál</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="44"/>
+        <location filename="../forms/can_form.py" line="45"/>
         <source>as the adapter&apos;s driver calls it</source>
         <translation>jak jej nazývá ovladač adaptéru</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="55"/>
+        <location filename="../forms/can_form.py" line="56"/>
         <source>Without an adapter everything but a test works.</source>
         <translation>Bez adaptéru funguje vše kromě testu.</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="61"/>
+        <location filename="../forms/can_form.py" line="62"/>
         <source>CAN adapter</source>
         <translation>Adaptér CAN</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="63"/>
+        <location filename="../forms/can_form.py" line="64"/>
         <source>Bit rate in bit/s</source>
         <translation>Přenosová rychlost v bit/s</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="65"/>
+        <location filename="../forms/can_form.py" line="66"/>
         <source>Car profile</source>
         <translation>Profil auta</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="47"/>
+        <location filename="../forms/can_form.py" line="48"/>
         <source>classic CAN</source>
         <translation>klasická CAN</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="49"/>
+        <location filename="../forms/can_form.py" line="50"/>
         <source>Take part in the bus (a bench of one node)</source>
         <translation>Účastnit se sběrnice (stůl s jedním uzlem)</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="50"/>
+        <location filename="../forms/can_form.py" line="51"/>
         <source>The adapter acknowledges frames. Without it the adapter only listens and sends nothing: a Car does not notice it.</source>
         <translation>Adaptér potvrzuje rámce. Jinak jen naslouchá a nic nevysílá: auto si ho nevšimne.</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="64"/>
+        <location filename="../forms/can_form.py" line="65"/>
         <source>CAN FD data in bit/s</source>
         <translation>Data CAN FD v bit/s</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="66"/>
+        <location filename="../forms/can_form.py" line="67"/>
         <source>Learn a new Car from its bus</source>
         <translation>Naučit nové auto z jeho sběrnice</translation>
     </message>
@@ -851,7 +851,7 @@
 <context>
     <name>CogwheelButton</name>
     <message>
-        <location filename="../header/symbols.py" line="166"/>
+        <location filename="../header/symbols.py" line="170"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
@@ -1488,7 +1488,7 @@
 <context>
     <name>HoldButton</name>
     <message>
-        <location filename="../forms/hold_button.py" line="30"/>
+        <location filename="../forms/hold_button.py" line="32"/>
         <source>Hold it for {time} s, with the mouse, Space or Enter: so you confirm that nobody and nothing is in the robot&apos;s way.</source>
         <translation>Podržte {time} s myší, mezerníkem nebo klávesou Enter: tím potvrzujete, že robotu nikdo a nic nestojí v cestě.</translation>
     </message>
@@ -1600,7 +1600,7 @@
         <translation>Naučit auto</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="121"/>
+        <location filename="../learn/learn_window.py" line="122"/>
         <source>Begin</source>
         <translation>Začít</translation>
     </message>
@@ -1620,67 +1620,67 @@
         <translation>Písmena, číslice, - a _; profil se pod ním uchová.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="75"/>
+        <location filename="../learn/learn_window.py" line="76"/>
         <source>Keep the profile</source>
         <translation>Uchovat profil</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="85"/>
+        <location filename="../learn/learn_window.py" line="86"/>
         <source>What followed the locks</source>
         <translation>Co odpovídalo zámkům</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="95"/>
+        <location filename="../learn/learn_window.py" line="96"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="119"/>
+        <location filename="../learn/learn_window.py" line="120"/>
         <source>You lock and unlock the Car with its own key {count} times, when you are asked; meanwhile its bus is listened to. Nothing is sent.</source>
         <translation>Na výzvu auto {count}krát zamknete a odemknete jeho vlastním klíčem; přitom se naslouchá jeho sběrnici. Nic se neposílá.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="133"/>
+        <location filename="../learn/learn_window.py" line="134"/>
         <source>The adapter is opened.</source>
         <translation>Otevírá se adaptér.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="166"/>
+        <location filename="../learn/learn_window.py" line="167"/>
         <source>{count} frames so far.</source>
         <translation>Zatím rámců: {count}.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="172"/>
+        <location filename="../learn/learn_window.py" line="173"/>
         <source>It is done</source>
         <translation>Hotovo</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="173"/>
+        <location filename="../learn/learn_window.py" line="174"/>
         <source>{number} of {count}: lock the Car with its own key.</source>
         <translation>{number} z {count}: zamkněte auto jeho vlastním klíčem.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="174"/>
+        <location filename="../learn/learn_window.py" line="175"/>
         <source>{number} of {count}: unlock the Car, all doors.</source>
         <translation>{number} z {count}: odemkněte auto, všechny dveře.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="175"/>
+        <location filename="../learn/learn_window.py" line="176"/>
         <source>Leave the Car alone for a moment.</source>
         <translation>Nechte auto chvíli v klidu.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="186"/>
+        <location filename="../learn/learn_window.py" line="187"/>
         <source>The recording is looked through.</source>
         <translation>Prohlíží se záznam.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="201"/>
+        <location filename="../learn/learn_window.py" line="202"/>
         <source>The message {id} tells the locks.</source>
         <translation>O zámcích vypovídá zpráva {id}.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="226"/>
+        <location filename="../learn/learn_window.py" line="227"/>
         <source>Kept in {path}.</source>
         <translation>Uchováno v {path}.</translation>
     </message>
@@ -1688,17 +1688,17 @@
 <context>
     <name>LinkSymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="137"/>
+        <location filename="../header/symbols.py" line="141"/>
         <source>The link to the robot is encrypted.</source>
         <translation>Spojení s robotem je šifrované.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="139"/>
+        <location filename="../header/symbols.py" line="143"/>
         <source>The link to the robot is not encrypted.</source>
         <translation>Spojení s robotem není šifrované.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="138"/>
+        <location filename="../header/symbols.py" line="142"/>
         <source>The link is not encrypted: whoever is in its network can move the robot.</source>
         <translation>Spojení není šifrované: kdokoli v jeho síti může s robotem pohnout.</translation>
     </message>
@@ -1724,22 +1724,22 @@
 <context>
     <name>LocksSymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="89"/>
+        <location filename="../header/symbols.py" line="93"/>
         <source>The Car is locked.</source>
         <translation>Auto je zamčené.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="89"/>
+        <location filename="../header/symbols.py" line="93"/>
         <source>The Car is unlocked.</source>
         <translation>Auto je odemčené.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="90"/>
+        <location filename="../header/symbols.py" line="94"/>
         <source>Whether the Car is locked is not known.</source>
         <translation>Zda je auto zamčené, není známo.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="92"/>
+        <location filename="../header/symbols.py" line="96"/>
         <source>A click opens the live bus view.</source>
         <translation>Kliknutím se otevře živý pohled na sběrnici.</translation>
     </message>
@@ -2661,7 +2661,7 @@
 <context>
     <name>PictureView</name>
     <message>
-        <location filename="../pictures/picture_view.py" line="52"/>
+        <location filename="../pictures/picture_view.py" line="56"/>
         <source>Car and robot from above; plus and minus zoom, arrows move the picture</source>
         <translation>Auto a robot shora; plus a minus mění zvětšení, šipky posouvají obraz</translation>
     </message>
@@ -4885,77 +4885,77 @@
         <translation>Použít tento adaptér</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="187"/>
+        <location filename="../windows/settings_window.py" line="196"/>
         <source>The CAN adapter is in use.</source>
         <translation>Adaptér CAN se používá.</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="110"/>
+        <location filename="../windows/settings_window.py" line="111"/>
         <source>Folders</source>
         <translation>Složky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="127"/>
+        <location filename="../windows/settings_window.py" line="128"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="113"/>
+        <location filename="../windows/settings_window.py" line="114"/>
         <source>Appearance</source>
         <translation>Vzhled</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="114"/>
+        <location filename="../windows/settings_window.py" line="115"/>
         <source>Theme</source>
         <translation>Motiv</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="114"/>
+        <location filename="../windows/settings_window.py" line="115"/>
         <source>Language</source>
         <translation>Jazyk</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="134"/>
+        <location filename="../windows/settings_window.py" line="135"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="93"/>
+        <location filename="../windows/settings_window.py" line="94"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="141"/>
+        <location filename="../windows/settings_window.py" line="142"/>
         <source>Change</source>
         <translation>Změnit</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="142"/>
+        <location filename="../windows/settings_window.py" line="143"/>
         <source>Change the folder: {what}</source>
         <translation>Změnit složku: {what}</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="155"/>
+        <location filename="../windows/settings_window.py" line="156"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="162"/>
+        <location filename="../windows/settings_window.py" line="163"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="202"/>
+        <location filename="../windows/settings_window.py" line="211"/>
         <source>The CAN adapter that you have chosen is not in use yet. Use it?</source>
         <translation>Zvolený adaptér CAN se zatím nepoužívá. Použít jej?</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="205"/>
+        <location filename="../windows/settings_window.py" line="214"/>
         <source>Use it</source>
         <translation>Použít</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="205"/>
+        <location filename="../windows/settings_window.py" line="214"/>
         <source>Leave it as it was</source>
         <translation>Ponechat původní</translation>
     </message>

@@ -68,8 +68,9 @@ class SettingsWindow(QDialog):
         self.use_can.clicked.connect(self._change_can)
         flow.can_opened.connect(self._show_can_in_use)
         flow.can_refused.connect(self._show_can_refused)
-        for button in (self.use_can, self.can.learn):
-            button.setEnabled(button.isEnabled() and flow.model.phase not in RUNNING)
+        self._is_changing = False
+        flow.bridge.changed.connect(self._suit_test)
+        self._suit_test()
         self.ensurePolished()
         open_within(self, self.sizeHint().expandedTo(QSize(_WIDTH, 0)))
 
@@ -174,12 +175,20 @@ class SettingsWindow(QDialog):
     def _change_sounds(self, is_wanted: bool) -> None:
         self._change(has_sounds=is_wanted)
 
+    def _suit_test(self) -> None:
+        """While a test runs the adapter stays as it is; also when it has begun, or paused, since this was opened."""
+        is_free = self._flow.model.phase not in RUNNING
+        self.use_can.setEnabled(is_free and not self._is_changing)
+        self.can.allow_learning(is_free)
+
     def _change_can(self) -> None:
-        self.use_can.setEnabled(False)
+        self._is_changing = True
+        self._suit_test()
         self._flow.use_can(self.can.choice)
 
     def _show_can(self, sentence: str) -> None:
-        self.use_can.setEnabled(True)
+        self._is_changing = False
+        self._suit_test()
         self.message.setText(sentence)
 
     def _show_can_in_use(self) -> None:

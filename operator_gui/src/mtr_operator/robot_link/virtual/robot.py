@@ -105,15 +105,20 @@ class VirtualRobot:
         if not self._desired.stop:
             self._check.step(dt_s)
         waypoint = None if self._desired.stop or self._desired.waypoint is None else self._waypoint
-        if waypoint is not None and self._time_s >= _START_TIME_S + self._world.starting_s:
+        if self._time_s >= _START_TIME_S + self._world.starting_s:
             if self._mapping_left_s > 0:
-                self._mapping_left_s -= dt_s
-            elif self._result == WaypointResult.PENDING and not self._check.is_running:
+                self._map(waypoint, dt_s)
+            elif waypoint is not None and self._result == WaypointResult.PENDING and not self._check.is_running:
                 self._drive(waypoint, dt_s)
         dx, dy = self._here[0] - before[0], self._here[1] - before[1]
         ahead = math.cos(heading) * dx + math.sin(heading) * dy
         self._speed_mps = math.copysign(math.hypot(dx, dy), ahead) / dt_s
         self._yaw_rate_radps = math.remainder(self._heading - heading, 2 * math.pi) / dt_s
+
+    def _map(self, waypoint: Waypoint | None, dt_s: float) -> None:
+        """The Car is mapped for the first waypoint, or because somebody asks for it."""
+        if waypoint is not None or (self._map_car_id and not self._desired.stop):
+            self._mapping_left_s -= dt_s
 
     def status(self) -> RobotStatus:
         """The next Status message."""
@@ -142,7 +147,7 @@ class VirtualRobot:
             return Mode.STARTING
         if self._mapping_left_s <= 0:
             return Mode.CHECKING_CAR if self._check.is_running else Mode.FOLLOWING_WAYPOINT
-        begun = self._waypoint is not None or self._mapping_left_s < self._world.mapping_s
+        begun = self._waypoint is not None or self._map_car_id or self._mapping_left_s < self._world.mapping_s
         return Mode.MAPPING_CAR if begun else Mode.READY_TO_MAP_CAR
 
     def _set_waypoint(self, waypoint: Waypoint) -> None:
