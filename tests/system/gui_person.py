@@ -70,9 +70,10 @@ class Person:
         """Result of a function in the GUI thread."""
         return self._gui.ask(function)
 
-    def click(self, text: str) -> None:
-        """Click the button with this text."""
-        self._click_at(self.until(f"The button {text!r}", lambda: place_of(button_of(text))))
+    def click(self, *texts: str) -> None:
+        """Click the button with this text, or with the first of several that there is."""
+        self._click_at(self.until(f"The button {' or '.join(texts)!r}",
+                                  lambda: place_of(next(filter(None, map(button_of, texts)), None))))
 
     def hold(self, text: str) -> None:
         """Hold the button with this text for as long as it wants to be held."""
@@ -131,9 +132,10 @@ def xdotool(*words: str) -> None:
 
 
 def shown(kind: type) -> List[QWidget]:
-    """Visible widgets of a kind in the window in front, a dialog before all others."""
+    """Visible widgets of a kind: of a list that is open alone, else those of the window in front first."""
     front = QApplication.activePopupWidget() or QApplication.activeModalWidget()
-    windows = [front] if front else QApplication.topLevelWidgets()
+    active = QApplication.activeWindow()
+    windows = [front] if front else sorted(QApplication.topLevelWidgets(), key=lambda window: window is not active)
     return [widget for window in windows for widget in [window, *window.findChildren(QWidget)]
             if isinstance(widget, kind) and widget.isVisible()]
 

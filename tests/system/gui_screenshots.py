@@ -7,6 +7,7 @@ import pathlib
 import shutil
 import sys
 
+from gui_contact_sheet import contact_sheet
 from gui_person import Person, run
 from gui_session import LIMIT_S, MEASURING_LIMIT_S, connect, prepare
 
@@ -26,6 +27,8 @@ def main(folder: pathlib.Path) -> int:
             take_autolock(person, folder)
             take_key_press(person, folder)
             take_history(person, folder)
+            take_windows(person, folder)
+            person.ask(lambda: take_sheets(folder) or True)
         status = run(script, prepare(work), LIMIT_S)
     print(f"{len(list(folder.glob('*.png')))} pictures are in {folder}.")
     return status
@@ -39,6 +42,15 @@ def take_connection(person: Person, folder: pathlib.Path) -> None:
     person.click("Connect")
     person.wait_for("The IP address or port provided is invalid.")
     person.look(folder, "02_connection_invalid")
+    person.type_into("Pairing code", "123")
+    person.click("Pair")
+    person.wait_for("192.168.0.300")
+    person.look(folder, "02_pairing")
+    person.choose("CAN adapter", "slcan")
+    person.click("Learn a new Car from its bus")
+    person.wait_for("You lock and unlock the Car")
+    person.look(folder, "02_learn")
+    person.click("Close")
 
 
 def take_beginning(person: Person, folder: pathlib.Path) -> None:
@@ -97,6 +109,10 @@ def take_key_press(person: Person, folder: pathlib.Path) -> None:
     person.look(folder, "13_key_press_measurement")
     person.wait_for("Key press protocol", MEASURING_LIMIT_S)
     person.look(folder, "14_key_press_protocol")
+    person.click("Notes and photos")
+    person.wait_for("Further photos")
+    person.look(folder, "14_notes_and_photos")
+    person.click("Close")
     person.click("New test")
 
 
@@ -106,6 +122,26 @@ def take_history(person: Person, folder: pathlib.Path) -> None:
     person.wait_for("2 tests, 2 of them shown.")
     person.look(folder, "15_history")
     person.click("Back")
+
+
+def take_windows(person: Person, folder: pathlib.Path) -> None:
+    """The windows beside the main one: live bus view and guided calibration."""
+    person.click("The Car is locked.", "The Car is unlocked.")
+    person.wait_for("Now: ")
+    person.look(folder, "16_bus_view")
+    person.click("Close")
+    person.click("Calibrate")
+    person.click("Guided calibration")
+    person.wait_for("Key's lever")
+    person.look(folder, "17_guided_calibration")
+    person.click("Close")
+    person.click("Close")
+
+
+def take_sheets(folder: pathlib.Path) -> None:
+    """A contact sheet of each theme."""
+    for theme in ("light", "dark"):
+        contact_sheet(sorted(folder.glob(f"[0-9]*_{theme}.png")), folder / f"contact_sheet_{theme}.png")
 
 
 if __name__ == "__main__":
