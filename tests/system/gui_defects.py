@@ -261,7 +261,7 @@ def leaving(laptop: Laptop) -> None:
     person.wait_for("Close the application?")
     laptop.must_fit()
     person.click("Stay")
-    laptop.must("the window still there", lambda: person.application.window.isVisible())
+    laptop.must("the window still there", person.application.window.isVisible)
 
 
 def tab_to(laptop: Laptop, text: str) -> None:

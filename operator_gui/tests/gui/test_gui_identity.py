@@ -102,6 +102,25 @@ def test_protocol_has_a_page_with_the_identity_and_lines_to_sign_on(operator, op
     assert pdf(ProtocolSheet(known)).startswith(b"%PDF") and b"WVW1" in svg(ProtocolSheet(known))
 
 
+def test_car_of_before_is_taken_up_by_its_vin_with_its_key(operator):
+    store = operator.application.flow.store
+    golf = Identity("WVW1", "Golf", "0412", key_serial="0042", key_type="remote", operator="J. Novak")
+    store.change(store.settings.with_car(golf).with_car(Identity("TMB2", "Octavia", key_serial="0007")))
+    form = operator.choose("key_press").identity
+    completer = form.fields["car_vin"].edit.completer()
+    completer.setCompletionPrefix("vw")
+    assert completer.completionCount() == 1
+    enter(form, place="Hall 2", car_vin="WVW1")
+    texts = {name: form.fields[name].text for name in ("car_model", "car_software", "key_serial", "key_type", "place")}
+    assert texts == {"car_model": "Golf", "car_software": "0412", "key_serial": "0042", "key_type": "remote",
+                     "place": "Hall 2"}
+    # What is put right afterwards stays.
+    enter(form, key_serial="0043")
+    assert form.given.identity.key_serial == "0043"
+    enter(form, car_vin="TMB2")
+    assert form.given.identity.car_model == "Octavia" and form.given.identity.key_serial == "0007"
+
+
 def annotated(protocol, operator, notes, *photos):
     """Have notes and photos added to the test that the protocol shows."""
     operator.wait(protocol.annotate.isEnabled)

@@ -6,6 +6,7 @@ import pathlib
 import pytest
 
 from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
@@ -101,9 +102,10 @@ def test_mapping_makes_a_round_trip(kind):
                          ids=lambda path: str(path.relative_to(EXAMPLES)))
 def test_shipped_example_is_valid(path):
     if path.parent.name == "limits":
-        load_limits(path)
+        assert load_limits(path).requirements
     else:
-        load_parameters(path, SCENARIOS[path.stem].parameters_type)
+        parameters = load_parameters(path, SCENARIOS[path.stem].parameters_type)
+        assert SCENARIOS[path.stem].lines(parameters, CarDimensions(4.5, 1.8, 0.01, 0.01))
 
 
 def test_example_of_every_scenario_is_shipped():

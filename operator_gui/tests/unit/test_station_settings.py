@@ -7,10 +7,11 @@ import sys
 
 import pytest
 
+from mtr_operator.domain.identity.identity import Identity
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.connection import CanChoice, Connection, RobotChoice
 from mtr_operator.station.number_text import Fault, parse_number, read, shown_number, written
-from mtr_operator.station.settings import Settings
+from mtr_operator.station.settings import REMEMBERED_CARS, Settings
 from mtr_operator.station.settings_file import SettingsStore, default_path, former_path
 
 KEY_PRESS = SCENARIOS["key_press"].parameters_type.declarations()
@@ -50,6 +51,20 @@ def test_settings_survive_a_restart(tmp_path):
     later = SettingsStore(tmp_path / "deep" / "settings.json")
     later.load()
     assert later.settings == wanted
+
+
+def test_cars_are_remembered_by_their_vin_newest_first_without_notes(tmp_path):
+    store = SettingsStore(tmp_path / "settings.json")
+    golf = Identity("WVW1", "Golf", key_serial="0042", operator="J. Novak", notes="Rain.")
+    settings = store.settings.with_car(golf).with_car(Identity("TMB2", "Octavia")).with_car(Identity(operator="E. Kral"))
+    store.change(settings.with_car(dataclasses.replace(golf, key_serial="0043")))
+    later = SettingsStore(tmp_path / "settings.json")
+    later.load()
+    assert later.settings.cars == (Identity("WVW1", "Golf", key_serial="0043"), Identity("TMB2", "Octavia"))
+    for number in range(2 * REMEMBERED_CARS):
+        settings = settings.with_car(Identity(f"VIN{number}"))
+    assert len(settings.cars) == REMEMBERED_CARS
+    assert settings.cars[0].car_vin == f"VIN{2 * REMEMBERED_CARS - 1}"
 
 
 def test_hosts_are_remembered_newest_first_and_once():

@@ -83,6 +83,11 @@ def proposed(store: SettingsStore, today: datetime.date, former: Identity | None
         return last
 
 
+def known_car(settings: Settings, vin: str) -> Identity | None:
+    """What was said of the car with this VIN, and of its key; None for one that was not measured yet."""
+    return next((car for car in settings.cars if car.car_vin == vin.strip()), None)
+
+
 def check_begin(store: SettingsStore, given: GivenIdentity) -> None:
     """Raise InvalidIdentity when no test may begin with this; what the laboratory requires is read anew."""
     load_laboratory(store.laboratory_path).check(given.identity, len(given.photos))
@@ -90,6 +95,6 @@ def check_begin(store: SettingsStore, given: GivenIdentity) -> None:
 
 
 def remembering(settings: Settings, identity: Identity, today: datetime.date) -> Settings:
-    """Settings that know an identity for the next test."""
-    return dataclasses.replace(settings, identity=dataclasses.replace(identity, notes="", photos=()),
+    """Settings that know an identity for the next test, and its car and key for whenever its VIN is typed again."""
+    return dataclasses.replace(settings.with_car(identity), identity=dataclasses.replace(identity, notes="", photos=()),
                                identity_day=today.isoformat())

@@ -18,6 +18,7 @@ from .connection import CanChoice, Connection, RobotChoice
 FORMAT = "mtr-operator settings"
 VERSION = 1
 REMEMBERED_HOSTS = 8
+REMEMBERED_CARS = 100
 # No parameter comes near it.
 _LARGEST = 1e12
 # Letters of a word to choose.
@@ -42,6 +43,7 @@ class Settings:
         unfinished: progress file of a test that has not come to its end.
         has_sounds: the application beeps where the Operator has to hear something.
         identity: of the test before, as far as the next one may have it in common. identity_day: when it was typed.
+        cars: that were measured with their VIN, and their keys, newest first.
     """
 
     connection: Connection = Connection()
@@ -57,6 +59,14 @@ class Settings:
     has_sounds: bool = True
     identity: Identity = NOBODY
     identity_day: str = ""
+    cars: tuple[Identity, ...] = ()
+
+    def with_car(self, identity: Identity) -> Settings:
+        """Settings that remember a car and its key by the car's VIN; nothing without one."""
+        if not identity.car_vin:
+            return self
+        others = (car for car in self.cars if car.car_vin != identity.car_vin)
+        return dataclasses.replace(self, cars=(identity.of_its_car(), *others)[:REMEMBERED_CARS])
 
     def with_connection(self, connection: Connection) -> Settings:
         """Settings after a success with this connection."""
@@ -90,7 +100,7 @@ class Settings:
             "unfinished": None if self.unfinished is None else str(self.unfinished),
             "limits": {name: str(path) for name, path in self.limits.items()},
             "calibration": None if self.calibration is None else str(self.calibration),
-            "identity": self.identity.to_document()}
+            "identity": self.identity.to_document(), "cars": [car.to_document() for car in self.cars]}
 
 
 def settings_from_document(document: Any) -> Settings:
@@ -111,7 +121,8 @@ def settings_from_document(document: Any) -> Settings:
             # An earlier version kept none of these.
             {str(name): _path(path) for name, path in document.get("limits", {}).items()},
             _path_or_none(document.get("calibration")), _flag(document.get("has_sounds", True)),
-            identity_from(document.get("identity", {})), _text(document.get("identity_day", "")))
+            identity_from(document.get("identity", {})), _text(document.get("identity_day", "")),
+            tuple(identity_from(car).of_its_car() for car in document.get("cars", ()))[:REMEMBERED_CARS])
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError, InvalidIdentity):
         raise NotSettings("They are damaged.") from None
 

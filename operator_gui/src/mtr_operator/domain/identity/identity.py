@@ -81,6 +81,10 @@ class Identity:
         kept = dataclasses.replace(self, notes="", photos=())
         return kept if is_same_day else dataclasses.replace(kept, **{name: getattr(NOBODY, name) for name in OF_A_DAY})
 
+    def of_its_car(self) -> Identity:
+        """Only what is said of the car and its key."""
+        return Identity(**{name: getattr(self, name) for name in OF_A_CAR})
+
     def filled_from(self, other: Identity) -> Identity:
         """This one, with what it does not know from another."""
         unknown = {field.name: getattr(other, field.name) for field in dataclasses.fields(self)
@@ -100,6 +104,8 @@ TITLES = {
     "operator": "Operator", "place": "Place", "weather": "Weather", "notes": "Notes", "equipment": "Equipment",
     "photos": "Photos"}
 TEXTS = tuple(name for name in TITLES if isinstance(getattr(NOBODY, name), str))
+# What comes back with the car's VIN.
+OF_A_CAR = ("car_vin", "car_model", "car_software", "key_serial", "key_type")
 # Not true any more on another day.
 OF_A_DAY = ("key_battery_v", "weather")
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 import datetime
 
 from PyQt5.QtCore import Qt, pyqtSignal
-from PyQt5.QtWidgets import QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QCompleter, QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.errors import InvalidIdentity
-from mtr_operator.domain.identity.identity import TITLES, Identity
+from mtr_operator.domain.identity.identity import OF_A_CAR, TITLES, Identity
 from mtr_operator.domain.identity.laboratory import Laboratory
-from mtr_operator.station.identity_entry import FIELDS, proposed, read, typed
+from mtr_operator.station.identity_entry import FIELDS, known_car, proposed, read, typed
+from mtr_operator.station.settings import Settings
 from mtr_operator.station.settings_file import SettingsStore
 from mtr_operator.storage.identity_file import GivenIdentity, load_laboratory
 
@@ -41,6 +42,7 @@ class IdentityForm(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._laboratory = Laboratory()
+        self._settings = Settings()
         self._problem = ""
         self._is_filling = False
         hints = {"notes": "", "equipment": self.tr("One a line: name; serial number; calibrated; valid until")}
@@ -50,6 +52,7 @@ class IdentityForm(QWidget):
             self.fields[name] = TextArea(title, hints[name]) if name in _AREAS else \
                 Field(title, unit="V" if name == "key_battery_v" else None)
             self.fields[name].changed.connect(self._check)
+        self.fields["car_vin"].changed.connect(self._take_up_car)
         self.photos = PhotosRow(identity_title(TITLES["photos"]))
         self.photos.changed.connect(self._check)
         self.more = QPushButton()
@@ -109,6 +112,7 @@ class IdentityForm(QWidget):
             self._laboratory = load_laboratory(store.laboratory_path)
         except InvalidIdentity as error:
             self._problem = str(error)
+        self._offer_cars(store.settings)
         self._is_filling = True
         for name, text in typed(proposed(store, datetime.date.today(), former), decimal_sign()).items():
             field = self.fields[name]
@@ -117,6 +121,28 @@ class IdentityForm(QWidget):
         self._is_filling = False
         self._check()
         self.more.setChecked(bool(self.problem))
+
+    def _offer_cars(self, settings: Settings) -> None:
+        """VINs of before are proposed while one is typed."""
+        self._settings = settings
+        completer = QCompleter([car.car_vin for car in settings.cars], self)
+        completer.setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
+        completer.setFilterMode(Qt.MatchFlag.MatchContains)
+        vin = self.fields["car_vin"]
+        if isinstance(vin, Field):
+            vin.edit.setCompleter(completer)
+
+    def _take_up_car(self) -> None:
+        """A VIN of before brings its model, software and key along; what is not known of it stays."""
+        car = known_car(self._settings, self.fields["car_vin"].text)
+        if self._is_filling or car is None:
+            return
+        self._is_filling = True
+        for name in OF_A_CAR:
+            if name != "car_vin" and getattr(car, name):
+                self.fields[name].show_text(getattr(car, name))
+        self._is_filling = False
+        self._check()
 
     def _read(self) -> tuple[Identity, dict[str, str]]:
         return read({name: field.text for name, field in self.fields.items()})
