@@ -86,6 +86,23 @@ def test_point_measured_before_a_kill_in_the_retreat_is_in_the_journal(laptop): 
     assert len(results_in(laptop.folder / "out")) == 8
 
 
+def test_laptop_that_sleeps_in_the_middle_of_a_line_measures_that_line_anew(laptop):
+    run = laptop.start("--simulated-car")
+    run.wait_until_said("approach until")
+    run.process.send_signal(signal.SIGSTOP)
+    asleep_s = laptop.look().stamp_s
+    # Long enough for the robot to stop by itself, and for all that waits to be old.
+    while (status := laptop.look()).stamp_s < asleep_s + 40.0:
+        pass
+    run.process.send_signal(signal.SIGCONT)
+    assert status.speed_mps == 0.0
+    code, _, said = run.finish()
+    assert code == 0, said
+    results = results_in(laptop.folder / "out")
+    assert [line["axis"] for line in results] == list(range(1, 9))
+    assert not any(line["reason"] for line in results)
+
+
 def test_second_application_is_told_and_the_first_loses_nothing(laptop):  # C2
     first = laptop.start("--simulated-car")
     first.wait_until_said("[2/8]")

@@ -8,6 +8,7 @@ from mtr_operator.domain.identity.identity import Identity
 from mtr_operator.domain.results.progress import JournalMark
 from mtr_operator.gui.header.stop_button import StopButton
 from mtr_operator.gui.history.comparison_window import ComparisonWindow
+from mtr_operator.gui.history.history_model import HistoryModel
 from mtr_operator.storage.progress_file import save_progress
 
 
@@ -115,3 +116,20 @@ def test_choice_stays_while_more_tests_are_found(lab):
     chosen = history.chosen
     history._learn(list(history._entries))
     assert history.chosen == chosen and history.open.isEnabled()
+
+
+def test_ten_thousand_tests_with_a_broken_one_are_found_and_only_those_in_sight_are_painted(lab, monkeypatch):
+    history = show(lab)
+    entry, asked = history.shown[0], []
+    entries = [dataclasses.replace(entry, path=f"{number}.json", car=f"VIN{number}") for number in range(10_000)]
+    entries.append(dataclasses.replace(entry, path="broken.json", problem="The test in broken.json is damaged."))
+    data = HistoryModel.data
+    monkeypatch.setattr(HistoryModel, "data", lambda *args: asked.append(1) or data(*args))
+    history._learn_all(entries)
+    history.table.repaint()
+    assert len(history.shown) == 10_000
+    assert "10000 tests, 10000 of them shown." in history.notice.text() and "broken.json" in history.notice.text()
+    # A screen of rows with a few roles each, and not a hundred thousand cells.
+    assert 0 < len(asked) < 10_000
+    history.car.setCurrentIndex(history.car.findData("VIN9999"))
+    assert [each.car for each in history.shown] == ["VIN9999"]

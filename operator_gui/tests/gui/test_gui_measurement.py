@@ -374,3 +374,17 @@ def test_person_who_does_not_come_pauses_the_test_with_a_sentence(operator):
     screen = operator.begin("handle_request", handle_timeout_s="5")
     operator.wait(screen.resume.isVisible)
     assert screen.trouble.text().startswith("Nobody has taken the Car's handle within 5 s")
+
+
+def test_robot_that_a_second_window_takes_over_pauses_the_test_and_can_be_taken_back(operator, opener):
+    screen = operator.begin()
+    operator.wait(lambda: operator.model.done >= 1)
+    opener.spoil_with(controlled_by_other=True)
+    operator.wait(lambda: operator.model.phase is Phase.PAUSED)
+    assert screen.trouble.text() == "Another application has taken over the control of the robot."
+    assert not screen.resume.isEnabled()
+    opener.spoil = lambda status: status
+    operator.wait(screen.resume.isEnabled)
+    operator.click(screen.resume)
+    operator.finish()
+    assert len(operator.model.results) == 4

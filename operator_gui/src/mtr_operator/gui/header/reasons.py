@@ -52,22 +52,9 @@ def blocked_text(readiness: Readiness) -> str:
 
 
 def advice_text(reason: Reason) -> str:
-    """What to do about it; empty when the sentence says it already."""
+    """What to do about what the checklist does not name; empty for the others, whose advice check_texts has."""
     return {
-        Cause.ROBOT_SILENT: translate("Status", "Check the Wi-Fi and that the robot is on. A robot that hears nobody "
-                                                "stops by itself; the link comes back by itself."),
-        Cause.ROBOT_STARTING: translate("Status", "Wait a moment."),
-        Cause.ROBOT_FAULT: translate("Status", "Make sure that nothing blocks the robot; if the fault stays, switch "
-                                               "the robot off and on."),
-        Cause.OTHER_OPERATOR: translate("Status", "End the other application; control comes here by itself."),
-        Cause.BATTERY_EMPTY: translate("Status", "Charge the battery before the test."),
-        Cause.BATTERY_LOW: translate("Status", "Short tests are possible; charge the battery soon."),
-        Cause.NO_CAN: translate("Status", "Choose one under Settings, CAN adapter."),
-        Cause.CAN_PROBLEM: translate("Status", "If the adapter is the wrong one, choose another under Settings."),
-        Cause.LOCKS_UNKNOWN: translate("Status", "Wake the Car, e.g. open a door; check the car profile."),
         Cause.HELD: translate("Status", "Look at the cause; then have the robot go on."),
         Cause.WAY_BLOCKED: translate("Status", "Clear its way; it goes on by itself, or stands until you have it go "
                                                "on."),
-        Cause.POSITION_LOST: translate("Status", "Drive or turn it by hand where it sees the Car; if it stays lost, "
-                                                 "begin a new test, which maps the Car again."),
     }.get(reason.cause, "")

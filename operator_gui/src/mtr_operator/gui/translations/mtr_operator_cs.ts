@@ -1559,22 +1559,22 @@
 <context>
     <name>IdentityForm</name>
     <message>
-        <location filename="../forms/identity_form.py" line="46"/>
+        <location filename="../forms/identity_form.py" line="48"/>
         <source>One a line: name; serial number; calibrated; valid until</source>
         <translation>Jedno na řádek: název; výrobní číslo; kalibrováno; platí do</translation>
     </message>
     <message>
-        <location filename="../forms/identity_form.py" line="132"/>
+        <location filename="../forms/identity_form.py" line="158"/>
         <source>Nothing is said of car, key and operator.</source>
         <translation>O autu, klíči a operátorovi není nic zadáno.</translation>
     </message>
     <message>
-        <location filename="../forms/identity_form.py" line="143"/>
+        <location filename="../forms/identity_form.py" line="169"/>
         <source>The laboratory requires: {names}.</source>
         <translation>Laboratoř vyžaduje: {names}.</translation>
     </message>
     <message>
-        <location filename="../forms/identity_form.py" line="149"/>
+        <location filename="../forms/identity_form.py" line="175"/>
         <source>Car, key and operator</source>
         <translation>Auto, klíč a operátor</translation>
     </message>
@@ -5048,51 +5048,6 @@
         <translation>Robot nezná svou polohu.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="59"/>
-        <source>Wait a moment.</source>
-        <translation>Chvíli počkejte.</translation>
-    </message>
-    <message>
-        <location filename="../header/reasons.py" line="60"/>
-        <source>Make sure that nothing blocks the robot; if the fault stays, switch the robot off and on.</source>
-        <translation>Ujistěte se, že robotu nic nebrání; pokud porucha trvá, robot vypněte a zapněte.</translation>
-    </message>
-    <message>
-        <location filename="../header/reasons.py" line="62"/>
-        <source>End the other application; control comes here by itself.</source>
-        <translation>Ukončete druhou aplikaci; řízení přejde sem samo.</translation>
-    </message>
-    <message>
-        <location filename="../header/reasons.py" line="63"/>
-        <source>Charge the battery before the test.</source>
-        <translation>Před testem nabijte baterii.</translation>
-    </message>
-    <message>
-        <location filename="../header/reasons.py" line="64"/>
-        <source>Short tests are possible; charge the battery soon.</source>
-        <translation>Krátké testy jsou možné; baterii brzy nabijte.</translation>
-    </message>
-    <message>
-        <location filename="../header/reasons.py" line="65"/>
-        <source>Choose one under Settings, CAN adapter.</source>
-        <translation>Vyberte jej v Nastavení, Adaptér CAN.</translation>
-    </message>
-    <message>
-        <location filename="../header/reasons.py" line="66"/>
-        <source>If the adapter is the wrong one, choose another under Settings.</source>
-        <translation>Pokud je adaptér nesprávný, vyberte v Nastavení jiný.</translation>
-    </message>
-    <message>
-        <location filename="../header/reasons.py" line="67"/>
-        <source>Wake the Car, e.g. open a door; check the car profile.</source>
-        <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
-    </message>
-    <message>
-        <location filename="../header/reasons.py" line="71"/>
-        <source>Drive or turn it by hand where it sees the Car; if it stays lost, begin a new test, which maps the Car again.</source>
-        <translation>Popojeďte s ním nebo ho otočte ručně tam, kde vidí auto; pokud polohu nenajde, začněte nový test, který auto zmapuje znovu.</translation>
-    </message>
-    <message>
         <location filename="../header/reasons.py" line="20"/>
         <source>Driving</source>
         <translation>Jede</translation>
@@ -5123,19 +5078,14 @@
         <translation>Robotu něco stojí v cestě.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="68"/>
+        <location filename="../header/reasons.py" line="57"/>
         <source>Look at the cause; then have the robot go on.</source>
         <translation>Prohlédněte příčinu a pak dejte robotu pokyn pokračovat.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="69"/>
+        <location filename="../header/reasons.py" line="58"/>
         <source>Clear its way; it goes on by itself, or stands until you have it go on.</source>
         <translation>Uvolněte mu cestu; pokračuje sám, nebo stojí, dokud mu nedáte pokyn.</translation>
-    </message>
-    <message>
-        <location filename="../header/reasons.py" line="57"/>
-        <source>Check the Wi-Fi and that the robot is on. A robot that hears nobody stops by itself; the link comes back by itself.</source>
-        <translation>Zkontrolujte Wi-Fi a zda je robot zapnutý. Robot, který nikoho neslyší, se sám zastaví; spojení se samo obnoví.</translation>
     </message>
 </context>
 <context>
