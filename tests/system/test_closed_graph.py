@@ -122,7 +122,7 @@ def wait_until_logged(robot, words):
 
 
 @pytest.mark.parametrize("topic, variables, owner", [
-    ("/chatter", OPEN_NODE, "graph_watch"), (names.WHEEL_COMMAND, {}, "drive_control")], ids=["open", "wheels"])
+    ("/chatter", OPEN_NODE, "graph_watch"), (names.WHEEL_COMMAND, {}, "drive_control")], ids=["graph", "wheels"])
 def test_wheels_are_locked_while_somebody_opens_the_graph_or_commands_them(robot, said, topic, variables, owner):
     with subprocess.Popen([sys.executable, "-c", NODE, "laptop", topic], env={**robot.environment(), **variables},
                           text=True, stdout=subprocess.PIPE) as intruder:
