@@ -1,15 +1,20 @@
 """How the window is started."""
 # SPDX-License-Identifier: Apache-2.0
+import configparser
 import os
+import pathlib
 import subprocess
 import sys
 
 import pytest
 from PyQt5.QtCore import QEvent, QObject
+from PyQt5.QtGui import QIcon
 from PyQt5.QtWidgets import QApplication, QWidget
 
 from mtr_operator.cli import main
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.gui.app import NAME
+from mtr_operator.gui.theme.sheet import ICON
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
 from mtr_operator.gui.windows.settings_window import SettingsWindow
 from mtr_operator.station.connection import CanChoice
@@ -81,3 +86,12 @@ def test_missing_qt_is_one_sentence():
     ended = subprocess.run([sys.executable, "-c", start], capture_output=True, text=True, timeout=60.0, check=False)
     assert ended.returncode == 2
     assert ended.stderr.startswith("The window needs PyQt5") and ended.stderr.count("\n") == 1
+
+
+def test_windows_have_an_icon_and_the_menu_an_entry(qapp):
+    seen = QIcon(str(ICON)).pixmap(64, 64).toImage()
+    assert {seen.pixelColor(*place).name() for place in ((16, 36), (51, 31), (5, 32))} == {
+        "#ffffff", "#f5a800", "#0b57a4"}
+    entry = configparser.ConfigParser(interpolation=None)
+    entry.read(pathlib.Path(__file__).parents[2] / "mtr-operator.desktop", encoding="utf-8")
+    assert (entry["Desktop Entry"]["Exec"], entry["Desktop Entry"]["Icon"]) == (NAME, NAME)

@@ -56,7 +56,8 @@ def test_settings_survive_a_restart(tmp_path):
 def test_cars_are_remembered_by_their_vin_newest_first_without_notes(tmp_path):
     store = SettingsStore(tmp_path / "settings.json")
     golf = Identity("WVW1", "Golf", key_serial="0042", operator="J. Novak", notes="Rain.")
-    settings = store.settings.with_car(golf).with_car(Identity("TMB2", "Octavia")).with_car(Identity(operator="E. Kral"))
+    settings = store.settings.with_car(golf).with_car(Identity("TMB2", "Octavia"))
+    settings = settings.with_car(Identity(operator="E. Kral"))
     store.change(settings.with_car(dataclasses.replace(golf, key_serial="0043")))
     later = SettingsStore(tmp_path / "settings.json")
     later.load()

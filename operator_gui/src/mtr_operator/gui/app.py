@@ -8,7 +8,7 @@ import signal
 from typing import Any, Mapping
 
 from PyQt5.QtCore import QRect, Qt, QTimer
-from PyQt5.QtGui import QGuiApplication
+from PyQt5.QtGui import QGuiApplication, QIcon
 from PyQt5.QtWidgets import QApplication, QWidget
 
 from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
@@ -25,6 +25,7 @@ from .report_writer import ReportWriter
 from .sounds import Sounds
 from .stopping import Stopping
 from .theme.appearance import Appearance
+from .theme.sheet import ICON
 from .windows.connection_window import ConnectionWindow
 from .windows.main_window import MainWindow
 
@@ -111,6 +112,9 @@ def make_qt() -> QApplication:
     app = QApplication([NAME])
     app.setApplicationName(NAME)
     app.setStyle("Fusion")
+    app.setWindowIcon(QIcon(str(ICON)))
+    # By which a desktop finds the entry of its menu, and so groups the windows.
+    app.setDesktopFileName(NAME)
     return app
 
 

@@ -9,6 +9,8 @@ from .palette import Palette
 from .scale import BODY_PT, CONTROL_HEIGHT, HEADING_PT, LARGE_PT, RADIUS, SMALL_PT, TABLE_PT, TITLE_PT
 
 _IMAGES = (pathlib.Path(__file__).parent / "images").as_posix()
+# Of all windows.
+ICON = pathlib.Path(_IMAGES) / "icon.svg"
 
 _SHEET = string.Template("""
 * { font-size: ${body_pt}pt; color: $ink; }
