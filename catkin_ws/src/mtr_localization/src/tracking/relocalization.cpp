@@ -35,9 +35,10 @@ constexpr std::size_t kMaxViews = 6;
 constexpr std::size_t kMaxHypotheses = 40;
 // A place that explains less of the view that led to it is no rival.
 constexpr double kMinShare = 0.25;
-// A place that explains so much of all views is a rival, however well another one does: from low down a LiDAR does not
-// always see what the map has at the right place (0.82 in simulation), while a wrong one, opposite, had 0.98.
-constexpr double kRivalShare = 0.75;
+// A place that explains of all views so much of what the best one does is a rival: from low down a LiDAR does not
+// always see what the map has at the right place. It had 0.82 in simulation, and a wrong one, opposite, 0.98; or 0.64
+// and 0.77.
+constexpr double kRivalPart = 0.75;
 // Returns that lie off the surfaces by more than so many of their sigmas, rms over all views, are of a place that only
 // looks like it: 8 m away what agrees may be 0.3 m off. At the right one they are 1.0, on slopes of 1 degree 2.
 constexpr double kMaxResidual = 2.5;
@@ -213,7 +214,7 @@ bool Relocalization::is_alone(const Hypothesis& best) const {
   const PoseVector& odom = views_.back().odom;
   return std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& other) {
     return is_same_place(compose(other.map_from_odom, odom), compose(best.map_from_odom, odom)) ||
-           other.mean() <= std::min(best.mean() - parameters_.found_margin, kRivalShare);
+           other.mean() <= std::min(best.mean() - parameters_.found_margin, kRivalPart * best.mean());
   });
 }
 

@@ -102,6 +102,27 @@ TEST(ContradictionWatch, ThirdOfTheViewIsTooMuchWithinASecond) {
 
 TEST(ContradictionWatch, FifthOfAViewOfWhichAllElseIsSeenIsAThingThatHasLeft) { EXPECT_FALSE(is_too_much(8, 60.0)); }
 
+TEST(ContradictionWatch, WhatIsOverlookedFromLowDownIsNoContradictionWhileAllReturnsAreOnTheMap) {
+  ContradictionWatch watch;
+  // As seen 10 m in front of a van whose wheels alone are on the map, at the right place.
+  Agreement view;
+  view.seen = 20;
+  view.missing = 11;
+  view.passed = 69;
+  view.unknown = 1;
+  bool found = false;
+  for (std::int64_t i = 1; i < 1500; ++i) {
+    found = found || watch.add(i * 40'000'000, view, Eigen::Vector2d::Zero());
+  }
+  EXPECT_FALSE(found);
+  // Some of what returns is not on the map.
+  view.unknown = 8;
+  for (std::int64_t i = 1500; i < 1600; ++i) {
+    found = found || watch.add(i * 40'000'000, view, Eigen::Vector2d::Zero());
+  }
+  EXPECT_TRUE(found);
+}
+
 TEST(ContradictionWatch, OnSlopesTheLidarLooksOverAndUnderSurfaces) { EXPECT_FALSE(is_too_much(14, 60.0, 40, 0.03)); }
 
 TEST(ContradictionWatch, OneViewAloneIsNotTooMuch) { EXPECT_FALSE(is_too_much(40, 0.05)); }

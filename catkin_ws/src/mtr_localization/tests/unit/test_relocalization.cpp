@@ -119,6 +119,23 @@ TEST_F(RelocalizationTest, PlaceThatShowsMoreThanIsSeenStaysARivalOfOneThatFitsB
   EXPECT_FALSE(found_from(views, {2.0, 0.0, M_PI}));
 }
 
+TEST_F(RelocalizationTest, RivalIsMeasuredByWhatTheBestPlaceExplainsItself) {
+  // As before, but something that is not on the map stands beside the plate, and no place explains it.
+  const auto with_gap = [](double y) {
+    return synthetic::World{{{0.5, y - 0.5}, {0.5, y - 0.2}}, {{0.5, y + 0.2}, {0.5, y + 0.5}}};
+  };
+  synthetic::World scene = with_gap(1.25);
+  scene.push_back({{0.5, -1.75}, {0.5, -0.75}});
+  add_surfaces(scene);
+  synthetic::World seen = with_gap(-1.25);
+  seen.push_back({{0.9, -0.7}, {0.9, -0.35}});
+  std::vector<View> views;
+  for (const double x : {1.7, 2.0, 2.5, 3.1}) {
+    views.push_back(view_from(seen, {x, -1.25, M_PI}, 2.7));
+  }
+  EXPECT_FALSE(found_from(views, {2.0, 0.0, M_PI}));
+}
+
 TEST_F(RelocalizationTest, PlaceWhereReturnsLieBesideTheSurfacesIsNone) {
   // Another room that is larger by a twentieth: at 4 m what lies 0.2 m beside a surface still agrees with it.
   add_surfaces(room());
