@@ -134,4 +134,4 @@ def test_file_that_cannot_grow_ends_the_test_with_a_sentence_and_keeps_the_forme
                          "second place could be written either; what was measured last is in this application only.\n")
     assert "the robot stands still" in said
     assert results_in(laptop.folder / "out")
-    assert sorted(os.listdir(laptop.folder / "out")) == ["progress.journal", "progress.json"]
+    assert sorted(os.listdir(laptop.folder / "out")) == ["progress.journal", "progress.json", "recording"]

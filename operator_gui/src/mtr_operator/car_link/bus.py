@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import pathlib
 import threading
 import time
 from dataclasses import replace
@@ -11,6 +12,7 @@ import can
 
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import (
+    BusMark,
     BusMessages,
     BusTraffic,
     CarEvent,
@@ -28,6 +30,7 @@ from .bus_trouble import BusTrouble
 from .can_frame import CanFrame
 from .handle import BusHandle
 from .lock_watch import LockWatch
+from .log.bus_log import BusLog
 from .message_table import MessageTable
 from .profile import CarProfile, load_profile
 from .reader import CanReader, FrameSink
@@ -62,6 +65,9 @@ class CanCarLink(CarLink, FrameSink):
         self._reader: CanReader | None = None
         self._changed = threading.Condition()
         self._trouble = BusTrouble(self._settings)
+        self._log: BusLog | None = None
+        self._mark: BusMark | None = None
+        self._restarts = 0
         self._traffic = TrafficMeter(bitrate, data_bitrate)
         self._table = MessageTable()
         self._handle: HandlePort | None = None
@@ -89,9 +95,15 @@ class CanCarLink(CarLink, FrameSink):
             raise ConnectionFailed(_NOT_CONNECTED)
         with self._changed:
             watch.status(status, arrival_s)
+            logged = 0 if self._log is None else self._log.frames
             self._changed.wait_for(lambda: bool(self._trouble.fault) or watch.has_caught_up(), CATCH_UP_LIMIT_S)
             self._trouble.status(status.stamp_s)
-            return watch.release(self._clock())
+            told_s = self._clock()
+            if self._log is not None:
+                stamps = "" if watch.stamps is None else watch.stamps.name
+                self._mark = BusMark(logged, self._log.frames, arrival_s, told_s, self._log.origin_s, stamps,
+                                     self._restarts)
+            return watch.release(told_s)
 
     @property
     def lock_state(self) -> LockState:
@@ -132,6 +144,24 @@ class CanCarLink(CarLink, FrameSink):
         has_idle_output = self.profile is not None and self.profile.handle_output is not None and self._handle is None
         return (_OUTPUT_IDLE,) if has_idle_output else ()
 
+    def log_to(self, path: pathlib.Path | None) -> None:
+        """See CarLink."""
+        log = None if path is None else BusLog(path)
+        with self._changed:
+            former, self._log, self._mark, self._restarts = self._log, log, None, 0
+        if former is not None:
+            former.close()
+
+    @property
+    def log_problem(self) -> str:
+        """See CarLink."""
+        return "" if self._log is None else self._log.problem
+
+    @property
+    def mark(self) -> BusMark | None:
+        """See CarLink."""
+        return self._mark
+
     @property
     def messages(self) -> BusMessages | None:
         """See CarLink."""
@@ -159,6 +189,7 @@ class CanCarLink(CarLink, FrameSink):
         reader, self._reader = self._reader, None
         if reader is not None:
             reader.stop()
+        self.log_to(None)
 
     def _send(self, message: can.Message) -> threading.Event:
         """Through the reader at hand; without one nothing is sent any more."""
@@ -171,6 +202,8 @@ class CanCarLink(CarLink, FrameSink):
             if self._watch is not None:
                 self._watch.frame(frame)
                 self._traffic.frame(frame, self._watch.is_lock_message)
+                if self._log is not None:
+                    self._log.frame(frame, self._watch.local_s)
             self._table.frame(frame)
             self.frames_received += 1
             self._changed.notify_all()
@@ -179,6 +212,8 @@ class CanCarLink(CarLink, FrameSink):
         """See FrameSink."""
         with self._changed:
             self._trouble.error_frame()
+            if self._log is not None:
+                self._log.error_frame()
 
     def frames_lost(self) -> None:
         """See FrameSink."""
@@ -196,3 +231,6 @@ class CanCarLink(CarLink, FrameSink):
         with self._changed:
             if self._watch is not None:
                 self._watch.restart()
+            if self._log is not None:
+                self._log.restart()
+                self._restarts += 1

@@ -31,14 +31,14 @@ class LockWatch:
 
     Attributes:
         lock_state: at the stamp of the last released Status; UNKNOWN while the bus is silent.
-        is_lock_message: the newest frame was one.
+        is_lock_message: the newest frame was one. local_s: its time by the clock that times the frames.
     """
 
     def __init__(self, profile: CarProfile):
         self._profile = profile
         self._liveness = Liveness(profile)
         self._robot_session_id = 0
-        self.is_lock_message = False
+        self.is_lock_message, self.local_s = False, math.nan
         self._time = FrameTime()
         self._changes = LockChanges(profile, Refused())
         self._restart()
@@ -68,7 +68,7 @@ class LockWatch:
         if was_set:
             self._changes.begin_new_frames()
         reading = self._profile.decode(frame.can_id, frame.is_extended, frame.data)
-        self.is_lock_message = reading is not None
+        self.is_lock_message, self.local_s = reading is not None, local_s
         if reading is not None:
             self._frames.append((local_s, frame.data))
             self._changes.follow(local_s, frame.arrival_s, reading, self._time.is_by_arrival)

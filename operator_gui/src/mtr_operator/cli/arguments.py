@@ -35,6 +35,7 @@ def argument_parser() -> argparse.ArgumentParser:
     _add_demo(commands.add_parser("demo", help="run a test on a robot and a Car inside the application; needs no file"))
     _add_history(commands.add_parser("history", help="list the tests that were measured before"))
     _add_compare(commands.add_parser("compare", help="compare two tests, distance by distance, with intervals"))
+    _add_replay(commands.add_parser("replay", help="compute the distances of a recorded test anew"))
     _add_pair(commands.add_parser("pair", help="pair this computer with a robot that shows a code"))
     _add_keys(commands.add_parser("keys", help="list this computer's key and the robots that it is paired with"))
     _add_learn(commands.add_parser("learn", help="learn how a Car's bus tells its locks, and write its profile"))
@@ -88,6 +89,10 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
     car.add_argument("--car-profile", default="mtr_demo_car", metavar="NAME_OR_PATH",
                      help="how the Car's bus tells its lock state, default %(default)s")
     car.add_argument("--simulated-car", action="store_true", help="use a substitute inside the application")
+    car.add_argument("--can-log", type=pathlib.Path, metavar="FILE",
+                     help="play this log of a bus as the Car, at the speed of the robot's clock")
+    car.add_argument("--can-log-format", choices=("blf", "asc", "trc", "mf4", "none"), default="blf", metavar="KIND",
+                     help="kind of the log that is kept of the bus: %(choices)s; default %(default)s")
 
 
 def _add_adapter(car: argparse._ActionsContainer) -> None:
@@ -120,6 +125,7 @@ def _add_demo(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--limits", type=pathlib.Path, metavar="FILE", help="limits that the lines are judged by, YAML")
     parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",
                         help="of the substitutes' random numbers, default %(default)s")
+    parser.set_defaults(can_log=None, can_log_format="blf")
     parser.set_defaults(params=None, continued=None, calibration=None, identity=None, laboratory=None,
                         simulated_robot=True, simulated_car=True)
 
@@ -140,6 +146,19 @@ def _add_compare(parser: argparse.ArgumentParser) -> None:
                           "interval of its difference does not hold zero.")
     for name in ("first", "second"):
         parser.add_argument(name, type=pathlib.Path, metavar=name.upper(), help="progress.json, or the folder with it")
+    parser.add_argument("--json", action="store_true", help="print JSON")
+
+
+def _add_replay(parser: argparse.ArgumentParser) -> None:
+    parser.description = ("Computes all distances of a test anew, from the log of the Car's bus, the poses and the "
+                          "profile, and says what would change. Exit code 0: nothing, to 0.1 mm; 3: something.")
+    parser.add_argument("results", type=pathlib.Path, metavar="RESULTS",
+                        help="progress.json, or the folder with it; the recording is beside it")
+    parser.add_argument("--car-profile", metavar="NAME_OR_PATH", help="a mended profile; default: that of the test")
+    parser.add_argument("--can-log", type=pathlib.Path, metavar="FILE",
+                        help="another log of the same bus and time, instead of the recorded one")
+    parser.add_argument("--recording", type=pathlib.Path, metavar="DIR",
+                        help="folder of the recording; default: beside the progress file")
     parser.add_argument("--json", action="store_true", help="print JSON")
 
 

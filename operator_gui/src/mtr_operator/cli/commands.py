@@ -20,6 +20,7 @@ from .checking import check
 from .exit_codes import EXIT_ERROR, EXIT_FAIL, EXIT_INCONCLUSIVE, EXIT_INTERRUPTED, EXIT_PASS
 from .history import compare_tests, list_history
 from .planning import plan
+from .records.replay import replay_test
 from .run import CommandLineRun
 from .window import open_window
 
@@ -98,5 +99,5 @@ def _accept_any_character() -> None:
 # What each command calls; an exit code, or None when it has done what was asked for.
 _COMMANDS: dict[str, Callable[[argparse.Namespace], int | None]] = {
     "params": list_parameters, "check": check, "history": list_history, "compare": compare_tests, "plan": plan,
-    "demo": run_demo, "run": run_test, "pair": pair, "keys": keys, "learn": learn_car,
+    "demo": run_demo, "run": run_test, "pair": pair, "keys": keys, "learn": learn_car, "replay": replay_test,
     "doctor": lambda _: EXIT_PASS if doctor() else EXIT_ERROR}

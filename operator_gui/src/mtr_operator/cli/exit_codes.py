@@ -10,6 +10,8 @@ EXIT_ERROR = 2
 EXIT_USAGE = 2
 # A line breaks a limit.
 EXIT_FAIL = 3
+# A replay differs from the record.
+EXIT_CHANGED = 3
 # Of a line nobody knows whether it keeps its limits, and none breaks one.
 EXIT_INCONCLUSIVE = 4
 # Ended by Ctrl-C, as a shell has it: 128 and the number of SIGINT.

@@ -22,6 +22,9 @@ def car_link(options: argparse.Namespace) -> CarLink:
     if options.simulated_car:
         from mtr_operator.car_link.simulated_car import SimulatedCarLink
         return SimulatedCarLink(options.seed)
+    if options.can_log is not None:
+        from mtr_operator.car_link.log.log_car import LogCarLink
+        return LogCarLink(options.can_log, options.car_profile)
     from mtr_operator.car_link.bus import CanCarLink
     return CanCarLink(options.can_interface, options.can_channel, options.can_bitrate, options.car_profile,
                       is_listening=not options.can_normal, data_bitrate=options.can_data_bitrate)

@@ -31,6 +31,7 @@ from mtr_operator.storage import progress_file
 from mtr_operator.storage.atomic import output_folder
 from mtr_operator.storage.given_files import Given, calibration_of
 from mtr_operator.storage.parameter_file import load_parameters
+from mtr_operator.storage.recorded.recording import Recording
 from mtr_operator.storage.store import Store
 
 from .display import Display
@@ -62,6 +63,7 @@ class CommandLineRun:
             check_before_start(self._given.limits, self._scenario, self._parameters)
         self._identity = RunIdentity(options)
         self._progress = self._begin()
+        self._recording = Recording(self._path, options.can_log_format)
         self._car = car_link(options)
         self._robot = robot_link(options)
 
@@ -117,6 +119,7 @@ class CommandLineRun:
                     raise Cancelled("Interrupted; the robot was not moved.")
             enter = Enter()
             loop = ControlLoop(robot, car, display, interrupt.is_requested, Release(display.say, enter))
+            loop.course = self._recording.begin(car)
             loop.person = HandleQuestion(display.say, enter).person
             rejected_before = loop.status.rejected_messages
             self._progress.session[ROBOT_SOFTWARE] = loop.status.software_version
@@ -126,12 +129,15 @@ class CommandLineRun:
                 Runner(self._scenario, self._parameters, loop, self._progress, lambda _: store.save(),
                        journal=store).run()
             finally:
+                for problem in filter(None, self._recording.end()):
+                    display.say(problem)
                 _say_statistics(display, robot, loop.status.rejected_messages - rejected_before)
 
     def _keep(self, display: Display, store: Store) -> None:
         """After a test that did not come to its end: keep what it has measured."""
         store.discard_if_empty()
         if not self._progress.has_findings:
+            self._recording.discard()
             self._identity.discard_photos(self._path)
             return
         try:

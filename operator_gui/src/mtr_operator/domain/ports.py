@@ -10,6 +10,8 @@ All times are seconds of the robot's clock; poses are of base_link in the Car co
 from __future__ import annotations
 
 import enum
+import math
+import pathlib
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from typing import Mapping, Sequence
@@ -88,6 +90,24 @@ class BusTraffic:
     expected_cycle_s: float
     clock_problem: str = ""
     stamps: str = ""
+
+
+@dataclass(frozen=True)
+class BusMark:
+    """How far the log of the bus had come when the newest Status was observed, so that it can be played back.
+
+    frames: in the log when it arrived; released: when its events were told. arrival_s, told_s: the same by the laptop's
+    monotonic clock. origin_s: time of the first frame by the clock that times the frames, NaN before it. stamps: that
+    clock, as BusTraffic has it. restarts: how often the adapter was opened anew.
+    """
+
+    frames: int = 0
+    released: int = 0
+    arrival_s: float = math.nan
+    told_s: float = math.nan
+    origin_s: float = math.nan
+    stamps: str = ""
+    restarts: int = 0
 
 
 @dataclass(frozen=True)
@@ -239,6 +259,22 @@ class CarLink(ABC):
     def notices(self) -> Sequence[str]:
         """Sentences that the Operator has to know before a test, from connect() on."""
         return ()
+
+    def log_to(self, path: pathlib.Path | None) -> None:  # noqa: B027, a substitute has no bus
+        """Log the whole bus into this file from now on, of the kind that its name ends in; None ends the log.
+
+        OutputError when it cannot be begun. Nothing happens where there is no bus.
+        """
+
+    @property
+    def log_problem(self) -> str:
+        """Why the log ended before it was to; empty while it goes on, and without one."""
+        return ""
+
+    @property
+    def mark(self) -> BusMark | None:
+        """How far the log has come with the newest Status; None without a log."""
+        return None
 
     @property
     def messages(self) -> BusMessages | None:

@@ -11,6 +11,7 @@ from .actions.control_loop import ControlLoop
 from .actions.preparation import check_car, prepare
 from .actions.robot import Robot
 from .errors import OperatorError, OutputError, ProgressFileError, RobotFailed
+from .results.course import CourseJournal
 from .results.frame_record import check_entry
 from .results.journal import (
     CAR,
@@ -50,7 +51,8 @@ class Runner:
         self._loop = loop
         self._progress = progress
         self._save = save
-        self._notebook = loop.journal = Notebook(progress, scenario.result_type, journal or Journal())
+        kept = CourseJournal(journal or Journal(), loop.course)
+        self._notebook = loop.journal = Notebook(progress, scenario.result_type, kept)
         loop.refusals = Refusals(progress.session, self._notebook)
         self._robot = Robot(loop, progress.results)
         self._car = Car(loop)

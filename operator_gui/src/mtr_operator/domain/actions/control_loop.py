@@ -13,6 +13,7 @@ from typing import Any, Callable, Iterator
 from ..errors import LinkLost, RobotFailed
 from ..ports import CarEvent, CarLink, HandlePort, RobotLink
 from ..requests import DesiredState
+from ..results.course import Course
 from ..results.frame_history import FrameHistory
 from ..results.journal import EVENT, Journal, plain_fields
 from ..results.refusals import Refusals
@@ -50,6 +51,7 @@ class ControlLoop:
         car_dimensions: the Car as the robot measured it last, None before.
         frames: the Car coordinate systems that the robot has had in this run.
         journal: where events, presses and measurements are kept before the robot is ordered on.
+        course: where each Status is kept, and what is expected of the Car.
         refusals: what is refused meanwhile.
         person: who takes the Car's handle where no output does; None when nobody is there.
     """
@@ -63,6 +65,7 @@ class ControlLoop:
         self.car_dimensions: CarDimensions | None = None
         self.frames = FrameHistory()
         self.journal = Journal()
+        self.course = Course()
         self.refusals = Refusals()
         self.person: HandlePort | None = None
         self.observer = observer or RunObserver()
@@ -160,7 +163,9 @@ class ControlLoop:
         self.poses.add(status)
         self._status = status
         self.car_dimensions = status.car or self.car_dimensions
-        self._learn_events(self._car_link.observe(status))
+        events = self._car_link.observe(status)
+        self.course.status(status, self._car_link.mark)
+        self._learn_events(events)
         self.refusals.look(status, self._robot_link.statistics, self._car_link.refused)
         self.observer.on_status(status)
         if restarted:

@@ -6,6 +6,8 @@ import math
 
 from ..geometry.ray import Ray
 from ..ports import CarEvent, LockState
+from ..results.course import ALLOWED, CLOSED, EXPECTED, HELD, WATCHED
+from ..results.journal import plain_fields
 from ..robot_status import RobotStatus
 from .control_loop import ControlLoop
 from .distance import Distance, measure
@@ -42,6 +44,7 @@ class LineWatch:
         self._history = LockHistory(self.lock_state, loop.car_link.facts, _unlocked_s(loop.events))
         self._newest = loop.events[-1] if loop.events else None
         self._before = loop.status.interventions
+        loop.course.note(WATCHED, {"state": self._history.state.value, "unlocked_s": _unlocked_s(loop.events)})
 
     @property
     def now_s(self) -> float:
@@ -63,10 +66,12 @@ class LineWatch:
 
     def hold(self) -> None:
         """See LockHistory."""
+        self._loop.course.note(HELD, {})
         self._history.hold()
 
     def allow_lock(self) -> None:
         """See LockHistory."""
+        self._loop.course.note(ALLOWED, {})
         self._history.allow_lock()
 
     @property
@@ -76,10 +81,12 @@ class LineWatch:
 
     def expect(self, expected: Expected) -> None:
         """See LockHistory."""
+        self._loop.course.note(EXPECTED, plain_fields(expected))
         self._history.expect(expected)
 
     def close(self) -> None:
         """See LockHistory."""
+        self._loop.course.note(CLOSED, {})
         self._history.close(self._loop.now_s)
 
     @property

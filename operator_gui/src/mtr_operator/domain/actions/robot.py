@@ -10,6 +10,7 @@ from ..errors import RobotFailed
 from ..geometry.pose import Pose
 from ..geometry.ray import Ray
 from ..requests import Direction, Press, Waypoint
+from ..results.course import UNWATCHED
 from ..results.frame_history import frame_from
 from ..results.journal import DECISION, POINT, PRESS, KeptPoint, plain_fields
 from ..results.line_result import LineResult, LineStatus
@@ -200,8 +201,11 @@ class Robot:
     def watched(self, tolerances: Tolerances) -> Iterator[LineWatch]:
         """Within the context anything that makes a measurement doubtful raises LineInvalid."""
         line = LineWatch(self._loop, tolerances)
-        with self._loop.watched(line.check):
-            yield line
+        try:
+            with self._loop.watched(line.check):
+                yield line
+        finally:
+            self._loop.course.note(UNWATCHED, {})
 
     def trouble(self) -> str:
         """Why nothing can be measured now; empty when it can."""

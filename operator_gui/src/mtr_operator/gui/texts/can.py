@@ -26,6 +26,19 @@ SENTENCES = (
                                   "give the data bit rate of the bus."),
     QT_TRANSLATE_NOOP("Sentence", "The CAN bus brings error frames ({}) and not one frame at {} bit/s: the bit rate is "
                                   "another one, or the bus carries CAN FD."),
+    QT_TRANSLATE_NOOP("Sentence", "A CAN log of the format mf4 needs the Python package asammdf, which is not "
+                                  "installed; install it, or choose blf."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN log {} cannot be written: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "{} is no CAN log; known are files that end in {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN log {} cannot be read: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN log {} needs the Python package asammdf, which is not installed."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN log {} cannot be read: it is damaged or of another format."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN log {} holds no frame."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN log {} has come to its end."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN log is not open."),
+    QT_TRANSLATE_NOOP("Sentence", "The course {} cannot be read: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The course {} is damaged; it is no text."),
+    QT_TRANSLATE_NOOP("Sentence", "The course {} is damaged in line {}, or of another version."),
     QT_TRANSLATE_NOOP("Sentence", "The car's profile names an output that takes the handle, and the CAN adapter only "
                                   "listens: a person takes it; choose normal mode (--can-normal) to have it switched."),
 )

@@ -4793,6 +4793,66 @@
         <source>not cyclic</source>
         <translation>není periodická</translation>
     </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>A CAN log of the format mf4 needs the Python package asammdf, which is not installed; install it, or choose blf.</source>
+        <translation>Záznam CAN ve formátu mf4 potřebuje balíček Pythonu asammdf, který není nainstalován; nainstalujte ho, nebo zvolte blf.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN log {} cannot be written: {}.</source>
+        <translation>Záznam CAN {} nelze zapsat: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>{} is no CAN log; known are files that end in {}.</source>
+        <translation>{} není záznam CAN; známé jsou soubory s koncovkou {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN log {} cannot be read: {}.</source>
+        <translation>Záznam CAN {} nelze přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN log {} needs the Python package asammdf, which is not installed.</source>
+        <translation>Záznam CAN {} potřebuje balíček Pythonu asammdf, který není nainstalován.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN log {} cannot be read: it is damaged or of another format.</source>
+        <translation>Záznam CAN {} nelze přečíst: je poškozený nebo v jiném formátu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN log {} holds no frame.</source>
+        <translation>Záznam CAN {} neobsahuje žádný rámec.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN log {} has come to its end.</source>
+        <translation>Záznam CAN {} skončil.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN log is not open.</source>
+        <translation>Záznam CAN není otevřen.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The course {} cannot be read: {}.</source>
+        <translation>Průběh {} nelze přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The course {} is damaged; it is no text.</source>
+        <translation>Průběh {} je poškozený; není to text.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The course {} is damaged in line {}, or of another version.</source>
+        <translation>Průběh {} je poškozený na řádku {}, nebo v jiné verzi.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import pathlib
 from typing import Mapping, Sequence
 
 from mtr_operator.domain.ports import (
+    BusMark,
     BusMessages,
     BusTraffic,
     CarEvent,
@@ -65,6 +67,20 @@ class WatchedCarLink(CarLink):
     def notices(self) -> Sequence[str]:
         """See CarLink."""
         return self._link.notices
+
+    def log_to(self, path: pathlib.Path | None) -> None:
+        """See CarLink."""
+        self._link.log_to(path)
+
+    @property
+    def log_problem(self) -> str:
+        """See CarLink."""
+        return self._link.log_problem
+
+    @property
+    def mark(self) -> BusMark | None:
+        """See CarLink."""
+        return self._link.mark
 
     @property
     def messages(self) -> BusMessages | None:

@@ -13,6 +13,7 @@ from mtr_operator.domain.errors import OperatorError, OutputError
 from mtr_operator.domain.ports import CarLink, HandlePort
 from mtr_operator.domain.results.session_record import ROBOT_SOFTWARE
 from mtr_operator.domain.runner import Runner
+from mtr_operator.storage.recorded.recording import Recording
 from mtr_operator.storage.store import Store
 
 from ..events import Outcome, RunEnded
@@ -87,7 +88,18 @@ class MeasurementRun:
             reporter = Reporter(self._mailbox, robot, self._car, test.progress, after_status)
             loop = ControlLoop(robot, self._car, reporter, is_cancelled, self._answers.resumed_hold)
             loop.person = self._answers.person
+            recording = Recording(test.path)
+            loop.course = recording.begin(self._car)
             test.progress.session[ROBOT_SOFTWARE] = loop.status.software_version
-            Runner(test.scenario, test.parameters, loop, test.progress, lambda _: test.save(), journal=store,
-                   again=test.again).run()
+            try:
+                Runner(test.scenario, test.parameters, loop, test.progress, lambda _: test.save(), journal=store,
+                       again=test.again).run()
+            finally:
+                self._end(recording)
             test.again = ()
+
+    def _end(self, recording: Recording) -> None:
+        for problem in filter(None, recording.end()):
+            logging.warning(problem)
+        if not self._test.progress.has_findings:
+            recording.discard()

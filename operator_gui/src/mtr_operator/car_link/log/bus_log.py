@@ -1,0 +1,113 @@
+"""Writes the whole bus into a log, by python-can's own writers, in a thread of its own: no frame waits for the disk.
+
+Times in the log are those of the clock that times the frames, moved so that the first one has the time of day. Behind
+an adapter that was opened anew they go on with the time of day again.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import contextlib
+import math
+import pathlib
+import queue
+import threading
+import time
+from typing import Any
+
+import can
+
+from mtr_operator.domain.errors import OutputError
+
+from ..can_frame import CanFrame
+
+FORMATS = ("blf", "asc", "trc", "mf4")
+# Of an hour at 500 kbit/s and full load BLF takes some 300 MB.
+DEFAULT_LIMIT_BYTES = 2 * 1024 ** 3
+# What a killed application loses is at most this much of a BLF, some hundred frames.
+_BLF_CONTAINER_BYTES = 16 * 1024
+# Frames between two looks at the size of the file.
+_SIZE_LOOK = 1000
+
+
+class BusLog:
+    """Open from its constructor on; OutputError says why it cannot be.
+
+    Attributes:
+        frames: data frames so far. origin_s: time of the first one by its own clock, NaN before it.
+        problem: why the log ends before the test does; empty while it goes on.
+    """
+
+    def __init__(self, path: pathlib.Path, limit_bytes: int = DEFAULT_LIMIT_BYTES):
+        self.path = path
+        self.frames = 0
+        self.origin_s = math.nan
+        self.problem = ""
+        self._limit_bytes = limit_bytes
+        self._shift_s: float | None = None
+        self._writer: Any = _writer(path)
+        self._written = 0
+        self._queue: queue.SimpleQueue[can.Message | None] = queue.SimpleQueue()
+        self._thread = threading.Thread(target=self._run, name="can-log", daemon=True)
+        self._thread.start()
+
+    def frame(self, frame: CanFrame, local_s: float) -> None:
+        """A data frame with its time by the clock that times it."""
+        if self._shift_s is None:
+            self._shift_s = time.time() - local_s
+            self.origin_s = local_s if math.isnan(self.origin_s) else self.origin_s
+        self.frames += 1
+        self._queue.put(can.Message(
+            timestamp=local_s + self._shift_s, arbitration_id=frame.can_id, is_extended_id=frame.is_extended,
+            data=frame.data, is_fd=frame.is_fd, channel=0, check=False))
+
+    def error_frame(self) -> None:
+        """The adapter told of an error on the bus."""
+        self._queue.put(can.Message(timestamp=time.time(), is_error_frame=True, channel=0))
+
+    def restart(self) -> None:
+        """The adapter was opened anew: its clock begins anew."""
+        self._shift_s = None
+
+    def close(self) -> None:
+        """Write what waits; safe to call twice."""
+        if self._thread.is_alive():
+            self._queue.put(None)
+            self._thread.join()
+
+    def _run(self) -> None:
+        try:
+            while (message := self._queue.get()) is not None:
+                self._write(message)
+            self._stop()
+        # A full disk ends the log, and no test; writers of other formats raise what they like.
+        except Exception as error:
+            self.problem = f"The CAN log {self.path} ends before the test: {getattr(error, 'strerror', '') or error}."
+            self._stop()
+
+    def _write(self, message: can.Message) -> None:
+        if self._writer is None:
+            return
+        self._writer.on_message_received(message)
+        self._written += 1
+        if self._written % _SIZE_LOOK == 0 and self.path.stat().st_size > self._limit_bytes:
+            self.problem = (f"The CAN log {self.path} ends before the test: it has reached "
+                            f"{self._limit_bytes // 1024 ** 2} MiB, the limit.")
+            self._stop()
+
+    def _stop(self) -> None:
+        writer, self._writer = self._writer, None
+        if writer is not None:
+            with contextlib.suppress(Exception):
+                writer.stop()
+
+
+def _writer(path: pathlib.Path) -> Any:
+    options = {"max_container_size": _BLF_CONTAINER_BYTES} if path.suffix == ".blf" else {}
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        return can.Logger(str(path), **options)
+    except NotImplementedError:
+        raise OutputError("A CAN log of the format mf4 needs the Python package asammdf, which is not installed; "
+                          "install it, or choose blf.") from None
+    except OSError as error:
+        raise OutputError(f"The CAN log {path} cannot be written: {error.strerror or error}.") from None

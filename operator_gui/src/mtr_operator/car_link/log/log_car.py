@@ -1,0 +1,96 @@
+"""A log of a Car's bus in place of the bus: played at the speed of the robot's clock, from the first Status on."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+import pathlib
+from typing import Iterator, Mapping
+
+from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.ports import CarEvent, CarLink, LockFacts, LockState, Refused
+from mtr_operator.domain.results.session_record import CAN_ADAPTER
+from mtr_operator.domain.robot_status import RobotStatus
+
+from ..can_frame import CanFrame
+from ..clocks.stamp_kind import StampKind
+from ..lock_watch import LockWatch
+from ..profile import CarProfile, load_profile
+from .read_log import LoggedFrame, ReadLog
+
+_NOT_CONNECTED = "The CAN log is not open."
+
+
+class LogCarLink(CarLink):
+    """path: a log of any kind that python-can reads. profile: see CanCarLink.
+
+    What the Car does is that of the log, whatever the robot does: the log's first frame is at the first Status.
+    """
+
+    def __init__(self, path: pathlib.Path, profile: str):
+        self._path = path
+        self._profile_name = profile
+        self._profile: CarProfile | None = None
+        self._watch: LockWatch | None = None
+        self._log: ReadLog | None = None
+        self._frames: Iterator[LoggedFrame] = iter(())
+        self._next: LoggedFrame | None = None
+        self._begin_s = self._stamp_s = math.nan
+
+    def connect(self) -> None:
+        """See CarLink; ConnectionFailed when the log holds no frame."""
+        self._profile = load_profile(self._profile_name)
+        self._watch = LockWatch(self._profile)
+        self._log = ReadLog(self._path)
+        self._frames = iter(self._log)
+        self._next = next(self._frames, None)
+        self._begin_s = math.nan
+
+    def observe(self, status: RobotStatus) -> list[CarEvent]:
+        """See CarLink."""
+        watch = self._watch
+        if watch is None:
+            raise ConnectionFailed(_NOT_CONNECTED)
+        if math.isnan(self._begin_s) and self._next is not None:
+            self._begin_s = status.stamp_s - self._next.time_s
+        while self._next is not None and self._begin_s + self._next.time_s <= status.stamp_s:
+            frame = self._next
+            # Frames and Statuses are on one clock here, the robot's.
+            watch.frame(CanFrame(frame.can_id, frame.is_extended, frame.data, self._begin_s + frame.time_s,
+                                 kind=StampKind.ARRIVAL, is_fd=frame.is_fd))
+            self._next = next(self._frames, None)
+        self._stamp_s = status.stamp_s
+        watch.status(status, status.stamp_s)
+        return watch.release(status.stamp_s)
+
+    @property
+    def lock_state(self) -> LockState:
+        """See CarLink."""
+        return LockState.UNKNOWN if self._watch is None else self._watch.lock_state
+
+    @property
+    def facts(self) -> LockFacts:
+        """See CarLink."""
+        return LockFacts() if self._profile is None else self._profile.facts
+
+    @property
+    def refused(self) -> Refused:
+        """See CarLink."""
+        return Refused() if self._watch is None else self._watch.refused
+
+    @property
+    def record(self) -> Mapping[str, str]:
+        """See CarLink."""
+        return {CAN_ADAPTER: f"none: the log {self._path.name} was played"}
+
+    @property
+    def problem(self) -> str:
+        """See CarLink."""
+        if self._watch is None or self._log is None:
+            return _NOT_CONNECTED
+        if self._next is None and self._watch.problem:
+            return self._log.notice or f"The CAN log {self._path} has come to its end."
+        return self._watch.problem
+
+    def close(self) -> None:
+        """See CarLink."""
+        self._frames, self._next, self._watch = iter(()), None, None

@@ -1,0 +1,57 @@
+"""The changes of the Car's locks anew, from the log of its bus, by a profile: as they were told with each Status."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from typing import Iterator
+
+from mtr_operator.car_link.can_frame import CanFrame
+from mtr_operator.car_link.clocks.stamp_kind import StampKind
+from mtr_operator.car_link.lock_watch import LockWatch
+from mtr_operator.car_link.log.read_log import LoggedFrame, ReadLog
+from mtr_operator.car_link.profile import CarProfile
+from mtr_operator.domain.ports import BusMark, CarEvent
+from mtr_operator.storage.recorded.course_file import Moment
+
+
+class ReplayedLocks:
+    """The parts of the live link on a log, in the order in which frames and Statuses came.
+
+    Attributes:
+        watch: what follows the locks. facts: of the profile. frames: of the log so far.
+    """
+
+    def __init__(self, profile: CarProfile, log: ReadLog):
+        self.watch = LockWatch(profile)
+        self.facts = profile.facts
+        self.frames = 0
+        self._log: Iterator[LoggedFrame] = iter(log)
+        self._restarts = 0
+        self._first_s = math.nan
+
+    def take(self, moment: Moment) -> list[CarEvent]:
+        """Events that a live link would have told with this Status."""
+        mark = moment.mark or BusMark()
+        self._read_to(mark.frames, mark)
+        self.watch.status(moment.status, mark.arrival_s)
+        self._read_to(mark.released, mark)
+        return self.watch.release(mark.told_s)
+
+    def _read_to(self, count: int, mark: BusMark) -> None:
+        if mark.restarts != self._restarts:
+            self._restarts = mark.restarts
+            self.watch.restart()
+        while self.frames < count:
+            frame = next(self._log, None)
+            if frame is None:
+                return
+            self.frames += 1
+            self.watch.frame(self._frame(frame, mark))
+
+    def _frame(self, frame: LoggedFrame, mark: BusMark) -> CanFrame:
+        if math.isnan(self._first_s):
+            self._first_s = frame.time_s
+        local_s = mark.origin_s + (frame.time_s - self._first_s)
+        kind = StampKind[mark.stamps] if mark.stamps else StampKind.ARRIVAL
+        stamp_s = local_s if kind is StampKind.ADAPTER else None
+        return CanFrame(frame.can_id, frame.is_extended, frame.data, local_s, None, stamp_s, kind, frame.is_fd)

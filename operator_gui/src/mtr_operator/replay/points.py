@@ -1,0 +1,170 @@
+"""Every measurement of a test anew: what the Car did, by the log, when the test expected something, and where the key
+was then, by the recorded poses. What is expected when is as it was in the test, for the robot did what it did."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass, field
+from typing import Any, Iterable, Mapping
+
+from mtr_operator.domain.actions.distance import Distance, measure, outline_sigma
+from mtr_operator.domain.actions.lock_history import Expected, LockHistory
+from mtr_operator.domain.actions.pose_history import PoseHistory, PoseUnknown
+from mtr_operator.domain.actions.trouble import LineInvalid
+from mtr_operator.domain.geometry.ray import Ray
+from mtr_operator.domain.ports import CarEvent, LockState
+from mtr_operator.domain.results.course import ALLOWED, CLOSED, EXPECTED, HELD, UNWATCHED, WATCHED
+from mtr_operator.domain.results.journal import FURTHER, LINE, LINE_BEGUN, LINE_RESUMED, POINT
+from mtr_operator.domain.results.line_result import LineStatus
+from mtr_operator.domain.robot_status import CarDimensions
+from mtr_operator.storage.recorded.course_file import Entry, Moment
+
+from .locks import ReplayedLocks
+
+
+@dataclass(frozen=True)
+class Point:
+    """One measurement: what it is called, as it was kept, and as it is now. doubt: why it would be invalid now."""
+
+    word: str
+    status: LineStatus
+    distance: Distance | None
+    new_status: LineStatus
+    new_distance: Distance | None
+    doubt: str = ""
+
+
+@dataclass
+class Attempt:
+    """A line from its beginning to its result; values: of the result as it was kept, empty when it came to none."""
+
+    number: int
+    points: list[Point] = field(default_factory=list)
+    values: Mapping[str, Any] = field(default_factory=dict)
+    # After the last point, for a line that was not kept valid.
+    after: Point | None = None
+
+
+class _Watch:
+    """The locks of a line as the test watched them."""
+
+    def __init__(self, history: LockHistory):
+        self.history = history
+        self.expected: Expected | None = None
+        self.doubt = ""
+        self.is_on = True
+
+    def try_to(self, step: Any) -> None:
+        try:
+            step()
+        except LineInvalid as error:
+            self.doubt = self.doubt or str(error)
+
+
+class Points:
+    """Fed with the course of one run after the other; rays: of the lines by their number."""
+
+    def __init__(self, rays: Mapping[int, Ray], car: CarDimensions):
+        self.attempts: list[Attempt] = []
+        self._current: Attempt | None = None
+        self._rays = rays
+        self._car = car
+
+    def follow(self, entries: Iterable[Entry], locks: ReplayedLocks) -> None:
+        """One run."""
+        poses, watch, before = PoseHistory(), None, None
+        for entry in entries:
+            if isinstance(entry, Moment):
+                status = entry.status
+                if before is not None and (before.car_frame.revision != status.car_frame.revision
+                                           or before.robot_session_id != status.robot_session_id):
+                    poses.clear()
+                before = status
+                poses.add(status)
+                for event in locks.take(entry):
+                    if watch is not None and watch.is_on:
+                        self._feed(watch, event)
+            elif entry.kind == WATCHED:
+                watch = _Watch(_history(locks, entry.values))
+            elif entry.kind in (LINE_BEGUN, LINE_RESUMED, FURTHER):
+                self._begin_line(entry.kind, int(entry.values["line"]))
+            elif entry.kind == LINE and self._current is not None:
+                self._end_line(self._current, entry.values["result"], watch, poses)
+            elif watch is not None and before is not None:
+                self._note(entry.kind, entry.values, watch, poses, before.stamp_s)
+
+    def _begin_line(self, kind: str, number: int) -> None:
+        former = next((each for each in reversed(self.attempts) if each.number == number), None)
+        if kind == LINE_BEGUN or former is None:
+            former = Attempt(number)
+            self.attempts.append(former)
+        self._current = former
+
+    @staticmethod
+    def _feed(watch: _Watch, event: CarEvent) -> None:
+        watch.try_to(lambda: watch.history.take(event))
+
+    def _note(self, kind: str, values: Mapping[str, Any], watch: _Watch, poses: PoseHistory, now_s: float) -> None:
+        history = watch.history
+        if kind == HELD:
+            history.hold()
+        elif kind == ALLOWED:
+            history.allow_lock()
+        elif kind == CLOSED:
+            history.close(now_s)
+        elif kind == UNWATCHED:
+            watch.is_on = False
+        elif kind == EXPECTED:
+            watch.expected = expected = _expected(values)
+            watch.try_to(lambda: history.expect(expected))
+        elif kind == POINT and self._current is not None:
+            self._current.points.append(self._point(self._current, values, watch, poses))
+
+    def _end_line(self, attempt: Attempt, result: Mapping[str, Any], watch: _Watch | None, poses: PoseHistory) -> None:
+        attempt.values = result
+        if result.get("reason") and watch is not None and watch.expected is not None:
+            attempt.after = self._now(attempt, watch.expected.what, watch, poses, None)
+
+    def _point(self, attempt: Attempt, values: Mapping[str, Any], watch: _Watch, poses: PoseHistory) -> Point:
+        kept = values["distance"]
+        known: dict[str, Any] = {name: math.nan if value is None else value for name, value in (kept or {}).items()}
+        distance = Distance(**known) if known else None
+        now = self._now(attempt, str(values["word"]), watch, poses, distance)
+        return dataclasses.replace(now, status=LineStatus(values["status"]), distance=distance)
+
+    def _now(self, attempt: Attempt, word: str, watch: _Watch, poses: PoseHistory, kept: Distance | None) -> Point:
+        """What the locks and poses say of the expectation in force."""
+        answer, ray = watch.history.answer, self._rays.get(attempt.number)
+        status = LineStatus.INVALID if watch.doubt else LineStatus.NOT_REACHED if answer is None else LineStatus.OK
+        new, doubt = None, watch.doubt
+        try:
+            if ray is not None:
+                new = self._distance(ray, watch, answer, kept, poses)
+        except PoseUnknown as error:
+            status, doubt = LineStatus.INVALID, doubt or str(error)
+        return Point(word, LineStatus.INVALID, None, status, new, doubt)
+
+    def _distance(self, ray: Ray, watch: _Watch, answer: CarEvent | None, kept: Distance | None,
+                  poses: PoseHistory) -> Distance | None:
+        """By approach the key is where the event finds it; by button or handle it stood there when it was tried."""
+        if watch.expected is not None and math.isinf(watch.expected.until_s):
+            if answer is None or watch.doubt:
+                return None
+            distance = measure(ray, poses.at(answer.time_s), answer.time_sigma_s, outline_sigma(ray, self._car))
+            return dataclasses.replace(distance, source=answer.source)
+        return None if kept is None else measure(ray, poses.at(kept.robot_time_s), 0.0)
+
+
+def _history(locks: ReplayedLocks, values: Mapping[str, Any]) -> LockHistory:
+    state, unlocked_s = locks.watch.lock_state, values.get("unlocked_s")
+    known = LockState(values["state"]) if state is LockState.UNKNOWN else state
+    return LockHistory(known, locks.facts, unlocked_s)
+
+
+def _expected(values: Mapping[str, Any]) -> Expected:
+    known = dict(values)
+    known["state"] = LockState(known["state"])
+    # Infinity has no number in a file.
+    known["until_s"] = math.inf if known.get("until_s") is None else known["until_s"]
+    return Expected(**known)

@@ -1,0 +1,112 @@
+"""A recorded test computed anew, and what differs from its record."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import pathlib
+from dataclasses import dataclass
+from typing import Iterator, Sequence
+
+from mtr_operator.car_link.log.read_log import ReadLog
+from mtr_operator.car_link.profile import CarProfile
+from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.geometry.ray import Ray
+from mtr_operator.domain.results.line_result import LineResult, MeasuredDistance
+from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
+from mtr_operator.storage.recorded.course_file import read_course
+from mtr_operator.storage.recorded.recording import RecordedRun, recorded_runs
+
+from .locks import ReplayedLocks
+from .points import Attempt, Point, Points
+from .results import counted_attempts, results_anew
+
+# What results.csv shows is a tenth of a millimetre.
+SAME_M = 0.0001
+# A zone's presses are on many rays; its field has no distance to compare, only what the Car did.
+_WITHOUT_RAYS = ("zone_map",)
+
+
+class CannotReplay(OperatorError):
+    """What was recorded does not suffice; the text says what is missing."""
+
+
+@dataclass(frozen=True)
+class ReplayedTest:
+    """Attributes:
+        recorded, now: results of the lines, in the same order. attempts: by line, those that are in the record.
+        notices: sentences on what is missing or was used otherwise.
+    """
+
+    recorded: Sequence[LineResult]
+    now: Sequence[LineResult]
+    attempts: dict[int, Attempt]
+    notices: Sequence[str]
+
+    @property
+    def points(self) -> list[tuple[int, Point]]:
+        """All measurements that are in the record, with their lines."""
+        return [(number, point) for number, attempt in self.attempts.items() for point in attempt.points]
+
+    @property
+    def changed_lines(self) -> list[tuple[LineResult, MeasuredDistance, MeasuredDistance]]:
+        """Distances that read otherwise now: the line, as recorded, as now."""
+        return [(old, former, new) for old, now in zip(self.recorded, self.now)
+                for former, new in zip(old.distances, now.distances) if not is_same(former, new)]
+
+    @property
+    def worst_m(self) -> float:
+        """Largest difference of a place or distance that is known both ways."""
+        return max((abs(new - former) for former, new in self._pairs()), default=0.0)
+
+    def _pairs(self) -> Iterator[tuple[float, float]]:
+        for _, point in self.points:
+            if point.distance is not None and point.new_distance is not None:
+                yield point.distance.distance_m, point.new_distance.distance_m
+        for old, now in zip(self.recorded, self.now):
+            for former, new in zip(old.distances, now.distances):
+                if former.distance_m is not None and new.distance_m is not None:
+                    yield former.distance_m, new.distance_m
+
+
+def is_same(former: MeasuredDistance, new: MeasuredDistance) -> bool:
+    """True when a table would show them alike."""
+    if former.status is not new.status:
+        return False
+    pairs = ((former.distance_m, new.distance_m), (former.low_m, new.low_m), (former.high_m, new.high_m))
+    return all((a is None) == (b is None) and (a is None or b is None or abs(a - b) <= SAME_M) for a, b in pairs)
+
+
+def replay(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress, folder: pathlib.Path,
+           profile: CarProfile, *, log: pathlib.Path | None = None) -> ReplayedTest:
+    """The test in a progress file whose recording is in a folder; log: of its only run, instead of the recorded one.
+
+    CannotReplay when too little was recorded, another OperatorError for a file that is damaged.
+    """
+    runs = recorded_runs(folder)
+    if not runs or progress.car is None:
+        raise CannotReplay(f"There is no recording of the test in {folder}; tests of this version and later have one.")
+    if log is not None and len(runs) != 1:
+        raise CannotReplay(f"The test was measured in {len(runs)} runs, each with a log of its own; another log cannot "
+                           "take their place.")
+    lines = scenario.lines(parameters, progress.car)
+    rays: dict[int, Ray] = {} if scenario.name in _WITHOUT_RAYS else {line.number: line.ray for line in lines}
+    points = Points(rays, progress.car)
+    notices: list[str] = []
+    for run in runs:
+        notices += _follow(points, run, profile, log)
+    recorded, now = results_anew(scenario, parameters, progress, points.attempts)
+    missing = [result.number for result in progress.results if result.number not in
+               {attempt.number for attempt in points.attempts}]
+    if missing:
+        notices.append(f"Of {len(missing)} lines nothing was recorded ({', '.join(map(str, missing))}).")
+    return ReplayedTest(recorded, now, counted_attempts(scenario, points.attempts), notices)
+
+
+def _follow(points: Points, run: RecordedRun, profile: CarProfile, log: pathlib.Path | None) -> Iterator[str]:
+    path = log or run.log
+    if path is None:
+        raise CannotReplay(f"No log of the Car's bus belongs to {run.course}; there was no bus, or none was wanted.")
+    read = ReadLog(path)
+    points.follow(read_course(run.course), ReplayedLocks(profile, read))
+    if read.notice:
+        yield read.notice

@@ -1,0 +1,76 @@
+"""What is recorded with each run of a test, beside its progress file: the log of the Car's bus, and the course."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import pathlib
+import shutil
+from typing import Iterator, NamedTuple
+
+from mtr_operator.domain.ports import CarLink
+from mtr_operator.domain.results.course import Course
+
+from .course_file import CourseFile
+
+DEFAULT_FORMAT = "blf"
+NO_LOG = "none"
+_FOLDER = "recording"
+_RECORD = "progress"
+_COURSE, _BUS = "course", "bus"
+
+
+class RecordedRun(NamedTuple):
+    """Files of one run; log: None where there was no bus to log."""
+
+    course: pathlib.Path
+    log: pathlib.Path | None
+
+
+def recording_folder(path: pathlib.Path) -> pathlib.Path:
+    """Folder of the recording of the test with this progress file."""
+    return path.with_name(_FOLDER if path.stem == _RECORD else f"{path.stem}.{_FOLDER}")
+
+
+def recorded_runs(folder: pathlib.Path) -> list[RecordedRun]:
+    """What a folder holds, run by run in their order."""
+    return [RecordedRun(course, next(folder.glob(course.stem.replace(_COURSE, _BUS) + ".*"), None))
+            for course in sorted(folder.glob(f"{_COURSE}_*.jsonl"))]
+
+
+class Recording:
+    """Of one run; begins with begin(). log_format: a kind of log, or NO_LOG for the course alone."""
+
+    def __init__(self, path: pathlib.Path, log_format: str = DEFAULT_FORMAT):
+        self._folder = recording_folder(path)
+        self._format = log_format
+        self._car: CarLink | None = None
+        self._course: CourseFile | None = None
+        self._made: list[pathlib.Path] = []
+
+    def begin(self, car: CarLink) -> Course:
+        """Log the bus of a Car from now on; where the course is to be kept. OutputError when a log cannot be begun."""
+        number = 1 + len(recorded_runs(self._folder))
+        self._course = CourseFile(self._folder / f"{_COURSE}_{number:03d}.jsonl")
+        if self._format != NO_LOG:
+            log = self._folder / f"{_BUS}_{number:03d}.{self._format}"
+            car.log_to(log)
+            self._made.append(log)
+        self._car = car
+        self._made.append(self._course.path)
+        return self._course
+
+    def end(self) -> Iterator[str]:
+        """End it; sentences on what is missing."""
+        if self._car is not None:
+            yield self._car.log_problem
+            self._car.log_to(None)
+        if self._course is not None:
+            self._course.close()
+            yield self._course.problem
+        self._car = self._course = None
+
+    def discard(self) -> None:
+        """Of a run of a test that has measured nothing."""
+        for path in self._made:
+            path.unlink(missing_ok=True)
+        if self._folder.is_dir() and not any(self._folder.iterdir()):
+            shutil.rmtree(self._folder, ignore_errors=True)

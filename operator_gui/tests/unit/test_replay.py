@@ -1,0 +1,276 @@
+"""A test is recorded with the whole bus, and its distances follow anew from log, poses and profile."""
+# SPDX-License-Identifier: Apache-2.0
+import json
+import pathlib
+import shutil
+
+import can
+import pytest
+
+from mtr_operator.car_link.can_frame import CanFrame
+from mtr_operator.car_link.log.bus_log import BusLog
+from mtr_operator.car_link.log.log_car import LogCarLink
+from mtr_operator.car_link.log.read_log import ReadLog
+from mtr_operator.car_link.profile import PROFILE_FOLDER
+from mtr_operator.car_link.spoken_car import SpokenCar
+from mtr_operator.cli import main
+from mtr_operator.domain.actions.control_loop import ControlLoop
+from mtr_operator.domain.errors import ConnectionFailed, OutputError, ProgressFileError
+from mtr_operator.domain.ports import BusMark, LockState
+from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.results.session_record import now, session_record
+from mtr_operator.domain.robot_status import RobotStatus
+from mtr_operator.domain.runner import Runner
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.robot_link.fake import FakeRobotLink
+from mtr_operator.storage.progress_file import save_progress
+from mtr_operator.storage.recorded.course_file import CourseFile, Moment, Note, read_course
+from mtr_operator.storage.recorded.recording import Recording, recorded_runs
+
+AUTOLOCK = {"passes": 1, "measurements_distance_m": 5.0, "self_check": False, "maximum_distance_m": 3.5}
+KEY_PRESS = {"angle_between_radials_deg": 180.0, "self_check": False, "method": "scan", "maximum_distance_m": 9.0,
+             "approach_distance_m": 1.0}
+
+
+SLOWER = "cycle_time_s: 0.02", "cycle_time_s: 0.2"
+
+
+def measured(folder, name, parameters):
+    """A whole test of a Car that speaks on its bus, with its recording in the folder."""
+    scenario = SCENARIOS[name]
+    chosen = scenario.parameters_type.from_mapping({**scenario.parameters_type.proposed(), **parameters})
+    # A tenth of the frames of the demo car.
+    slow = profile(folder)
+    progress = Progress(name, chosen.to_mapping(), session_record(now(), "substitute", slow))
+    spoken = SpokenCar(FakeRobotLink(1), f"{folder}", profile=slow)
+    recording = Recording(folder / "progress.json")
+    spoken.connect()
+    spoken.car.connect()
+    try:
+        loop = ControlLoop(spoken, spoken.car)
+        loop.course = recording.begin(spoken.car)
+        Runner(scenario, chosen, loop, progress, lambda _: None).run()
+    finally:
+        problems = [problem for problem in recording.end() if problem]
+        spoken.car.close()
+        spoken.close()
+    assert problems == []
+    save_progress(folder / "progress.json", progress)
+    return progress
+
+
+@pytest.fixture(name="autolock", scope="module")
+def autolock_fixture(tmp_path_factory):
+    """Folder with a recorded Autolock."""
+    folder = tmp_path_factory.mktemp("autolock")
+    measured(folder, "autolock", AUTOLOCK)
+    return folder
+
+
+def replayed(folder, capsys, *options):
+    """Exit code and document of a replay."""
+    capsys.readouterr()
+    code = main(["replay", str(folder), "--json", *options])
+    return code, json.loads(capsys.readouterr().out)
+
+
+def profile(folder, **changes):
+    """The demo car's profile with changes; None leaves an entry out."""
+    text = (PROFILE_FOLDER / "mtr_demo_car.yaml").read_text().replace(*SLOWER)
+    for old, new in changes.values():
+        assert old in text
+        text = text.replace(old, new)
+    path = folder / "mended.yaml"
+    path.write_text(text)
+    shutil.copy(PROFILE_FOLDER / "mtr_demo_car.dbc", folder)
+    return str(path)
+
+
+def test_replay_of_a_test_gives_the_same_distances(autolock, capsys):
+    code, document = replayed(autolock, capsys)
+    assert code == 0 and document["is_unchanged"]
+    assert document["worst_m"] <= 1e-6
+    distances = [each for line in document["lines"] for each in line["distances"]]
+    assert len(distances) >= 16 and sum(each["now"]["distance_m"] is not None for each in distances) >= 14
+
+
+def test_replay_says_in_words_that_nothing_changes(autolock, capsys):
+    assert main(["replay", str(autolock / "progress.json")]) == 0
+    assert "are as in the record; the largest difference is 0.000 mm" in capsys.readouterr().out
+
+
+def test_profile_with_another_cycle_moves_the_distances(autolock, capsys, tmp_path):
+    told = profile(tmp_path, sent=("sent_on_change: false", "sent_on_change: true"))
+    code, document = replayed(autolock, capsys, "--car-profile", told)
+    assert code == 3
+    # A change is placed at its frame instead of half a cycle before it: 100 ms at up to 1 m/s.
+    assert 0.01 < document["worst_m"] < 0.15
+
+
+def test_profile_that_lists_no_such_cause_makes_the_lines_invalid(autolock, capsys, tmp_path):
+    told = profile(tmp_path, cause=("  1: passive_entry", "  3: passive_entry"))
+    code, document = replayed(autolock, capsys, "--car-profile", told)
+    assert code == 3
+    assert {each["now"]["status"] for line in document["lines"] for each in line["distances"]} == {"invalid"}
+
+
+def test_log_of_another_bus_has_no_reaction_in_it(autolock, capsys, tmp_path):
+    other = tmp_path / "other.asc"
+    log = BusLog(other)
+    for index in range(200):
+        log.frame(CanFrame(0x123, False, bytes(8), 0.02 * index), 0.02 * index)
+    log.close()
+    code, document = replayed(autolock, capsys, "--can-log", str(other))
+    assert code == 3 and not any(each["now"]["distance_m"] for line in document["lines"] for each in line["distances"])
+
+
+def test_scan_of_key_presses_is_replayed(tmp_path, capsys):
+    measured(tmp_path, "key_press", KEY_PRESS)
+    code, document = replayed(tmp_path, capsys)
+    assert code == 0 and document["worst_m"] <= 1e-6
+    assert all(line["distances"][0]["now"]["status"] == "ok" for line in document["lines"])
+
+
+def test_test_without_a_recording_says_so(tmp_path, capsys, autolock):
+    shutil.copy(autolock / "progress.json", tmp_path)
+    assert main(["replay", str(tmp_path)]) == 2
+    assert "There is no recording of the test" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("suffix", ["blf", "asc", "trc"])
+def test_log_of_each_kind_is_read_as_it_was_written(tmp_path, suffix):
+    path = tmp_path / f"bus.{suffix}"
+    log, frames = BusLog(path), []
+    for index in range(2000):
+        frame = CanFrame(0x100 + index % 7, False, bytes([index % 256]) * (index % 9), 5.0 + 0.001 * index)
+        log.frame(frame, frame.arrival_s)
+        frames.append((frame.can_id, frame.data))
+    log.close()
+    read = list(ReadLog(path))
+    assert [(frame.can_id, frame.data) for frame in read] == frames
+    assert (log.frames, log.origin_s, log.problem) == (2000, 5.0, "")
+    assert [frame.time_s - read[0].time_s for frame in read] == pytest.approx(
+        [0.001 * index for index in range(2000)], abs=1e-4)
+
+
+def test_fd_frames_are_kept_as_such(tmp_path):
+    log = BusLog(tmp_path / "bus.blf")
+    log.frame(CanFrame(0x1ABCDEF, True, bytes(range(48)), 1.0, is_fd=True), 1.0)
+    log.error_frame()
+    log.close()
+    frame, = ReadLog(tmp_path / "bus.blf")
+    assert (frame.can_id, frame.is_extended, frame.is_fd, frame.data) == (0x1ABCDEF, True, True, bytes(range(48)))
+
+
+def test_log_that_is_cut_off_is_read_up_to_there_and_says_so(tmp_path):
+    whole = tmp_path / "whole.blf"
+    log = BusLog(whole)
+    for index in range(4000):
+        log.frame(CanFrame(0x100, False, index.to_bytes(8, "big"), 0.001 * index), 0.001 * index)
+    log.close()
+    torn = tmp_path / "torn.blf"
+    torn.write_bytes(whole.read_bytes()[:-2000])
+    read = ReadLog(torn)
+    frames = list(read)
+    assert 0 < len(frames) < 4000
+    assert "is cut off after" in read.notice or "is damaged after" in read.notice
+
+
+@pytest.mark.parametrize(("name", "content", "words"), [
+    ("log.blf", b"not a log at all" * 20, "damaged or of another format"), ("log.txt", b"", "is no CAN log"),
+    ("log.asc", b"date\n", "holds no frame"), ("log.blf", b"", "damaged or of another format")])
+def test_file_that_is_no_log_is_named(tmp_path, name, content, words):
+    path = tmp_path / name
+    path.write_bytes(content)
+    with pytest.raises(ConnectionFailed, match=words):
+        list(ReadLog(path))
+
+
+def test_missing_log_is_named(tmp_path):
+    with pytest.raises(ConnectionFailed, match="none.blf cannot be read"):
+        ReadLog(tmp_path / "none.blf")
+
+
+def test_log_ends_at_its_limit_and_the_test_does_not(tmp_path):
+    log = BusLog(tmp_path / "bus.asc", limit_bytes=50_000)
+    for index in range(4000):
+        log.frame(CanFrame(0x100, False, bytes(8), 0.001 * index), 0.001 * index)
+    log.close()
+    assert "has reached 0 MiB, the limit" in log.problem
+    assert (tmp_path / "bus.asc").stat().st_size < 200_000
+
+
+def test_mf4_needs_a_package_that_is_named(tmp_path):
+    with pytest.raises(OutputError, match="asammdf"):
+        BusLog(tmp_path / "bus.mf4")
+
+
+def test_log_is_played_as_the_car(autolock):
+    run, = recorded_runs(autolock / "recording")
+    car = LogCarLink(run.log, str(autolock / "mended.yaml"))
+    car.connect()
+    events = []
+    for index in range(1, 3000):
+        time_s = 50.0 + 0.1 * index
+        events += car.observe(RobotStatus(index, 1, time_s, sent_s=time_s, steady_s=time_s))
+        if index == 50:
+            assert (car.problem, car.lock_state) == ("", LockState.LOCKED)
+    states = [event.lock_state for event in events]
+    assert len(states) >= 14 and states[0] is LockState.UNLOCKED
+    assert all(first is not second for first, second in zip(states, states[1:]))
+    assert "has come to its end" in car.problem
+    car.close()
+
+
+def test_course_is_read_as_it_was_written(tmp_path):
+    path = tmp_path / "course.jsonl"
+    course = CourseFile(path)
+    status = RobotStatus(3, 7, 1.25, x=0.1, y=-2.0, heading=0.3, pose_valid=True, key_x=0.25)
+    mark = BusMark(5, 6, 1.5, 1.6, 0.5, "KERNEL", 1)
+    course.note("too early", {})
+    course.status(status, mark)
+    course.note("expected", {"state": "locked"})
+    course.status(status, None)
+    course.close()
+    first, note, second = read_course(path)
+    assert isinstance(first, Moment) and (first.status.x, first.status.id, first.mark) == (0.1, 3, mark)
+    assert first.status.pose_valid and note == Note("expected", {"state": "locked"})
+    assert second.mark is None
+
+
+def test_torn_course_is_read_up_to_there_and_a_damaged_one_is_refused(tmp_path, autolock):
+    run, = recorded_runs(autolock / "recording")
+    content = run.course.read_bytes()
+    path = tmp_path / "course.jsonl"
+    path.write_bytes(content[:len(content) // 2])
+    assert 0 < len(list(read_course(path))) < content.count(b"\n")
+    path.write_bytes(content[:200] + b"\n{}\n" + content[200:])
+    with pytest.raises(ProgressFileError, match="damaged in line"):
+        list(read_course(path))
+
+
+def test_disk_that_is_full_ends_the_course_and_no_test(tmp_path):
+    (tmp_path / "file").write_text("")
+    course = CourseFile(tmp_path / "file" / "course.jsonl")
+    course.status(RobotStatus(1, 1, 1.0), None)
+    assert "is not kept" in course.problem
+    course.status(RobotStatus(2, 1, 1.1), None)
+    course.close()
+
+
+def test_run_that_measured_nothing_leaves_no_recording(tmp_path):
+    with can.Bus(interface="virtual", channel="nothing"):
+        spoken = SpokenCar(FakeRobotLink(1), "nothing")
+        spoken.connect()
+        spoken.car.connect()
+        recording = Recording(tmp_path / "progress.json")
+        course = recording.begin(spoken.car)
+        status = spoken.next_status(1.0)
+        spoken.car.observe(status)
+        course.status(status, spoken.car.mark)
+        assert list(recording.end()) == ["", ""]
+        assert len(list((tmp_path / "recording").iterdir())) == 2
+        recording.discard()
+        spoken.car.close()
+        spoken.close()
+    assert list(pathlib.Path(tmp_path).iterdir()) == []
