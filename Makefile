@@ -6,7 +6,7 @@ SHELL := /bin/bash
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations wheels clean \
 	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-gui bench-stalls bench-real-time \
-	bench-truth firmware flash bare-root docs tidy mutants
+	bench-truth bench-results firmware flash bare-root docs tidy mutants
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -154,6 +154,11 @@ bench-truth: setup build ## Lines of both scenarios, one disturbance each, again
 
 bench-kills: setup build ## kill -9 at 1000 random instants of each scenario: nothing lost, doubled or changed; KILLS=1000
 	@$(RUN) python operator_gui/tests/proofs/kills.py --kills $(KILLS) --seed $(SEED) --out out/bench
+
+RESULT_TESTS ?= 10000
+bench-results: setup build ## The store of results with 10,000 tests of 40 lines: import, list, comparison, page; RESULT_TESTS=10000
+	@$(RUN) PYTHONPATH=$$PYTHONPATH:$(CURDIR)/operator_gui/tests/support OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
+		python operator_gui/tests/proofs/results.py --tests $(RESULT_TESTS) --seed $(SEED) --out out/bench
 
 fuzz: setup build ## 10,000 mutated progress files and journals, 100,000 Statuses; figures in out/bench/fuzz.json
 	@mkdir -p out/bench

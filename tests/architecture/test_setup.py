@@ -144,7 +144,9 @@ def test_the_program_is_here_after_the_set_up(program):
 MODULE_PACKAGES = {
     "PyQt5": "python3-pyqt5", "can": "pip:python-can", "cantools": "pip:cantools", "catkin_pkg": "catkin",
     "cosmic_ray": "pip:cosmic-ray", "google": "python3-protobuf", "mujoco": "pip:mujoco",
-    "alembic": "pip:alembic", "duckdb": "pip:duckdb", "sqlalchemy": "pip:sqlalchemy",
+    "alembic": "pip:alembic", "duckdb": "pip:duckdb", "jinja2": "pip:jinja2",
+    "markupsafe": "pip:markupsafe", "sqlalchemy": "pip:sqlalchemy", "starlette": "pip:starlette",
+    "uvicorn": "pip:uvicorn",
     "roscpp": "python3-roscpp-msg", "senpy": "pip:senpy-sensei", "urdf_parser_py": "pip:urdf-parser-py",
     "xacro": "pip:xacro",
 }

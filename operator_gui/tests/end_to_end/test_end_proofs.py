@@ -11,6 +11,19 @@ import pytest
 PROOFS = pathlib.Path(__file__).resolve().parents[1] / "proofs"
 
 
+SUPPORT = PROOFS.parent / "support"
+
+
+def test_short_form_of_the_benchmark_of_results_loses_nothing(tmp_path):
+    command = [sys.executable, PROOFS / "results.py", "--tests", "6", "--lines", "8", "--short", "--out", tmp_path]
+    done = subprocess.run(command, capture_output=True, text=True, check=False,
+                          env={**os.environ, "PYTHONPATH": os.pathsep.join([*sys.path, str(SUPPORT)])})
+    assert done.returncode == 0, done.stdout + done.stderr
+    rows = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))["table"]
+    assert len([row for row in rows if row["must"] == 0]) == 4
+    assert {"SQLite: import", "PostgreSQL: import"} <= {row["name"] for row in rows}
+
+
 @pytest.mark.parametrize(("name", "arguments"), [("kills", ("--kills", "8")),
                                                  ("fuzz", ("--files", "300", "--statuses", "2000"))])
 def test_short_form_of_a_proof_finds_nothing(tmp_path, name, arguments):

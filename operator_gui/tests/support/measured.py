@@ -32,8 +32,9 @@ def searched(number, distance_m, half_m=HALF_M, lines=LINES, **changes):
     values = {"d50_m": distance_m, "d50_sigma_m": half_m / SIGMAS_OF_LEVEL, "d50_low_m": distance_m - half_m,
               "d50_high_m": distance_m + half_m, "worked_at_m": (3.0, 3.5, distance_m - 0.1),
               "failed_at_m": (distance_m + 0.4, distance_m + 0.8), "place_sigma_m": 0.002, **changes}
-    return KeyPressResult(number, 360.0 / lines * (number - 1), LineStatus.OK, distance_m, distance_m + 0.5, 0.01, 5,
-                          1.0, "", method="adaptive", reach="measured", **values)
+    attempts = values.pop("attempts", 5)
+    return KeyPressResult(number, 360.0 / lines * (number - 1), LineStatus.OK, distance_m, distance_m + 0.5, 0.01,
+                          attempts, 1.0, "", method="adaptive", reach="measured", **values)
 
 
 def at_least(number, distance_m, lines=LINES):

@@ -8,11 +8,14 @@ import pathlib
 from ..store.place import ADDRESS_VARIABLE, default_address, default_spool
 from ..store.reading import PAGE
 from ..store.sets import FACTORS
+from ..web.access import PORT
 from .comparing import compare, show_trend, spread
 from .exporting import export, query
 from .importing import import_tests, upgrade
 from .listing import list_tests, show_test
 from .meant import FILTERS
+from .reporting import report
+from .serving import serve
 
 
 def parser() -> argparse.ArgumentParser:
@@ -23,6 +26,8 @@ def parser() -> argparse.ArgumentParser:
     _importing(commands)
     _listing(commands)
     _comparing(commands)
+    _reporting(commands)
+    _serving(commands)
     _exporting(commands)
     return made
 
@@ -74,6 +79,27 @@ def _factors(text: str) -> str:
     if unknown:
         raise argparse.ArgumentTypeError(f"{unknown[0]} is no factor; there are {', '.join(FACTORS)}.")
     return text
+
+
+def _reporting(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    command = commands.add_parser("report", parents=[_of_store()],
+                                  help="a test, or two sets beside each other, as one HTML file")
+    command.add_argument("first", help="a test; with a second one also a set, as for compare")
+    command.add_argument("second", nargs="?", default=None, help="what it is compared with")
+    command.add_argument("--out", type=pathlib.Path, default=pathlib.Path("report.html"), help="default %(default)s")
+    command.set_defaults(run=report)
+
+
+def _serving(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    command = commands.add_parser("serve", parents=[_of_store()], help="the store in a browser")
+    command.add_argument("--host", default="127.0.0.1",
+                         help="where it listens; beyond this computer only with a token over TLS; default %(default)s")
+    command.add_argument("--port", type=int, default=PORT, help="0 for any that is free; default %(default)s")
+    command.add_argument("--token-file", type=pathlib.Path, default=None, help="file with the token of those who read")
+    command.add_argument("--certificate", type=pathlib.Path, default=None, help="of TLS, PEM")
+    command.add_argument("--key", type=pathlib.Path, default=None, help="likewise")
+    command.add_argument("--behind-proxy", action="store_true", help="a proxy in front does TLS")
+    command.set_defaults(run=serve)
 
 
 def _exporting(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -1,0 +1,30 @@
+"""The command that shows the store in a browser."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import argparse
+import dataclasses
+
+from mtr_operator.cli.exit_codes import EXIT_PASS
+
+from .meant import place_of
+from .output import print_json
+
+
+def serve(options: argparse.Namespace) -> int:
+    """Serve until Ctrl-C."""
+    from ..web.access import Access
+    from ..web.pages import Pages
+    from ..web.server import make_server
+    place = place_of(options)
+    access = Access(options.host, options.port, options.token_file, options.certificate, options.key,
+                    options.behind_proxy)
+    server, listening = make_server(Pages(place.open(), place.kept_files()), access)
+    # With port 0 the system chooses.
+    address = dataclasses.replace(access, port=listening.getsockname()[1]).address
+    if options.json:
+        print_json({"address": address})
+    else:
+        print(f"The store is at {address} (Ctrl-C ends)", flush=True)
+    server.run(sockets=[listening])
+    return EXIT_PASS

@@ -1,0 +1,100 @@
+"""HTML of one test and of a comparison: the same for a file and for the browser, whole in itself."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import functools
+import math
+import pathlib
+from typing import Any, Mapping, Sequence
+
+import jinja2
+import markupsafe
+
+from mtr_operator.history.circumstances import circumstances
+from mtr_operator.history.line_pairs import Side
+from mtr_operator.report.table import line_name
+
+from ..statistics.comparison import compare_sets
+from ..statistics.documents import row_document
+from ..statistics.texts import MEANING, interval_text, row_texts
+from .figure_texts import figure_text
+from .pictures import around_car, difference_picture, overlay_picture
+
+_TEMPLATES = pathlib.Path(__file__).parent / "templates"
+_FACTS = {"test_key": "key of the test", "started": "started", "campaign": "campaign", "model": "Car's model",
+          "vin": "Car's VIN", "car_software": "Car's software", "car_profile": "Car's profile",
+          "key_serial": "key's serial number", "key_type": "key's type", "key_battery_v": "key's battery, V",
+          "operator": "operator", "place": "place", "weather": "weather", "robot": "robot", "software": "software",
+          "robot_software": "robot's software", "notes": "notes"}
+Row = Mapping[str, Any]
+
+
+@functools.lru_cache(maxsize=1)
+def _environment() -> jinja2.Environment:
+    return jinja2.Environment(loader=jinja2.FileSystemLoader(_TEMPLATES), autoescape=True, trim_blocks=True,
+                              undefined=jinja2.StrictUndefined)
+
+
+@functools.lru_cache(maxsize=1)
+def _style() -> str:
+    return (_TEMPLATES / "style.css").read_text(encoding="utf-8")
+
+
+def render(template: str, title: str, served: bool = False, **values: Any) -> str:
+    """A page by its template. served: it is in the browser, with links to others; else it stands alone."""
+    # The style is the project's own text, and goes in as it is.
+    return _environment().get_template(template).render(title=title, served=served,
+                                                        style=markupsafe.Markup(_style()), **values)
+
+
+def page_of_test(test: Row, parts: Mapping[str, Sequence[Row]], side: Side, served: bool = False,
+              kept: frozenset[str] = frozenset()) -> str:
+    """Page of one test. kept: check sums of files that can be had."""
+    names = {result.number: line_name(side.scenario, result) for result in side.progress.results}
+    reasons = {line["number"]: line["reason"] for line in parts["lines"]}
+    distances = [{"name": names[row["line"]], "word": row["word"], "text": figure_text(row), "status": row["status"],
+                  "interval": _interval(row), "expanded": _metres(row["expanded_m"]),
+                  "reason": reasons[row["line"]]} for row in parts["measurements"] if row["is_current"]]
+    facts = [(title, test[name]) for name, title in _FACTS.items() if test[name] not in ("", None)]
+    facts += [("equipment", " ".join(filter(None, (each["name"], each["serial"], each["calibrated"]))))
+              for each in test["equipment"]]
+    verdicts = [{**row, "name": names.get(row["line"], f"line {row['line']}")} for row in parts["verdicts"]
+                if row["line"]]
+    trials = [{**row, "place": _place(row)} for row in parts["trials"]]
+    files = [{**file, "is_kept": file["sha256"] in kept} for file in parts["files"]]
+    title = f"Test {test['id']}: {side.scenario.title}, {test['started'].replace('T', ' ')[:16]}"
+    return render("test.html", title, served, test=test, picture=around_car(side), line_word=side.scenario.line_word,
+                  distances=distances, verdicts=verdicts, facts=facts,
+                  trials=trials, files=files)
+
+
+def page_of_comparison(first: Sequence[Side], second: Sequence[Side], texts: tuple[str, str],
+                       served: bool = False) -> str:
+    """Page of two sets. texts: how a person named them."""
+    comparison = compare_sets(first, second)
+    pictures = [{"word": word, "overlay": overlay_picture(comparison, word),
+                 "differences": difference_picture(comparison, word)} for word in comparison.tests.words]
+    # Of sets, tests differ among themselves.
+    differs = circumstances(first[0], second[0]) if len(first) == len(second) == 1 else []
+    described = [f"{text} ({len(side)} tests)" if len(side) > 1 else f"test {text}"
+                 for text, side in zip(texts, (first, second))]
+    title = f"{comparison.tests.first.scenario.title}: {described[0]} and {described[1]}"
+    return render("comparison.html", title, served, comparison=comparison, first=described[0], second=described[1],
+                  first_text=texts[0], second_text=texts[1], pictures=pictures, meaning=MEANING, differs=differs,
+                  rows=[(row_document(row), row_texts(row)) for row in comparison.rows],
+                  alone=[(1, comparison.only_first), (2, comparison.only_second)])
+
+
+def _interval(row: Row) -> str:
+    low_m, high_m = (math.nan if row[end] is None else float(row[end]) for end in ("low_m", "high_m"))
+    return interval_text(low_m, high_m) if row["has_interval"] else ""
+
+
+def _metres(value: float | None) -> str:
+    return "" if value is None else f"{value:.2f}"
+
+
+def _place(row: Row) -> str:
+    if row["distance_m"] is not None:
+        return f"{row['distance_m']:.3f}"
+    return "" if row["x_m"] is None else f"({row['x_m']:.3f}, {row['y_m']:.3f})"

@@ -1,0 +1,149 @@
+"""The pictures of pages: one test around its Car, two sets over each other, differences, and a distance over time."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from typing import Sequence
+
+from mtr_operator.domain.results.picture import PointSet, Stretch
+from mtr_operator.domain.robot_status import CarDimensions
+from mtr_operator.history.line_pairs import Side
+from mtr_operator.report.figures import SIGNS, filled
+
+from ..statistics.comparison import DISTANCE, FARTHER, NEARER, Comparison, Row
+from ..statistics.estimate import Estimate
+from ..statistics.texts import estimate_text, interval_text
+from ..statistics.trend import Trend
+from .drawing import Drawing, Point
+
+# A label stands so far beyond the end of its line, in m.
+_LABEL_M = 0.35
+_SIDES = ("first", "second")
+_KINDS = {FARTHER: "farther", NEARER: "nearer"}
+
+
+def around_car(side: Side) -> str:
+    """What the protocol of a test shows, the Car's front on top; empty before the Car was mapped."""
+    if side.progress.car is None:
+        return ""
+    picture = side.scenario.picture(side.parameters, side.progress.car, side.progress.results)
+    drawing = Drawing(f"{side.scenario.title}: points around the Car")
+    _draw_car(drawing, side.progress.car)
+    for stretch in picture.stretches:
+        _draw_stretch(drawing, stretch)
+    for point_set in picture.point_sets:
+        _draw_set(drawing, point_set)
+    return drawing.svg()
+
+
+
+
+def _up(point: Point) -> Point:
+    """The Car coordinate system has x to the front; on the page the front is up, and left is left."""
+    return -point[1], point[0]
+
+
+def _draw_car(drawing: Drawing, car: CarDimensions) -> None:
+    half_x, half_y = car.length / 2.0, car.width / 2.0
+    corners = [(half_x, half_y), (half_x, -half_y), (-half_x, -half_y), (-half_x, half_y)]
+    drawing.line([_up(corner) for corner in corners], "car", is_closed=True, title="Car")
+    drawing.line([_up(point) for point in ((half_x * 0.6, half_y), (half_x, 0.0), (half_x * 0.6, -half_y))], "car")
+
+
+def _draw_stretch(drawing: Drawing, stretch: Stretch) -> None:
+    drawing.line([_up(stretch.start), _up(stretch.end)], "stretch", title=stretch.label)
+    (x, y), (start_x, start_y) = _up(stretch.end), _up(stretch.start)
+    away = math.hypot(x - start_x, y - start_y) or 1.0
+    drawing.text((x + _LABEL_M * (x - start_x) / away, y + _LABEL_M * (y - start_y) / away), stretch.label)
+
+
+def _draw_set(drawing: Drawing, points: PointSet) -> None:
+    role = points.role.value.replace(" ", "-")
+    if points.is_outline:
+        for start, end, is_sure in points.pieces():
+            drawing.line([_up(start), _up(end)], f"outline {role}" if is_sure else f"outline {role} unsure")
+    for pair in (*points.intervals, *points.bars, *points.brackets):
+        drawing.line([_up(pair[0]), _up(pair[1])], f"interval {role}")
+    figures = points.figures or (None,) * len(points.points)
+    for point, figure in zip(points.points, figures):
+        if point is not None:
+            said = "" if figure is None else filled(SIGNS[figure.kind], figure)
+            drawing.dot(_up(point), f"point {role}", f"{points.label}: {said}".rstrip(": "))
+
+
+def overlay_picture(comparison: Comparison, word: str) -> str:
+    """Both sets around the Car: intervals along each line, an outline through what has a value."""
+    first = comparison.tests.first
+    lines = {line.number: line for line in first.scenario.lines(first.parameters, first.progress.measured_car)}
+    drawing = Drawing(f"{word}: both sides around the Car")
+    _draw_car(drawing, first.progress.measured_car)
+    rows = [row for row in comparison.rows if row.quantity == DISTANCE and row.word == word and row.line is not None]
+    for name in _SIDES:
+        known = []
+        for row in rows:
+            ray, found = lines[row.line or 0].ray, getattr(row, name)
+            ends = _shown_ends(found)
+            if ends is not None:
+                drawing.line([_up(ray.point(end)) for end in ends], f"interval {name}", title=_titled(row, name))
+            if found.value is not None:
+                known.append(_up(ray.point(found.value)))
+                drawing.dot(known[-1], f"point {name}", _titled(row, name))
+        if len(known) == len(rows) > 2:
+            drawing.line(known, f"outline {name}", is_closed=True)
+    for row in rows:
+        if row.is_different:
+            known_m = [end for name in _SIDES for end in (_shown_ends(getattr(row, name)) or ())]
+            drawing.text(_up(lines[row.line or 0].ray.point(max(known_m, default=0.0) + _LABEL_M)), "*", "star")
+    return drawing.svg()
+
+
+def _shown_ends(found: Estimate) -> tuple[float, float] | None:
+    """Of an interval, as far as it is known; an open one ends where its known end is."""
+    ends = [end for end in (found.low, found.high) if math.isfinite(end)]
+    return (min(ends), max(ends)) if ends else None
+
+
+def _titled(row: Row, name: str) -> str:
+    found = getattr(row, name)
+    return f"{row.name}, {name}: {estimate_text(found)} m, 95 % {interval_text(found.low, found.high) or 'unknown'}"
+
+
+def difference_picture(comparison: Comparison, word: str) -> str:
+    """The difference of each line with its interval, zero drawn through; an open end goes to the edge."""
+    rows = [row for row in comparison.rows if row.quantity == DISTANCE and row.word == word and not row.change.reason]
+    ends = [end for row in rows for end in (row.change.low, row.change.high) if math.isfinite(end)]
+    edge = 1.1 * max((abs(end) for end in ends), default=1.0) or 1.0
+    drawing = Drawing(f"{word}: second less first, with 95 % intervals", is_stretched=True)
+    drawing.line([(-0.5, 0.0), (max(len(rows), 1) - 0.5, 0.0)], "axis")
+    for height in (-edge, edge):
+        drawing.text((-0.9, height), f"{height:+.2f} m")
+    for index, row in enumerate(rows):
+        kind = f"{'different ' if row.is_different else ''}{_KINDS.get(row.verdict, 'same')}"
+        low, high = (min(max(end, -edge), edge) for end in (row.change.low, row.change.high))
+        title = f"{row.name}: {row.verdict}"
+        drawing.line([(index, low), (index, high)], f"interval {kind}", title=title)
+        if row.change.value is not None:
+            drawing.dot((index, row.change.value), f"point {kind}", title)
+        drawing.text((index, -edge), str(row.line), "label small")
+    return drawing.svg()
+
+
+def trend_picture(trend: Trend, names: Sequence[str]) -> str:
+    """A distance in tests in the order of time, with control limits. names: of the tests."""
+    drawing = Drawing("Distance over time with control limits", is_stretched=True)
+    last = max(len(trend.points) - 1, 1)
+    for height, kind in ((trend.centre, "axis"), (trend.low, "limit"), (trend.high, "limit")):
+        if math.isfinite(height):
+            drawing.line([(0.0, height), (float(last), height)], kind)
+            drawing.text((float(last), height), f"{height:.2f} m")
+    for index, (point, name) in enumerate(zip(trend.points, names)):
+        known = point.known
+        if known is None:
+            continue
+        kind = "different" if point.is_beyond else "same"
+        ends = [end for end in (known.ends or (known.low, known.high)) if math.isfinite(end)]
+        if ends:
+            drawing.line([(index, min(ends)), (index, max(ends))], f"interval {kind}", title=name)
+        if known.value is not None:
+            drawing.dot((index, known.value), f"point {kind}", f"{name}: {known.value:.2f} m")
+    return drawing.svg()

@@ -1,0 +1,2 @@
+"""The store in a browser."""
+# SPDX-License-Identifier: Apache-2.0

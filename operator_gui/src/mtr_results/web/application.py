@@ -1,0 +1,87 @@
+"""The pages over HTTP: addresses, errors as pages, and who may read."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import hmac
+import mimetypes
+from typing import Callable
+
+from starlette.applications import Starlette
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
+from starlette.routing import Route
+
+from mtr_operator.domain.errors import OperatorError
+
+from ..errors import StoreAway
+from ..report.pages import render
+from .pages import Pages
+
+COOKIE = "mtr_results"
+# Pages hold their pictures and style, and nothing from elsewhere; a file of a test is never shown as one.
+HEADERS = {"Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; form-action 'self'; "
+                                      "base-uri 'none'; frame-ancestors 'none'",
+           "X-Content-Type-Options": "nosniff", "Referrer-Policy": "same-origin", "Cache-Control": "no-store"}
+Answer = Callable[[Request], Response]
+
+
+def application(pages: Pages, token: str = "", hosts: frozenset[str] = frozenset()) -> Starlette:
+    """Answers requests. token: who reads has to know it, empty for everybody who reaches the server. hosts: names under
+    which a browser may ask, empty for any: a page from elsewhere that calls itself this computer is refused."""
+
+    def route(path: str, answer: Answer) -> Route:
+        async def endpoint(request: Request) -> Response:
+            refused = _refusal(request, token, hosts)
+            response = refused or await run_in_threadpool(_answered, answer, request)
+            response.headers.update(HEADERS)
+            return response
+        return Route(path, endpoint, methods=["GET"])
+
+    return Starlette(routes=[
+        route("/", lambda request: HTMLResponse(pages.tests(request.query_params))),
+        route("/compare", lambda request: HTMLResponse(pages.comparison(request.query_params))),
+        route("/trend", lambda request: HTMLResponse(pages.trend(request.query_params))),
+        route("/report/compare.html", lambda request: _download(
+            pages.comparison(request.query_params, served=False).encode(), "comparison.html")),
+        route("/report/{number:int}.html", lambda request: _download(
+            pages.test(request.path_params["number"], served=False).encode(),
+            f"test_{request.path_params['number']}.html")),
+        route("/tests/{number:int}", lambda request: HTMLResponse(pages.test(request.path_params["number"]))),
+        route("/tests/{number:int}.json", lambda request: JSONResponse(
+            pages.test_document(request.path_params["number"]))),
+        route("/tests/{number:int}/files/{name:path}", lambda request: _download(
+            pages.file(request.path_params["number"], request.path_params["name"]), request.path_params["name"]))])
+
+
+def _answered(answer: Answer, request: Request) -> Response:
+    try:
+        return answer(request)
+    except OperatorError as error:
+        status = 503 if isinstance(error, StoreAway) else 404
+        return HTMLResponse(render("problem.html", "Not possible", True, sentence=str(error)), status)
+
+
+def _refusal(request: Request, token: str, hosts: frozenset[str]) -> Response | None:
+    host = request.headers.get("host", "").rpartition(":")[0] or request.headers.get("host", "")
+    if hosts and host not in hosts:
+        return HTMLResponse(render("problem.html", "Refused", sentence=f"This server is not {host}."), 421)
+    if not token or _is_same(request.cookies.get(COOKIE, ""), token):
+        return None
+    if _is_same(request.query_params.get("token", ""), token):
+        # The token stays in no address that is sent on.
+        response = RedirectResponse(request.url.path, 303)
+        response.set_cookie(COOKIE, token, httponly=True, samesite="strict", secure=request.url.scheme == "https")
+        return response
+    sentence = "Open this page once with ?token= and the token of this server behind its address."
+    return HTMLResponse(render("problem.html", "Who are you?", sentence=sentence), 401)
+
+
+def _is_same(given: str, token: str) -> bool:
+    return hmac.compare_digest(given.encode(), token.encode())
+
+
+def _download(content: bytes, name: str) -> Response:
+    kind = mimetypes.guess_type(name)[0] or "application/octet-stream"
+    plain = name.rpartition("/")[2].encode("ascii", "replace").decode().replace('"', "_").replace("?", "_")
+    return Response(content, media_type=kind, headers={"Content-Disposition": f'attachment; filename="{plain}"'})
