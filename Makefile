@@ -6,7 +6,7 @@ SHELL := /bin/bash
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations wheels clean \
 	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-gui bench-stalls bench-real-time \
-	bench-truth bench-results firmware flash bare-root docs tidy mutants
+	bench-truth bench-results bench-faults firmware flash bare-root docs tidy mutants
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -142,6 +142,9 @@ bench-range: setup build ## Ranges of both scenarios on Cars that fade, lapse an
 bench-gui: setup build ## The Operator's window: Stop, pictures, processor, memory, start; figures in out/bench/gui.json
 	@$(RUN) xvfb-run -a -s "-screen 0 1440x1000x24 -nolisten tcp" env QT_QPA_PLATFORM=xcb \
 		python -m mtr_benchmarks.gui --out out/bench
+
+bench-faults: setup build ## The matrix of states and faults on the simulated robot; figures in out/bench/faults.json
+	@$(RUN) python -m mtr_benchmarks.faults --seed $(SEED) --out out/bench
 
 bench-stalls: setup build ## Each node stopped and the clock set while the robot drives; figures in out/bench/liveness.json
 	@$(RUN) python -m mtr_benchmarks.liveness --out out/bench

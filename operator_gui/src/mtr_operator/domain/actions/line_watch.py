@@ -19,7 +19,7 @@ from .trouble import LineInvalid
 # What was measured so shortly before a trouble was told is doubtful too: a Status is late by some tenths of a second.
 _TOLD_LATE_S = 1.0
 # What a line may not have been disturbed by, by the robot's counters.
-_INTERVENTIONS = {
+INTERVENTIONS = {
     "manual_drives": "The robot was driven by hand during the measurement.",
     "manual_lifts": "The Remote key was moved by hand during the measurement.",
     "replans": "The robot planned its path anew during the measurement.",
@@ -123,7 +123,7 @@ class LineWatch:
         return events[known + 1:]
 
     def _check_interventions(self, status: RobotStatus) -> None:
-        for name, sentence in _INTERVENTIONS.items():
+        for name, sentence in INTERVENTIONS.items():
             if getattr(status.interventions, name) != getattr(self._before, name):
                 raise LineInvalid(sentence, since_s=status.stamp_s - _TOLD_LATE_S)
 

@@ -1,0 +1,67 @@
+"""Runs the matrix of states and faults on the simulated robot; figures go to faults.json.
+
+Usage: python -m mtr_benchmarks.faults --out out/bench
+       python -m mtr_benchmarks.faults --table     the rows for docs/faults.md
+"""
+# SPDX-License-Identifier: Apache-2.0
+import argparse
+import pathlib
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict
+from multiprocessing import get_context
+from typing import Dict, List, Optional
+
+from ..harness.report import BenchmarkReport, finish
+from ..harness.rows import Requirement, Row
+from .campaign import Found, one_robot
+from .matrix import read_matrix, table
+
+FAILED = Requirement("cells of the matrix that do something else than it says", "(count)", must=0.0)
+STANDSTILL = Requirement("longest time from a fault to standstill, where the robot drove and must stand", "s", must=1.0)
+NOTICE = Requirement("longest time from a fault to the Operator's sentence, where there must be one", "s", must=1.0)
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    """Run all cells; the exit status says whether each did what the matrix says."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
+    parser.add_argument("--short", action="store_true", help="only the cells that are part of `make test`")
+    parser.add_argument("--table", action="store_true", help="print the matrix for docs/faults.md and run nothing")
+    parser.add_argument("--seed", type=int, default=1, help="of the simulation")
+    options = parser.parse_args(arguments)
+    matrix = read_matrix()
+    if options.table:
+        print("\n".join(table(matrix)))
+        return 0
+    left = [cell for state in matrix.states for cell in matrix.of(state, options.short)]
+    found: List[Found] = []
+    while left:
+        # A process is one node of one ROS graph only.
+        with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
+            ran = process.submit(one_robot, left, options.out / "faults" / str(len(found)), options.seed).result()
+        found += ran
+        left = left[len(ran):]
+    return finish(report(found), options.out / "faults.json")
+
+
+def report(found: List[Found]) -> BenchmarkReport:
+    """Figures and table."""
+    failed = [each for each in found if each.wrong]
+    stood = [each.outcome.stood_s for each in found if each.outcome and each.outcome.stood_s is not None
+             and each.cell.expected.stands_s is not None]
+    told = [each.outcome.told_s[each.cell.expected.told] for each in found
+            if each.outcome and each.cell.expected.told in each.outcome.told_s]
+    rows = [Row(FAILED, len(failed), remark=f"{len(found)} cells"),
+            Row(STANDSTILL, max(stood, default=0.0)), Row(NOTICE, max(told, default=0.0))]
+    return BenchmarkReport(rows, {"cells": [_figures(each) for each in found]},
+                           [f"{each.cell.name}: {'; '.join(each.wrong)}" for each in failed])
+
+
+def _figures(found: Found) -> Dict[str, object]:
+    return {"cell": found.cell.name, "wrong": found.wrong,
+            "seen": None if found.outcome is None else asdict(found.outcome)}
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,36 @@
+"""Cells of the matrix one after the other on one robot, in a process of its own."""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+from typing import List, NamedTuple, Optional
+
+from .course import Course
+from .judge import Outcome, wrong
+from .matrix import LOST, Cell
+from .robot import FaultyRobot, FaultyRobotError
+
+
+class Found(NamedTuple):
+    """What one cell did. wrong: what is not as the matrix says."""
+
+    cell: Cell
+    outcome: Optional[Outcome]
+    wrong: List[str]
+
+
+def one_robot(cells: List[Cell], folder: pathlib.Path, seed: int) -> List[Found]:
+    """Cells in their order until one is over from which the robot does not come back, or all are."""
+    ran: List[Found] = []
+    with FaultyRobot(folder, seed) as robot:
+        course = Course(robot)
+        for cell in cells:
+            try:
+                outcome = course.run(cell)
+            except FaultyRobotError as error:
+                # The next robot begins with the cell after it; one that cannot be begun has failed.
+                ran.append(Found(cell, None, [str(error)]))
+                break
+            ran.append(Found(cell, outcome, wrong(cell, outcome)))
+            print(f"{cell.name}: {'; '.join(ran[-1].wrong) or 'as it must be'}", flush=True)
+            if outcome.then == LOST:
+                break
+    return ran

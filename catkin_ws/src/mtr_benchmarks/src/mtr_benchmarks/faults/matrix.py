@@ -1,0 +1,97 @@
+"""The matrix of states and faults: its file, its cells, and the table for docs/faults.md. No ROS inside."""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+from dataclasses import dataclass
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
+
+import yaml
+
+FILE = pathlib.Path(__file__).with_name("matrix.yaml")
+BEGIN, END = "<!-- fault matrix: begin -->", "<!-- fault matrix: end -->"
+HEAD = ("| fault | while | wheels stand in | the Operator reads | within | state then | afterwards | a line at hand |",
+        "|---|---|---|---|---|---|---|---|")
+
+
+@dataclass(frozen=True)
+class Expected:
+    """What a cell must do.
+
+    Attributes:
+        stands_s: longest time from the fault to standstill of the true robot, s; None: it may drive on.
+        told: code of the problem that the Operator reads; empty: none.
+        told_s: longest time until then, s.
+        mode: the robot's state from then on, while the fault lasts.
+        then: `goes on` by itself, `held` until the Operator has it go on, or `lost`: it needs to be put back.
+        record: what makes a line at hand invalid, words of the reason; empty: the line counts; None: there is no line.
+    """
+
+    stands_s: Optional[float]
+    told: str
+    told_s: float
+    mode: str
+    then: str
+    record: Optional[str] = None
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One fault in one state."""
+
+    state: str
+    part: str
+    kind: str
+    for_s: float
+    amount: float
+    is_short: bool
+    expected: Expected
+
+    @property
+    def name(self) -> str:
+        """For a person."""
+        return f"{self.part} {self.kind} while {self.state}"
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """states: words for a person, in the order in which the robot goes through them."""
+
+    states: Mapping[str, str]
+    cells: Tuple[Cell, ...]
+
+    def of(self, state: str, only_short: bool = False) -> List[Cell]:
+        """Cells of a state; those from which the robot does not come back are last."""
+        cells = [cell for cell in self.cells if cell.state == state and (cell.is_short or not only_short)]
+        return sorted(cells, key=lambda cell: cell.expected.then == LOST)
+
+
+GOES_ON, HELD, LOST = "goes on", "held", "lost"
+
+
+def read_matrix(path: pathlib.Path = FILE) -> Matrix:
+    """The matrix in a file; KeyError or TypeError where it does not say all that a cell needs."""
+    document = yaml.safe_load(path.read_text(encoding="utf-8"))
+    return Matrix(document["states"], tuple(cell for row in document["faults"] for cell in _cells(row)))
+
+
+def _cells(row: Dict[str, Any]) -> Iterator[Cell]:
+    part, kind = row["fault"].split()
+    for state, own in row["in"].items():
+        expected = {**row["expect"], **own}
+        is_short = expected.pop("short", False)
+        amount = float(row.get("amount", 0.0))
+        yield Cell(state, part, kind, float(row["for_s"]), amount, is_short, Expected(**expected))
+
+
+def table(matrix: Matrix) -> List[str]:
+    """Rows for docs/faults.md."""
+    return [*HEAD, *(_row(cell) for cell in matrix.cells)]
+
+
+def _row(cell: Cell) -> str:
+    must = cell.expected
+    amount = f" by {cell.amount:g} s" if cell.amount else ""
+    stands = "-" if must.stands_s is None else f"{must.stands_s:g} s"
+    told = (f"`{must.told}`", f"{must.told_s:g} s") if must.told else ("-", "-")
+    record = "-" if must.record is None else f"invalid: {must.record}" if must.record else "counts"
+    return (f"| {cell.part} {cell.kind}{amount}, {cell.for_s:g} s | {cell.state} | {stands} | {told[0]} | {told[1]} | "
+            f"{must.mode} | {must.then} | {record} |")
