@@ -183,7 +183,8 @@ def test_no_noetic_key_is_listed_in_vain():
 
 
 # Module -> name of the distribution on the package index, where they differ.
-DISTRIBUTIONS = {"can": "python-can", "google": "protobuf", "serial": "pyserial", "yaml": "pyyaml", "zmq": "pyzmq"}
+DISTRIBUTIONS = {"can": "python-can", "google": "protobuf", "nacl": "pynacl", "serial": "pyserial", "yaml": "pyyaml",
+                 "zmq": "pyzmq"}
 
 
 def test_the_application_declares_exactly_what_it_imports():

@@ -188,7 +188,7 @@ def run_scenario(stack: Stack, name: str, folder: pathlib.Path, car: str) -> int
         sys.executable, "-m", "mtr_operator", "run", name, "--params", str(parameters_of(name, car)),
         "--out", str(folder), "--robot", "127.0.0.1", "--subscriber-port", str(stack.status_port),
         "--publisher-port", str(stack.command_port), "--can-interface", "slcan", "--can-channel", str(stack.can_link),
-        "--can-bitrate", "500000", "--car-profile", chosen_car(car).profile,
+        "--can-bitrate", "500000", "--car-profile", chosen_car(car).profile, "--bundle",
         # The output that takes the handle is switched over the Car's bus.
         *(["--can-normal"] if name == "handle_request" else []),
     ], check=False).returncode

@@ -56,8 +56,8 @@ def test_packages_contract_and_window_are_named(computer, store):
 
 
 def test_every_declared_package_is_looked_for():
-    declared = {"cantools", "matplotlib", "numpy", "platformdirs", "protobuf", "pyserial", "python-can", "pyyaml",
-                "pyzmq", "scipy", "tqdm", "uncertainties"}
+    declared = {"cantools", "matplotlib", "numpy", "platformdirs", "protobuf", "pynacl", "pyserial", "python-can",
+                "pyyaml", "pyzmq", "scipy", "tqdm", "uncertainties"}
     assert set(PACKAGES.values()) == declared
 
 

@@ -140,6 +140,12 @@ def load_profile(name_or_path: str) -> CarProfile:
         message_names={(each.frame_id, each.is_extended_frame): each.name for each in database.messages})
 
 
+def profile_files(name_or_path: str) -> tuple[pathlib.Path, pathlib.Path]:
+    """The profile and its database; ConnectionFailed when there is no such profile."""
+    path = _find(name_or_path)
+    return path, path.parent / str(_read(path)["database"])
+
+
 def profile_names() -> tuple[str, ...]:
     """Names of the shipped profiles."""
     return tuple(sorted(file.stem for file in PROFILE_FOLDER.glob("*.yaml")))

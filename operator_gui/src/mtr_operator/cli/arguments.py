@@ -36,6 +36,8 @@ def argument_parser() -> argparse.ArgumentParser:
     _add_history(commands.add_parser("history", help="list the tests that were measured before"))
     _add_compare(commands.add_parser("compare", help="compare two tests, distance by distance, with intervals"))
     _add_replay(commands.add_parser("replay", help="compute the distances of a recorded test anew"))
+    _add_bundle(commands.add_parser("bundle", help="write the signed evidence of a test into one file"))
+    _add_verify(commands.add_parser("verify", help="say whether bundles are as they were signed, by whom and when"))
     _add_pair(commands.add_parser("pair", help="pair this computer with a robot that shows a code"))
     _add_keys(commands.add_parser("keys", help="list this computer's key and the robots that it is paired with"))
     _add_learn(commands.add_parser("learn", help="learn how a Car's bus tells its locks, and write its profile"))
@@ -83,6 +85,7 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--laboratory", type=pathlib.Path, metavar="FILE",
                         help="what the laboratory requires of each identity, YAML; default: laboratory.yaml beside the "
                              "window's settings, if there is one")
+    parser.add_argument("--bundle", action="store_true", help="write the signed evidence of the test into DIR, too")
     _add_robot(parser)
     car = parser.add_argument_group("Car")
     _add_adapter(car)
@@ -125,7 +128,7 @@ def _add_demo(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--limits", type=pathlib.Path, metavar="FILE", help="limits that the lines are judged by, YAML")
     parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",
                         help="of the substitutes' random numbers, default %(default)s")
-    parser.set_defaults(can_log=None, can_log_format="blf")
+    parser.set_defaults(can_log=None, can_log_format="blf", bundle=False)
     parser.set_defaults(params=None, continued=None, calibration=None, identity=None, laboratory=None,
                         simulated_robot=True, simulated_car=True)
 
@@ -160,6 +163,17 @@ def _add_replay(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--recording", type=pathlib.Path, metavar="DIR",
                         help="folder of the recording; default: beside the progress file")
     parser.add_argument("--json", action="store_true", help="print JSON")
+
+
+def _add_bundle(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("results", type=pathlib.Path, metavar="RESULTS", help="progress.json, or the folder with it")
+    parser.add_argument("--out", type=pathlib.Path, metavar="FILE", help="default: beside it, named as its folder")
+
+
+def _add_verify(parser: argparse.ArgumentParser) -> None:
+    parser.description = "Exit code 0: all are intact; 3: something is not, and is named on stderr."
+    parser.add_argument("bundles", nargs="+", type=pathlib.Path, metavar="BUNDLE", help="NAME.mtr.zip, or it unpacked")
+    parser.add_argument("--key", metavar="HEX", help="public key that has to have signed them")
 
 
 def _add_pair(parser: argparse.ArgumentParser) -> None:

@@ -20,6 +20,7 @@ from .checking import check
 from .exit_codes import EXIT_ERROR, EXIT_FAIL, EXIT_INCONCLUSIVE, EXIT_INTERRUPTED, EXIT_PASS
 from .history import compare_tests, list_history
 from .planning import plan
+from .records.evidence import bundle_test, verify_bundles
 from .records.replay import replay_test
 from .run import CommandLineRun
 from .window import open_window
@@ -100,4 +101,5 @@ def _accept_any_character() -> None:
 _COMMANDS: dict[str, Callable[[argparse.Namespace], int | None]] = {
     "params": list_parameters, "check": check, "history": list_history, "compare": compare_tests, "plan": plan,
     "demo": run_demo, "run": run_test, "pair": pair, "keys": keys, "learn": learn_car, "replay": replay_test,
+    "bundle": bundle_test, "verify": verify_bundles,
     "doctor": lambda _: EXIT_PASS if doctor() else EXIT_ERROR}

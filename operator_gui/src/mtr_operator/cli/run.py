@@ -41,6 +41,7 @@ from .identity import RunIdentity
 from .interrupt import Interrupt
 from .links import car_link, robot_link
 from .planning import Outlook
+from .records.evidence import write_for
 from .release import Release
 
 # What results call a robot and a Car inside the application.
@@ -81,6 +82,8 @@ class CommandLineRun:
                     display.close()
                     self._keep(display, store)
                     raise
+            if self._options.bundle:
+                display.say(write_for(self._path, self._scenario, self._progress, assessment))
             self._say_results(assessment)
             if interrupt.requested:
                 raise Cancelled("Interrupted when all lines were measured; the results are complete.")

@@ -19,7 +19,8 @@ from .finding import Finding, State
 # Modules by the package that brings them, all but the contract with the robot on package indexes.
 PACKAGES = {"zmq": "pyzmq", "google.protobuf": "protobuf", "can": "python-can", "cantools": "cantools",
             "serial": "pyserial", "numpy": "numpy", "scipy": "scipy", "matplotlib": "matplotlib",
-            "uncertainties": "uncertainties", "yaml": "pyyaml", "tqdm": "tqdm", "platformdirs": "platformdirs"}
+            "uncertainties": "uncertainties", "yaml": "pyyaml", "tqdm": "tqdm", "platformdirs": "platformdirs",
+            "nacl": "pynacl"}
 _SERIAL_PORTS = ("dev/ttyACM*", "dev/ttyUSB*")
 _NETWORKS = "sys/class/net/*can*"
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")

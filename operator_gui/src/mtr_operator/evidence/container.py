@@ -1,0 +1,59 @@
+"""The file of a bundle: a zip whose bytes follow from its content alone, so that any changed byte is found."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import pathlib
+import shutil
+import zipfile
+from typing import BinaryIO, Iterable, Mapping, Union
+
+SUFFIX = ".mtr.zip"
+# Nothing of the time of writing or of the computer is in it; nothing is compressed, for logs and pictures are already.
+_DATE = (1980, 1, 1, 0, 0, 0)
+_UNIX, _MODE = 3, 0o100644 << 16
+_VERSION = 20
+_BLOCK = 1024 * 1024
+
+Source = Union[bytes, pathlib.Path]
+
+
+def write_container(file: BinaryIO, sources: Mapping[str, Source]) -> None:
+    """A zip of these files, by their paths in it; OSError when one cannot be read or written."""
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as container:
+        for name, source in sources.items():
+            info = _info(name, len(source) if isinstance(source, bytes) else source.stat().st_size)
+            with container.open(info, "w") as target:
+                if isinstance(source, bytes):
+                    target.write(source)
+                else:
+                    with open(source, "rb") as read:
+                        shutil.copyfileobj(read, target, _BLOCK)
+
+
+def copy_container(container: zipfile.ZipFile, names: Iterable[str], file: BinaryIO) -> None:
+    """The same files written anew."""
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as copy:
+        for name in names:
+            info = _info(name, container.getinfo(name).file_size)
+            with container.open(name) as source, copy.open(info, "w") as target:
+                shutil.copyfileobj(source, target, _BLOCK)
+
+
+def _info(name: str, size: int) -> zipfile.ZipInfo:
+    info = zipfile.ZipInfo(name, _DATE)
+    info.create_system, info.create_version, info.extract_version = _UNIX, _VERSION, _VERSION
+    info.external_attr, info.file_size = _MODE, size
+    return info
+
+
+def first_difference(first: BinaryIO, second: BinaryIO) -> int | None:
+    """Place of the first byte that differs, from where both stand; None when they are alike."""
+    place = 0
+    while True:
+        a, b = first.read(_BLOCK), second.read(_BLOCK)
+        if a != b:
+            return place + next((index for index, pair in enumerate(zip(a, b)) if pair[0] != pair[1]),
+                                min(len(a), len(b)))
+        if not a:
+            return None
+        place += len(a)

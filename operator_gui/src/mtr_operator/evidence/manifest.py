@@ -1,0 +1,79 @@
+"""The manifest of a bundle: each file with its size and SHA-256, who signed when, and the bundle before."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import hashlib
+import json
+import pathlib
+from dataclasses import dataclass
+from typing import Any, BinaryIO, Mapping
+
+FORMAT, VERSION = "mtr evidence bundle", 1
+MANIFEST, SIGNATURE = "manifest.json", "manifest.sig"
+_BLOCK = 1024 * 1024
+
+
+class BadManifest(Exception):
+    """The text is not a manifest of this version."""
+
+
+@dataclass(frozen=True)
+class FileEntry:
+    """sha256: hexadecimal."""
+
+    size: int
+    sha256: str
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """created: ISO 8601. station, key: who signed. number, before: place in the chain; before is the SHA-256 of the
+    manifest before, empty for the first one. files: by their paths in the bundle."""
+
+    created: str
+    station: str
+    key: str
+    number: int
+    before: str
+    files: Mapping[str, FileEntry]
+
+    def content(self) -> bytes:
+        """As it is signed."""
+        files = {name: {"size": entry.size, "sha256": entry.sha256} for name, entry in sorted(self.files.items())}
+        document = {"format": FORMAT, "version": VERSION, "created": self.created, "station": self.station,
+                    "key": self.key, "number": self.number, "before": self.before, "files": files}
+        return (json.dumps(document, indent=1, ensure_ascii=False) + "\n").encode("utf-8")
+
+
+def manifest_from(content: bytes) -> Manifest:
+    """Manifest in a file; BadManifest when it is none."""
+    try:
+        document: Any = json.loads(content)
+        if (document["format"], document["version"]) != (FORMAT, VERSION):
+            raise BadManifest
+        files = {str(name): FileEntry(int(entry["size"]), str(entry["sha256"]))
+                 for name, entry in document["files"].items()}
+        return Manifest(str(document["created"]), str(document["station"]), str(document["key"]),
+                        int(document["number"]), str(document["before"]), files)
+    except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
+        raise BadManifest from None
+
+
+def sha256_of(content: bytes) -> str:
+    """Hexadecimal."""
+    return hashlib.sha256(content).hexdigest()
+
+
+def entry_of(file: BinaryIO) -> FileEntry:
+    """Of a file from where it stands to its end."""
+    digest, size = hashlib.sha256(), 0
+    while block := file.read(_BLOCK):
+        digest.update(block)
+        size += len(block)
+    return FileEntry(size, digest.hexdigest())
+
+
+def entry_of_path(path: pathlib.Path) -> FileEntry:
+    """Of a file; OSError when it cannot be read."""
+    with open(path, "rb") as file:
+        return entry_of(file)

@@ -1,0 +1,102 @@
+"""The Ed25519 key with which this computer signs bundles, and the chain of what it has signed."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import getpass
+import json
+import os
+import pathlib
+import platform
+from dataclasses import dataclass
+from typing import Any
+
+import platformdirs
+from nacl.exceptions import BadSignatureError
+from nacl.signing import SigningKey, VerifyKey
+
+from mtr_operator.domain.errors import OperatorError, OutputError
+from mtr_operator.storage.atomic import write_bytes
+
+_FOLDER = "evidence"
+_KEY, _CHAIN = "signing.key", "chain.json"
+_KEY_BYTES = 32
+
+
+class StationKeyError(OperatorError):
+    """The key or the chain of this computer cannot be used; the text says why."""
+
+
+@dataclass(frozen=True)
+class Link:
+    """The newest bundle of a station. number: from 1. manifest: SHA-256 of its manifest, hexadecimal."""
+
+    number: int
+    name: str
+    manifest: str
+
+
+class Station:
+    """folder: None for the system's, which no other computer has.
+
+    Attributes: name: user and computer.
+    """
+
+    def __init__(self, folder: pathlib.Path | None = None):
+        self._folder = folder or platformdirs.user_data_path("mtr-operator", appauthor=False) / _FOLDER
+        self.name = f"{getpass.getuser()}@{platform.node()}"
+
+    @property
+    def key(self) -> str:
+        """The public key, hexadecimal; made when it is asked for first."""
+        return self._signing_key().verify_key.encode().hex()
+
+    def sign(self, content: bytes) -> str:
+        """Signature, hexadecimal."""
+        return self._signing_key().sign(content).signature.hex()
+
+    @property
+    def newest(self) -> Link | None:
+        """The bundle signed last; None before the first one."""
+        try:
+            document: Any = json.loads((self._folder / _CHAIN).read_text(encoding="utf-8"))
+            return Link(int(document["number"]), str(document["name"]), str(document["manifest"]))
+        except FileNotFoundError:
+            return None
+        except (OSError, ValueError, KeyError, TypeError):
+            raise StationKeyError(f"The chain of bundles in {self._folder / _CHAIN} is damaged; move that file "
+                                  "elsewhere to begin a new chain.") from None
+
+    def append(self, link: Link) -> None:
+        """A bundle was signed and is on disk."""
+        write_bytes(self._folder / _CHAIN, json.dumps(vars(link), indent=1).encode("utf-8"))
+
+    def _signing_key(self) -> SigningKey:
+        path = self._folder / _KEY
+        try:
+            if not path.exists():
+                self._make(path)
+            seed = bytes.fromhex(path.read_text(encoding="ascii"))
+        except OSError as error:
+            raise OutputError(f"The key of this station in {path} cannot be read or made: "
+                              f"{error.strerror or error}.") from None
+        except ValueError:
+            seed = b""
+        if len(seed) != _KEY_BYTES:
+            raise StationKeyError(f"The key of this station in {path} is damaged; restore it from a copy, or move it "
+                                  "elsewhere to have a new one made.")
+        return SigningKey(seed)
+
+    def _make(self, path: pathlib.Path) -> None:
+        path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+        descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+        with open(descriptor, "w", encoding="ascii") as file:
+            file.write(SigningKey.generate().encode().hex())
+
+
+def is_signed_by(key: str, content: bytes, signature: str) -> bool:
+    """True when the signature over the content is that of the public key; both hexadecimal."""
+    try:
+        VerifyKey(bytes.fromhex(key)).verify(content, bytes.fromhex(signature))
+    except (BadSignatureError, ValueError, TypeError):
+        return False
+    return True

@@ -1,0 +1,129 @@
+"""Is a bundle as it was signed, by whom and when? What is torn or changed is named."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import json
+import pathlib
+import tempfile
+import zipfile
+import zlib
+from dataclasses import dataclass, field
+from typing import Any, BinaryIO, Callable, Sequence
+
+from .container import copy_container, first_difference
+from .manifest import (
+    MANIFEST,
+    SIGNATURE,
+    BadManifest,
+    FileEntry,
+    Manifest,
+    entry_of,
+    entry_of_path,
+    manifest_from,
+    sha256_of,
+)
+from .station_key import is_signed_by
+
+
+@dataclass(frozen=True)
+class Verification:
+    """Attributes:
+        manifest: what is said in the bundle, None when that cannot be read. digest: SHA-256 of it.
+        problems: a sentence for each thing that is not as it was signed; empty for an intact bundle.
+    """
+
+    manifest: Manifest | None = None
+    digest: str = ""
+    problems: Sequence[str] = field(default_factory=tuple)
+
+    @property
+    def is_intact(self) -> bool:
+        """True when all is as it was signed."""
+        return self.manifest is not None and not self.problems
+
+
+def verify_bundle(path: pathlib.Path) -> Verification:
+    """A bundle, or the folder into which one was unpacked."""
+    if path.is_dir():
+        names = [file.relative_to(path).as_posix() for file in sorted(path.rglob("*")) if file.is_file()]
+        return _verified(names, lambda name: (path / name).read_bytes(), lambda name: entry_of_path(path / name))
+    try:
+        with open(path, "rb") as file, zipfile.ZipFile(file) as container:
+            found = _verified(container.namelist(), container.read, lambda name: _member(container, name))
+            return found if found.problems else _of_container(found, file, container)
+    except OSError as error:
+        return Verification(problems=(f"{path} cannot be read: {error.strerror or error}.",))
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, ValueError, RuntimeError, EOFError):
+        return Verification(problems=(f"{path} is torn, or no bundle: its list of files cannot be read.",))
+
+
+def chain_problems(found: Sequence[Verification]) -> list[str]:
+    """Bundles of one station that do not follow one another, among those given."""
+    by_key: dict[str, dict[int, Verification]] = {}
+    for each in found:
+        if each.manifest is not None:
+            by_key.setdefault(each.manifest.key, {})[each.manifest.number] = each
+    problems = []
+    for numbers in by_key.values():
+        for number, each in sorted(numbers.items()):
+            former = numbers.get(number - 1)
+            if each.manifest is not None and former is not None and each.manifest.before != former.digest:
+                problems.append(f"Bundle {number} of the station does not follow its bundle {number - 1}: one of them "
+                                "was made anew.")
+    return problems
+
+
+def _verified(names: Sequence[str], read: Callable[[str], bytes],
+              entry: Callable[[str], FileEntry]) -> Verification:
+    try:
+        content, signature = read(MANIFEST), json.loads(read(SIGNATURE))
+        manifest = manifest_from(content)
+    except (KeyError, FileNotFoundError):
+        return Verification(problems=(f"There is no {MANIFEST} or {SIGNATURE} in it: it is no bundle.",))
+    except (BadManifest, ValueError, zipfile.BadZipFile, zlib.error, RecursionError, OSError):
+        return Verification(problems=(f"{MANIFEST} or {SIGNATURE} is changed: it cannot be read any more.",))
+    problems = [] if _is_signed(manifest, content, signature) else \
+        [f"{MANIFEST} or {SIGNATURE} is changed: the signature is not that of the station's key over it."]
+    for name, wanted in manifest.files.items():
+        if name not in names:
+            problems.append(f"{name} is missing.")
+        elif _entry_or_none(entry, name) != wanted:
+            problems.append(f"{name} is changed.")
+    known = {MANIFEST, SIGNATURE, *manifest.files}
+    problems += [f"{name} was added." for name in names if name not in known]
+    if len(set(names)) != len(names):
+        problems.append("A file is in it twice.")
+    return Verification(manifest, sha256_of(content), tuple(problems))
+
+
+def _is_signed(manifest: Manifest, content: bytes, signature: Any) -> bool:
+    return (isinstance(signature, dict) and signature.get("algorithm") == "Ed25519"
+            and signature.get("key") == manifest.key
+            and is_signed_by(manifest.key, content, str(signature.get("signature"))))
+
+
+def _entry_or_none(entry: Callable[[str], FileEntry], name: str) -> FileEntry | None:
+    """None for bytes that cannot even be read."""
+    try:
+        return entry(name)
+    except (zipfile.BadZipFile, zlib.error, OSError, NotImplementedError, RuntimeError, EOFError, ValueError):
+        return None
+
+
+def _member(container: zipfile.ZipFile, name: str) -> FileEntry:
+    with container.open(name) as file:
+        return entry_of(file)  # type: ignore[arg-type]  # typeshed's IO[bytes] is a BinaryIO here
+
+
+def _of_container(found: Verification, file: BinaryIO, container: zipfile.ZipFile) -> Verification:
+    """The files are as they were signed; so has to be all between them."""
+    with tempfile.TemporaryFile() as copy:
+        copy_container(container, container.namelist(), copy)
+        copy.seek(0)
+        file.seek(0)
+        place = first_difference(file, copy)
+    if place is None:
+        return found
+    return Verification(found.manifest, found.digest, (
+        f"The files are as they were signed, but the zip around them is not as it was written, from byte {place} on: "
+        "it was packed anew, or a byte between the files is changed.",))
