@@ -39,6 +39,9 @@ constexpr double kMinShare = 0.25;
 // always see what the map has at the right place. It had 0.82 in simulation, and a wrong one, opposite, 0.98; or 0.64
 // and 0.77.
 constexpr double kRivalPart = 0.75;
+// Where wheels and gyro say that the robot is, it is, unless it was carried: that place is a rival as long as it
+// explains more than chance gives.
+constexpr double kReckonedShare = 0.5;
 // Returns that lie off the surfaces by more than so many of their sigmas, rms over all views, are of a place that only
 // looks like it: 8 m away what agrees may be 0.3 m off. At the right one they are 1.0, on slopes of 1 degree 2.
 constexpr double kMaxResidual = 2.5;
@@ -77,6 +80,7 @@ Relocalization::Relocalization(const TrackingParameters& parameters, const Refer
       places_(field_) {}
 
 std::optional<Relocalization::Found> Relocalization::advance(const View& view, const PoseVector& reckoned) {
+  reckoned_ = reckoned;
   switch (phase_) {
     case Phase::kWait:
       phase_ = begin(view, reckoned) ? Phase::kSearch : Phase::kWait;
@@ -213,8 +217,10 @@ std::optional<Relocalization::Found> Relocalization::decide(const View& view) {
 bool Relocalization::is_alone(const Hypothesis& best) const {
   const PoseVector& odom = views_.back().odom;
   return std::all_of(hypotheses_.begin(), hypotheses_.end(), [&](const Hypothesis& other) {
-    return is_same_place(compose(other.map_from_odom, odom), compose(best.map_from_odom, odom)) ||
-           other.mean() <= std::min(best.mean() - parameters_.found_margin, kRivalPart * best.mean());
+    const PoseVector place = compose(other.map_from_odom, odom);
+    const double limit = is_same_place(place, reckoned_) ? kReckonedShare : kRivalPart * best.mean();
+    return is_same_place(place, compose(best.map_from_odom, odom)) ||
+           other.mean() <= std::min(best.mean() - parameters_.found_margin, limit);
   });
 }
 

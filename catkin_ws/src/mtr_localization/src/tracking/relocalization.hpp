@@ -73,6 +73,8 @@ class Relocalization {
   Phase phase_ = Phase::kWait;
   /// Where the search began, in map.
   std::optional<PoseVector> around_;
+  /// Where wheels and gyro have led, at the newest view.
+  PoseVector reckoned_ = PoseVector::Zero();
   /// Places found from the newest view.
   std::vector<PoseVector> found_;
   /// The next of `known_` hypotheses of earlier views, and of the places found, to be worked on.

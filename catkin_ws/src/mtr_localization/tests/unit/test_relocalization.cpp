@@ -136,6 +136,27 @@ TEST_F(RelocalizationTest, RivalIsMeasuredByWhatTheBestPlaceExplainsItself) {
   EXPECT_FALSE(found_from(views, {2.0, 0.0, M_PI}));
 }
 
+TEST_F(RelocalizationTest, PlaceWhereWheelsAndGyroHaveLedStaysARivalWithMoreThanHalf) {
+  // The right plate is whole on the map, and of it 0.6 of 2 m are seen; the other one has just these parts.
+  const auto ends = [](double y) {
+    return synthetic::World{{{0.5, y - 1.0}, {0.5, y - 0.7}}, {{0.5, y + 0.7}, {0.5, y + 1.0}}};
+  };
+  synthetic::World scene = ends(2.5);
+  scene.push_back({{0.5, -3.5}, {0.5, -1.5}});
+  add_surfaces(scene);
+  std::vector<View> views;
+  for (const double x : {2.1, 2.7, 3.3}) {
+    views.push_back(view_from(ends(-2.5), {x, -2.5, M_PI}, 3.0));
+  }
+  EXPECT_TRUE(found_from(views, {5.0, 3.0, 0.0}));
+  Relocalization search(TrackingParameters{}, map);
+  for (const View& view : views) {
+    for (int step = 0; step < 200; ++step) {
+      EXPECT_FALSE(search.advance(view, view.odom));
+    }
+  }
+}
+
 TEST_F(RelocalizationTest, PlaceWhereReturnsLieBesideTheSurfacesIsNone) {
   // Another room that is larger by a twentieth: at 4 m what lies 0.2 m beside a surface still agrees with it.
   add_surfaces(room());
