@@ -67,9 +67,10 @@ def calibration_files() -> Iterator[pathlib.Path]:
 
 
 def recording_files() -> Iterator[pathlib.Path]:
-    """Profiles of a recording and the comparison with its replay, without the files that read bags and record."""
+    """Profiles of a recording and the comparison with its replay, without the files that read, play and
+    record bags."""
     files = (TOP / "launch" / "src" / "mtr_bringup" / "recording").rglob("*.py")
-    yield from (path for path in sorted(files) if path.name not in ("command_line.py", "bags.py"))
+    yield from (path for path in sorted(files) if path.name not in ("command_line.py", "bags.py", "player.py"))
 
 
 def base_contract_files() -> Iterator[pathlib.Path]:
