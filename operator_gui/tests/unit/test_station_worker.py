@@ -113,7 +113,7 @@ def test_refusal_names_the_part_and_ends_the_thread(worker, post, opener, refusa
 
 
 def test_missing_contract_is_a_sentence_in_the_window_too(post, monkeypatch):
-    for name in [name for name in sys.modules if name.startswith(("mtr_proto", "mtr_operator.robot_link.c"))]:
+    for name in [name for name in sys.modules if name.startswith(("mtr_proto", "mtr_operator.robot_link."))]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "mtr_proto", None)
     worker = Worker(Connection(), LinkOpener(), post.box)

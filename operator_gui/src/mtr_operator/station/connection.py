@@ -82,7 +82,7 @@ class LinkOpener:
         try:
             from mtr_operator.robot_link.client import ZmqRobotLink
         except ModuleNotFoundError as error:
-            if error.name not in ("mtr_proto", "mtr_proto.robot_link_pb2"):
+            if (error.name or "").partition(".")[0] != "mtr_proto":
                 raise
             raise ConnectionFailed("The package mtr_proto, the contract with the robot, is not installed; pip install "
                                    "the folder proto of the project.") from None
