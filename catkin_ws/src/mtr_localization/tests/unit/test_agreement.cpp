@@ -107,8 +107,8 @@ TEST(ContradictionWatch, WhatIsOverlookedFromLowDownIsNoContradictionWhileAllRet
   // As seen 10 m in front of a van whose wheels alone are on the map, at the right place.
   Agreement view;
   view.seen = 20;
-  view.missing = 11;
-  view.passed = 69;
+  view.missing = 20;
+  view.passed = 60;
   view.unknown = 1;
   bool found = false;
   for (std::int64_t i = 1; i < 1500; ++i) {
