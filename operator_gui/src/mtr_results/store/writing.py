@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import datetime
 import enum
+import functools
 from typing import Any, Sequence
 
-from sqlalchemy import Connection, delete, insert, select, update
+from sqlalchemy import Connection, Dialect, bindparam, delete, insert, select, update
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.exc import IntegrityError
 
@@ -93,9 +94,30 @@ def _enter(connection: Connection, number: int, record: TestRecord, files: Seque
             part = [{"test_id": number, **row} for row in rows[start:start + _ROWS]]
             if _is_remote(connection):
                 # A server answers each statement: one with many rows is quicker there.
-                connection.execute(insert(table).values(part))
+                _insert_at_once(connection, table, part)
             else:
                 connection.execute(insert(table), part)
+
+
+def _insert_at_once(connection: Connection, table: type[Base], rows: Sequence[Row]) -> None:
+    """Rows with the same columns in few statements, whose texts are made once: SQLAlchemy keeps none of many rows."""
+    start = 0
+    while start < len(rows):
+        # Powers of two, so that there are few texts.
+        count = 1 << ((len(rows) - start).bit_length() - 1)
+        text, order = _text_of(table, tuple(rows[start]), count, connection.dialect)
+        values = {f"{name}_{index}": value for index, row in enumerate(rows[start:start + count])
+                  for name, value in row.items()}
+        connection.exec_driver_sql(text, tuple(values[name] for name in order))
+        start += count
+
+
+@functools.lru_cache(maxsize=256)
+def _text_of(table: type[Base], columns: tuple[str, ...], count: int, dialect: Dialect) -> tuple[str, tuple[str, ...]]:
+    """Statement for the driver, and the order of its values, each named COLUMN_ROW."""
+    rows: list[Row] = [{name: bindparam(f"{name}_{index}") for name in columns} for index in range(count)]
+    compiled: Any = insert(table).values(rows).compile(dialect=dialect)
+    return str(compiled), tuple(compiled.positiontup)
 
 
 def _is_remote(connection: Connection) -> bool:
