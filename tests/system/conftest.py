@@ -1,5 +1,6 @@
 """The whole stack as fixtures: simulated robot and Car, the Operator's application, and somebody who only looks."""
 # SPDX-License-Identifier: Apache-2.0
+import os
 import pathlib
 import shutil
 import subprocess
@@ -18,6 +19,8 @@ sys.path.append(str(pathlib.Path(__file__).parent))
 TOP = pathlib.Path(__file__).resolve().parents[2]
 FIRMWARE = TOP / "firmware" / "build" / "mtr_firmware_atmega2560.elf"
 OUT = TOP / "out" / "test" / "system"
+# A robot has it not: what its nodes log has to come out by itself.
+os.environ.pop("PYTHONUNBUFFERED", None)
 # What is waited for takes some seconds; a machine with much else to do takes more.
 WALL_LIMIT_S = 180.0
 

@@ -1,6 +1,8 @@
 """Life of a node from its parameters to its exit status, the same for all."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
+import io
+import sys
 from typing import Any, Callable, Type, TypeVar
 
 import rospy
@@ -20,6 +22,9 @@ def run_node(name: str, parameter_type: Type[P], make: Callable[[P], Any], **opt
     Returns the exit status: 0 after Ctrl-C, 2 after one sentence when the node cannot start. The options are those of
     rospy.init_node.
     """
+    # What is logged to a file or the journal must not wait until 8 kB of it are together: it is lost with the process.
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(line_buffering=True)
     rospy.init_node(name, **options)
     try:
         parameters = parameters_from(rospy.get_param("~", {}), parameter_type)
