@@ -103,7 +103,9 @@ def test_other_bytes_are_no_try_and_the_person_is_still_paired(data):
     robot = Robot()
     with socket.create_connection(("127.0.0.1", robot.port), timeout=LIMIT_S) as connection:
         connection.sendall(data)
-        connection.shutdown(socket.SHUT_WR)
+        if len(data) < HELLO_BYTES:
+            # Of more bytes the robot has closed by itself, perhaps before this.
+            connection.shutdown(socket.SHUT_WR)
         with contextlib.suppress(ConnectionResetError):
             assert connection.recv(1) == b""
     try_code(robot.port, CODE)
