@@ -3,10 +3,11 @@
 import ast
 import pathlib
 import re
-from typing import Dict, Iterator, Set
+from typing import Any, Dict, Iterator, Set
 from xml.etree import ElementTree
 
 import pytest
+import yaml
 from project import TOP, imports, is_standard, package_folders, package_name, tracked
 
 OWN = {package_name(folder) for folder in package_folders()}
@@ -18,7 +19,7 @@ KEYS = {
     "matplotlib": "python3-matplotlib", "mtr_drive_control_core": "mtr_drive_control",
     "mujoco": "python3-mujoco-pip", "numpy": "python3-numpy", "pytest": "python3-pytest", "rospkg": "python3-rospkg",
     # The laptop's application, which CI tests with the robot, and the firmware's emulator.
-    "mtr_operator": None, "mtr_results": None, "PyQt5": None, "mtr_emulator": None,
+    "mtr_campaign": None, "mtr_operator": None, "mtr_results": None, "PyQt5": None, "mtr_emulator": None,
     # Of `make mutants` and `make bench-range`, which install them.
     "cosmic_ray": None, "senpy": None,
     "scipy": "python3-scipy", "serial": "python3-serial", "setuptools": "python3-setuptools",
@@ -27,8 +28,9 @@ KEYS = {
 }
 # First folder or whole name of a header -> rosdep key, where they differ.
 HEADER_KEYS = {
-    "Eigen": "eigen", "gtest": "gtest", "nlohmann": "nlohmann-json-dev", "pybind11": "pybind11-dev", "ros": "roscpp",
-    "rosbag": "rosbag_storage", "urdf_model": "urdf", "urdf_parser": "urdf", "XmlRpcValue.h": "xmlrpcpp",
+    "Eigen": "eigen", "gazebo": "gazebo_dev", "gtest": "gtest", "ignition": "gazebo_dev",
+    "nlohmann": "nlohmann-json-dev", "pybind11": "pybind11-dev", "ros": "roscpp", "rosbag": "rosbag_storage",
+    "sdf": "gazebo_dev", "urdf_model": "urdf", "urdf_parser": "urdf", "XmlRpcValue.h": "xmlrpcpp",
 }
 # Headers of C, C++ and POSIX have no folder of their own but these.
 SYSTEM_FOLDERS = {"sys", "bits", "netinet", "arpa", "linux"}
@@ -90,6 +92,8 @@ def header_keys(path: pathlib.Path) -> Set[str]:
         own = quote == '"' and any((folder / name).is_file() for folder in surroundings(path))
         if not own and (first in HEADER_KEYS or ("/" in name and first not in SYSTEM_FOLDERS)):
             keys.add(HEADER_KEYS.get(first, first))
+            # Its headers include Python's, and on Ubuntu and Debian it does not depend on them.
+            keys |= {"python3-dev"} if first == "pybind11" else set()
     return keys
 
 
@@ -108,6 +112,18 @@ def launch_keys(path: pathlib.Path) -> Set[str]:
     return set(re.findall(r'\bpkg="([a-z0-9_]+)"', text)) | set(re.findall(r"\$\(find ([a-z0-9_]+)\)", text))
 
 
+# Programs of ROS that Python starts -> rosdep key of the package that has them; not every robot has the whole of ROS.
+PROGRAM_KEYS = {"roslaunch": "roslaunch", "rosmaster": "rosmaster", "rosnode": "rosnode", "rosrun": "rosbash",
+                "rostopic": "rostopic"}
+
+
+def program_keys(path: pathlib.Path) -> Set[str]:
+    """Packages of the programs with which lists in a Python file, commands, begin."""
+    firsts = [node.elts[0] for node in nodes(path) if isinstance(node, ast.List) and node.elts]
+    words = {first.value for first in firsts if isinstance(first, ast.Constant) and isinstance(first.value, str)}
+    return {PROGRAM_KEYS[word] for word in words & set(PROGRAM_KEYS)}
+
+
 def message_keys(path: pathlib.Path) -> Set[str]:
     """Packages whose messages a message contains."""
     found = set(re.findall(r"^([a-z0-9_]+)/\w+", path.read_text(encoding="utf-8"), re.MULTILINE))
@@ -121,7 +137,7 @@ def needed(folder: pathlib.Path) -> Dict[str, bool]:
     under = folder.relative_to(TOP)
     python = list(python_files(folder))
     siblings = {path.stem for path in python if is_test(path, folder)} | {"project"}
-    uses = [(path, python_keys(path, siblings)) for path in python]
+    uses = [(path, python_keys(path, siblings) | program_keys(path)) for path in python]
     uses += [(path, header_keys(path)) for path in tracked(f"{under}/*.cpp", f"{under}/*.hpp")
              if "mrpt_icp_slam" not in path.parts]
     uses += [(path, launch_keys(path)) for path in tracked(f"{under}/*.launch", f"{under}/*.test")]
@@ -182,26 +198,53 @@ def test_no_noetic_key_is_listed_in_vain():
     assert sorted(noetic_keys() - {key for folder in package_folders() for key in declared(folder)}) == []
 
 
+def debian_11() -> Dict[str, Dict[str, Any]]:
+    """rosdep's list for Debian 11, by which `make noetic-root` installs: key -> system -> packages."""
+    text = (TOP / "setup" / "debian11-rosdep.yaml").read_text(encoding="utf-8")
+    table: Dict[str, Dict[str, Any]] = yaml.safe_load(text)
+    return table
+
+
+def test_the_list_for_debian_11_has_the_keys_of_noetic_and_no_other():
+    assert sorted(debian_11()) == sorted(noetic_keys())
+
+
+@pytest.mark.parametrize("key", sorted(debian_11()))
+def test_a_key_names_debian_packages_or_packages_of_the_index(key):
+    packages = debian_11()[key]["debian"]
+    if isinstance(packages, dict):
+        packages = packages["pip"]["packages"]
+    assert all(re.fullmatch(r"[a-z0-9][a-z0-9.+-]*", name) for name in packages)
+
+
 # Module -> name of the distribution on the package index, where they differ.
-DISTRIBUTIONS = {"can": "python-can", "google": "protobuf", "nacl": "pynacl", "serial": "pyserial", "yaml": "pyyaml",
-                 "zmq": "pyzmq"}
+DISTRIBUTIONS = {"can": "python-can", "isotp": "can-isotp", "google": "protobuf",
+                 "nacl": "pynacl", "serial": "pyserial", "yaml": "pyyaml", "zmq": "pyzmq"}
+# What writes tables of a bundle where it is installed.
+PARQUET = {"duckdb"}
 
 
 def test_the_application_declares_exactly_what_it_imports():
-    assert declared_by_the_application("dependencies") == used_by("mtr_operator")
+    # Beside what it does without, see tests/architecture/test_layers.py.
+    assert declared_by_the_application("dependencies") == used_by("mtr_operator") - PARQUET
+    assert declared_by_the_application("parquet") == PARQUET
 
 
 def test_the_store_of_results_declares_exactly_what_it_imports_beside_the_application():
     # SQLAlchemy loads the driver by its name in an address.
-    used = used_by("mtr_results") - used_by("mtr_operator") | {"pg8000"}
+    used = used_by("mtr_results") - (used_by("mtr_operator") - PARQUET) | {"pg8000"}
     assert declared_by_the_application("results") == used
+
+
+def test_campaigns_declare_exactly_what_they_import_beside_the_application():
+    assert declared_by_the_application("campaign") == used_by("mtr_campaign") - used_by("mtr_operator")
 
 
 def used_by(package: str) -> Set[str]:
     """Distributions that a package of the application imports."""
     modules = {name for path in tracked(f"operator_gui/src/{package}/*.py") for name in imports(path)
                if not is_standard(name)}
-    return {DISTRIBUTIONS.get(name, name) for name in modules - {"mtr_operator", "mtr_results"}}
+    return {DISTRIBUTIONS.get(name, name) for name in modules if not name.startswith("mtr_") or name == "mtr_proto"}
 
 
 def declared_by_the_application(name: str) -> Set[str]:

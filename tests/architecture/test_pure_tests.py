@@ -28,6 +28,12 @@ def test_pure_tests_import_nothing_that_the_job_lacks():
     assert not missing
 
 
+def test_the_list_of_ubuntu_20_04_names_the_same_in_fixed_versions():
+    lines = (TOP / "setup" / "focal-requirements.txt").read_text(encoding="utf-8").splitlines()
+    pinned = dict(line.split("==") for line in lines if not line.startswith("#"))
+    assert {MODULES.get(name, name) for name in pinned} == installed_modules()
+
+
 def test_pure_tests_are_found():
     names = {test.name for test in PURE["chosen_tests"]()}
     assert {"test_state_machine_table.py", "test_serial_link_frames.py"} <= names
