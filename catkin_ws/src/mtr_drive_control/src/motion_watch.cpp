@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mtr_core/plausible.hpp"
 #include "problems.hpp"
 
 namespace mtr_drive_control {
@@ -41,10 +42,9 @@ bool repeats(const Motion& motion, const Motion& before) {
 
 }  // namespace
 
-bool ImuReading::is_finite() const {
-  const auto finite = [](double value) { return std::isfinite(value); };
-  return std::all_of(rates_radps.begin(), rates_radps.end(), finite) &&
-         std::all_of(forces_mps2.begin(), forces_mps2.end(), finite);
+bool ImuReading::is_plausible() const {
+  return std::all_of(rates_radps.begin(), rates_radps.end(), mtr_core::is_turn_rate) &&
+         std::all_of(forces_mps2.begin(), forces_mps2.end(), mtr_core::is_force);
 }
 
 bool Duration::lasts(bool is_so, std::int64_t tick_ns, double for_s) {

@@ -45,3 +45,8 @@ class Pose2:
     def is_finite(self) -> bool:
         """True when no component is NaN or infinite."""
         return all(map(math.isfinite, (self.x, self.y, self.heading)))
+
+
+def heading_of(z: float, w: float) -> float:
+    """Heading in rad of a unit quaternion whose turn is about z alone."""
+    return 2.0 * math.atan2(z, w)

@@ -22,7 +22,8 @@ struct ImuReading {
   std::array<double, 3> forces_mps2;
 
   double yaw_rate_radps() const { return rates_radps[2]; }
-  bool is_finite() const;
+  /// False when one of the numbers is none that a robot's IMU shows.
+  bool is_plausible() const;
   bool repeats(const ImuReading& other) const {
     return rates_radps == other.rates_radps && forces_mps2 == other.forces_mps2;
   }

@@ -7,6 +7,7 @@
 
 #include "mtr_core/clock.hpp"
 #include "mtr_core/names.hpp"
+#include "mtr_core/plausible.hpp"
 
 namespace mtr_drive_control {
 
@@ -29,7 +30,8 @@ std::optional<Motion> motion_of(const Received<nav_msgs::Odometry>& received) {
   const double heading =
       std::atan2(2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y * turn.y + turn.z * turn.z));
   const Velocity velocity{message.twist.twist.linear.x, message.twist.twist.angular.z};
-  if (!std::isfinite(position.x + position.y + heading) || !velocity.is_finite()) {
+  if (!std::isfinite(position.x + position.y + heading) || !mtr_core::is_wheel_speed(velocity.linear_mps) ||
+      !mtr_core::is_turn_rate(velocity.angular_radps)) {
     return std::nullopt;
   }
   return Motion{received.time_ns, Pose(position.x, position.y, heading), velocity};
@@ -42,8 +44,8 @@ std::optional<ImuReading> imu_reading_of(const Received<sensor_msgs::Imu>& recei
   const auto& rate = received.message->angular_velocity;
   const auto& force = received.message->linear_acceleration;
   const ImuReading reading{received.time_ns, {rate.x, rate.y, rate.z}, {force.x, force.y, force.z}};
-  // What is no number is as good as silent.
-  return reading.is_finite() ? reading : ImuReading{mtr_core::kNeverNs, {}, {}};
+  // What no robot's IMU shows is as good as silent.
+  return reading.is_plausible() ? reading : ImuReading{mtr_core::kNeverNs, {}, {}};
 }
 
 std::optional<KeyHeight> key_height_of(const Received<mtr_msgs::PeripheralsState>& received) {

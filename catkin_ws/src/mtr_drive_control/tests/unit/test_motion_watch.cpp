@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "mtr_drive_control/motion_watch.hpp"
 
 namespace mtr_drive_control {
@@ -110,6 +112,17 @@ TEST_F(MotionWatchTest, SameReadingTakenTwiceIsNoFrozenSensor) {
   for (int tick = 0; tick < 200; ++tick) {
     step({0.5, 0.0}, {0.5, 0.0}, 0.0);
     EXPECT_FALSE(watch.take(now_ns, {0.5, 0.0}, Motion{now_ns, pose, {0.5, 0.0}}, std::nullopt));
+  }
+}
+
+TEST(ImuReadingTest, WhatNoRobotsImuShowsIsNotPlausible) {
+  EXPECT_TRUE((ImuReading{0, {0.1, -0.2, 4.0}, {1.0, -2.0, 9.81}}).is_plausible());
+  EXPECT_TRUE((ImuReading{0, {0.0, 0.0, -10.0}, {0.0, 0.0, 160.0}}).is_plausible());
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (const double wrong : {-686.73, 1e30, kNan, std::numeric_limits<double>::infinity()}) {
+    EXPECT_FALSE((ImuReading{0, {0.0, 0.0, wrong}, {0.0, 0.0, 9.81}}).is_plausible()) << wrong;
+    EXPECT_FALSE((ImuReading{0, {wrong, 0.0, 0.0}, {0.0, 0.0, 9.81}}).is_plausible()) << wrong;
+    EXPECT_FALSE((ImuReading{0, {0.0, 0.0, 0.0}, {0.0, wrong, 9.81}}).is_plausible()) << wrong;
   }
 }
 
