@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localizer.hpp"
 
+#include <utility>
+
 #include "mtr_surfel_map/adjustment/map_adjustment.hpp"
 #include "problems.hpp"
 #include "scans/deskew.hpp"
@@ -29,14 +31,26 @@ Mapper::Adjust adjustment_with(const Parameters& parameters) {
 Localizer::Localizer(const Parameters& parameters)
     : PoseSource(parameters, adjustment_with(parameters)), tracker_(parameters.tracking) {}
 
+void Localizer::go_on(Memory memory) {
+  mapper().go_on(memory.map_car_id, memory.revision);
+  memory_ = std::move(memory);
+}
+
 Estimate Localizer::step(const GatedSample& sample) {
   const std::int64_t now_ns = sample.wheels.stamp_ns;
 
   // Predict by wheels and gyro.
+  const RememberedPose before{filter().pose(), filter().pose_covariance(), odometry().wheel_odom()};
   if (const mtr_core::Problem loss = odometry().predict(sample, gyro(), tracker_.has_map())) {
-    lose(loss);
+    bridge(before, loss);
   }
   mapper().travel(history().newest().input, tracker_.lost());
+
+  // Go on with the map of before once the gyro's bias is known.
+  if (memory_ && odometry().state() == MotionState::kTracking) {
+    take_up(*memory_);
+    memory_.reset();
+  }
 
   // Begin a map when one is ordered, and enter it when it is adjusted.
   if (mapper().begins(now_ns)) {
@@ -104,7 +118,20 @@ void Localizer::correct_by_satellites() {
   }
 }
 
+void Localizer::take_up(const Memory& memory) {
+  // A robot that nobody knows the place of is looked for round the middle of the map.
+  const auto led = memory.pose ? led_by_wheels(*memory.pose, odometry().wheel_odom()) : std::nullopt;
+  const RememberedPose here = led.value_or(memory.pose.value_or(RememberedPose{}));
+  history().change_newest([&here](PoseFilter& filter) { filter.set_pose(here.pose, here.covariance); });
+  const int sources = tracker_.enter(memory.map, history().newest());
+  history().change_newest([sources](PoseFilter& filter) { filter.consider_sources(sources); });
+  history().forget_past();
+  const mtr_core::Sentence& sentence = led ? problems::kDoubted : problems::kSearching;
+  tracker_.doubt(sentence({{"cause", problems::kStartedAnew()}}), static_cast<bool>(led));
+}
+
 void Localizer::begin_map() {
+  memory_.reset();
   tracker_.begin_map(history().newest());
   history().change_newest([](PoseFilter& filter) { filter.consider_sources(0); });
   history().forget_past();
@@ -124,10 +151,18 @@ void Localizer::enter(const AdjustedMap& map) {
   history().forget_past();
 }
 
-void Localizer::lose(const mtr_core::Problem& reason) {
-  const bool is_mapping = tracker_.state() == ScanTracker::State::kMapping;
-  const mtr_core::Sentence& sentence = is_mapping ? problems::kLost : problems::kSearching;
-  tracker_.lose(sentence({{"cause", reason}}));
+void Localizer::bridge(const RememberedPose& before, const mtr_core::Problem& loss) {
+  const auto led = tracker_.is_reckoned() ? led_by_wheels(before, odometry().wheel_odom()) : std::nullopt;
+  if (led) {
+    history().change_newest([&led](PoseFilter& filter) { filter.set_pose(led->pose, led->covariance); });
+  }
+  if (tracker_.state() == ScanTracker::State::kMapping) {
+    tracker_.lose(problems::kLost({{"cause", loss}}));
+  } else if (led) {
+    tracker_.doubt(problems::kDoubted({{"cause", loss}}), true);
+  } else {
+    tracker_.lose(problems::kSearching({{"cause", loss}}));
+  }
 }
 
 PoseVector Localizer::map_from_odom() const {

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "gnss/gnss_monitor.hpp"
+#include "memory.hpp"
 #include "pose_source.hpp"
 #include "tracking/tracker.hpp"
 
@@ -16,6 +18,10 @@ namespace mtr_localization {
 class Localizer : public PoseSource {
  public:
   explicit Localizer(const Parameters& parameters);
+
+  /// To be called before the first sample: a map of before is the one that poses are in. They are not valid until the
+  /// LiDARs see near the remembered pose what the map shows there, or the robot has been driven to where they do.
+  void go_on(Memory memory);
 
   bool add_fix(const GnssFix& fix) override { return gnss_.add(fix); }
   const std::vector<Surfel>& surfels() const override { return tracker_.surfaces().surfels(); }
@@ -35,13 +41,16 @@ class Localizer : public PoseSource {
   void map(std::size_t step, const ScanPoints& scan);
   void correct_by_satellites();
   void begin_map();
+  void take_up(const Memory& memory);
   void enter(const AdjustedMap& map);
-  void lose(const mtr_core::Problem& reason);
+  void bridge(const RememberedPose& before, const mtr_core::Problem& loss);
   Estimate estimate() const;
   PoseMode mode() const;
 
   ScanTracker tracker_;
   GnssMonitor gnss_;
+  /// Until it is taken up.
+  std::optional<Memory> memory_;
   std::int64_t last_scan_ns_ = 0;
 };
 

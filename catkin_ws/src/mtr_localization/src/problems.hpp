@@ -13,13 +13,15 @@ using mtr_core::Sentence;
 constexpr Sentence kStandStill{"localization.stand_still", "Stand still: measuring the gyro's bias."};
 constexpr Sentence kWaitingForWheels{"localization.waiting_for_wheels", "Waiting for wheel odometry."};
 constexpr Sentence kWheelsSilent{"localization.wheels_silent", "Wheel odometry is silent, or its stamps are old."};
-constexpr Sentence kWheelsNotFinite{"localization.wheels_not_finite", "Wheel odometry is not a finite number."};
+constexpr Sentence kWheelsNotFinite{"localization.wheels_not_finite",
+                                    "Wheel odometry shows no numbers, or none that a base drives."};
 constexpr Sentence kWheelsWereSilent{"localization.wheels_were_silent", "Wheel odometry was silent for {gap_s:.2f} s."};
 constexpr Sentence kWheelsJumped{"localization.wheels_jumped", "Wheel odometry jumped by {distance_m:.2f} m."};
 constexpr Sentence kWheelsWentBack{"localization.wheels_went_back", "The time of the wheel odometry went backwards."};
 constexpr Sentence kWaitingForImu{"localization.waiting_for_imu", "Waiting for the IMU."};
 constexpr Sentence kImuSilent{"localization.imu_silent", "The IMU is silent."};
-constexpr Sentence kImuNotANumber{"localization.imu_not_a_number", "The IMU's rate is not a number."};
+constexpr Sentence kImuNotANumber{"localization.imu_not_a_number",
+                                  "The IMU's readings are no numbers, or none that a robot's motion gives."};
 constexpr Sentence kImuWasSilent{"localization.imu_was_silent", "The IMU was silent for {gap_s:.2f} s."};
 constexpr Sentence kImuWentBack{"localization.imu_went_back", "The time of the IMU went backwards."};
 
@@ -41,6 +43,11 @@ constexpr Sentence kElsewhere{"localization.elsewhere",
                               "it by hand until it knows where it is."};
 constexpr Sentence kWaitingForOther{"localization.waiting_for_other",
                                     "Waiting for map to odom from the other localization."};
+
+constexpr Sentence kDoubted{"localization.doubted",
+                            "Position lost: {cause} It is taken up again when the LiDARs see what the map shows here; "
+                            "else drive or turn the robot by hand until it knows where it is."};
+constexpr Sentence kStartedAnew{"localization.started_anew", "Localization was started anew."};
 
 // The map
 constexpr Sentence kLostOnTheWay{

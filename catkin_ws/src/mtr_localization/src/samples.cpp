@@ -1,15 +1,28 @@
 /// @file
-/// Distance driven by wheel odometry.
+/// Plausible readings, and distance driven by wheel odometry.
 // SPDX-License-Identifier: Apache-2.0
 #include "samples.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "mtr_core/plausible.hpp"
 
 namespace mtr_localization {
 
-bool WheelSample::is_finite() const {
-  return std::isfinite(x_m) && std::isfinite(y_m) && std::isfinite(heading_rad) && std::isfinite(linear_mps) &&
-         std::isfinite(angular_radps);
+bool ImuSample::is_plausible() const {
+  // Without a yaw rate there is no heading; an IMU that shows no tilt or gravity may say so by what is no number.
+  const auto is_none_or = [](double value, bool is_possible) { return std::isnan(value) || is_possible; };
+  return mtr_core::is_turn_rate(yaw_rate_radps) &&
+         is_none_or(tilt_rate_radps.x(), mtr_core::is_turn_rate(tilt_rate_radps.x())) &&
+         is_none_or(tilt_rate_radps.y(), mtr_core::is_turn_rate(tilt_rate_radps.y())) &&
+         std::all_of(force_mps2.begin(), force_mps2.end(),
+                     [&](double value) { return is_none_or(value, mtr_core::is_force(value)); });
+}
+
+bool WheelSample::is_plausible() const {
+  return std::isfinite(x_m) && std::isfinite(y_m) && std::isfinite(heading_rad) &&
+         mtr_core::is_wheel_speed(linear_mps) && mtr_core::is_turn_rate(angular_radps);
 }
 
 double WheelSample::distance_since(const WheelSample& earlier) const {

@@ -20,6 +20,9 @@ struct ImuSample {
   Eigen::Vector2d tilt_rate_radps = Eigen::Vector2d::Zero();
   /// What the accelerometer shows; +9.81 in z when level and at rest. Zero: there is none.
   Eigen::Vector3d force_mps2 = Eigen::Vector3d::Zero();
+
+  /// False when the yaw rate is no number, or one of the numbers is none that a robot's IMU shows.
+  bool is_plausible() const;
 };
 
 /// Wheel odometry: pose in its own drifting frame, and velocity of base_link as the wheels see it.
@@ -31,7 +34,8 @@ struct WheelSample {
   double linear_mps;
   double angular_radps;
 
-  bool is_finite() const;
+  /// False when one of the numbers is none, or a speed is one that no base has.
+  bool is_plausible() const;
 
   /// Distance driven since an earlier sample, along the mean heading of the two, negative backwards; in m.
   double distance_since(const WheelSample& earlier) const;

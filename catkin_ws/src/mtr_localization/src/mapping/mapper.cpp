@@ -25,6 +25,12 @@ double square(double value) { return value * value; }
 Mapper::Mapper(const Parameters& parameters, Adjust adjust)
     : parameters_(parameters), adjust_(std::move(adjust)), selector_(parameters.sensors) {}
 
+void Mapper::go_on(std::uint64_t map_car_id, std::uint32_t revision) {
+  map_car_id_ = map_car_id;
+  revision_ = newest_revision_ = revision;
+  state_ = State::kDone;
+}
+
 void Mapper::travel(const FilterInput& input, bool lost) {
   if (input.kind != FilterInput::Kind::kMove) {
     return;

@@ -43,6 +43,9 @@ class Mapper {
 
   Mapper(const Parameters& parameters, Adjust adjust);
 
+  /// Poses are in a map of before, until another is ordered.
+  void go_on(std::uint64_t map_car_id, std::uint32_t revision);
+
   void add_order(const MapOrder& order) { orders_.push_back(order); }
 
   /// The robot moved so during one step, or nothing is known of that. @param lost its pose is

@@ -7,17 +7,27 @@
 #include <cmath>
 #include <utility>
 
+#include "mtr_core/plausible.hpp"
 #include "problems.hpp"
 
 namespace mtr_localization {
 namespace {
 
-// No base of this class is faster: such an odometry was reset, not driven.
-constexpr double kMaxWheelsMps = 3.0;
+using mtr_core::kMaxWheelsMps;
+
 // The odometry's noise, however short the interval is.
 constexpr double kJitterM = 0.01;
 // A driver on a busy machine stamps late: what was driven in 40 ms then seems to have been driven in 1.
 constexpr double kStampedLateS = 0.05;
+
+// Six readings of a sensor with noise are seldom all the same twice, and never so often; in motion.
+constexpr int kFrozenSamples = 3;
+constexpr double kMovesMps = 0.02;
+constexpr double kTurnsRadps = 0.05;
+
+bool is_moving(const WheelSample& wheels) {
+  return std::abs(wheels.linear_mps) > kMovesMps || std::abs(wheels.angular_radps) > kTurnsRadps;
+}
 
 double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_ns) * 1e-9; }
 
@@ -26,9 +36,23 @@ double seconds(std::int64_t duration_ns) { return static_cast<double>(duration_n
 InputGate::InputGate(double gap_limit_s) : gap_limit_ns_(std::llround(gap_limit_s * 1e9)) {}
 
 void InputGate::add_imu(const ImuSample& sample) {
+  if (is_frozen(sample)) {
+    // As if it were silent, which it is.
+    return;
+  }
   if (!gyro_.add(sample)) {
     restart_ = problems::kImuWentBack();
   }
+}
+
+bool InputGate::is_frozen(const ImuSample& sample) {
+  const bool repeats = newest_imu_ && sample.force_mps2 == newest_imu_->force_mps2 &&
+                       sample.tilt_rate_radps == newest_imu_->tilt_rate_radps &&
+                       sample.yaw_rate_radps == newest_imu_->yaw_rate_radps;
+  imu_repeats_ = repeats ? imu_repeats_ + 1 : 0;
+  newest_imu_ = sample;
+  // One that shows no gravity is none that could be told by it.
+  return imu_repeats_ >= kFrozenSamples && !sample.force_mps2.isZero(0.0) && last_used_ && is_moving(*last_used_);
 }
 
 void InputGate::add_wheels(const WheelSample& sample) {
@@ -63,7 +87,7 @@ std::optional<GatedSample> InputGate::next() {
 }
 
 mtr_core::Problem InputGate::problem_with(const WheelSample& wheels) const {
-  if (!wheels.is_finite()) {
+  if (!wheels.is_plausible()) {
     return problems::kWheelsNotFinite();
   }
   if (!gyro_.covers(wheels.stamp_ns)) {
@@ -87,6 +111,7 @@ mtr_core::Problem InputGate::interruption_before(const WheelSample& wheels) {
   }
   const double distance_m = std::hypot(wheels.x_m - last_used_->x_m, wheels.y_m - last_used_->y_m);
   const double speed_mps = std::max(std::abs(last_used_->linear_mps), std::abs(wheels.linear_mps));
+  // An odometry that was faster was reset, not driven.
   if (distance_m >
       kMaxWheelsMps * seconds(wheel_gap_ns) + std::min(speed_mps, kMaxWheelsMps) * kStampedLateS + kJitterM) {
     return problems::kWheelsJumped({{"distance_m", distance_m}});

@@ -47,11 +47,15 @@ class InputGate {
   const YawRateHistory& gyro() const { return gyro_; }
 
  private:
+  /// The sensor, or its driver, says the same again and again although the wheels move.
+  bool is_frozen(const ImuSample& sample);
   mtr_core::Problem problem_with(const WheelSample& wheels) const;
   mtr_core::Problem interruption_before(const WheelSample& wheels);
 
   std::int64_t gap_limit_ns_;
   YawRateHistory gyro_;
+  std::optional<ImuSample> newest_imu_;
+  int imu_repeats_ = 0;
   std::deque<WheelSample> pending_;
   std::optional<WheelSample> last_used_;
   std::optional<std::int64_t> newest_wheels_ns_;

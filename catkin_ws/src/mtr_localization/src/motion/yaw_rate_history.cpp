@@ -4,7 +4,6 @@
 #include "motion/yaw_rate_history.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace mtr_localization {
 
@@ -16,7 +15,7 @@ bool YawRateHistory::add(const ImuSample& sample) {
     return true;
   }
   newest_received_ns_ = sample.stamp_ns;
-  if (std::isfinite(sample.yaw_rate_radps)) {
+  if (sample.is_plausible()) {
     samples_.push_back(sample);
   }
   return ordered;

@@ -11,7 +11,7 @@
 
 namespace mtr_localization {
 
-/// Recent samples of the gyro, oldest first. A sample that is not a number is received but not kept.
+/// Recent samples of the gyro, oldest first. A sample that is not plausible is received but not kept.
 ///
 /// A sample is the mean rate since the one before it: gyros filter at the rate at which they are read.
 class YawRateHistory {
@@ -22,7 +22,7 @@ class YawRateHistory {
   /// Stamp of the newest sample received, good or not.
   std::optional<std::int64_t> newest_received_ns() const { return newest_received_ns_; }
 
-  /// True when the newest sample received is a number.
+  /// True when the newest sample received is plausible.
   bool newest_is_good() const;
 
   /// True when samples before, or at, and after, or at, the time are kept.

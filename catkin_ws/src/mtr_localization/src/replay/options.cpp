@@ -9,7 +9,8 @@
 namespace mtr_localization::replay {
 namespace {
 
-const char kUsage[] = "Usage: replay BAG --out DIR [--front-only] [--parameter NAME=VALUE ...] [--loop-end STAMP_S]";
+const char kUsage[] =
+    "Usage: replay BAG --out DIR [--front-only] [--parameter NAME=VALUE ...] [--loop-end STAMP_S | --map FILE]";
 
 double number_of(const std::string& text, const std::string& what) {
   try {
@@ -73,6 +74,8 @@ Options parse(const std::vector<std::string>& arguments) {
       set_parameter(options, next());
     } else if (argument == "--loop-end") {
       options.loop_end_ns = std::llround(number_of(next(), argument) * 1e9);
+    } else if (argument == "--map") {
+      options.map = next();
     } else if (argument.rfind("--", 0) == 0 || !options.bag.empty()) {
       throw std::runtime_error("'" + argument + "' is not understood. " + kUsage);
     } else {
@@ -81,6 +84,9 @@ Options parse(const std::vector<std::string>& arguments) {
   }
   if (options.bag.empty() || options.folder.empty()) {
     throw std::runtime_error(kUsage);
+  }
+  if (!options.map.empty() && options.loop_end_ns) {
+    throw std::runtime_error("--loop-end makes a map and --map brings one; give one of them.");
   }
   return options;
 }

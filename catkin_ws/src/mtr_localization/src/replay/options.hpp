@@ -38,6 +38,8 @@ struct Options {
   bool front_only = false;
   /// Time of the bag's stamps at which the way round the Car ends; without it by the bag's orders, or when it closes.
   std::optional<std::int64_t> loop_end_ns;
+  /// File map.bag of another replay: it is localized on, and none is made; empty: one is made.
+  std::string map;
   Parameters parameters;
   Mounting mounting;
 };

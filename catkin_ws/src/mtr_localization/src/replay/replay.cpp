@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "mtr_surfel_map/adjustment/map_adjustment.hpp"
+#include "ros/saved_map.hpp"
 
 namespace mtr_localization::replay {
 namespace {
@@ -38,6 +39,9 @@ Result Replay::run() {
   const double process_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID);
   const CpuTimer thread;
   reader_.open();
+  if (!options_.map.empty()) {
+    go_on_with_map();
+  }
   Event event;
   while (reader_.next(event)) {
     std::visit([this](auto& content) { take(std::move(content)); }, event);
@@ -48,6 +52,20 @@ Result Replay::run() {
   result_.sweeps_used = localizer_.scans_used();
   result_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return std::move(result_);
+}
+
+void Replay::go_on_with_map() {
+  const auto saved = read_map(options_.map);
+  if (!saved) {
+    throw std::runtime_error("File " + options_.map + " is not there.");
+  }
+  Memory memory = memory_of(saved->map);
+  result_.map.map = memory.map;
+  result_.map.map_car_id = memory.map_car_id;
+  result_.map.revision = memory.revision;
+  result_.is_map_new = false;
+  has_map_ = true;
+  localizer_.go_on(std::move(memory));
 }
 
 void Replay::take(const ImuSample& sample) {
@@ -69,7 +87,11 @@ void Replay::track(const std::function<std::vector<Estimate>()>& answer) {
 
 void Replay::take(const GnssFix& fix) { localizer_.add_fix(fix); }
 
-void Replay::take(MapOrder order) { localizer_.add_order(order); }
+void Replay::take(MapOrder order) {
+  if (options_.map.empty()) {
+    localizer_.add_order(order);
+  }
+}
 
 void Replay::take(Sweep sweep) {
   ++result_.sweeps;
@@ -81,7 +103,7 @@ void Replay::take(Sweep sweep) {
 
 void Replay::take(WheelSample sample) {
   ++result_.wheel_samples;
-  if (!reader_.has_orders()) {
+  if (!reader_.has_orders() && options_.map.empty()) {
     give_order(sample.stamp_ns);
   }
   track([&] { return localizer_.add_wheels(sample); });
@@ -109,6 +131,7 @@ void Replay::finish_map() {
   }
   // The bag ended before its map was due: what there is shows at least what is missing.
   result_.map.map = mtr_surfel_map::adjust(localizer_.key_frames(), options_.parameters.adjustment);
+  result_.map.grid = occupancy_of(result_.map.map);
   note(result_.map.map.valid ? "The bag ends before the map takes effect." : result_.map.map.message.text,
        result_.trajectory.empty() ? 0 : result_.trajectory.back().stamp_ns);
 }

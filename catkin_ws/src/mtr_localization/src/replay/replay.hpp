@@ -22,6 +22,8 @@ struct Result {
   std::vector<Estimate> trajectory;
   /// The last map that was made; without any, invalid and with the reason.
   MapResult map;
+  /// It was made of this bag; else it came with the options.
+  bool is_map_new = true;
   /// Sentences of the localizer with the stamp at which each was said first.
   std::map<std::string, std::int64_t> messages;
   int imu_samples = 0;
@@ -46,6 +48,7 @@ class Replay {
   Result run();
 
  private:
+  void go_on_with_map();
   void take(const ImuSample& sample);
   void take(MapOrder order);
   void take(const GnssFix& fix);

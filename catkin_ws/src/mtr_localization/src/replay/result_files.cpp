@@ -12,6 +12,8 @@
 
 #include "mtr_surfel_map/map_files.hpp"
 #include "ros/conversions.hpp"
+#include "ros/map_messages.hpp"
+#include "ros/saved_map.hpp"
 
 namespace mtr_localization::replay {
 namespace {
@@ -89,6 +91,15 @@ void write_summary(const Result& result, const std::string& bag, const std::stri
   file << "}\n";
 }
 
+void write_map(const MapResult& result, const std::string& folder) {
+  mtr_surfel_map::write_surfaces(result.map, folder + "/surfaces.csv");
+  mtr_surfel_map::write_key_frames(result.map, folder + "/key_frames.csv");
+  mtr_surfel_map::write_grid(result.grid, folder);
+  if (result.map.valid) {
+    write_bag(saved_map_of(result, message_of(result), grid_message_of(result)), folder + "/map.bag");
+  }
+}
+
 }  // namespace
 
 void write_files(const Result& result, const std::string& bag, const std::string& folder) {
@@ -98,9 +109,9 @@ void write_files(const Result& result, const std::string& bag, const std::string
     throw std::runtime_error("Folder " + folder + " cannot be made: " + error.message() + ".");
   }
   write_trajectory(result.trajectory, folder + "/trajectory.csv");
-  mtr_surfel_map::write_surfaces(result.map.map, folder + "/surfaces.csv");
-  mtr_surfel_map::write_key_frames(result.map.map, folder + "/key_frames.csv");
-  mtr_surfel_map::write_grid(occupancy_of(result.map.map), folder);
+  if (result.is_map_new) {
+    write_map(result.map, folder);
+  }
   write_summary(result, bag, folder + "/summary.json");
 }
 

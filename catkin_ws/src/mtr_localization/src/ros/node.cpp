@@ -52,23 +52,38 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
   reader.read("publish_odom_tf", parameters.publish_odom_tf);
   reader.read("rear_lidar", parameters.rear_lidar);
   reader.read("pose_source", parameters.pose_source, {"own", "external"});
+  reader.read("memory_folder", parameters.memory_folder);
   return parameters;
 }
 
-std::unique_ptr<PoseSource> Node::pose_source_of(NodeParameters parameters) const {
+std::unique_ptr<PoseSource> Node::pose_source_of(NodeParameters parameters) {
   parameters.localization.lockstep = mtr_core::is_lockstep();
   if (parameters.pose_source == "external") {
     return std::make_unique<ExternalPose>(parameters.localization, parameters.external,
                                           [this] { return map_from_odom_in(transforms_); });
   }
-  return std::make_unique<Localizer>(parameters.localization);
+  return own_source(parameters.localization);
+}
+
+std::unique_ptr<PoseSource> Node::own_source(const Parameters& parameters) {
+  auto localizer = std::make_unique<Localizer>(parameters);
+  if (const auto saved = memory_.map()) {
+    Memory memory = memory_of(saved->map);
+    memory.pose = memory_.pose();
+    ROS_WARN("Localization was started anew; it goes on with map %u of before, %s.", memory.revision,
+             memory.pose ? "near where the robot was" : "and nobody knows where the robot is");
+    localizer->go_on(std::move(memory));
+    outputs_.publish_map_of_before(*saved);
+  }
+  return localizer;
 }
 
 Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
     : frames_(mtr_description::described_robot(), parameters.rear_lidar),
       listener_(transforms_),
+      memory_(parameters.memory_folder, ros::param::param("/run_id", std::string())),
+      outputs_(node, parameters.publish_odom_tf, memory_),
       source_(pose_source_of(parameters)),
-      outputs_(node, parameters.publish_odom_tf),
       front_(node, Lidar::kFront, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
       rear_(node, Lidar::kRear, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
       gnss_(node, frames_,

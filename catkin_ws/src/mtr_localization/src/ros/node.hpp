@@ -19,6 +19,7 @@
 #include "mtr_core/samples.hpp"
 #include "pose_source.hpp"
 #include "ros/gnss_input.hpp"
+#include "ros/memory_files.hpp"
 #include "ros/outputs.hpp"
 #include "ros/robot_frames.hpp"
 #include "ros/scan_input.hpp"
@@ -36,6 +37,8 @@ struct NodeParameters {
   bool rear_lidar = true;
   /// Publish odom -> base_link; false when the base does so itself.
   bool publish_odom_tf = true;
+  /// Of the files with which a process that is started again in the same run goes on; empty: none.
+  std::string memory_folder;
 };
 
 /// Answers each wheel odometry message; needs no tick of its own.
@@ -51,7 +54,8 @@ class Node {
   void spin();
 
  private:
-  std::unique_ptr<PoseSource> pose_source_of(NodeParameters parameters) const;
+  std::unique_ptr<PoseSource> pose_source_of(NodeParameters parameters);
+  std::unique_ptr<PoseSource> own_source(const Parameters& parameters);
   void subscribe_to_time(ros::NodeHandle& node);
   void receive_imu(ImuSample sample);
   void receive_sweep(Sweep sweep);
@@ -76,9 +80,10 @@ class Node {
   RobotFrames frames_;
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_;
+  MemoryFiles memory_;
+  Outputs outputs_;
   std::unique_ptr<PoseSource> source_;
   WorkLoad load_;
-  Outputs outputs_;
   ScanInput front_;
   ScanInput rear_;
   GnssInput gnss_;

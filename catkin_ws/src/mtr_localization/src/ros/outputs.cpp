@@ -18,8 +18,9 @@ namespace mtr_localization {
 
 namespace names = mtr_core::names;
 
-Outputs::Outputs(ros::NodeHandle& node, bool publish_odom_tf)
+Outputs::Outputs(ros::NodeHandle& node, bool publish_odom_tf, MemoryFiles& memory)
     : publish_odom_tf_(publish_odom_tf),
+      memory_(memory),
       poses_(node.advertise<mtr_msgs::LocalizedPose>(names::kLocalizedPose, 50)),
       surfaces_(node.advertise<mtr_msgs::SurfaceMap>(names::kSurfaceMap, 1, true)),
       grids_(node.advertise<nav_msgs::OccupancyGrid>(names::kMapGrid, 1, true)),
@@ -39,17 +40,26 @@ void Outputs::publish(PoseSource& source, const std::vector<Estimate>& estimates
     publish_transforms(estimate, source.owns_map_frame());
     publish_each_second(source, estimate, load);
     log(source, estimate);
+    memory_.note(estimate);
   }
 }
 
+void Outputs::publish_map_of_before(const SavedMap& saved) {
+  surfaces_.publish(saved.map.surfaces);
+  grids_.publish(saved.grid);
+}
+
 void Outputs::publish_map(const MapResult& result, bool with_grid) {
-  surfaces_.publish(message_of(result));
+  const mtr_msgs::SurfaceMap surfaces = message_of(result);
+  surfaces_.publish(surfaces);
   if (!result.map.valid) {
     ROS_WARN("The key-frames gave no map. %s", result.map.message.text.c_str());
     return;
   }
   if (with_grid) {
-    grids_.publish(grid_message_of(result));
+    const nav_msgs::OccupancyGrid grid = grid_message_of(result);
+    grids_.publish(grid);
+    memory_.keep_map(saved_map_of(result, surfaces, grid));
   }
   ROS_INFO("Map %u: %zu surfaces of %zu key-frames, range biases %.1f and %.1f mm (front, rear).", result.revision,
            result.map.surfels.size(), result.map.key_frames.size(), 1e3 * result.map.range_bias.value_m[0],

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pose_source.hpp"
+#include "ros/memory_files.hpp"
 #include "ros/work_load.hpp"
 
 namespace mtr_localization {
@@ -18,7 +19,11 @@ namespace mtr_localization {
 class Outputs {
  public:
   /// @param publish_odom_tf also odom -> base_link, which else the base publishes itself
-  Outputs(ros::NodeHandle& node, bool publish_odom_tf);
+  /// @param memory takes what a restart goes on with; has to outlive this
+  Outputs(ros::NodeHandle& node, bool publish_odom_tf, MemoryFiles& memory);
+
+  /// A map that a process of before has made.
+  void publish_map_of_before(const SavedMap& saved);
 
   /// A new map before the first pose that is in it, then the estimates.
   void publish(PoseSource& source, const std::vector<Estimate>& estimates, const WorkLoad& load);
@@ -32,6 +37,7 @@ class Outputs {
   void log(const PoseSource& source, const Estimate& estimate);
 
   bool publish_odom_tf_;
+  MemoryFiles& memory_;
   ros::Publisher poses_;
   ros::Publisher surfaces_;
   ros::Publisher grids_;

@@ -16,6 +16,10 @@ constexpr std::size_t kMaxWaiting = 20;
 // On the robot's clock a sweep does not wait for the wheels' next message, which comes within 20 ms: over so short a
 // time a robot that brakes with 2.5 m/s2 is less than 1 mm from where it would be at constant velocity.
 constexpr std::int64_t kExtrapolatedNs = 25'000'000;
+// No LiDAR measures so many ranges twice to the last bit: of 4,000 sweeps of a SICK S3000, a NAV350 and Hokuyos, on
+// robots that stood and that drove, none was the same as the one before. Fewer may be of one that counts in
+// centimetres.
+constexpr std::ptrdiff_t kMinRepeated = 20;
 
 }  // namespace
 
@@ -26,6 +30,7 @@ std::string ScanQueue::add(Sweep sweep) {
     return problem;
   }
   newest_ns_[static_cast<std::size_t>(sweep.lidar)] = sweep.stamp_ns;
+  newest_ranges_[static_cast<std::size_t>(sweep.lidar)] = sweep.ranges_m;
   // Equal stamps stand in the order of the LiDARs, so that it does not matter whose message comes first.
   const auto place = std::upper_bound(waiting_.begin(), waiting_.end(), sweep, [](const Sweep& a, const Sweep& b) {
     return std::make_pair(a.stamp_ns, a.lidar) < std::make_pair(b.stamp_ns, b.lidar);
@@ -45,7 +50,17 @@ std::string ScanQueue::problem_with(const Sweep& sweep) const {
   }
   const auto& newest_ns = newest_ns_[static_cast<std::size_t>(sweep.lidar)];
   const bool is_restart = newest_ns && sweep.stamp_ns < *newest_ns - kRestartNs;
-  return newest_ns && sweep.stamp_ns <= *newest_ns && !is_restart ? "A scan is not newer than the one before." : "";
+  if (newest_ns && sweep.stamp_ns <= *newest_ns && !is_restart) {
+    return "A scan is not newer than the one before.";
+  }
+  return is_repeated(sweep) ? "A scan is the same as the one before: the LiDAR is frozen." : "";
+}
+
+bool ScanQueue::is_repeated(const Sweep& sweep) const {
+  const auto returns = std::count_if(sweep.ranges_m.begin(), sweep.ranges_m.end(), [&sweep](float range_m) {
+    return range_m >= sweep.range_min_m && range_m < sweep.range_max_m;
+  });
+  return returns >= kMinRepeated && sweep.ranges_m == newest_ranges_[static_cast<std::size_t>(sweep.lidar)];
 }
 
 std::int64_t ScanQueue::due_ns(const Sweep& sweep) const {

@@ -32,11 +32,13 @@ class ScanQueue {
 
  private:
   std::string problem_with(const Sweep& sweep) const;
+  bool is_repeated(const Sweep& sweep) const;
   std::int64_t due_ns(const Sweep& sweep) const;
 
   std::optional<std::int64_t> lag_ns_;
   std::deque<Sweep> waiting_;
   std::array<std::optional<std::int64_t>, kLidars> newest_ns_;
+  std::array<std::vector<float>, kLidars> newest_ranges_;
   int refused_ = 0;
   int used_ = 0;
 };

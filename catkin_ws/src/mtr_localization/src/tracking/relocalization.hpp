@@ -38,13 +38,21 @@ class Relocalization {
   std::optional<Found> advance(const View& view, const PoseVector& reckoned);
 
  private:
-  /// A place, as the pose of odom in map, and how much it explains of each view kept.
+  /// How well a place and a view agree.
+  struct Shares {
+    /// Of what is expected and of what returned, both.
+    double both;
+    /// Of what returned.
+    double returns;
+  };
+  /// A place, as the pose of odom in map, and its shares in each view kept.
   struct Hypothesis {
     PoseVector map_from_odom;
-    std::deque<double> shares;
+    std::deque<Shares> shares;
 
     double mean() const;
     double least() const;
+    double mean_of_returns() const;
   };
   enum class Phase { kWait, kSearch, kRefine, kCompare, kDecide };
 
@@ -54,13 +62,14 @@ class Relocalization {
   void compare();
   std::optional<Found> decide(const View& view);
   bool is_alone(const Hypothesis& best) const;
+  bool is_rival(const Hypothesis& other, const Hypothesis& best, bool is_reckoned) const;
   bool is_exact(const Hypothesis& best, const PoseVector& pose, const View& view) const;
   Found settled(const View& view, const PoseVector& pose) const;
   bool is_at_rim(const PoseVector& pose) const;
   bool is_new(const View& view) const;
   void add(const PoseVector& pose);
   Hypothesis laid(const PoseVector& pose) const;
-  double share_at(const View& view, const PoseVector& pose) const;
+  Shares shares_at(const View& view, const PoseVector& pose) const;
   PoseVector matched(const View& view, const PoseVector& pose, double sigma_m, double sigma_rad) const;
   ScanMatch fit(const View& view, const PoseVector& pose, double sigma_m, double sigma_rad) const;
 

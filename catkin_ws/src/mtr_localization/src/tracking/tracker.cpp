@@ -4,6 +4,7 @@
 #include "tracking/tracker.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -100,6 +101,11 @@ int ScanTracker::enter(const AdjustedMap& adjusted, const FilterStep& here) {
 void ScanTracker::lose(const mtr_core::Problem& reason) {
   lose_sight(reason);
   is_reckoned_ = state_ == State::kMapping;
+}
+
+void ScanTracker::doubt(const mtr_core::Problem& reason, bool reckoned) {
+  lose_sight(reason);
+  is_reckoned_ = reckoned;
 }
 
 void ScanTracker::lose_sight(const mtr_core::Problem& reason) {
@@ -241,11 +247,12 @@ std::optional<Relocalization::Found> ScanTracker::relocalize(const ScanSet& set,
                                                              const FilterHistory& history) {
   const FilterStep& step = history.at(set.step);
   const View view = view_of(set, scan, history);
-  if (is_uncovered(view, history, step)) {
-    find(step);
-    return std::nullopt;
-  }
   const bool is_mapping = state_ == State::kMapping;
+  const Relocalization::Found near = matched_near(view, step.filter);
+  if (is_uncovered(view, near.pose, history, step)) {
+    find(step);
+    return is_mapping ? std::nullopt : std::optional(near);
+  }
   if (is_mapping && !is_reckoned_) {
     return std::nullopt;
   }
@@ -267,8 +274,20 @@ std::optional<Relocalization::Found> ScanTracker::relocalize(const ScanSet& set,
   return is_mapping ? std::nullopt : found;
 }
 
-bool ScanTracker::is_uncovered(const View& view, const FilterHistory& history, const FilterStep& step) {
-  const Agreement all = agreement_of(view, step.filter.pose(), map_->surfaces, kToleranceM);
+Relocalization::Found ScanTracker::matched_near(const View& view, const PoseFilter& filter) const {
+  // Wheels that led over a gap know the heading to some degrees.
+  const Eigen::Matrix3d covariance = filter.pose_covariance();
+  const ScanMatch match = this->match(view.scan, filter);
+  if (!is_enough(match) || match.contradicts(covariance)) {
+    return {filter.pose(), covariance};
+  }
+  const Eigen::Matrix3d open = Eigen::Matrix3d::Identity() + match.correction.information * covariance;
+  return {match.pose, covariance * open.inverse()};
+}
+
+bool ScanTracker::is_uncovered(const View& view, const PoseVector& pose, const FilterHistory& history,
+                               const FilterStep& step) {
+  const Agreement all = agreement_of(view, pose, map_->surfaces, kToleranceM);
   is_contradicted_ = is_contradicted_ || contradicts(all);
   const PoseVector way = relative(agreed_odom_, step.odom);
   const bool is_near = way.head<2>().norm() <= kUncoveredWithinM && std::abs(way.z()) <= kUncoveredWithinRad;

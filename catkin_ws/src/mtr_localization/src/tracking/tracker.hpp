@@ -37,6 +37,8 @@ class ScanTracker {
   bool lost() const { return static_cast<bool>(lost_reason_); }
   /// None unless lost.
   const mtr_core::Problem& lost_reason() const { return lost_reason_; }
+  /// The pose is near the true one: not lost, or wheels and gyro have led it on since.
+  bool is_reckoned() const { return !lost() || is_reckoned_; }
   /// The scans leave a direction free, or show something else.
   bool degenerate() const { return degenerate_; }
   const TrackingFigures& figures() const { return figures_; }
@@ -51,6 +53,10 @@ class ScanTracker {
   /// The robot may be anywhere near, whatever wheels and gyro say.
   void lose(const mtr_core::Problem& reason);
 
+  /// As `lose`, of a pose in an adjusted map. @param reckoned it is near the true one, so that it is taken up when the
+  /// view there agrees; else only a search finds it
+  void doubt(const mtr_core::Problem& reason, bool reckoned);
+
   /// Whether the pose is the right one: so much of the expected view is seen. Knows from then on when it is lost.
   Judgement judge(const ScanSet& set, const FilterHistory& history);
   /// What a scan says about the pose of a step.
@@ -64,7 +70,7 @@ class ScanTracker {
   bool fits(const ScanPoints& scan, const FilterStep& step);
   /// While lost: takes the pose of wheels and gyro up again when what hid the view has gone, else looks for places that
   /// explain several views; in a growing map the pose of wheels and gyro is the only one that is tried. Returns the
-  /// pose that was found by search.
+  /// pose that was found in the adjusted map.
   std::optional<Relocalization::Found> relocalize(const ScanSet& set, const ScanPoints& scan,
                                                   const FilterHistory& history);
 
@@ -78,7 +84,8 @@ class ScanTracker {
   bool is_unanswered(const Agreement& all) const;
   double patience_after(const Agreement& all, const Eigen::Vector2d& slope, const FilterStep& step) const;
   bool is_beyond_patience(const Agreement& all, const FilterStep& step) const;
-  bool is_uncovered(const View& view, const FilterHistory& history, const FilterStep& step);
+  Relocalization::Found matched_near(const View& view, const PoseFilter& filter) const;
+  bool is_uncovered(const View& view, const PoseVector& pose, const FilterHistory& history, const FilterStep& step);
 
   TrackingParameters parameters_;
   ScanMatcher matcher_;

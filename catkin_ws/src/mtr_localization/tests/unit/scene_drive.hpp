@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "localizer.hpp"
@@ -99,8 +100,11 @@ class SceneDrive {
     truth.z() = wrapped(truth.z() + turn);
     poses_.erase(poses_.begin());
     poses_.push_back(truth);
-    if (now_ns % (2 * kTickNs) == 0 && lidar_works && now_ns > 3 * kTickNs) {
-      EXPECT_EQ(source_->add_scan(sweep()), "");
+    if (now_ns % (2 * kTickNs) == 0 && lidar_works && hears && now_ns > 3 * kTickNs) {
+      Sweep seen = sweep();
+      ranges_ = lidar_is_frozen ? ranges_ : seen.ranges_m;
+      seen.ranges_m = ranges_;
+      EXPECT_EQ(source_->add_scan(std::move(seen)).empty(), !lidar_is_frozen);
     }
     feel(linear_mps, angular_radps);
   }
@@ -129,10 +133,34 @@ class SceneDrive {
 
   PoseSource& localizer() { return *source_; }
 
+  /// The process ends, and another goes on with what it was told.
+  void start_anew(Memory memory) {
+    auto localizer = std::make_unique<Localizer>(in_lockstep(Parameters{}));
+    localizer->go_on(std::move(memory));
+    source_ = std::move(localizer);
+  }
+
+  /// What the process knows now.
+  Memory memory(const MapResult& map) const {
+    Memory memory{map.map, map.map_car_id, map.revision, {}};
+    memory.pose.emplace();
+    memory.pose->pose << newest.x_m, newest.y_m, newest.heading_rad;
+    memory.pose->covariance = Eigen::Map<const Eigen::Matrix3d>(newest.covariance.data());
+    memory.pose->wheel_odom = newest.wheel_odom;
+    return memory;
+  }
+
   synthetic::World world;
   PoseVector truth{4.2, -2.8, M_PI_2};
   std::int64_t now_ns = 1'000'000'000;
   bool lidar_works = true;
+  /// The driver repeats what it said last.
+  bool imu_is_frozen = false;
+  bool lidar_is_frozen = false;
+  /// What the accelerometer shows; 0: there is none.
+  double gravity_mps2 = 0.0;
+  /// False: the sensors work, and nothing of them arrives.
+  bool hears = true;
   double range_bias_m = 0.0;
   double range_noise_m = 0.01;
   /// Share of beams that meet a drop of rain.
@@ -147,6 +175,11 @@ class SceneDrive {
   double noise(double sigma) { return sigma * normal_(random_); }
 
   void feel(double linear_mps, double angular_radps) {
+    if (!imu_is_frozen) {
+      imu_.yaw_rate_radps = angular_radps + 0.003 + noise(1e-3);
+      const Eigen::Vector3d own((linear_mps - wheels_.linear_mps) / kTickS, linear_mps * angular_radps, gravity_mps2);
+      imu_.force_mps2 = gravity_mps2 > 0.0 ? own : Eigen::Vector3d::Zero();
+    }
     wheels_.stamp_ns = now_ns;
     const double along = linear_mps * kTickS * 1.003;
     wheels_.x_m += along * std::cos(wheels_.heading_rad);
@@ -154,7 +187,11 @@ class SceneDrive {
     wheels_.heading_rad += 1.4 * angular_radps * kTickS;
     wheels_.linear_mps = linear_mps;
     wheels_.angular_radps = angular_radps;
-    take(source_->add_imu({now_ns, angular_radps + 0.003 + noise(1e-3)}));
+    if (!hears) {
+      return;
+    }
+    imu_.stamp_ns = now_ns;
+    take(source_->add_imu(imu_));
     take(source_->add_wheels(wheels_));
   }
 
@@ -218,6 +255,8 @@ class SceneDrive {
   PoseVector start_ = truth;
   /// At the last three ticks.
   std::vector<PoseVector> poses_;
+  std::vector<float> ranges_;
+  ImuSample imu_{0, 0.0};
   WheelSample wheels_{0, 0.0, 0.0, 0.0, 0.0, 0.0};
 };
 

@@ -83,9 +83,50 @@ TEST_F(LocalizerFaultTest, ImuRateThatIsNotANumberInvalidatesOnlyThatSample) {
   take(localizer.add_imu({wheels.stamp_ns, kNan}));
   send_wheels();
   EXPECT_FALSE(newest.valid);
-  EXPECT_EQ(newest.message.text, "The IMU's rate is not a number.");
+  EXPECT_EQ(newest.message.text, "The IMU's readings are no numbers, or none that a robot's motion gives.");
   EXPECT_TRUE(drive(0.5, 0.0, 0.98).valid);
   EXPECT_NEAR(newest.x_m, 1.0, 1e-3);
+}
+
+TEST_F(LocalizerFaultTest, FiniteReadingsThatNoRobotGivesAreNoMotion) {
+  drive(0.5, 0.0, 1.0);
+  for (const ImuSample& wrong :
+       {ImuSample{0, -686.73}, ImuSample{0, 0.0, {0.0, 40.0}}, ImuSample{0, 0.0, {0.0, 0.0}, {0.0, 0.0, 1e30}}}) {
+    advance_truth(0.5, 0.0);
+    ImuSample sample = wrong;
+    sample.stamp_ns = wheels.stamp_ns;
+    take(localizer.add_imu(sample));
+    send_wheels();
+    EXPECT_FALSE(newest.valid);
+    EXPECT_EQ(newest.message.code, "localization.imu_not_a_number");
+    EXPECT_TRUE(drive(0.5, 0.0, 0.1).valid);
+    EXPECT_NEAR(newest.heading_rad, 0.0, 1e-3);
+  }
+}
+
+TEST_F(LocalizerFaultTest, AnImuThatShowsNoTiltAndNoForceByNoNumbersIsGood) {
+  drive(0.5, 0.0, 1.0);
+  advance_truth(0.5, 0.0);
+  take(localizer.add_imu({wheels.stamp_ns, 0.0, {kNan, kNan}, {kNan, kNan, kNan}}));
+  send_wheels();
+  EXPECT_TRUE(newest.valid);
+}
+
+TEST_F(LocalizerFaultTest, WheelSpeedsThatNoBaseHasInvalidateOnlyTheirSamples) {
+  drive(0.5, 0.0, 1.0);
+  for (const auto& [linear_mps, angular_radps] : {std::pair(500.0, 0.0), std::pair(0.5, -300.0)}) {
+    advance_truth(0.5, 0.0);
+    send_imu();
+    WheelSample broken = wheels;
+    broken.x_m = 870.0;
+    broken.linear_mps = linear_mps;
+    broken.angular_radps = angular_radps;
+    take(localizer.add_wheels(broken));
+    EXPECT_FALSE(newest.valid);
+    EXPECT_EQ(newest.message.code, "localization.wheels_not_finite");
+    EXPECT_TRUE(drive(0.5, 0.0, 0.98).valid);
+  }
+  EXPECT_NEAR(newest.x_m, 1.5, 1e-2);
 }
 
 TEST_F(LocalizerFaultTest, WheelOdometryThatIsNotANumberInvalidatesOnlyThatSample) {

@@ -171,6 +171,57 @@ TEST_F(LocalizerLostTest, GapOfOdometryWhileMovingIsOverWhenTheScansTellThePose)
   EXPECT_LT(robot.position_error_m(), 0.02);
 }
 
+TEST_F(LocalizerLostTest, GapOfAllSensorsWhileMovingIsOverWhenTheRobotHasSeenWhereTheWheelsLedIt) {
+  robot.drive(-0.5, 0.0, 1.0);
+  robot.hears = false;
+  robot.drive(-0.5, 0.1, 0.8);
+  robot.hears = true;
+  robot.tick(0.0, 0.0);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
+  EXPECT_NE(robot.newest.message.text.find("taken up again"), std::string::npos) << robot.newest.message.text;
+  // Nothing is right before it has been looked at for a second.
+  robot.drive(0.0, 0.0, 0.9);
+  EXPECT_FALSE(robot.newest.valid);
+  robot.drive(0.0, 0.0, 1.0);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLocalized) << robot.newest.message.text;
+  EXPECT_LT(robot.position_error_m(), 0.02);
+}
+
+TEST_F(LocalizerLostTest, LidarThatIsFrozenForASecondInMotionContradictsNothing) {
+  robot.drive(-0.5, 0.0, 1.0);
+  robot.lidar_is_frozen = true;
+  robot.drive(-0.5, 0.2, 1.0);
+  EXPECT_TRUE(robot.newest.degenerate);
+  robot.lidar_is_frozen = false;
+  robot.drive(0.0, 0.0, 0.5);
+  EXPECT_EQ(robot.lost_ticks, 0);
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
+  EXPECT_LT(robot.position_error_m(), 0.02);
+}
+
+TEST_F(LocalizerLostTest, ImuThatIsFrozenForASecondInMotionIsOverWhenTheRobotHasSeenWhereItIs) {
+  robot.gravity_mps2 = 9.81;
+  robot.drive(-0.5, 0.0, 1.0);
+  robot.imu_is_frozen = true;
+  robot.drive(-0.5, 0.2, 1.0);
+  EXPECT_FALSE(robot.newest.valid);
+  robot.imu_is_frozen = false;
+  robot.drive(0.0, 0.0, 2.0);
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
+  EXPECT_LT(robot.position_error_m(), 0.02);
+}
+
+TEST_F(LocalizerLostTest, RobotThatWasCarriedInAGapOfItsSensorsStaysLostWhileItStands) {
+  robot.drive(-0.5, 0.0, 1.0);
+  robot.hears = false;
+  robot.drive(-0.5, 0.1, 0.4);
+  robot.carry(-0.8, 0.5, 0.4);
+  robot.hears = true;
+  robot.drive(0.0, 0.0, 5.0);
+  EXPECT_FALSE(robot.newest.valid);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
+}
+
 class LocalizerLostWhileMappingTest : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -136,13 +136,29 @@ TEST_F(RelocalizationTest, RivalIsMeasuredByWhatTheBestPlaceExplainsItself) {
   EXPECT_FALSE(found_from(views, {2.0, 0.0, M_PI}));
 }
 
-TEST_F(RelocalizationTest, PlaceWhereWheelsAndGyroHaveLedStaysARivalWithMoreThanHalf) {
+TEST_F(RelocalizationTest, PlaceThatExplainsAllThatReturnsStaysARivalWhateverElseItLetsExpect) {
   // The right plate is whole on the map, and of it 0.6 of 2 m are seen; the other one has just these parts.
   const auto ends = [](double y) {
     return synthetic::World{{{0.5, y - 1.0}, {0.5, y - 0.7}}, {{0.5, y + 0.7}, {0.5, y + 1.0}}};
   };
   synthetic::World scene = ends(2.5);
   scene.push_back({{0.5, -3.5}, {0.5, -1.5}});
+  add_surfaces(scene);
+  std::vector<View> views;
+  for (const double x : {2.1, 2.7, 3.3}) {
+    views.push_back(view_from(ends(-2.5), {x, -2.5, M_PI}, 3.0));
+  }
+  EXPECT_FALSE(found_from(views, {5.0, 3.0, 0.0}));
+}
+
+TEST_F(RelocalizationTest, PlaceWhereWheelsAndGyroHaveLedStaysARivalWithMoreThanHalf) {
+  // Of the right plate's two ends the map has one, and a piece between them that is not seen; the other has both ends.
+  const auto ends = [](double y) {
+    return synthetic::World{{{0.5, y - 1.0}, {0.5, y - 0.7}}, {{0.5, y + 0.7}, {0.5, y + 1.0}}};
+  };
+  synthetic::World scene = ends(2.5);
+  scene.push_back({{0.5, -3.5}, {0.5, -3.2}});
+  scene.push_back({{0.5, -2.6}, {0.5, -2.4}});
   add_surfaces(scene);
   std::vector<View> views;
   for (const double x : {2.1, 2.7, 3.3}) {

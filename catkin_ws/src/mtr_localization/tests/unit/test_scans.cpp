@@ -140,13 +140,27 @@ TEST(ScanQueue, TimeThatGoesBackwardsIsRefusedAndCounted) {
   EXPECT_EQ(queue.add(sweep_at(40 * kMs)), "A scan is not newer than the one before.");
   EXPECT_EQ(queue.add(sweep_at(80 * kMs)), "A scan is not newer than the one before.");
   EXPECT_EQ(queue.refused(), 2);
-  EXPECT_EQ(queue.add(sweep_at(120 * kMs)), "");
+  EXPECT_EQ(queue.add(sweep_at(120 * kMs, 3.1F)), "");
 }
 
 TEST(ScanQueue, DriverThatWasStartedAnewIsUsedAgain) {
   ScanQueue queue(20 * kMs);
   queue.add(sweep_at(100'000 * kMs));
-  EXPECT_EQ(queue.add(sweep_at(0)), "");
+  EXPECT_EQ(queue.add(sweep_at(0, 3.1F)), "");
+}
+
+TEST(ScanQueue, SweepThatRepeatsTheOneBeforeIsOfAFrozenLidar) {
+  ScanQueue queue(20 * kMs);
+  queue.add(sweep_at(0));
+  EXPECT_EQ(queue.add(sweep_at(40 * kMs)), "A scan is the same as the one before: the LiDAR is frozen.");
+  EXPECT_EQ(queue.add(sweep_at(80 * kMs, 3.01F)), "");
+  // The rear one is another sensor, and a field where nothing is looks the same each time.
+  Sweep rear = sweep_at(80 * kMs, 3.01F);
+  rear.lidar = Lidar::kRear;
+  EXPECT_EQ(queue.add(rear), "");
+  const float nothing = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(queue.add(sweep_at(120 * kMs, nothing)), "");
+  EXPECT_EQ(queue.add(sweep_at(160 * kMs, nothing)), "");
 }
 
 TEST(ScanQueue, SweepFromBeforeTheHistoryIsRefused) {
@@ -160,7 +174,7 @@ TEST(ScanQueue, SweepFromBeforeTheHistoryIsRefused) {
 TEST(ScanQueue, WithoutWheelOdometrySweepsDoNotPileUp) {
   ScanQueue queue(20 * kMs);
   for (int i = 0; i < 100; ++i) {
-    queue.add(sweep_at(i * 40 * kMs));
+    queue.add(sweep_at(i * 40 * kMs, 3.0F + 0.01F * static_cast<float>(i)));
   }
   EXPECT_EQ(queue.refused(), 80);
 }

@@ -1,0 +1,113 @@
+/// @file
+/// A localization that ends, and one that goes on with its map.
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+
+#include "scene_drive.hpp"
+
+namespace mtr_localization {
+namespace {
+
+class MemoryTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    map = robot.map();
+    ASSERT_TRUE(map.map.valid);
+    robot.drive(0.3, 0.1, 2.0);
+  }
+
+  /// Nobody listens while the robot brakes.
+  void brake_unheard(double distance_m) {
+    Memory memory = robot.memory(map);
+    robot.drive(0.3, 0.0, distance_m / 0.3);
+    robot.start_anew(std::move(memory));
+  }
+
+  SceneDrive robot{scenes::lot(), Parameters{}};
+  MapResult map;
+};
+
+TEST_F(MemoryTest, GoesOnInTheSameMapWhenTheViewIsTheExpectedOne) {
+  brake_unheard(0.4);
+  robot.drive(0.0, 0.0, 4.5);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLocalized) << robot.newest.message.text;
+  EXPECT_TRUE(robot.newest.valid);
+  EXPECT_EQ(robot.newest.map_revision, map.revision);
+  EXPECT_LT(robot.position_error_m(), 0.02);
+  EXPECT_LT(robot.position_sigma_m(), 0.03);
+}
+
+TEST_F(MemoryTest, IsInTheMapOfBeforeFromTheFirstAnswerOnButNotValidBeforeItHasLooked) {
+  brake_unheard(0.2);
+  for (int tick = 0; tick < 100; ++tick) {
+    robot.tick(0.0, 0.0);
+    ASSERT_FALSE(robot.newest.valid) << tick;
+    ASSERT_EQ(robot.newest.map_revision, map.revision);
+  }
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
+  EXPECT_NE(robot.newest.message.text.find("started anew"), std::string::npos) << robot.newest.message.text;
+}
+
+TEST_F(MemoryTest, RobotThatWasCarriedMeanwhileStaysLostUntilItIsDriven) {
+  Memory memory = robot.memory(map);
+  robot.carry(-1.0, -1.0, 0.5);
+  robot.start_anew(std::move(memory));
+  robot.drive(0.0, 0.0, 6.0);
+  EXPECT_FALSE(robot.newest.valid);
+  robot.drive(-0.3, 0.2, 5.0);
+  robot.drive(0.0, 0.5, 6.0);
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
+  EXPECT_LT(robot.position_error_m(), 0.02);
+}
+
+TEST_F(MemoryTest, WithoutAPoseItIsFoundOnItsWay) {
+  Memory memory = robot.memory(map);
+  memory.pose.reset();
+  robot.start_anew(std::move(memory));
+  robot.drive(0.0, 0.0, 4.0);
+  EXPECT_FALSE(robot.newest.valid);
+  robot.drive(-0.3, 0.2, 5.0);
+  robot.drive(0.0, 0.5, 6.0);
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
+  EXPECT_LT(robot.position_error_m(), 0.02);
+}
+
+TEST_F(MemoryTest, AnOrderForAnotherCarBeginsAnotherMap) {
+  brake_unheard(0.2);
+  robot.drive(0.0, 0.0, 1.0);
+  robot.order(2, MapOrder::Phase::kCollect);
+  robot.drive(0.0, 0.0, 2.0);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kMapping);
+  EXPECT_EQ(robot.newest.map_revision, 0U);
+}
+
+TEST_F(MemoryTest, AnOrderOfTheSameSurveyChangesNothing) {
+  brake_unheard(0.2);
+  robot.order(1, MapOrder::Phase::kFreeze);
+  robot.drive(0.0, 0.0, 4.5);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLocalized) << robot.newest.message.text;
+}
+
+TEST(LedByWheels, AddsTheWayAndItsUncertainty) {
+  RememberedPose from;
+  from.pose << 1.0, 2.0, M_PI_2;
+  from.wheel_odom = {5.0, 5.0, 0.0};
+  const auto led = led_by_wheels(from, {5.4, 5.0, 0.1});
+  ASSERT_TRUE(led);
+  EXPECT_NEAR(led->pose.x(), 1.0, 1e-12);
+  EXPECT_NEAR(led->pose.y(), 2.4, 1e-12);
+  EXPECT_NEAR(led->pose.z(), M_PI_2 + 0.1, 1e-12);
+  EXPECT_NEAR(std::sqrt(led->covariance(0, 0)), 0.06, 1e-9);
+  EXPECT_NEAR(std::sqrt(led->covariance(2, 2)), 0.06, 1e-9);
+}
+
+TEST(LedByWheels, NowhereWhenTheirOdometryBeganAnewOrTheyWentFar) {
+  RememberedPose from;
+  from.wheel_odom = {5.0, 5.0, 0.0};
+  EXPECT_FALSE(led_by_wheels(from, {0.0, 0.0, 0.0}));
+  EXPECT_FALSE(led_by_wheels(from, {5.0, 5.0, 0.6}));
+  EXPECT_FALSE(led_by_wheels(from, {std::numeric_limits<double>::quiet_NaN(), 5.0, 0.0}));
+}
+
+}  // namespace
+}  // namespace mtr_localization
