@@ -4,6 +4,7 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-PACKAGES = ["mtr_car_locator", *(f"mtr_car_locator.{folder}" for folder in ("find", "measure", "survey", "watch"))]
+FOLDERS = ("find", "measure", "memory", "survey", "watch")
+PACKAGES = ["mtr_car_locator", *(f"mtr_car_locator.{folder}" for folder in FOLDERS)]
 
 setup(**generate_distutils_setup(packages=PACKAGES, package_dir={"": "src"}))

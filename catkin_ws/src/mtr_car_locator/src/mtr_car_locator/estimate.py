@@ -51,6 +51,7 @@ class Estimate:
         map_id: with which map; each survey has its own, also when mapping is tried again.
         places: where the robot shall still go for the locator.
         fit: the Car once it was found.
+        map_revision: of localization's map that the Car is in once it was found.
     """
 
     state: CarState
@@ -69,6 +70,7 @@ class Estimate:
     check: CheckReport = CheckReport()
     places: Tuple[Pose2, ...] = ()
     fit: Optional[CarFit] = None
+    map_revision: int = 0
 
 
 def result_at(waypoint: Optional[Waypoint], task: Optional[LocatorTask], motion: GoalReport) -> Result:

@@ -30,11 +30,12 @@ class LocatedCar:
         fit: the Car.
         revision: of its frame.
         correction: the frame in that of the revision before.
+        map_revision: of localization's map that it is in.
         message: that it was found, or how its frame was corrected.
     """
 
     def __init__(self, fit: CarFit, map_revision: int, revision: int, parameters: RefinementParameters):
-        self._map_revision, self._parameters = map_revision, parameters
+        self.map_revision, self._parameters = map_revision, parameters
         self._refinement = Refinement(fit, parameters)
         self._check: Optional[SelfCheck] = None
         self._waypoint: Optional[Waypoint] = None
@@ -64,7 +65,7 @@ class LocatedCar:
 
     def step(self, inputs: Inputs, poses: PoseHistory, next_id: int) -> None:
         """One tick; NotLocated when the Car's frame holds no longer."""
-        if poses.newest.map_revision != self._map_revision:
+        if poses.newest.map_revision != self.map_revision:
             raise NotLocated(problems.OTHER_MAP())
         if inputs.task is not None and inputs.task.checking:
             self._run_check(inputs, inputs.task, poses, next_id)

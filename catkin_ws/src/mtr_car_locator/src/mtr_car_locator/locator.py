@@ -13,6 +13,7 @@ from .find.errors import NotLocated
 from .find.prior import prior_at, prior_from_start
 from .located import LocatedCar
 from .measure.outline import rounded
+from .memory.remembered import RememberedCar
 from .parameters import LocatorParameters
 from .poses import PoseHistory, RobotPose
 from .rectangle import Point, Rectangle
@@ -26,7 +27,8 @@ NOWHERE = Rectangle(Pose2(0.0, 0.0, 0.0), 0.0, 0.0)
 class CarLocator:
     """Maps the Car while the mode says so, and then keeps its frame unless there is evidence against it."""
 
-    def __init__(self, parameters: LocatorParameters):
+    def __init__(self, parameters: LocatorParameters, remembered: Optional[RememberedCar] = None):
+        """remembered: what a locator before this one has found, to go on with."""
         self._parameters = parameters
         self._poses: Optional[PoseHistory] = None
         self._survey: Optional[Survey] = None
@@ -37,6 +39,14 @@ class CarLocator:
         self._next_waypoint_id = 1
         self._revision = 0
         self._message = NO_PROBLEM
+        self._goes_on = remembered is not None
+        if remembered:
+            self._go_on(remembered)
+
+    def _go_on(self, car: RememberedCar) -> None:
+        self._located = LocatedCar(car.fit, car.map_revision, car.revision, self._parameters.refinement)
+        self._state, self._map_car_id, self._revision = CarState.LOCATED, car.map_car_id, car.revision
+        self._message = self._located.message
 
     def wants_scans(self, inputs: Inputs) -> bool:
         """True while scans are collected or about to be."""
@@ -57,6 +67,9 @@ class CarLocator:
 
     def step(self, inputs: Inputs) -> Estimate:
         """Estimate at a tick."""
+        if self._goes_on:
+            # The time is a number that no place of the locator before this one has had.
+            self._next_waypoint_id, self._goes_on = max(1, round(inputs.now_s)), False
         if self._poses is not None:
             try:
                 self._work(inputs, self._poses)
@@ -134,4 +147,5 @@ class CarLocator:
         fit = located.fit
         return Estimate(self._state, fit.rectangle, fit.outline, fit.sigmas, fit.length_sigma, fit.width_sigma,
                         located.waypoint, self._map_car_id, self._message, located.revision, located.correction,
-                        check=located.report, places=located.places_ahead, fit=fit)
+                        check=located.report, places=located.places_ahead, fit=fit,
+                        map_revision=located.map_revision)

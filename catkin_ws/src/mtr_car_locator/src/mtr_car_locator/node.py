@@ -1,5 +1,6 @@
 """The car locator as a ROS node: poses, scans and maps in; the Car, and orders to localization's mapper, out."""
 # SPDX-License-Identifier: Apache-2.0
+import pathlib
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Optional, Tuple
@@ -29,6 +30,8 @@ from .conversions import (
 from .drawing import shapes_of
 from .estimate import Estimate, Inputs
 from .locator import CarLocator
+from .memory.keeper import CarKeeper
+from .memory.memory_file import MemoryFile
 from .parameters import LocatorParameters
 from .rectangle import Rectangle
 from .sensors import MapSource, PoseSource, ScanSource
@@ -43,7 +46,8 @@ class CarLocatorNode:
         self._parameters = parameters
         # In lock-step time waits for the fit.
         executor = InlineExecutor() if is_lockstep() else ThreadPoolExecutor(1)
-        self._steps = LocatorSteps(CarLocator(parameters), executor)
+        self._keeper = CarKeeper(_memory_file(parameters.memory_folder), ThreadPoolExecutor(1), rospy.logwarn)
+        self._steps = LocatorSteps(CarLocator(parameters, self._keeper.read()), executor)
         self._ticker = Ticker(schedule.CAR_LOCATOR)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
         self._drive = TickInput(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER)
@@ -81,6 +85,7 @@ class CarLocatorNode:
             self._shown = shown
             self._markers.publish(markers_message(shapes_of(estimate), stamp))
         self._say(estimate)
+        self._keeper.note(estimate)
 
     def _say(self, estimate: Estimate) -> None:
         """Each new sentence once; what changes the frame, or ends it, is a warning that reaches the Operator."""
@@ -93,6 +98,12 @@ class CarLocatorNode:
         if estimate.fit and estimate.fit.warning and estimate.revision != self._said[1]:
             rospy.logwarn("%s", estimate.fit.warning)
         self._said = said
+
+
+def _memory_file(folder: str) -> Optional[MemoryFile]:
+    # Without roslaunch nobody says which run it is.
+    run_id = rospy.get_param("/run_id", "")
+    return MemoryFile(pathlib.Path(folder) / "car_locator.json", run_id) if folder and run_id else None
 
 
 def main() -> int:

@@ -96,6 +96,7 @@ class LocatorParameters(ParameterSet):
         look_limit_s: the Car has to be seen from the starting place by then.
         map_limit_s: localization has to have adjusted its map by then.
         rear_lidar: the robot has one.
+        memory_folder: of the file with which a node that is started again in the same run goes on; empty for none.
     """
 
     start_x_m: float = number(4.0, -20.0, 20.0, "m")
@@ -114,6 +115,7 @@ class LocatorParameters(ParameterSet):
     look_limit_s: float = number(8.0, 0.5, 60.0, "s")
     map_limit_s: float = number(15.0, 1.0, 120.0, "s")
     rear_lidar: bool = True
+    memory_folder: str = ""
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -161,6 +161,32 @@ def test_car_that_was_moved_far_is_lost_with_a_sentence(world):
     assert after.state == CarState.FAILED and "was moved" in after.message.text
 
 
+@pytest.mark.parametrize("motion", [(0.3, 0.0, 0.0), (-0.5, 0.0, 0.0), (1.0, 0.0, 0.0), (2.0, 0.0, 0.0),
+                                    (0.0, 0.4, 0.0), (0.0, -0.8, 1.0), (0.6, 0.3, 3.0)])
+def test_car_that_was_moved_along_its_own_sides_is_lost_and_not_corrected_by_a_part_of_it(world, motion):
+    """Its long sides lie on the same lines, and what is nearest to a surface of before is another one."""
+    moved(world, *motion)
+    after = world.stand(LOOKED_AGAIN_S)
+    assert after.state == CarState.FAILED and "was moved" in after.message.text
+    assert after.revision == 1
+
+
+@pytest.mark.parametrize("motion", [(0.5, 0.0, 0.0), (0.0, 0.5, 0.0), (1.5, 0.0, 0.0)])
+def test_car_that_was_moved_by_half_a_metre_fails_the_check(world, motion):
+    moved(world, *motion)
+    report = world.check(4).check
+    assert report.state is Check.FAILED and report.difference_m > 0.1
+
+
+def test_persons_and_things_beside_the_car_are_no_motion(world):
+    legs = [leg_at(2.6 + 0.2 * k, 0.3 * k) for k in range(4)]
+    wall = np.array([[2.9, -1.0, 2.9, 1.2]])
+    world.place_car(world.car, np.vstack([CAR, DOOR, *legs, wall]))
+    assert world.stand(LOOKED_AGAIN_S).revision == 1
+    assert world.newest.state == CarState.LOCATED
+    assert world.check(4).check.state is Check.PASSED
+
+
 def test_car_that_drove_away_is_lost(world):
     world.place_car(Pose2(50.0, 0.0, 0.0), CAR)
     after = world.stand(20.0)

@@ -66,7 +66,8 @@ def cover_of(explained: Surfels, car: Rectangle) -> float:
     covered = total = 0
     for name, outwards in OUTWARDS.items():
         half = 0.5 * (car.width if name in ("front", "rear") else car.length)
-        bins = max(round(2.0 * half / COVER_BIN_M), 1)
+        # Of a number of NumPy 1.17, Ubuntu 20.04's, round() makes no whole one.
+        bins = max(round(float(2.0 * half / COVER_BIN_M)), 1)
         mine = explained.where(explained.normal @ np.array(outwards) > MIN_OUTWARD_COSINE)
         along = mine.samples()[0] @ np.abs(np.array(outwards[::-1]))
         counts, _ = np.histogram(along, bins=bins, range=(-half, half))

@@ -15,6 +15,7 @@ from ..measure.incidence import MIN_INCIDENCE_COSINE
 from ..measure.side import OUTWARDS
 from ..scan import Returns
 from ..surfels import Surfels, in_frame, rotated_back
+from .elsewhere import STEP_M, place_beside
 
 # Points farther from every known surface are something else: a person, an open door.
 FIRST_GATE_M, LAST_GATE_M = 0.20, 0.05
@@ -28,6 +29,8 @@ MIN_POINTS_ON_SIDE = 20
 SIDE_COSINE = 0.8
 # Neighbouring beams hit the same unevenness and are wrong together: so many of them count as one.
 BEAMS_PER_SAMPLE = 10.0
+# A place elsewhere has to explain so much more of what is seen than the Car's own.
+CLEARLY_MORE = 1.2
 
 
 @dataclass(frozen=True)
@@ -95,16 +98,29 @@ class CarReference:
         points = in_frame(np.vstack([sweep.points for sweep in sweeps]), car) if sweeps else np.empty((0, 2))
         viewers = [in_frame(sweep.viewer[np.newaxis], car).repeat(len(sweep.points), axis=0) for sweep in sweeps]
         viewer = np.vstack(viewers) if sweeps else points
-        motion = np.zeros(3)
+        common = _common(pose_covariance, car)
+        here = self._fitted(points, viewer, np.zeros(3), common)
+        beside = place_beside(points, viewer, self._count_explained) if len(points) else None
+        there = self._fitted(points, viewer, beside, common) if beside is not None else None
+        # Lines along which the Car was moved look alike from both places.
+        return there if there and (here is None or there.points >= CLEARLY_MORE * here.points) else here
+
+    def _fitted(self, points: FloatArray, viewer: FloatArray, motion: FloatArray,
+                common: FloatArray) -> Optional[Evidence]:
+        """The motion near another one, None when too little of the Car lies there."""
         for turn in range(ROUNDS):
             gate_m = max(FIRST_GATE_M * 0.6 ** turn, LAST_GATE_M)
             matched = self._match(points, viewer, motion, gate_m)
-            if matched is None:
+            if matched is None or len(matched[1]) < MIN_POINTS:
                 return None
             rows, rest, normals = matched
             motion, information, weighted = _solve(rows, rest, motion)
         sides = _side_shifts(rest + rows @ motion, normals)
-        return Evidence(information, weighted, sides, len(rest), _common(pose_covariance, car))
+        return Evidence(information, weighted, sides, len(rest), common)
+
+    def _count_explained(self, points: FloatArray, viewer: FloatArray, motion: FloatArray) -> int:
+        matched = self._match(points, viewer, motion, STEP_M)
+        return len(matched[1]) if matched else 0
 
     def _match(self, points: FloatArray, viewer: FloatArray, motion: FloatArray,
                gate_m: float) -> Optional[Tuple[FloatArray, FloatArray, FloatArray]]:
@@ -117,7 +133,7 @@ class CarReference:
         back = rotated_back(viewer - points, pose.heading)
         back /= np.maximum(np.linalg.norm(back, axis=1), 1e-6)[:, np.newaxis]
         found &= np.sum(normals * back, axis=1) > MIN_INCIDENCE_COSINE
-        if np.count_nonzero(found) < MIN_POINTS:
+        if not np.any(found):
             return None
         moved, normals = moved[found], normals[found]
         rest = np.sum(normals * (moved - self._points[index[found]]), axis=1)

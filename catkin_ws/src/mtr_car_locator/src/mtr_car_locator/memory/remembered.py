@@ -1,0 +1,63 @@
+"""The Car as a locator that is started again goes on with it, and as plain data for a file."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import asdict, dataclass
+from typing import Any, Dict, Mapping
+
+import numpy as np
+
+from mtr_core.errors import RobotError
+from mtr_core.se2 import Pose2
+
+from ..measure.car_fit import CarFit, PlaneSize
+from ..rectangle import Rectangle
+from ..surfels import Surfels
+
+
+class MemoryUnusable(RobotError):
+    """What was kept cannot be read."""
+
+
+@dataclass(frozen=True)
+class RememberedCar:
+    """A Car that was located.
+
+    Attributes:
+        map_revision: of localization's map, in whose frame it is.
+        revision: of the Car's own frame.
+        map_car_id: order to map that it answered.
+    """
+
+    fit: CarFit
+    map_revision: int
+    revision: int
+    map_car_id: int
+
+
+def plain(car: RememberedCar) -> Dict[str, Any]:
+    """The Car as lists, texts and numbers."""
+    data = {name: value for name, value in vars(car).items() if name != "fit"}
+    surfels = car.fit.surfels
+    columns = (surfels.position, surfels.normal, surfels.length, surfels.sigma, surfels.hits)
+    data["fit"] = {**asdict(car.fit), "surfels": np.column_stack(columns).tolist()}
+    return data
+
+
+def remembered_from(data: Mapping[str, Any]) -> RememberedCar:
+    """The Car of plain data.
+
+    Raises:
+        MemoryUnusable: the data are none of a Car.
+    """
+    try:
+        fit = dict(data["fit"])
+        rectangle = fit.pop("rectangle")
+        table = np.asarray(fit.pop("surfels"), dtype=float).reshape(-1, 7)
+        found = CarFit(
+            rectangle=Rectangle(Pose2(**rectangle.pop("pose")), **rectangle),
+            outline=tuple((float(x), float(y)) for x, y in fit.pop("outline")),
+            sigmas=tuple(fit.pop("sigmas")), seen=tuple(fit.pop("seen")),
+            surfels=Surfels(table[:, 0:2], table[:, 2:4], table[:, 4], table[:, 5], table[:, 6]),
+            in_plane=PlaneSize(**fit.pop("in_plane")), **fit)
+        return RememberedCar(found, int(data["map_revision"]), int(data["revision"]), int(data["map_car_id"]))
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise MemoryUnusable(f"The remembered Car is damaged ({error}); the Car has to be mapped again.") from None
