@@ -21,14 +21,12 @@ from mtr_msgs.msg import FirmwareState
 from .firmware.simulated import State
 from .sensors.battery import CAPACITY_WH, FULL_V
 from .sensors.imu import ImuParameters
-from .sensors.readings import BatteryReading, ImuReading, Scan, WheelOdometry
+from .sensors.readings import ODOMETRY_VARIANCES, BatteryReading, ImuReading, Scan, WheelOdometry
 from .sim import TICK_S
 from .true_state import TrueState
 
 # Ranges stay a numpy array: 720 floats are copied as bytes.
 NumpyScan = numpy_msg(LaserScan)
-# As a Jackal's controller states them: x, y, z, roll, pitch, yaw.
-ODOMETRY_VARIANCES = (0.001, 0.001, 1e6, 1e6, 1e6, 0.03)
 NO_INTENSITIES = np.zeros(0, dtype=np.float32)
 
 

@@ -99,9 +99,9 @@ class SimulatorNode:
         self._barrier.stop()
 
     def _subscribe(self) -> None:
-        sim = self._world.sim
+        sim, equipment = self._world.sim, self._world.equipment
         self._listen(names.WHEEL_COMMAND, Twist, lambda twist: sim.command(twist.linear.x, twist.angular.z))
-        self._listen(names.SIM_HANDLE_REQUEST, Bool, lambda request: self._world.request_handle(locks=request.data))
+        self._listen(names.SIM_HANDLE_REQUEST, Bool, lambda request: equipment.request_handle(locks=request.data))
         self._listen(names.SIM_KIDNAP, Pose2D, self._kidnap)
         self._listen(names.ACTIVE_FAULTS, ActiveFaults, self._set_faults)
         for topic, message_type, handle in self._firmware.subscriptions:
@@ -124,7 +124,7 @@ class SimulatorNode:
                       there.y, math.degrees(there.theta))
 
     def _set_faults(self, active: ActiveFaults) -> None:
-        self._world.set_faults({fault.part: fault.kind for fault in active.faults})
+        self._world.equipment.set_faults({fault.part: fault.kind for fault in active.faults})
 
     def _hold(self, message: Header) -> None:
         self._barrier.hold(message.frame_id, message.stamp.to_nsec(), message.seq)

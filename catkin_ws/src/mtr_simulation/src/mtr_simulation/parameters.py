@@ -6,39 +6,51 @@ from typing import Tuple
 from mtr_core.parameters import ParameterSet, number
 
 from .car.choice import chosen_car
-from .site.scenario import named_scenario
+from .site.scenario_file import chosen_scenario
 
 
 @dataclass(frozen=True)
-class SimulatorParameters(ParameterSet):
-    """What the simulator is started with.
+class EquipmentParameters(ParameterSet):
+    """What the peripherals' firmware and the Car are started with.
 
     Attributes:
         seed: of every random number.
-        scenario: name of a test site.
         car: name of a shipped Car or path of a Car's file: how its radio and electronics behave.
-        rear_lidar: the rear LiDAR exists.
-        real_time_factor: simulated seconds per second; 0: as fast as the control loop allows.
-        hold_for: nodes whose first hold the clock waits for.
         car_port_link: path at which the Car's CAN adapter appears; empty: there is no Car's electronics.
         truth_dir: folder for the true events; empty: they are not written.
-        firmware_elf: firmware for an ATmega2560, to be run on an emulated one; empty: it is simulated.
     """
 
     seed: int = number(1, 0, 2**31 - 1)
-    scenario: str = "lot"
     car: str = "gentle"
+    car_port_link: str = ""
+    truth_dir: str = ""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        chosen_car(self.car)
+
+
+@dataclass(frozen=True)
+class SimulatorParameters(EquipmentParameters):
+    """What the simulator is started with.
+
+    Attributes:
+        scenario: name of a test site, or path of a site's YAML file.
+        rear_lidar: the rear LiDAR exists.
+        real_time_factor: simulated seconds per second; 0: as fast as the control loop allows.
+        hold_for: nodes whose first hold the clock waits for.
+        firmware_elf: firmware for an ATmega2560, to be run on an emulated one; empty: it is simulated.
+    """
+
+    scenario: str = "lot"
     rear_lidar: bool = True
     real_time_factor: float = number(1.0, 0.0, 100.0)
     hold_for: Tuple[str, ...] = ()
-    car_port_link: str = ""
-    truth_dir: str = ""
     firmware_elf: str = ""
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        named_scenario(self.scenario)
-        chosen_car(self.car)
+        chosen_scenario(self.scenario)
 
     @property
     def held_by(self) -> Tuple[str, ...]:

@@ -213,6 +213,21 @@ def test_other_and_damaged_frames_of_the_host_take_no_handle(bench):
     assert not bench.frames("HandleActuator")
 
 
+def test_extender_brings_the_field_to_a_key_that_is_far_only_while_it_is_on(bench):
+    bench = bench(passive_entry={"unlock_on": "handle", "extender_db": 60.0}, noise={"lapse": 0.0})
+    message = cantools.database.load_file(str(DBC_PATH)).get_message_by_name("ExtenderSwitch")
+
+    def request(*data):
+        bench.port.from_host += [SentFrame(message.frame_id, each) for each in data]
+        bench.car.request_handle()
+        return bench.stays(BESIDE, 0.5)
+
+    assert request() is LockState.LOCKED
+    # A damaged frame changes nothing.
+    assert request(b"\x01", b"\x00", b"") is LockState.LOCKED
+    assert request(b"\x01", b"") is LockState.UNLOCKED and bench.car.locks.cause is Cause.HANDLE
+
+
 def test_hand_that_comes_by_itself_unlocks_near_the_door_only(bench):
     bench = bench(passive_entry={"unlock_on": "handle", "handle_period_s": 1.0})
     assert bench.stays(FAR, 3.0) is LockState.LOCKED

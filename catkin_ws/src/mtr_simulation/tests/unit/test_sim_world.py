@@ -61,7 +61,7 @@ def test_adapter_appears_and_goes_with_the_world(tmp_path):
 def test_world_without_adapter_and_truth_runs():
     world = World(SimulatorParameters(scenario="open"))
     assert world.step().time_ns == 1_020_000_000
-    world.request_handle(locks=False)
+    world.equipment.request_handle(locks=False)
     world.close()
 
 
@@ -73,8 +73,8 @@ def test_car_sees_where_the_key_is_and_how_it_is_turned_and_hears_of_hands(tmp_p
     world.step()
     assert seen == [(world.truth.time_ns, world.truth.key_in_car, world.firmware.servo_us,
                      world.truth.car_from_base.heading)]
-    world.request_handle(locks=False)
-    world.request_handle(locks=True)
+    world.equipment.request_handle(locks=False)
+    world.equipment.request_handle(locks=True)
     assert seen[1:] == [Command.UNLOCK, Command.LOCK]
     world.close()
 
@@ -127,8 +127,9 @@ def test_battery_message_says_how_much_is_left(world):
 @pytest.mark.parametrize("kind, fault", [("off", Fault.SILENCE), ("garbage", Fault.GARBAGE), ("stop", Fault.BUS_OFF)])
 def test_injected_faults_of_the_hardware_are_there_until_they_are_gone(tmp_path, kind, fault):
     world = World(SimulatorParameters(scenario="open", car_port_link=str(tmp_path / "can")))
-    world.set_faults({"can": kind, "lift": "stuck", "servos": "off", "imu": "off"})
-    assert world._port.fault is fault and world.firmware.lift_is_stuck and world.firmware.servos_are_dead
-    world.set_faults({})
-    assert world._port.fault is Fault.NONE and not (world.firmware.lift_is_stuck or world.firmware.servos_are_dead)
+    world.equipment.set_faults({"can": kind, "lift": "stuck", "servos": "off", "imu": "off"})
+    port, firmware = world.equipment._port, world.firmware
+    assert port.fault is fault and firmware.lift_is_stuck and firmware.servos_are_dead
+    world.equipment.set_faults({})
+    assert port.fault is Fault.NONE and not (firmware.lift_is_stuck or firmware.servos_are_dead)
     world.close()

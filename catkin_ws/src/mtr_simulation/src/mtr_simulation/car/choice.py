@@ -3,7 +3,7 @@
 import dataclasses
 import pathlib
 from dataclasses import dataclass
-from typing import Any, Dict, Optional, Protocol, Tuple
+from typing import Any, Dict, Mapping, Optional, Protocol, Tuple
 
 import yaml
 
@@ -15,7 +15,7 @@ from .can_port import CanPort
 from .car import SimulatedCar
 from .ecu import Command
 from .honest.car import HonestCar
-from .honest.parameters import HonestParameters
+from .honest.parameters import HonestParameters, changed_antennas
 from .parameters import CarParameters
 from .reaction.gentle import GentleReactions
 from .reaction.honest import HonestReactions
@@ -23,7 +23,8 @@ from .reaction.model import ReactionModel
 
 FOLDER = pathlib.Path(__file__).with_name("cars")
 GENTLE, HONEST = "gentle", "honest"
-_SECTIONS = {item.name: item.default for item in dataclasses.fields(HonestParameters) if item.name != "place_seed"}
+_OTHERS = ("place_seed", "antennas")
+_SECTIONS = {item.name: item.default for item in dataclasses.fields(HonestParameters) if item.name not in _OTHERS}
 _HEADINGS = ("model", "description", "profile")
 
 
@@ -70,13 +71,23 @@ def car_names() -> Tuple[str, ...]:
 
 def chosen_car(name_or_path: str) -> CarChoice:
     """The Car of a shipped name or of a YAML file; ConfigurationError says what is wrong."""
+    return car_from(*car_content(name_or_path))
+
+
+def car_content(name_or_path: str) -> Tuple[Dict[str, Any], pathlib.Path]:
+    """What the file of a Car says, and where it lies; ConfigurationError when it cannot be read."""
     path = FOLDER / f"{name_or_path}.yaml"
     if name_or_path not in car_names():
         path = pathlib.Path(name_or_path)
         if path.suffix != ".yaml":
             raise ConfigurationError(f"Parameter car is '{name_or_path}'; allowed is {', '.join(car_names())}, or the "
                                      "path of a YAML file.")
-    content = _read(path)
+    return _read(path), path
+
+
+def car_from(content: Mapping[str, Any], path: pathlib.Path) -> CarChoice:
+    """The Car of a file's content; ConfigurationError says what is wrong, and names the path."""
+    content = dict(content)
     model, profile = content.pop("model", None), content.pop("profile", None)
     content.pop("description", None)
     if model not in (GENTLE, HONEST):
@@ -93,16 +104,20 @@ def chosen_car(name_or_path: str) -> CarChoice:
 
 def _honest(path: pathlib.Path, content: Dict[str, Any]) -> HonestParameters:
     place = {name: value for name, value in content.items() if name not in _SECTIONS}
-    sections = {}
+    sections: Dict[str, Any] = {}
     try:
         for name, default in _SECTIONS.items():
             values = content.get(name) or {}
             if not isinstance(values, dict):
                 raise ConfigurationError(f"Section {name} is {values!r}; allowed is a table of names and values.")
             sections[name] = parameters_from(values, type(default))
+        antennas = place.pop("antennas", None) or {}
+        if not isinstance(antennas, dict):
+            raise ConfigurationError(f"Section antennas is {antennas!r}; allowed is a table of names and values.")
+        sections["antennas"] = changed_antennas(antennas)
         unknown = sorted(set(place) - {"place_seed"})
         if unknown:
-            allowed = ", ".join([*_HEADINGS, "place_seed", *_SECTIONS])
+            allowed = ", ".join([*_HEADINGS, "place_seed", *_SECTIONS, "antennas"])
             raise ConfigurationError(f"Entry {unknown[0]} is unknown; allowed are {allowed}.")
         return dataclasses.replace(parameters_from(place, HonestParameters), **sections)
     except ConfigurationError as error:

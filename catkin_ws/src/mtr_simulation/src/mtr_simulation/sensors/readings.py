@@ -7,6 +7,8 @@ import numpy as np
 from mtr_core.arrays import FloatArray
 
 Vector = Tuple[float, float, float]
+# As a Jackal's controller states them with its odometry: x, y, z, roll, pitch, yaw.
+ODOMETRY_VARIANCES = (0.001, 0.001, 1e6, 1e6, 1e6, 0.03)
 
 
 class Scan(NamedTuple):

@@ -34,9 +34,12 @@ class Attempts:
         """A press of a button is received."""
         return not self._lapses() and self._works(self._margins.button_db(np.array(key_xyz), attitude))
 
-    def poll(self, key_xyz: Point, attitude: Attitude) -> Poll:
-        """What a poll finds."""
-        unlock_db, lock_db = self._margins.polled_db(np.array(key_xyz), attitude)
+    def poll(self, key_xyz: Point, attitude: Attitude, extended_db: float = 0.0) -> Poll:
+        """What a poll finds. extended_db: see Margins."""
+        return self.judge_poll(*self._margins.polled_db(np.array(key_xyz), attitude, extended_db))
+
+    def judge_poll(self, unlock_db: FloatArray, lock_db: FloatArray) -> Poll:
+        """The same where the margins of the place are known."""
         if self._lapses() or not self._works(lock_db):
             return Poll.GONE
         return Poll.IN_UNLOCK_ZONE if self._works(unlock_db) else Poll.BETWEEN

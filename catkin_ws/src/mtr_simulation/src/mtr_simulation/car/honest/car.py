@@ -10,8 +10,10 @@ from ..ecu import Command
 from ..noise import uniform_pair
 from ..parameters import RemoteParameters
 from .attempts import Attempts
+from .extender import Extender
 from .frames import HonestFrames, database
 from .handle import HandleActuator
+from .instants import STEP_NS
 from .key import RemoteKey
 from .locks import Cause, Locks, LockState
 from .parameters import HonestParameters
@@ -20,7 +22,6 @@ from .radio.key_antenna import Attitude
 
 Point = Tuple[float, float, float]
 
-STEP_NS = 20_000_000
 # Hands that come while nobody looks (the ECU boots, passive entry is off) are not all remembered.
 _MAX_REQUESTS = 4
 
@@ -46,6 +47,7 @@ class HonestCar:
         self._polls = _Period(seed, "poll_phase", passive.poll_period_ms * 1_000_000)
         self._hand = _Period(seed, "hand_phase", round(passive.handle_period_s * 1e9))
         self._actuator = HandleActuator(database())
+        self._extender = Extender(database(), passive.extender_db)
         self._handle_requests: Deque[Command] = collections.deque(maxlen=_MAX_REQUESTS)
         contact = RemoteParameters(contact_travel=remote.contact_travel, contact_ms=remote.contact_ms)
         self._contacts = ((Command.LOCK, ButtonContact(contact)), (Command.UNLOCK, ButtonContact(contact)))
@@ -78,6 +80,7 @@ class HonestCar:
 
     def _follow_actuator(self) -> None:
         for frame in self._port.taken():
+            self._extender.follow(frame)
             command = self._actuator.request(frame)
             if command is not None:
                 self.request_handle(command)
@@ -106,7 +109,8 @@ class HonestCar:
                 self.locks.command(command, Cause.HANDLE, time_ns)
 
     def _heard(self, key_xyz: Point, attitude: Attitude) -> Poll:
-        return self._attempts.poll(key_xyz, attitude) if self.key.is_awake else Poll.GONE
+        return self._attempts.poll(key_xyz, attitude, self._extender.now_db) if self.key.is_awake \
+            else Poll.GONE
 
     def _log(self, before: LockState, after: Optional[LockState], time_ns: int, key_xyz: Point) -> None:
         """The truth tells of locked and unlocked; that the other doors follow the driver's is no event of its own."""

@@ -8,11 +8,14 @@ import cantools
 
 from ..frames import Frame
 from ..noise import uniform_pair
+from .extender import EXTENDER_MESSAGE
 from .handle import HANDLE_MESSAGE
 from .locks import Cause, Locks
 from .parameters import BusParameters
 
 DBC_PATH = pathlib.Path(__file__).with_name("mtr_honest_car.dbc")
+# Outputs of the test, which the Car never sends.
+OF_THE_TEST = (HANDLE_MESSAGE, EXTENDER_MESSAGE)
 LOCK_MESSAGE = "LockStatus"
 CAUSE_MESSAGE = "LockCauseStatus"
 # The ECU writes the frame of a change so long after it.
@@ -30,8 +33,7 @@ class HonestFrames:
         self._encode = functools.lru_cache(maxsize=4096)(self._encode_once)
         self._ids = {message.name: message.frame_id for message in self._database.messages}
         self._cycles = dict(self._cycles_ns())
-        self._phases = {name: round(uniform_pair(seed, f"bus/{name}", 0)[0] * cycle_ns)
-                        for name, cycle_ns in self._cycles.items()}
+        self._phases = {name: phase_ns(seed, name, cycle_ns) for name, cycle_ns in self._cycles.items()}
         self._sent: Dict[str, int] = {}
         self._told_ns: Optional[int] = None
 
@@ -44,7 +46,7 @@ class HonestFrames:
 
     def _cycles_ns(self) -> Iterator[Tuple[str, int]]:
         own = {LOCK_MESSAGE: self._bus.lock_cycle_ms, CAUSE_MESSAGE: self._bus.cause_cycle_ms}
-        own_messages = [message for message in self._database.messages if message.name != HANDLE_MESSAGE]
+        own_messages = [message for message in self._database.messages if message.name not in OF_THE_TEST]
         for message in own_messages:
             if message.name != CAUSE_MESSAGE or self._bus.cause_in == "other":
                 yield message.name, own.get(message.name, message.cycle_time) * _MS
@@ -81,6 +83,11 @@ class HonestFrames:
     def _encode_once(self, name: str, *values: float) -> bytes:
         message = self._database.get_message_by_name(name)
         return bytes(message.encode({signal.name: value for signal, value in zip(message.signals, values)}))
+
+
+def phase_ns(seed: int, name: str, cycle_ns: int) -> int:
+    """When the first frame of a cyclic message comes."""
+    return round(uniform_pair(seed, f"bus/{name}", 0)[0] * cycle_ns)
 
 
 @functools.lru_cache(maxsize=1)

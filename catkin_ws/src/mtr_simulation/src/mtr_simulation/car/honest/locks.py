@@ -61,6 +61,15 @@ class Locks:
         """The ECU has booted."""
         return self.state is not LockState.UNKNOWN
 
+    @property
+    def due_ns(self) -> Optional[int]:
+        """When something happens by itself; None when nothing will. Known from the first step on."""
+        if not self.is_ready:
+            return self._ready_ns
+        due = [each for each in (None if self._ordered is None else self._ordered.due_ns, self._relock_ns)
+               if each is not None]
+        return min(due, default=None)
+
     def command(self, command: Command, cause: Cause, time_ns: int) -> bool:
         """Order the locks to move; False when they refuse or need not."""
         after = self._after(command, cause)

@@ -6,7 +6,6 @@ import numpy as np
 
 from mtr_core.arrays import FloatArray
 
-from ..parameters import DEFAULT_ANTENNAS
 from .parameters import HonestParameters
 from .radio.key_antenna import Attitude
 from .radio.lf_field import LfField
@@ -20,7 +19,7 @@ class Margins:
         passive = parameters.passive_entry
         self._parameters = parameters
         self._uhf = UhfLink(parameters.place_seed, parameters.uhf, parameters.key)
-        self._lf = LfField(parameters.place_seed, DEFAULT_ANTENNAS, passive.shadow_sigma_db,
+        self._lf = LfField(parameters.place_seed, parameters.antennas, passive.shadow_sigma_db,
                            passive.shadow_correlation_m)
 
     def button_db(self, places: FloatArray, attitude: Attitude) -> FloatArray:
@@ -35,10 +34,11 @@ class Margins:
         """Of a poll that finds the key at all; below 0 it is gone."""
         return self.polled_db(places, attitude)[1]
 
-    def polled_db(self, places: FloatArray, attitude: Attitude) -> Tuple[FloatArray, FloatArray]:
-        """Both of the former."""
+    def polled_db(self, places: FloatArray, attitude: Attitude, extended_db: float = 0.0
+                  ) -> Tuple[FloatArray, FloatArray]:
+        """Both of the former. extended_db: what an extender adds to the field that comes to the key."""
         passive = self._parameters.passive_entry
-        field_db, answer_db = self._lf.strength_db(places), self._uhf.margin_db(places, attitude)
+        field_db, answer_db = self._lf.strength_db(places) + extended_db, self._uhf.margin_db(places, attitude)
         # Both ways have to work: the Car's field to the key, and the key's answer to the Receiver.
         return (np.minimum(field_db - passive.unlock_threshold_db, answer_db),
                 np.minimum(field_db - passive.lock_threshold_db, answer_db))

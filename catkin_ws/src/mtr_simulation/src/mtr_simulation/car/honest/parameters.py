@@ -4,16 +4,24 @@ Ranges and defaults are of real cars and keys as far as public sources tell them
 its own module.
 """
 # SPDX-License-Identifier: Apache-2.0
+import dataclasses
+import math
 from dataclasses import dataclass
-from typing import ClassVar, Tuple
+from typing import Any, ClassVar, Dict, Mapping, Tuple
 
-from mtr_core.errors import ConfigurationError
-from mtr_core.parameters import ParameterSet, number
+from mtr_core.errors import ConfigurationError, check_range
+from mtr_core.parameters import Limits, ParameterSet, number
+
+from ..parameters import DEFAULT_ANTENNAS, LfAntenna
 
 UNLOCK_ON = ("approach", "handle")
 WALK_AWAY = ("distance", "delay", "off")
 UNLOCK_DOORS = ("all", "driver")
 CAUSE_IN = ("same", "other", "none")
+# What a file may change of an antenna; places are on a car, strengths those that LfAntenna allows.
+ANTENNA_LIMITS = {"x_m": Limits(-5.0, 5.0, "m"), "y_m": Limits(-2.0, 2.0, "m"), "z_m": Limits(0.0, 3.0, "m"),
+                  "axis_rad": Limits(-math.pi, math.pi, "rad"), "strength_db": Limits(-40.0, 40.0, "dB"),
+                  "lobe_db": Limits(0.0, 10.0, "dB"), "lobe_rad": Limits(-math.pi, math.pi, "rad")}
 
 
 def check_word(name: str, word: str, allowed: Tuple[str, ...]) -> None:
@@ -80,6 +88,7 @@ class PassiveParameters(ParameterSet):
     walk_away: str = "distance"  # or delay: so long after the key has left the unlock zone; or off
     walk_away_delay_s: float = number(5.0, 0.0, 60.0, "s")
     handle_period_s: float = number(0.0, 0.0, 60.0, "s")  # a hand takes the handle so often; 0: only on request
+    extender_db: float = number(0.0, 0.0, 120.0, "dB")  # what an extender adds to the field while it is switched on
     shadow_sigma_db: float = number(1.0, 0.0, 10.0, "dB")
     shadow_correlation_m: float = number(0.5, 0.05, 10.0, "m")
     # The response time of the truth: how long a key has to stand somewhere until it counts as not reacted to.
@@ -133,7 +142,10 @@ class BusParameters(ParameterSet):
 
 @dataclass(frozen=True)
 class HonestParameters(ParameterSet):
-    """The whole Car. place_seed makes what is fixed in space; the simulation's seed all that differs between tests."""
+    """The whole Car. place_seed makes what is fixed in space; the simulation's seed all that differs between tests.
+
+    antennas: of the passive entry, those of the gentle Car unless its file changes them.
+    """
 
     PREFIX: ClassVar[str] = ""
 
@@ -144,3 +156,34 @@ class HonestParameters(ParameterSet):
     passive_entry: PassiveParameters = PassiveParameters()
     locks: LockParameters = LockParameters()
     bus: BusParameters = BusParameters()
+    antennas: Tuple[LfAntenna, ...] = DEFAULT_ANTENNAS
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not self.antennas:
+            raise ConfigurationError("Parameter antennas is empty; allowed is one or more.")
+
+
+def changed_antennas(changes: Mapping[str, Any]) -> Tuple[LfAntenna, ...]:
+    """The usual antennas with some values of some of them changed, by name; ConfigurationError says what is wrong."""
+    known = {antenna.name: antenna for antenna in DEFAULT_ANTENNAS}
+    for name, values in changes.items():
+        if name not in known:
+            raise ConfigurationError(f"Antenna {name} is unknown; allowed are {', '.join(known)}.")
+        if not isinstance(values, dict):
+            raise ConfigurationError(f"Antenna {name} is {values!r}; allowed is a table of names and values.")
+        known[name] = _changed(known[name], values)
+    return tuple(known.values())
+
+
+def _changed(antenna: LfAntenna, values: Mapping[str, Any]) -> LfAntenna:
+    for name, value in values.items():
+        if name not in ANTENNA_LIMITS:
+            raise ConfigurationError(f"Parameter {name} of antenna {antenna.name} is unknown; allowed are "
+                                     f"{', '.join(ANTENNA_LIMITS)}.")
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise ConfigurationError(f"Parameter {name} of antenna {antenna.name} is {value!r}; allowed is a number.")
+        limits = ANTENNA_LIMITS[name]
+        check_range(f"antennas.{antenna.name}.{name}", float(value), limits.low, limits.high, limits.unit)
+    changes: Dict[str, Any] = {name: float(value) for name, value in values.items()}
+    return dataclasses.replace(antenna, **changes)

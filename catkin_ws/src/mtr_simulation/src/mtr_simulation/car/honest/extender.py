@@ -1,0 +1,36 @@
+"""An extender between Car and key, a relay attack: it carries the Car's low-frequency field to a far key."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import Any
+
+import cantools
+
+from ..can_port import SentFrame
+
+EXTENDER_MESSAGE = "ExtenderSwitch"
+_SIGNAL = "ExtenderOn"
+
+
+class Extender:
+    """Off until the message of the output switches it on.
+
+    gain_db: by how much the key receives the field stronger while it is on.
+    """
+
+    def __init__(self, database: Any, gain_db: float):
+        self._message = database.get_message_by_name(EXTENDER_MESSAGE)
+        self._gain_db = gain_db
+        self.is_on = False
+
+    def follow(self, frame: SentFrame) -> None:
+        """Do what a frame of the host asks for; another message, or a damaged one, changes nothing."""
+        if frame.can_id != self._message.frame_id:
+            return
+        try:
+            self.is_on = bool(self._message.decode(frame.data, decode_choices=False)[_SIGNAL])
+        except (ValueError, cantools.database.DecodeError):
+            return
+
+    @property
+    def now_db(self) -> float:
+        """What it adds to the field now."""
+        return self._gain_db if self.is_on else 0.0

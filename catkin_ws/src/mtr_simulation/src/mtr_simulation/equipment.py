@@ -1,0 +1,71 @@
+"""What is no physics: the firmware that moves lift and servos, and the Car that sees the key; one tick at a time."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import Any, Mapping, Optional, Tuple
+
+from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS
+from mtr_fault_injection import parts
+from mtr_fault_injection.parts import Kind
+
+from .car.choice import Car, chosen_car
+from .car.ecu import Command
+from .car.slcan_port import Fault, SlcanPort
+from .firmware.simulated import SimulatedFirmware
+from .parameters import EquipmentParameters
+from .truth.log import EventLog, NoTruthLog, TruthLog
+
+CAN_FAULTS = {Kind.OFF.value: Fault.SILENCE, Kind.GARBAGE.value: Fault.GARBAGE, Kind.STOP.value: Fault.BUS_OFF}
+
+
+class Equipment:
+    """Firmware and Car; whoever has the physics says where the key is.
+
+    Attributes:
+        firmware: of the peripherals, simulated in this process or emulated.
+        time_ns: of the last tick.
+    """
+
+    def __init__(self, parameters: EquipmentParameters, firmware: Optional[Any] = None):
+        # The firmware's clock is the simulated one; that of a real board starts anywhere.
+        self.firmware = firmware or SimulatedFirmware(clock_start_us=SIMULATION_START_NS // 1000)
+        self.time_ns = SIMULATION_START_NS
+        self.firmware.start(self.time_ns)
+        self._truth_log: EventLog = TruthLog(parameters.truth_dir) if parameters.truth_dir else NoTruthLog()
+        self._port: Optional[SlcanPort] = None
+        self._car: Optional[Car] = None
+        if parameters.car_port_link:
+            self._port = SlcanPort(parameters.car_port_link)
+            self._car = chosen_car(parameters.car).car(parameters.seed, self._port, self._truth_log)
+
+    def begin_step(self) -> None:
+        """Let an emulated firmware run beside what the caller does until it calls step."""
+        self.firmware.begin_step(self.time_ns + CLOCK_STEP.period_ns)
+
+    def step(self) -> None:
+        """Let 20 ms pass for the firmware."""
+        self.time_ns += CLOCK_STEP.period_ns
+        self.firmware.step(self.time_ns)
+
+    def see(self, key_in_car: Tuple[float, float, float], heading_rad: float) -> None:
+        """Where the key is at this tick, in frame car (m, z above ground), and its heading there."""
+        if self._car:
+            self._car.step(self.time_ns, key_in_car, self.firmware.servo_us, heading_rad)
+
+    def request_handle(self, locks: bool) -> None:
+        """A hand takes the Car's handle, to lock or to open it."""
+        if self._car:
+            self._car.request_handle(Command.LOCK if locks else Command.UNLOCK)
+
+    def set_faults(self, faults: Mapping[str, str]) -> None:
+        """What parts of the hardware do from now on instead of working, by the names of mtr_fault_injection."""
+        if isinstance(self.firmware, SimulatedFirmware):
+            self.firmware.lift_is_stuck = parts.LIFT in faults
+            self.firmware.servos_are_dead = parts.SERVOS in faults
+        if self._port:
+            self._port.fault = CAN_FAULTS.get(faults.get(parts.CAN, ""), Fault.NONE)
+
+    def close(self) -> None:
+        """Take the CAN adapter away, end the firmware, and close the truth's file."""
+        self.firmware.close()
+        if self._port:
+            self._port.close()
+        self._truth_log.close()
