@@ -1,0 +1,36 @@
+"""Environment and command line of Gazebo's server."""
+# SPDX-License-Identifier: Apache-2.0
+import os
+import pathlib
+import shlex
+import shutil
+from typing import Dict, List, Mapping
+
+from mtr_core.errors import ConfigurationError
+from mtr_gazebo.world.plugin_element import PLUGIN
+
+
+def server_command(command: str, world: pathlib.Path) -> List[str]:
+    """Words that start the server; ConfigurationError when there is no such program."""
+    words = shlex.split(command)
+    if not words or shutil.which(words[0]) is None:
+        raise ConfigurationError(f"Parameter command is '{command}', which is not installed; allowed is the command of "
+                                 "a server of Gazebo 11, which Debian 11 and Ubuntu 20.04 have.")
+    return [*words, str(world)]
+
+
+def server_environment(given: Mapping[str, str]) -> Dict[str, str]:
+    """Variables with which the server finds the plugin, and looks for models nowhere.
+
+    Raises:
+        ConfigurationError: the plugin was not built.
+    """
+    prefixes = given.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
+    folders = [pathlib.Path(prefix) / "lib" for prefix in prefixes if prefix]
+    found = [str(folder) for folder in folders if (folder / PLUGIN).exists()]
+    known = [folder for folder in given.get("GAZEBO_PLUGIN_PATH", "").split(os.pathsep) if folder]
+    if not found and not any((pathlib.Path(folder) / PLUGIN).exists() for folder in known):
+        raise ConfigurationError(f"The plugin {PLUGIN} is not there; build the workspace where Gazebo 11 is installed "
+                                 "with its headers (Debian 11: libgazebo-dev), and source it.")
+    # Without an address it does not ask the internet for models.
+    return {**given, "GAZEBO_PLUGIN_PATH": os.pathsep.join([*found, *known]), "GAZEBO_MODEL_DATABASE_URI": ""}

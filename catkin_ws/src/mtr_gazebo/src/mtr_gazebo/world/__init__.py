@@ -1,0 +1,2 @@
+"""From a scenario and a URDF to a world file; no ROS."""
+# SPDX-License-Identifier: Apache-2.0
