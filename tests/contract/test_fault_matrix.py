@@ -1,12 +1,15 @@
 """The matrix of states and faults: its file is complete, its codes exist, and docs/faults.md has its table."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
+import re
+from xml.etree import ElementTree
 
 import pytest
 import yaml
 
 from mtr_benchmarks.faults.matrix import BEGIN, END, GOES_ON, HELD, LOST, read_matrix, table
 from mtr_fault_injection.schedule import fault_of
+from mtr_fault_injection.set_clock import SettableClock
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 MATRIX = read_matrix()
@@ -32,3 +35,14 @@ def test_table_of_the_documentation_is_the_matrix():
     page = (TOP / "docs/faults.md").read_text(encoding="utf-8")
     written = page.partition(BEGIN)[2].partition(END)[0].strip().splitlines()
     assert written == table(MATRIX), "write it anew: python -m mtr_benchmarks.faults --table"
+
+
+def test_clock_of_a_fault_is_set_for_nodes_too_that_preload_nothing_else(tmp_path):
+    """A node that kept the machine's clock would be silent to all others: it would test what no robot has."""
+    variables = SettableClock(tmp_path).variables
+    launch = ElementTree.parse(TOP / "launch" / "launch" / "robot.launch")
+    own = [each.get("value") for each in launch.iter("env") if each.get("name") == "LD_PRELOAD"]
+    assert own
+    for value in own:
+        name = re.fullmatch(r"\$\(optenv (\w+)\)", value).group(1)
+        assert variables[name] == variables["LD_PRELOAD"]

@@ -4,8 +4,8 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-PARTS = ("harness", "localization", "localization.drives", "localization.judging", "localization.methods", "motion",
-         "preflight", "serial", "simulation")
+PARTS = ("gazebo", "harness", "localization", "localization.drives", "localization.judging", "localization.methods",
+         "motion", "preflight", "serial", "simulation")
 PACKAGES = ["mtr_benchmarks", *(f"mtr_benchmarks.{part}" for part in PARTS)]
 
 setup(**generate_distutils_setup(packages=PACKAGES, package_dir={"": "src"}))

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from mtr_benchmarks.faults.judge import Outcome, invalid_because, standstill_s, told_since, wrong
-from mtr_benchmarks.faults.matrix import GOES_ON, HELD, LOST, Cell, Expected, Matrix, table
+from mtr_benchmarks.faults.matrix import ANY_REASON, GOES_ON, HELD, LOST, Cell, Expected, Matrix, table
 from mtr_operator.domain.robot_status import Interventions, Notification, Problem
 
 UNTOUCHED = Interventions()
@@ -53,6 +53,20 @@ def test_cell_that_does_what_it_must_is_right():
 def test_each_deviation_is_a_sentence(change, words):
     found = wrong(CELL, replace(SEEN, **change))
     assert len(found) == 1 and words in found[0]
+
+
+def test_both_times_count_from_the_limit_up_to_which_the_fault_is_none():
+    later = replace(CELL, expected=replace(MUST, limit_s=0.3))
+    seen = replace(SEEN, stood_s=1.0, told_s={"drive_control.imu_frozen": 1.3})
+    assert wrong(later, seen) == [] and len(wrong(CELL, seen)) == 2
+    assert len(wrong(later, replace(seen, stood_s=1.1))) == 1
+    assert "0.3 + 0.7 s" in table(Matrix({}, (later,)))[2]
+
+
+def test_where_any_reason_will_do_there_must_be_one():
+    cell = replace(CELL, expected=replace(MUST, record=ANY_REASON))
+    assert wrong(cell, SEEN) == [] and len(wrong(cell, replace(SEEN, record=""))) == 1
+    assert table(Matrix({}, (cell,)))[2].endswith("| invalid |")
 
 
 def test_robot_that_may_drive_on_must_not_stand_and_a_line_is_judged_only_where_there_is_one():

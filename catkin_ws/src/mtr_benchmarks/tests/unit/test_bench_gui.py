@@ -5,22 +5,25 @@ import math
 import pytest
 
 from mtr_benchmarks.gui.__main__ import percentile_ms, report
+from mtr_benchmarks.gui.day import DayFigures
 from mtr_benchmarks.gui.robot import PATH_POINTS, POINTS, SeeingRobot
 from mtr_benchmarks.gui.window import Times, Watch, WindowFigures
 from mtr_operator.robot_link.conversions import status_message_from
 
 GOOD = WindowFigures(99 * [0.004] + [0.02], 20 * [0.03], 31.0, 0.03, 0.1, 190.0, 0.5)
 
+FLAT = DayFigures(8.0, 30, [190.0, 191.0, 189.0, 192.0])
 
-def met(figures, starts_s=(1.0, 1.5, 3.0)):
-    rows = report(figures, starts_s, Times()).rows
-    assert len({row.requirement.name for row in rows}) == len(rows) == 8
+
+def met(figures, starts_s=(1.0, 1.5, 3.0), day=FLAT):
+    rows = report(figures, starts_s, Times(), day).rows
+    assert len({row.requirement.name for row in rows}) == len(rows) == 9
     return [row.is_met for row in rows]
 
 
 def test_good_figures_are_met_and_the_start_is_the_median():
     assert all(met(GOOD))
-    assert report(GOOD, (1.0, 1.5, 3.0), Times()).rows[-1].value == 1.5
+    assert report(GOOD, (1.0, 1.5, 3.0), Times(), FLAT).rows[-1].value == 1.5
 
 
 @pytest.mark.parametrize(("changes", "row"), [
@@ -29,6 +32,16 @@ def test_good_figures_are_met_and_the_start_is_the_median():
     ({"rest_cores": 0.06}, 4), ({"memory_growth_mib": 20.0}, 6)])
 def test_a_bad_figure_is_not_met(changes, row):
     assert [index for index, is_met in enumerate(met(GOOD._replace(**changes))) if not is_met] == [row]
+
+
+def test_memory_that_grows_over_a_day_is_not_met():
+    grown = DayFigures(8.0, 30, [190.0, 196.0, 202.0, 208.0])
+    assert grown.growth_mib == 18.0
+    assert [index for index, is_met in enumerate(met(GOOD, day=grown)) if not is_met] == [7]
+
+
+def test_one_odd_look_at_the_memory_is_no_growth():
+    assert DayFigures(8.0, 30, [190.0, 190.0, 190.0, 190.0, 240.0]).growth_mib == 0.0
 
 
 def test_nothing_measured_is_not_known():

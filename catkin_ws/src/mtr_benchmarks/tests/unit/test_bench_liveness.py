@@ -13,7 +13,9 @@ from mtr_benchmarks.liveness.judge import (
     excess_of_wheels,
     longest_pause_s,
 )
+from mtr_benchmarks.liveness.short_drive import Drive, reached, rows, way_m
 from mtr_fault_injection.set_clock import SettableClock
+from mtr_proto import robot_link_pb2 as link
 
 GROWTH = Growth(1.0, 2.0)
 TELL = "import time; print(time.time(), time.monotonic(), flush=True); input()\n" * 2
@@ -80,3 +82,22 @@ def test_clock_is_set_for_a_process_that_runs_and_the_steady_one_is_not(tmp_path
     later_wall_s, later_steady_s = told()
     process.communicate("\n")
     assert (later_wall_s - wall_s) - (later_steady_s - steady_s) == pytest.approx(step_s, abs=0.01)
+
+
+def test_a_place_counts_once_and_only_when_it_is_reached():
+    places = set()
+    for number, result in ((1, link.WAYPOINT_RESULT_REFUSED), (2, link.WAYPOINT_RESULT_REACHED),
+                           (2, link.WAYPOINT_RESULT_REACHED), (3, link.WAYPOINT_RESULT_UNSPECIFIED)):
+        reached(places, link.Status(waypoint_id=number, waypoint_result=result))
+    assert places == {2}
+
+
+def test_the_way_is_the_same_forwards_and_backwards_and_nothing_over_a_pause():
+    assert way_m([Motion(0.0, 0.5, 0.0), Motion(0.2, -0.5, 0.0), Motion(0.4, 0.5, 0.0)]) == pytest.approx(0.2)
+    assert way_m([Motion(0.0, 0.5, 0.0), Motion(60.0, 0.5, 0.0)]) == 0.0
+
+
+def test_a_short_drive_that_reached_too_little_is_not_met():
+    assert all(row.is_met for row in rows(Drive(30.0, 4, 30.0, ["localization: lost"])))
+    assert [row.requirement.name for row in rows(Drive(30.0, 3, 1.0, [])) if not row.is_met] == [
+        "places reached", "way of the wheels"]

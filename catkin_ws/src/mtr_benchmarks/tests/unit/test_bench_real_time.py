@@ -1,11 +1,17 @@
 """Silences and rows of the robot in real time, without a robot."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
+import yaml
 
+from mtr_benchmarks.gazebo.noted import Notes
+from mtr_benchmarks.gazebo.run import Run
 from mtr_benchmarks.real_time.arrivals import ASKING, VOICES, by_node, silence, silences, worst
 from mtr_benchmarks.real_time.judge import Machine, judged
 from mtr_benchmarks.real_time.measurement import Stop, Stretch, echoes_s
 from mtr_benchmarks.real_time.other_work import other_work
+from mtr_benchmarks.real_time.whole_tests import DISTANCES, PARAMETERS, figures_of_tests, rows_of_tests, whole_tests
+from mtr_simulation.truth.distance import Comparison
+from mtr_simulation.truth.results import MeasuredEvent
 
 BEGIN_S, END_S = 100.0, 110.0
 
@@ -85,3 +91,55 @@ def test_echoes_and_other_work_leave_nothing(tmp_path):
     with other_work(tmp_path, computing=1):
         assert all(0.0 < echo_s < 10.0 for echo_s in echoes_s(3))
     assert not list(tmp_path.iterdir())
+
+
+def line(status="ok", error_m=0.01):
+    return Comparison(MeasuredEvent("1", "unlock", status, 10.0, 1.5 + error_m, 0.01, "front", (1.0, 0.0)), 1.5)
+
+
+GOOD = tuple(line() for _ in range(DISTANCES))
+
+
+def a_run(status=0, lines=GOOD, touched=()):
+    return Run(Notes(), {"autolock": status}, {"autolock": list(lines)}, tuple(touched))
+
+
+def made_of(made, folder):
+    """Whole tests on an idle machine, the robot replaced by what came of each."""
+    made = list(made)
+    seeds = range(1, len(made) + 1)
+    return whole_tests(folder, [Machine.IDLE], seeds, lambda simulator, options: made[options.seed - 1])
+
+
+def test_tests_that_end_whole_meet_their_rows(tmp_path):
+    made = made_of([a_run(), a_run()], tmp_path)
+    assert [(each.seed, each.is_whole) for each in made] == [(1, True), (2, True)]
+    rows = rows_of_tests(made)
+    assert len(rows) == 3 and all(row.is_met for row in rows)
+    assert "of 2" in rows[0].remark and figures_of_tests(made)[1]["seed"] == 2
+
+
+@pytest.mark.parametrize("wrong, missed", [
+    (a_run(status=1), "did not end whole"), (a_run(lines=GOOD[1:]), "did not end whole"),
+    (a_run(lines=[line("aborted"), *GOOD[1:]]), "did not end whole"),
+    (a_run(lines=[]), "did not end whole"),
+    (a_run(lines=[line(error_m=0.06), *GOOD[1:]]), "largest error"),
+    (a_run(touched=["car"]), "touched")])
+def test_what_goes_wrong_in_one_test_is_told_with_its_seed(wrong, missed, tmp_path):
+    rows = rows_of_tests(made_of([a_run(), wrong], tmp_path))
+    (row,) = (row for row in rows if not row.is_met)
+    assert missed in row.requirement.name
+    assert missed != "did not end whole" or "seeds 2" in row.remark
+
+
+def test_each_test_gets_a_folder_and_the_parameters_of_eight_axes(tmp_path):
+    given = []
+
+    def noted(simulator, options):
+        given.append((simulator, options.folder.name, options.seed, options.demo("autolock").parameters))
+        return a_run()
+
+    with_work_folder = tmp_path / "tests"
+    whole_tests(with_work_folder, [Machine.IDLE], (1, 2), noted)
+    assert given == [("mujoco", f"idle_{seed}", seed, with_work_folder / "autolock.yaml") for seed in (1, 2)]
+    assert yaml.safe_load((with_work_folder / "autolock.yaml").read_text(encoding="utf-8")) == PARAMETERS

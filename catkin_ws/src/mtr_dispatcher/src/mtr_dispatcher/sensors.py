@@ -69,7 +69,9 @@ class Eyes:
         if path is None or car is None or car.state != CarState.LOCATED or not path.poses:
             return np.empty((0, 2))
         places = np.array([(each.pose.position.x, each.pose.position.y) for each in path.poses], dtype=float)
-        return path_of(places, Pose2(car.x, car.y, car.heading).inverse())
+        # The planner plans around a located Car in its frame.
+        is_cars = path.header.frame_id == names.CAR
+        return path_of(places, Pose2(0.0, 0.0, 0.0) if is_cars else Pose2(car.x, car.y, car.heading).inverse())
 
     def _read(self, topic: str, empty: Any) -> Any:
         """The newest message of a topic; None before the first, and for one of another type."""

@@ -146,7 +146,7 @@ def test_first_id_of_a_session_is_bounded():  # D3
 BAD_BUTTONS = {"twice": (1, 1), "too-high": (MAX_BUTTON + 1,), "huge": (2 ** 32 - 1,), "zero": (0,)}
 
 
-@pytest.mark.parametrize("buttons", BAD_BUTTONS.values(), ids=BAD_BUTTONS)
+@pytest.mark.parametrize("buttons", BAD_BUTTONS.values(), ids=list(BAD_BUTTONS))
 def test_impossible_buttons_are_refused(buttons):  # N7
     session = ControlSession(Parameters())
     press = Press(1, 1, buttons)

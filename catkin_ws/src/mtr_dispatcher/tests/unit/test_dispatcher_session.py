@@ -142,7 +142,7 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("content", REFUSED.values(), ids=REFUSED)
+@pytest.mark.parametrize("content", REFUSED.values(), ids=list(REFUSED))
 def test_unacceptable_content_stops_the_robot_until_a_good_command(session, content):
     take(session, command(1, 1))
     assert take(session, command(1, 2, **content)) is CommandResult.REFUSED
@@ -193,7 +193,7 @@ ACCEPTED = {
 }
 
 
-@pytest.mark.parametrize("content", ACCEPTED.values(), ids=ACCEPTED)
+@pytest.mark.parametrize("content", ACCEPTED.values(), ids=list(ACCEPTED))
 def test_ends_of_the_allowed_ranges_are_acceptable(session, content):
     assert take(session, command(**content)) is CommandResult.TAKEN
 

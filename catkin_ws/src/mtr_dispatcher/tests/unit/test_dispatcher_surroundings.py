@@ -5,10 +5,13 @@ import math
 import numpy as np
 import pytest
 import rospy
+from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import Path
 from sensor_msgs.msg import Imu, LaserScan
 
 from mtr_core import names
 from mtr_core.se2 import Pose2
+from mtr_core.states import CarState
 from mtr_description.mounts import LidarMounts
 from mtr_dispatcher.sensors import Eyes
 from mtr_dispatcher.status.inputs import Inputs
@@ -120,6 +123,20 @@ def test_every_second_status_carries_what_is_seen(eyes):
     assert seen.points == pytest.approx(np.array([[2.0, 0.0]]))
     assert seen.obstacle == (DriveStatus.BLOCKED, 0.5, 0.0)
     assert len(seen.path) == 0
+
+
+@pytest.mark.parametrize(("frame", "planned", "shown"), [(names.MAP, (10.0, 6.0), (1.0, 0.0)),
+                                                         (names.CAR, (1.0, 2.0), (1.0, 2.0))])
+def test_path_is_shown_where_it_lies_whichever_frame_it_was_planned_in(eyes, frame, planned, shown):
+    looking, taken = eyes
+    path = Path(poses=[PoseStamped()])
+    path.header.frame_id = frame
+    path.poses[0].pose.position.x, path.poses[0].pose.position.y = planned
+    taken[names.MOTION_PATH](Bytes(path))
+    car = CarEstimate(state=CarState.LOCATED, x=10.0, y=5.0, heading=math.pi / 2.0)
+    inputs = Inputs(10.0, pose=LocalizedPose(valid=True), car=car)
+    looking.look(inputs)
+    assert looking.look(inputs).path[-1] == pytest.approx(np.array(shown))
 
 
 def test_message_of_another_type_and_an_old_one_are_not_shown(eyes):

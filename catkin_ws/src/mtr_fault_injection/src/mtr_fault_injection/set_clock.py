@@ -47,7 +47,9 @@ class SettableClock:
                         "-o", str(library), str(SOURCE)], check=True)
         self.file.write_bytes(OFFSET.pack(0))
         self._clock = ClockFile(str(self.file))
-        self.variables: Dict[str, str] = {"LD_PRELOAD": str(library), "MTR_CLOCK_OFFSET_FILE": str(self.file)}
+        # The dispatcher is started without what is preloaded for the other nodes, see robot.launch.
+        self.variables: Dict[str, str] = {"LD_PRELOAD": str(library), "MTR_DISPATCHER_PRELOAD": str(library),
+                                          "MTR_CLOCK_OFFSET_FILE": str(self.file)}
 
     def set_by(self, step_s: float) -> None:
         """Put the clock forward, or back when negative, for all processes at one instant."""

@@ -87,7 +87,7 @@ CAUSES = {"fault": (fault, "state_machine.held_fault"), "manual": (manual, "stat
           "blocked": (Robot.block, "state_machine.held_blocked_because"),
           "blocked-between-ticks": (blocked_for_a_moment, "state_machine.held_blocked"),
           "board": (board_restarted, "state_machine.held_board")}
-every_cause = pytest.mark.parametrize("cause, code", CAUSES.values(), ids=CAUSES)
+every_cause = pytest.mark.parametrize("cause, code", CAUSES.values(), ids=list(CAUSES))
 
 
 @every_cause

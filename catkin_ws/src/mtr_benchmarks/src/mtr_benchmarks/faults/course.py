@@ -4,13 +4,13 @@ from typing import Callable, Dict
 
 from mtr_proto import robot_link_pb2 as link
 
-from .judge import Outcome, invalid_because, standstill_s, told_since
+from .judge import STANDS_MPS, Outcome, invalid_because, standstill_s, told_since
 from .matrix import GOES_ON, HELD, LOST, Cell
 from .robot import MOVES_MPS, FaultyRobot
 
 # After a fault the robot has that long to come back by itself, s of its time.
 SEEN_AFTER_S = 3.0
-READY, DRIVING = "ready", "driving"
+READY, DRIVING, WAITING = "ready", "driving", "waiting"
 
 
 class Course:
@@ -18,10 +18,14 @@ class Course:
 
     def __init__(self, robot: FaultyRobot):
         self._robot = robot
-        self._ways: Dict[str, Callable[[], None]] = {READY: self._to_ready, DRIVING: self._to_driving}
+        self._ways: Dict[str, Callable[[], None]] = {
+            READY: self._to_ready, DRIVING: self._to_driving, WAITING: self._to_waiting}
 
     def to(self, state: str) -> None:
-        """Bring the robot into a state; FaultyRobotError when it does not get there."""
+        """Bring the robot into a state, held by nothing; FaultyRobotError when it does not get there."""
+        robot = self._robot
+        robot.wait_until(lambda: not robot.status.hold_id, "the end of the hold that the fault before left",
+                         robot.release_hold)
         self._ways[state]()
 
     def run(self, cell: Cell) -> Outcome:
@@ -65,3 +69,10 @@ class Course:
         if not robot.is_under_way:
             robot.drive()
         robot.wait_until(lambda: robot.speed_mps > MOVES_MPS, "a drive", go_on)
+
+    def _to_waiting(self) -> None:
+        robot = self._robot
+        if not robot.has_arrived:
+            self._to_driving()
+        robot.wait_until(lambda: robot.has_arrived and robot.speed_mps < STANDS_MPS, "the end of the way",
+                         robot.release_hold)

@@ -9,7 +9,7 @@ from mtr_operator.domain.actions.trouble import trouble_between
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import RobotStatus
 
-from .matrix import Cell
+from .matrix import ANY_REASON, Cell
 
 STANDS_MPS = 0.02
 # A Car that is well: only what the robot says counts.
@@ -82,16 +82,17 @@ def invalid_because(statuses: Sequence[RobotStatus], begin_s: float) -> str:
 def wrong(cell: Cell, seen: Outcome) -> List[str]:
     """What is not as the matrix says, a sentence each."""
     must, found = cell.expected, []
-    if must.stands_s is not None and (seen.stood_s is None or seen.stood_s > must.stands_s):
-        found.append(f"stands after {seen.stood_s} s, must {must.stands_s:g}")
+    if must.stands_s is not None and (seen.stood_s is None or seen.stood_s > must.limit_s + must.stands_s):
+        found.append(f"stands after {seen.stood_s} s, must {must.limit_s + must.stands_s:g}")
     if must.stands_s is None and seen.stood_s == 0.0 and seen.speed_mps > STANDS_MPS:
         found.append("stands, must drive on")
-    if must.told and not seen.told_s.get(must.told, 1e9) <= must.told_s:
-        found.append(f"{must.told} told after {seen.told_s.get(must.told)} s, must {must.told_s:g}")
+    if must.told and not seen.told_s.get(must.told, 1e9) <= must.limit_s + must.told_s:
+        found.append(f"{must.told} told after {seen.told_s.get(must.told)} s, must {must.limit_s + must.told_s:g}")
     if must.mode not in seen.modes:
         found.append(f"is in {seen.modes}, must be {must.mode}")
     if must.then != seen.then:
         found.append(f"afterwards {seen.then}, must be {must.then}")
-    if must.record is not None and (must.record not in seen.record or bool(must.record) != bool(seen.record)):
+    words = "" if must.record == ANY_REASON else must.record
+    if words is not None and (words not in seen.record or bool(must.record) != bool(seen.record)):
         found.append(f"a line is invalid because {seen.record!r}, must {must.record!r}")
     return found

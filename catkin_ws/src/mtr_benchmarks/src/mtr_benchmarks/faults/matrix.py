@@ -22,7 +22,10 @@ class Expected:
         told_s: longest time until then, s.
         mode: the robot's state from then on, while the fault lasts.
         then: `goes on` by itself, `held` until the Operator has it go on, or `lost`: it needs to be put back.
-        record: what makes a line at hand invalid, words of the reason; empty: the line counts; None: there is no line.
+        record: what makes a line at hand invalid, words of the reason; `any`: whatever of several comes first;
+            empty: the line counts; None: there is no line.
+        limit_s: how long the fault can last before it is one, s: so long a silence, or the same content; both times
+            count from there.
     """
 
     stands_s: Optional[float]
@@ -31,6 +34,7 @@ class Expected:
     mode: str
     then: str
     record: Optional[str] = None
+    limit_s: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -64,6 +68,7 @@ class Matrix:
         return sorted(cells, key=lambda cell: cell.expected.then == LOST)
 
 
+ANY_REASON = "any"
 GOES_ON, HELD, LOST = "goes on", "held", "lost"
 
 
@@ -90,8 +95,10 @@ def table(matrix: Matrix) -> List[str]:
 def _row(cell: Cell) -> str:
     must = cell.expected
     amount = f" by {cell.amount:g} s" if cell.amount else ""
-    stands = "-" if must.stands_s is None else f"{must.stands_s:g} s"
-    told = (f"`{must.told}`", f"{must.told_s:g} s") if must.told else ("-", "-")
-    record = "-" if must.record is None else f"invalid: {must.record}" if must.record else "counts"
+    limit = f"{must.limit_s:g} + " if must.limit_s else ""
+    stands = "-" if must.stands_s is None else f"{limit}{must.stands_s:g} s"
+    told = (f"`{must.told}`", f"{limit}{must.told_s:g} s") if must.told else ("-", "-")
+    reason = "" if must.record == ANY_REASON else f": {must.record}"
+    record = "-" if must.record is None else f"invalid{reason}" if must.record else "counts"
     return (f"| {cell.part} {cell.kind}{amount}, {cell.for_s:g} s | {cell.state} | {stands} | {told[0]} | {told[1]} | "
             f"{must.mode} | {must.then} | {record} |")

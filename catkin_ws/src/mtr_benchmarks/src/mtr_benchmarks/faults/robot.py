@@ -19,6 +19,7 @@ from mtr_operator.robot_link.conversions import robot_status_from
 from mtr_proto import robot_link_pb2 as link
 
 from ..harness.operator_link import OperatorLink
+from ..harness.ros_shutdown import shut_down
 
 # Wall time of a machine with much else to do.
 LIMIT_S = 120.0
@@ -73,7 +74,7 @@ class FaultyRobot:
 
     def __exit__(self, *_: object) -> None:
         self._operator.close()
-        rospy.signal_shutdown("The matrix is over.")
+        shut_down("The matrix is over.")
         self._stack.stop()
 
     @property

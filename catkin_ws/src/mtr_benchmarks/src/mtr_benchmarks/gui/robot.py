@@ -24,10 +24,11 @@ class SeeingRobot(VirtualRobot):
     def status(self) -> RobotStatus:
         """See VirtualRobot."""
         told = super().status()
-        return dataclasses.replace(told, surroundings=_seen(told)) if told.id % 2 == 0 else told
+        return dataclasses.replace(told, surroundings=seen(told)) if told.id % 2 == 0 else told
 
 
-def _seen(status: RobotStatus) -> Surroundings:
+def seen(status: RobotStatus) -> Surroundings:
+    """A wavy wall, and a way."""
     bearings = [2.0 * math.pi * index / POINTS for index in range(POINTS)]
     ranges = [WALL_M + WAVE_M * math.sin(7.0 * bearing + 0.1 * status.id) for bearing in bearings]
     points = tuple((far * math.cos(bearing), far * math.sin(bearing)) for far, bearing in zip(ranges, bearings))

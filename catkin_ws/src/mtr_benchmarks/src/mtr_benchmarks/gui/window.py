@@ -123,7 +123,7 @@ def _use(application: Application, watch: Watch, folder: pathlib.Path, connectio
     store.settings = dataclasses.replace(store.settings, result_folder=folder / "results",
                                          progress_folder=folder / "progress", has_sounds=False)
     flow.connect_to(connection)
-    _until(lambda: flow.model.robot is not None)
+    until(lambda: flow.model.robot is not None)
     watch.newest_id = lambda: 0 if flow.model.robot is None else flow.model.robot.status.id
     window: Any = application.window
     window.resize(SIZE)
@@ -132,14 +132,14 @@ def _use(application: Application, watch: Watch, folder: pathlib.Path, connectio
     stop_s = [_stop(window.header.stop, watch) for _ in range(times.stops)]
     scenario = SCENARIOS["autolock"]
     flow.start(scenario, scenario.parameters_type())
-    _until(lambda: flow.model.robot is not None and flow.model.robot.status.mode is Mode.FOLLOWING_WAYPOINT
+    until(lambda: flow.model.robot is not None and flow.model.robot.status.mode is Mode.FOLLOWING_WAYPOINT
            and abs(flow.model.robot.status.speed_mps) > 0.0)
-    before_mib, paints, pictures = _memory_mib(), len(watch.paints_s), len(watch.picture_s)
+    before_mib, paints, pictures = memory_mib(), len(watch.paints_s), len(watch.picture_s)
     measuring_cores = _cores(times.measuring_s)
     frames = len(watch.paints_s) - paints
     flow.stop()
     return WindowFigures(stop_s, watch.picture_s[pictures:], frames / times.measuring_s, rest_cores, measuring_cores,
-                         _memory_mib(), _memory_mib() - before_mib)
+                         memory_mib(), memory_mib() - before_mib)
 
 
 def _stop(button: Any, watch: Watch) -> float:
@@ -159,7 +159,8 @@ def _cores(wall_s: float) -> float:
     return (time.process_time() - used_s) / (time.monotonic() - begun_s)
 
 
-def _memory_mib() -> float:
+def memory_mib() -> float:
+    """Of this process, what is in the machine's memory."""
     fields = pathlib.Path("/proc/self/statm").read_text(encoding="ascii").split()
     return int(fields[1]) * _PAGE_BYTES / _MIB
 
@@ -167,10 +168,11 @@ def _memory_mib() -> float:
 def _pass(wall_s: float) -> None:
     """Let the window live."""
     end_s = time.monotonic() + wall_s
-    _until(lambda: time.monotonic() >= end_s, None)
+    until(lambda: time.monotonic() >= end_s, None)
 
 
-def _until(condition: Callable[[], bool], limit_s: Optional[float] = READY_LIMIT_S) -> None:
+def until(condition: Callable[[], bool], limit_s: Optional[float] = READY_LIMIT_S) -> None:
+    """Let the window live until a condition holds; TimeoutError after limit_s of wall time, None for ever."""
     end_s = None if limit_s is None else time.monotonic() + limit_s
     flags: Any = QEventLoop.ProcessEventsFlag.AllEvents | QEventLoop.ProcessEventsFlag.WaitForMoreEvents
     while not condition():

@@ -17,6 +17,7 @@ from mtr_fault_injection.processes import process_of
 from mtr_proto import robot_link_pb2 as link
 
 from ..harness.operator_link import OperatorLink
+from ..harness.ros_shutdown import shut_down
 from .judge import Motion
 
 # Of a game controller; see mtr_controller_input.
@@ -75,7 +76,7 @@ class LiveRobot:
     def __exit__(self, *_: object) -> None:
         self._timer.shutdown()
         self._operator.close()
-        rospy.signal_shutdown("The measurement is over.")
+        shut_down("The measurement is over.")
         self._stack.stop()
 
     @property

@@ -1,4 +1,6 @@
-"""Runs the simulated robot on the machine's clock, idle and beside other work; figures go to real_time.json.
+"""Runs the simulated robot in real time, idle and beside other work; figures go to real_time.json.
+
+First its nodes' silences, latencies and restarts on the machine's clock, then whole Autolock tests beside the truth.
 
 Usage: python -m mtr_benchmarks.real_time --out out/bench
 """
@@ -13,6 +15,7 @@ from dataclasses import asdict
 from typing import Any, ContextManager, Dict, Iterator, List, Optional, Tuple
 
 from ..harness.report import BenchmarkReport, finish
+from ..harness.rows import Row
 from ..liveness.alarms import AlarmWatch
 from ..liveness.live_robot import MACHINE_CLOCK, LiveRobot
 from .arrivals import by_node
@@ -20,6 +23,7 @@ from .judge import Machine, judged, restart_row
 from .measurement import Stretch, measure
 from .other_work import other_work
 from .restarts import NODES, ROUNDS, Restart, restarts
+from .whole_tests import TESTS, figures_of_tests, rows_of_tests, whole_tests
 
 DRIVE_S, STOPS = 60.0, 20
 SHORT_DRIVE_S, SHORT_STOPS = 5.0, 3
@@ -50,21 +54,37 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--machines", nargs="*", choices=[each.value for each in Machine],
                         default=[each.value for each in Machine], help="idle, busy or both")
     parser.add_argument("--restarts", nargs="*", default=NODES, choices=NODES, help="nodes to kill")
+    parser.add_argument("--tests", type=int, default=None,
+                        help=f"whole Autolock tests of each machine, some minutes each; default {TESTS}, short none")
+    parser.add_argument("--seed", type=int, default=1, help="of the first test; the next one has the next")
+    parser.add_argument("--tests-only", action="store_true", help="neither drives nor restarts")
     options = parser.parse_args(arguments)
+    machines = [Machine(name) for name in options.machines]
+    rows: List[Row] = []
+    figures: Dict[str, Any] = {}
+    remarks: List[str] = []
+    if not options.tests_only:
+        rows, figures, remarks = _nodes(options, machines)
+    count = options.tests if options.tests is not None else 0 if options.short else TESTS
+    made = whole_tests(options.out / "real_time" / "tests", machines, range(options.seed, options.seed + count))
+    figures["tests"] = figures_of_tests(made)
+    return finish(BenchmarkReport(rows + rows_of_tests(made), figures, remarks), options.out / "real_time.json")
+
+
+def _nodes(options: argparse.Namespace, machines: List[Machine]) -> Tuple[List[Row], Dict[str, Any], List[str]]:
     folder = options.out / "real_time"
     drive_s, stops = (SHORT_DRIVE_S, SHORT_STOPS) if options.short else (DRIVE_S, STOPS)
     with LiveRobot(folder, clock={**MACHINE_CLOCK, "respawn": "true"}) as robot:
         robot.start()
-        found, noted = _measured(robot, folder, drive_s, stops, [Machine(name) for name in options.machines])
+        found, noted = _measured(robot, folder, drive_s, stops, machines)
         killed = restarts(robot, 1 if options.short else ROUNDS, options.restarts)
-    arrivals = by_node(noted["callers"])
-    rows, figures = judged(found, arrivals, noted["tf_age_s"])
+    rows, figures = judged(found, by_node(noted["callers"]), noted["tf_age_s"])
     rows += [restart_row(killed)] if killed else []
     remarks = [f"{machine.value}: {alarm}" for machine, stretch in found.items() for alarm in stretch.alarms]
     remarks += [_restart_line(each) for each in killed]
     figures["restarts"] = [each._asdict() for each in killed]
     figures["stretches"] = {machine.value: asdict(stretch) for machine, stretch in found.items()}
-    return finish(BenchmarkReport(rows, figures, remarks), options.out / "real_time.json")
+    return rows, figures, remarks
 
 
 def _restart_line(found: Restart) -> str:

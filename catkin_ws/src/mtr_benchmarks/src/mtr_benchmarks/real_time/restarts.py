@@ -6,8 +6,7 @@ import signal
 import time
 from typing import List, NamedTuple, Optional, Sequence
 
-import rosgraph
-
+from mtr_fault_injection.parts import FaultError
 from mtr_proto import robot_link_pb2 as link
 
 from ..liveness.live_robot import LiveError, LiveRobot
@@ -98,6 +97,6 @@ class _Help:
 
 
 def _is_new(robot: LiveRobot, node: str, killed: int) -> bool:
-    with contextlib.suppress(OSError, rosgraph.MasterException):
+    with contextlib.suppress(FaultError):
         return robot.process_of(f"/{node}") != killed
     return False
