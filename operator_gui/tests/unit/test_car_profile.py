@@ -1,8 +1,12 @@
 """Car profiles: the shipped one, a second car with the other polarity, and everything that may be wrong in a file."""
 # SPDX-License-Identifier: Apache-2.0
+import threading
+
 import cantools
 import pytest
 
+from mtr_operator.car_link.handle import HandleOutput
+from mtr_operator.car_link.outputs.extender import BusExtender
 from mtr_operator.car_link.profile import PROFILE_FOLDER, load_profile
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, LockState
@@ -89,7 +93,8 @@ def test_other_frames_are_not_the_lock_message(tmp_path):
     (("database: other.dbc", "database: lost.dbc"), "lost.dbc cannot be read: No such file"),
     (("cycle_time_s: 0.1", "cycle_time_s: 0"), "cycle_time_s is 0; allowed is 0.001 to 10 s"),
     (("cycle_time_s: 0.1\n", ""), "lacks the entry cycle_time_s"),
-    (("1: locked", "1: shut"), "states has 1: 'shut'; allowed is a whole number with unknown, locked or unlocked"),
+    (("1: locked", "1: shut"), "states has 1: 'shut'; allowed is a whole number with unknown, locked, unlocked or "
+                                      "unlocked_driver"),
     (("sent_on_change: true", "source_signal: Speed"), "source_signal and sources belong together"),
     (("sent_on_change: true", "sources: {1: key_button}"), "source_signal and sources belong together"),
     (("sent_on_change: true", "source_signal: Why\nsources: {1: key_button}"), "no signal Why"),
@@ -133,6 +138,38 @@ def test_wrong_output_is_refused_with_a_sentence(tmp_path, entry, words):
     with pytest.raises(ConnectionFailed) as raised:
         load_profile(write(tmp_path, OTHER_PROFILE.replace(*with_handle(entry))))
     assert words in str(raised.value) and "\n" not in str(raised.value)
+
+
+def test_output_that_switches_the_extender_is_declared_as_that_of_the_handle(tmp_path):
+    def profile(entry):
+        return write(tmp_path, OTHER_PROFILE.replace("sent_on_change: true", f"extender_switch: {entry}"))
+
+    output = load_profile(profile("{message: Doors, signal: Speed, switched_on: 258, switched_off: 0}")).extender_output
+    assert bytes(output.frame(True).data) == bytes(4) + b"\x02\x01" + bytes(2)
+    for entry, words in [("{message: Doors}", "table of message, signal, switched_on, switched_off"),
+                         ("{message: Doors, signal: Speed, switched_on: 1, switched_off: 1}", "are both 1")]:
+        with pytest.raises(ConnectionFailed, match=words):
+            load_profile(profile(entry))
+
+
+def test_extender_is_switched_when_its_frame_has_left_and_is_not_left_on():
+    sent, left = [], threading.Event()
+
+    def send(message):
+        sent.append(bytes(message.data))
+        return left
+
+    extender = BusExtender(HandleOutput(1, False, b"\x01", b"\x00"), send)
+    assert not extender.is_switched()
+    extender.switch(True)
+    assert sent == [b"\x01"] and not extender.is_switched()
+    left.set()
+    assert extender.is_switched()
+    extender.release()
+    assert sent == [b"\x01"] and not extender.is_switched()
+    extender.close()
+    extender.close()
+    assert sent == [b"\x01", b"\x00"]
 
 
 def test_broken_database_is_refused_with_a_sentence(tmp_path):

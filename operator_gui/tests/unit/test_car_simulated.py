@@ -7,6 +7,7 @@ import pytest
 
 from mtr_operator.car_link.simulated_car import LOCK_M, PRESS_M, UNLOCK_M, SimulatedCarLink
 from mtr_operator.cli import commands, main
+from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import CarDimensions, PressReport, RobotStatus
 from mtr_operator.station.connection import SIMULATED, CanChoice, LinkOpener
@@ -42,6 +43,16 @@ def test_car_unlocks_near_it_and_locks_farther_away_and_at_no_other_place__B16(c
     assert [event.lock_state for event in events] == [LockState.UNLOCKED, LockState.LOCKED]
     unlocked, locked = (places[round(event.time_s / 0.1) - 1] for event in events)
     assert unlocked == pytest.approx(UNLOCK_M, rel=0.3) and locked == pytest.approx(LOCK_M, rel=0.3)
+
+
+def test_press_of_the_calibration_leaves_passive_entry_to_the_test_that_follows__B16(car):
+    def events(first, session):
+        return [event for number, gap in enumerate(approach_and_retreat(), first)
+                for event in car.observe(status(number, 2.25 + gap, session_id=session))]
+    car.observe(status(1, 4.0, session_id=1, presses=(PressReport(1, 0.05, 0.1, "", ()),)))
+    car.observe(status(2, 4.0, session_id=1, presses=(PressReport(2, 0.15, 0.2, "", ()),)))
+    assert car.lock_state is LockState.LOCKED and events(3, session=1) == []
+    assert [event.lock_state for event in events(1000, session=2)] == [LockState.UNLOCKED, LockState.LOCKED]
 
 
 def test_events_come_in_order_and_never_from_the_future(car):
@@ -131,3 +142,51 @@ def test_demo_without_a_folder_writes_into_that_of_the_results(tmp_path, monkeyp
         main(["demo"])
     assert made[0].parent.name == "results" and made[0].name.startswith("demo_autolock_")
     assert not made[0].exists()
+
+
+@pytest.mark.parametrize(("sleep_s", "rest", "is_heard"), [(0.0, 100, True), (5.0, 30, True), (5.0, 60, False)])
+def test_key_at_rest_sleeps_and_its_button_works_all_the_same(sleep_s, rest, is_heard):
+    car = SimulatedCarLink(1, sleep_s)
+    car.connect()
+    # Far away, where nothing unlocks, then at the Car, asked there; 0.1 s each.
+    drive(car, [0.3])
+    car.handle.request(0.3)
+    drive(car, [0.3], first=2)
+    car.handle.release()
+    assert car.lock_state is LockState.UNLOCKED
+    car.observe(status(3, 2.55, presses=(PressReport(1, 0.25, 0.3, "", ()),)))
+    assert car.lock_state is LockState.LOCKED
+    drive(car, [0.4, *(rest * [0.3])], first=4)
+    car.handle.request(0.3)
+    drive(car, [0.3], first=rest + 5)
+    assert (car.lock_state is LockState.UNLOCKED) is is_heard
+    number = rest + 6
+    car.observe(status(number, 2.55, presses=(PressReport(2, 0.1 * number - 0.05, 0.1 * number, "", ()),)))
+    assert (car.lock_state is LockState.UNLOCKED) is not is_heard
+
+
+def test_sleep_of_the_simulated_key_beyond_its_range_is_one_sentence(tmp_path, capsys):
+    (tmp_path / "parameters.yaml").write_text("side: left\n", encoding="utf-8")
+    assert main(["run", "sleep_time", "--params", str(tmp_path / "parameters.yaml"), "--out", str(tmp_path / "out"),
+                 "--simulated-robot", "--simulated-car", "--simulated-key-sleep", "-3"]) == 2
+    assert "the simulated key sleeps is -3 s; allowed is 0 to 3600 s." in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("reach_m", "is_on", "is_heard"), [(0.0, True, False), (3.0, False, False), (3.0, True, True)])
+def test_extender_has_the_key_be_nearer_while_it_is_switched_on(reach_m, is_on, is_heard):
+    car = SimulatedCarLink(1, extender_m=reach_m)
+    car.connect()
+    car.extender.switch(True)
+    car.extender.switch(is_on)
+    assert car.extender.is_switched()
+    car.extender.release()
+    assert not car.extender.is_switched()
+    drive(car, [3.0])
+    car.handle.request(3.0)
+    drive(car, [3.0], first=2)
+    assert (car.lock_state is LockState.UNLOCKED) is is_heard
+
+
+def test_reach_of_the_extender_beyond_its_range_is_refused():
+    with pytest.raises(InvalidParameter, match="reach of the simulated extender is 101 m; allowed is 0 to 100 m"):
+        SimulatedCarLink(1, extender_m=101.0)

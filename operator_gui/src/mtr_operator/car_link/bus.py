@@ -6,48 +6,59 @@ import pathlib
 import threading
 import time
 from dataclasses import replace
-from typing import Any, Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence
 
 import can
 
+from mtr_operator.domain.assistance import ExtenderPort, HandlePort
+from mtr_operator.domain.distance_feed import DistanceFeed
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import (
-    BusMark,
-    BusMessages,
-    BusTraffic,
-    CarEvent,
-    CarLink,
-    HandlePort,
-    LockFacts,
-    LockState,
-    Refused,
-)
+from mtr_operator.domain.ports import BusMark, BusMessages, BusTraffic, CarEvent, CarLink, LockFacts, LockState, Refused
 from mtr_operator.domain.results.session_record import CAN_ADAPTER, CAN_STAMPS
 from mtr_operator.domain.robot_status import RobotStatus
 
 from .adapter import AdapterSettings, open_adapter
 from .bus_trouble import BusTrouble
 from .can_frame import CanFrame
-from .handle import BusHandle
+from .further.buses import FurtherBuses
+from .further.cycles import CycleCheck
 from .lock_watch import LockWatch
 from .log.bus_log import BusLog
 from .message_table import MessageTable
+from .outputs.outputs import Outputs
+from .phone.car_signal import CarSignalFeed, feed_of
 from .profile import CarProfile, load_profile
 from .reader import CanReader, FrameSink
 from .traffic import TrafficMeter
 
+if TYPE_CHECKING:
+    from .uds.poller import StatePoller
+
 # Wall time for which observe() waits at most for the bus to catch up.
 CATCH_UP_LIMIT_S = 0.25
 _NOT_CONNECTED = "The Car's CAN bus is not connected."
-_OUTPUT_IDLE = ("The car's profile names an output that takes the handle, and the CAN adapter only listens: a person "
-                "takes it; choose normal mode (--can-normal) to have it switched.")
+
+
+def _poller(profile: CarProfile, settings: AdapterSettings,
+            send: Callable[[can.Message], threading.Event]) -> StatePoller | None:
+    """What asks the Car for its state; None for a Car that sends it. ConnectionFailed on an adapter that listens."""
+    if profile.poll is None:
+        return None
+    if settings.is_listening:
+        raise ConnectionFailed(f"The car profile {profile.name} asks the Car for its lock state (uds_poll), and the "
+                               "CAN adapter only listens; choose normal mode (--can-normal) where the Car may be "
+                               "asked, or a profile with a state that it sends.")
+    # Needs packages that no other profile needs.
+    from .uds.poller import StatePoller
+    return StatePoller(profile.poll, send)
 
 
 class CanCarLink(CarLink, FrameSink):
     """Watches the locks on the CAN bus, and sends nothing on it unless it is opened in normal mode.
 
     profile: name of a shipped car profile, or path of a YAML file. options: passed to python-can's driver.
-    clock: the laptop's, monotonic, in s. is_listening, data_bitrate: see AdapterSettings.
+    clock: the laptop's, monotonic, in s. is_listening, data_bitrate: see AdapterSettings. further: adapters of the
+    further buses that the profile names. databases: see load_profile.
 
     Attributes:
         profile: the loaded car profile, None before connect().
@@ -56,10 +67,11 @@ class CanCarLink(CarLink, FrameSink):
 
     def __init__(self, interface: str, channel: str, bitrate: int = 500_000, profile: str = "mtr_demo_car",
                  options: dict[str, Any] | None = None, *, clock: Callable[[], float] = time.monotonic,
-                 is_listening: bool = True, data_bitrate: int | None = None):
+                 is_listening: bool = True, data_bitrate: int | None = None,
+                 further: Mapping[str, AdapterSettings] | None = None, databases: pathlib.Path | None = None):
         self._settings = AdapterSettings(interface, str(channel), bitrate, dict(options or {}), is_listening,
                                          data_bitrate)
-        self._profile_name = str(profile)
+        self._profile_name, self._databases = str(profile), databases
         self._clock = clock
         self._watch: LockWatch | None = None
         self._reader: CanReader | None = None
@@ -70,7 +82,11 @@ class CanCarLink(CarLink, FrameSink):
         self._restarts = 0
         self._traffic = TrafficMeter(bitrate, data_bitrate)
         self._table = MessageTable()
-        self._handle: HandlePort | None = None
+        self._outputs: Outputs | None = None
+        self._poller: StatePoller | None = None
+        self._further = FurtherBuses(self._settings, dict(further or {}), clock)
+        self._cycles = CycleCheck()
+        self._phone: DistanceFeed | None = None
         self.profile: CarProfile | None = None
         self.frames_received = 0
 
@@ -78,14 +94,24 @@ class CanCarLink(CarLink, FrameSink):
         """See CarLink."""
         if self._reader is not None:
             return
-        self.profile = load_profile(self._profile_name)
-        self._watch = LockWatch(self.profile)
+        self.profile = profile = load_profile(self._profile_name, self._databases)
+        self._poller = _poller(profile, self._settings, self._send)
+        self._watch = LockWatch(profile)
+        self._cycles = CycleCheck(profile)
         self._table = MessageTable(self.profile.message_names)
+        self._phone = feed_of(profile.phone)
         reader = CanReader(lambda: open_adapter(self._settings), self, self._settings.interface, self._clock)
         reader.start()
+        try:
+            self._further.start(profile, self)
+            if self._phone is not None:
+                self._phone.connect()
+        except ConnectionFailed:
+            self._further.stop()
+            reader.stop()
+            raise
         self._reader = reader
-        output = self.profile.handle_output
-        self._handle = None if output is None or self._settings.is_listening else BusHandle(output, self._send)
+        self._outputs = Outputs(profile, self._settings.is_listening, self._send)
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
         """See CarLink."""
@@ -119,7 +145,17 @@ class CanCarLink(CarLink, FrameSink):
     @property
     def handle(self) -> HandlePort | None:
         """See CarLink: what the profile declares."""
-        return self._handle
+        return None if self._outputs is None else self._outputs.handle
+
+    @property
+    def extender(self) -> ExtenderPort | None:
+        """See CarLink: what the profile declares."""
+        return None if self._outputs is None else self._outputs.extender
+
+    @property
+    def distance_feed(self) -> DistanceFeed | None:
+        """See CarLink: what the profile declares."""
+        return self._phone
 
     @property
     def traffic(self) -> BusTraffic | None:
@@ -141,8 +177,9 @@ class CanCarLink(CarLink, FrameSink):
     @property
     def notices(self) -> Sequence[str]:
         """See CarLink."""
-        has_idle_output = self.profile is not None and self.profile.handle_output is not None and self._handle is None
-        return (_OUTPUT_IDLE,) if has_idle_output else ()
+        idle = () if self._outputs is None else self._outputs.notices
+        with self._changed:
+            return (*idle, *self._cycles.notices)
 
     def log_to(self, path: pathlib.Path | None) -> None:
         """See CarLink."""
@@ -180,13 +217,16 @@ class CanCarLink(CarLink, FrameSink):
         with self._changed:
             if self._watch is None:
                 return _NOT_CONNECTED
-            return self._trouble.problem or self._watch.problem
+            return self._trouble.problem or self._further.problem or self._watch.problem
 
     def close(self) -> None:
         """See CarLink."""
-        if self._handle is not None:
-            self._handle.release()
+        if self._outputs is not None:
+            self._outputs.close()
         reader, self._reader = self._reader, None
+        if self._phone is not None:
+            self._phone.close()
+        self._further.stop()
         if reader is not None:
             reader.stop()
         self.log_to(None)
@@ -198,7 +238,15 @@ class CanCarLink(CarLink, FrameSink):
     def frame(self, frame: CanFrame) -> None:
         """See FrameSink."""
         with self._changed:
+            if isinstance(self._phone, CarSignalFeed):
+                self._phone.frame(frame)
+            if frame.bus:
+                self._of_further_bus(frame)
+                return
             self._trouble.frame(frame)
+            self._cycles.frame(frame)
+            if self._poller is not None:
+                self._poller.frame(frame)
             if self._watch is not None:
                 self._watch.frame(frame)
                 self._traffic.frame(frame, self._watch.is_lock_message)
@@ -207,6 +255,20 @@ class CanCarLink(CarLink, FrameSink):
             self._table.frame(frame)
             self.frames_received += 1
             self._changed.notify_all()
+
+    def _of_further_bus(self, frame: CanFrame) -> None:
+        watch = self._watch
+        self.frames_received += 1
+        if watch is not None:
+            watch.frame(frame)
+            if self._log is not None and watch.has_time:
+                self._log.frame(frame, watch.local_s, self._further.channel(frame.bus))
+
+    def tick(self, now_s: float) -> None:
+        """See FrameSink."""
+        if self._poller is not None:
+            with self._changed:
+                self._poller.tick(now_s)
 
     def error_frame(self) -> None:
         """See FrameSink."""

@@ -13,7 +13,7 @@ class CanFrame:
 
     arrival_s: laptop's monotonic clock. stamp_ms: adapter's clock, starting again each minute; stamp_s: adapter's clock
     that does not; None when it gives none. kind: which clock says when it was on the bus, None for
-    what the stamps tell. is_fd: a CAN FD frame.
+    what the stamps tell. is_fd: a CAN FD frame. bus: name of the Car's bus, empty for that of the state.
     """
 
     can_id: int
@@ -24,6 +24,7 @@ class CanFrame:
     stamp_s: float | None = None
     kind: StampKind | None = None
     is_fd: bool = False
+    bus: str = ""
 
     @property
     def is_stamped(self) -> bool:

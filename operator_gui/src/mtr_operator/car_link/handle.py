@@ -9,8 +9,8 @@ from typing import Any, Callable
 import can
 import cantools
 
+from mtr_operator.domain.assistance import OUTPUT, HandlePort
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import OUTPUT, HandlePort
 
 
 @dataclass(frozen=True, eq=False)

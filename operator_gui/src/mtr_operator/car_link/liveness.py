@@ -39,11 +39,13 @@ class Liveness:
         self._frames = _Heartbeat()
         self._lock_messages = _Heartbeat()
         self._lock_limit_s = max(SILENCE_LIMIT_S, _CYCLE_LIMIT * profile.cycle_time_s)
+        self._is_without_state = False
 
-    def frame(self, is_lock_message: bool) -> None:
-        """A frame arrived."""
+    def frame(self, is_lock_message: bool, is_without_state: bool = False) -> None:
+        """A frame arrived. is_without_state: of the lock message, but nothing in it tells the state."""
         self._frames.count += 1
         self._lock_messages.count += is_lock_message
+        self._is_without_state = not is_lock_message and (self._is_without_state or is_without_state)
 
     def observe(self, stamp_s: float, wall_s: float) -> None:
         """At wall_s of the laptop's clock a Status with this stamp, and the frames that precede it, have arrived."""
@@ -73,6 +75,10 @@ class Liveness:
             return (f"No CAN frame for {self.silence_s:.1f} s; check the plug, the bit rate and that the Car is awake.")
         if self._lock_messages.silence_s > self._lock_limit_s:
             message = self._profile.message
+            if self._is_without_state:
+                return (f"Message {message.name} (id 0x{message.frame_id:X}) comes without the signal "
+                        f"{self._profile.signal}: another page of a multiplexed message, or a shorter one than the "
+                        "database says; check the car profile.")
             return (f"No message {message.name} (id 0x{message.frame_id:X}) for {self._lock_messages.silence_s:.1f} s "
                     "although the CAN bus is alive; check the car profile.")
         return ""

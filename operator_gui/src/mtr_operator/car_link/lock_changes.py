@@ -69,6 +69,12 @@ class LockChanges:
         self._state_s = math.nan
         self._judge = FrameJudge(self._profile)
 
+    def doubt(self, local_s: float, arrival_s: float, sentence: str) -> None:
+        """Something beside the lock message is not to be believed."""
+        self.refused = Refused(self.refused.count + 1, sentence)
+        state = LockState.UNKNOWN if self._state is None else self._state
+        self.waiting.append(Change(local_s, local_s, arrival_s, LockReading(state), doubt=sentence))
+
     def follow(self, local_s: float, arrival_s: float, reading: LockReading, may_have_waited: bool) -> None:
         """Take a reading; may_have_waited: its time is that of its arrival."""
         doubt, is_changed = self._judge.judge(reading, local_s), reading.state is not self._state

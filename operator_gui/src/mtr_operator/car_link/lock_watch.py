@@ -11,9 +11,10 @@ from mtr_operator.domain.robot_status import RobotStatus
 from .can_frame import CanFrame
 from .clocks.frame_time import FrameTime
 from .clocks.stamp_kind import StampKind
+from .further.companions import Companions
 from .liveness import Liveness
 from .lock_changes import Change, LockChanges
-from .profile import CarProfile
+from .profile import CarProfile, LockReading
 
 # Kept small against the cycle, so that "caught up" means the same frame whatever the small error of the map.
 _CATCH_UP_MARGIN_S = 0.003
@@ -41,14 +42,22 @@ class LockWatch:
         self.is_lock_message, self.local_s = False, math.nan
         self._time = FrameTime()
         self._changes = LockChanges(profile, Refused())
+        self._companions = Companions(profile.further)
         self._restart()
 
     def _restart(self) -> None:
         self.lock_state = LockState.UNKNOWN
         self._time.restart()
+        self._decode = self._profile.decoder()
+        self._companions.restart()
         self._frames: collections.deque[tuple[float, bytes]] = collections.deque(maxlen=_KEPT_FRAMES)
         self._changes = LockChanges(self._profile, self.refused)
         self._released: LockState | None = None
+
+    @property
+    def has_time(self) -> bool:
+        """A frame has come since the beginning, or since the adapter was opened anew."""
+        return not math.isnan(self._time.newest_s)
 
     @property
     def refused(self) -> Refused:
@@ -61,18 +70,35 @@ class LockWatch:
 
     def frame(self, frame: CanFrame) -> None:
         """Take a frame, in the order of arrival."""
+        if frame.bus:
+            self._beside(frame)
+            return
         if not self._time.goes_on_with(frame):
             self._restart()
             self._time.begin(frame)
         local_s, was_set = self._time.frame(frame)
         if was_set:
             self._changes.begin_new_frames()
-        reading = self._profile.decode(frame.can_id, frame.is_extended, frame.data)
+        reading = self._decode(frame.can_id, frame.is_extended, frame.data)
         self.is_lock_message, self.local_s = reading is not None, local_s
         if reading is not None:
             self._frames.append((local_s, frame.data))
             self._changes.follow(local_s, frame.arrival_s, reading, self._time.is_by_arrival)
-        self._liveness.frame(is_lock_message=reading is not None and not self._changes.is_repeated)
+        is_without_state = reading is None and self._profile.poll is None and self._profile.is_message(
+            frame.can_id, frame.is_extended)
+        self._liveness.frame(reading is not None and not self._changes.is_repeated, is_without_state)
+        self._companion(frame, local_s)
+
+    def _beside(self, frame: CanFrame) -> None:
+        """A frame of a further bus: its adapter has a clock of its own, and belongs to what came with it."""
+        self.is_lock_message = False
+        if self.has_time:
+            self.local_s = self._time.newest_s
+            self._companion(frame, self.local_s)
+
+    def _companion(self, frame: CanFrame, local_s: float) -> None:
+        for doubt in self._companions.frame((frame.bus, frame.can_id, frame.is_extended), frame.data, local_s):
+            self._changes.doubt(local_s, frame.arrival_s, doubt)
 
     def status(self, status: RobotStatus, arrival_s: float) -> None:
         """Take a Status, before waiting for the frames that precede it."""
@@ -108,7 +134,10 @@ class LockWatch:
         return events
 
     def _is_due(self, change: Change) -> bool:
-        return not change.is_timed or self._time.is_certain(change.local_s, change.arrival_s)
+        if not change.is_timed:
+            return True
+        is_known = self._time.newest_s >= change.local_s + self._profile.further.settles_s
+        return is_known and self._time.is_certain(change.local_s, change.arrival_s)
 
     @property
     def problem(self) -> str:
@@ -129,13 +158,19 @@ class LockWatch:
         reading = change.reading
         if not change.is_timed:
             return CarEvent(self._time.stamp_s, math.inf, reading.state, reading.source, change.doubt)
-        time_s = self._time.to_robot(change.local_s)
+        time_s, told = self._time.to_robot(change.local_s), self._companions.told(change.local_s)
         # A cyclic message shows a change that happened at any time since the message before.
         gap_s = time_s - self._time.to_robot(change.previous_local_s)
         vague = not self._profile.sent_on_change or gap_s > _LOST_CYCLES * self._profile.cycle_time_s
         spread_s = gap_s if vague else 0.0
-        return CarEvent(time_s - spread_s / 2, self._time.sigma_with(spread_s), reading.state, reading.source,
-                        change.doubt, self._evidence(change))
+        return CarEvent(time_s - spread_s / 2, self._time.sigma_with(spread_s), reading.state,
+                        reading.source or told.source, change.doubt or told.doubt, self._evidence(change),
+                        told.raw or self._raw(reading), told.key, reading.doors)
+
+    def _raw(self, reading: LockReading) -> str:
+        """The source of the lock message when the profile does not list it."""
+        is_listed = reading.source or reading.source_raw is None
+        return "" if is_listed else f"{self._profile.source_signal} = {reading.source_raw}"
 
     def _evidence(self, change: Change) -> tuple[str, ...]:
         """Frames around a change, with robot time, as candump writes them."""

@@ -5,39 +5,46 @@ from __future__ import annotations
 import functools
 import pathlib
 from dataclasses import dataclass, field
-from typing import Any, Mapping, NamedTuple
+from typing import Any, Callable, Mapping, NamedTuple
 
 import cantools
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import HANDLE, KEY_BUTTON, PASSIVE_ENTRY, LockFacts, LockState
+from mtr_operator.domain.ports import LockFacts, LockState
 from mtr_operator.storage.plain_yaml import BadYaml, load_yaml
 
-from .handle import HandleOutput, handle_output
+from .further.declared import KEYS, SOURCES, Further, is_elsewhere, read_further
+from .further.entries import DRIVER_ONLY, FIRST_BUS, Entries, one_line
+from .handle import HandleOutput
+from .outputs.declared import EXTENDER_KEY, HANDLE_KEY, read_output
+from .phone.address import FeedAddress
+from .phone.car_signal import KEY as PHONE
+from .phone.car_signal import PhoneSignal, read_phone
+from .uds.declared import UdsPoll, read_poll, response_message
 
 PROFILE_FOLDER = pathlib.Path(__file__).parent / "profiles"
 _MIN_CYCLE_S = 0.001
 _MAX_CYCLE_S = 10.0
-# Databases of a whole car have some megabytes; reading one takes the library ten seconds and more.
-_MAX_DATABASE_BYTES = 16 * 1024 * 1024
 _REQUIRED = ("database", "message", "signal", "states", "cycle_time_s")
+# A state that is asked for has no message; its database may be there for what the Car sends besides.
+_REQUIRED_OF_POLL = ("uds_poll", "states")
 _WITNESSES = ("alive_signal", "command_signal", "changed_signal")
 _OPTIONAL = ("description", "sent_on_change", "source_signal", "sources", *_WITNESSES, "min_state_s", "relock_after_s",
-             "handle_request")
-_HANDLE_KEYS = ("message", "signal", "taken", "released")
+             HANDLE_KEY, EXTENDER_KEY, *KEYS, "uds_poll", PHONE)
 # Motors of door locks need some tenths of a second; a state that is over sooner was none.
 _MIN_STATE_S = 0.1
 # A change is shown by two frames more before a glitch of one frame can be told from it.
 _CONFIRMING_CYCLES = 2.0
 _MAX_RELOCK_S = 3600.0
-_STATES = {state.value: state for state in LockState}
-_SOURCES = {source: source for source in (PASSIVE_ENTRY, KEY_BUTTON, HANDLE)}
+# Between the names of signals that tell a state together.
+_AND = "+"
 
 
 class LockReading(NamedTuple):
     """What one frame says. source: of the last change, empty when it is not known.
 
     raw: value of the state's signal. alive, commands, changed: see CarProfile, None when it declares no such signal.
+    source_raw: value of the source's signal, None without one. doors: that are unlocked when not all are; else empty.
     """
 
     state: LockState
@@ -46,6 +53,11 @@ class LockReading(NamedTuple):
     alive: int | None = None
     commands: int | None = None
     changed: bool | None = None
+    source_raw: int | None = None
+    doors: str = ""
+
+
+Decode = Callable[[int, bool, bytes], "LockReading | None"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,8 +73,13 @@ class CarProfile:
     is none.
     min_state_s: shortest time between two changes. relock_after_s: time after which the car locks by itself when it was
     unlocked and not opened, None when it does not.
-    handle_output: the message that has an actuator take the handle, None when a person has to.
+    handle_output: the message that has an actuator take the handle, extender_output: that switches an extender; None
+    when a person has to.
     message_names: of all messages of the database, by identifier and whether it is an extended one.
+    door_signals: one of each door, by its name, when they tell the state together; signal is all their names then.
+    driver_only: raw values with which all but the driver's door are locked.
+    further: what other messages tell. poll: how the state is asked for, None when the Car sends it.
+    phone: what tells the distance of a phone, None without it.
     """
 
     name: str
@@ -81,25 +98,45 @@ class CarProfile:
     relock_after_s: float | None = None
     handle_output: HandleOutput | None = None
     message_names: Mapping[tuple[int, bool], str] = field(default_factory=dict)
+    door_signals: Mapping[str, str] = field(default_factory=dict)
+    driver_only: frozenset[int] = frozenset()
+    further: Further = field(default_factory=Further)
+    poll: UdsPoll | None = None
+    phone: PhoneSignal | FeedAddress | None = None
+    extender_output: HandleOutput | None = None
 
     @property
     def facts(self) -> LockFacts:
         """What a scenario has to know of it."""
         # A change that a second signal vouches for needs no second frame.
-        is_vouched = bool(self.command_signal or self.changed_signal)
+        is_vouched = bool(self.command_signal or self.changed_signal or self.further.counters)
         confirm_s = 0.0 if is_vouched else max(self.min_state_s, _CONFIRMING_CYCLES * self.cycle_time_s)
-        return LockFacts(frozenset(self.sources.values()), self.relock_after_s, confirm_s,
-                         0.0 if self.sent_on_change else self.cycle_time_s)
+        return LockFacts(frozenset(self.sources.values()) | self.further.sources, self.relock_after_s, confirm_s,
+                         0.0 if self.sent_on_change else self.cycle_time_s, self.further.settles_s,
+                         self.further.is_required)
 
     def modulus(self, signal: str) -> int:
         """How many values a counter has."""
         return 1 << int(self.message.get_signal_by_name(signal).length)
 
+    def is_message(self, can_id: int, is_extended: bool) -> bool:
+        """True for frames of the message of the state."""
+        return bool(can_id == self.message.frame_id and is_extended == self.message.is_extended_frame)
+
+    def decoder(self) -> Decode:
+        """What frames in their order say; as decode, and for a state that is asked for by the answers."""
+        return self.decode if self.poll is None else self.poll.decoder(self.reading)
+
     def decode(self, can_id: int, is_extended: bool, data: bytes) -> LockReading | None:
         """What a frame says; None when the frame is another message, too short, or of another multiplex page."""
-        if can_id != self.message.frame_id or is_extended != self.message.is_extended_frame:
-            return None
-        return self._decode_data(data)
+        return self._decode_data(data) if self.is_message(can_id, is_extended) else None
+
+    def reading(self, raw: int) -> LockReading:
+        """What a value says that was asked for."""
+        return LockReading(self.states.get(raw, LockState.UNKNOWN), raw=raw, doors=self._driver(raw))
+
+    def _driver(self, raw: int) -> str:
+        return "driver" if raw in self.driver_only else ""
 
     # The same few frames repeat for ever.
     @functools.lru_cache(maxsize=1024)  # noqa: B019
@@ -108,42 +145,112 @@ class CarProfile:
             values = self.message.decode(data, decode_choices=False, scaling=False)
         except (cantools.database.DecodeError, ValueError):
             return None
-        value = values.get(self.signal)
-        if value is None:
+        state = self._state(values)
+        if state is None:
             return None
-        changed = values.get(self.changed_signal)
-        return LockReading(self.states.get(value, LockState.UNKNOWN),
-                           self.sources.get(values.get(self.source_signal), ""), value, values.get(self.alive_signal),
-                           values.get(self.command_signal), None if changed is None else bool(changed))
+        changed, source_raw = values.get(self.changed_signal), values.get(self.source_signal)
+        return state._replace(source=self.sources.get(source_raw, ""), alive=values.get(self.alive_signal),
+                              commands=values.get(self.command_signal),
+                              changed=None if changed is None else bool(changed), source_raw=source_raw)
+
+    def _state(self, values: Mapping[str, int]) -> LockReading | None:
+        """Of one signal, or of all doors together; None when the frame carries none."""
+        if not self.door_signals:
+            raw = values.get(self.signal)
+            return None if raw is None else self.reading(raw)
+        raws = {door: values.get(signal) for door, signal in self.door_signals.items()}
+        if any(raw is None for raw in raws.values()):
+            return None
+        states = {door: self.states.get(raw, LockState.UNKNOWN) for door, raw in raws.items() if raw is not None}
+        unknown = next((raw for door, raw in raws.items() if states[door] is LockState.UNKNOWN), None)
+        if unknown is not None:
+            return LockReading(LockState.UNKNOWN, raw=unknown)
+        unlocked = [door for door, state in states.items() if state is LockState.UNLOCKED]
+        doors = ", ".join(unlocked) if len(unlocked) < len(states) else ""
+        return LockReading(LockState.UNLOCKED if unlocked else LockState.LOCKED, raw=len(unlocked), doors=doors)
 
 
-def load_profile(name_or_path: str) -> CarProfile:
-    """Profile by the name of a shipped one or by the path of a YAML file; ConnectionFailed says what is wrong."""
+def load_profile(name_or_path: str, databases: pathlib.Path | None = None) -> CarProfile:
+    """Profile by the name of a shipped one or by the path of a YAML file; ConnectionFailed says what is wrong.
+
+    databases: folder of its databases; by default that of the profile, then that of MTR_CAR_DATABASES.
+    """
     path = _find(name_or_path)
-    content = _read(path)
-    states = _table(path, content, "states", _STATES)
-    if not {LockState.LOCKED, LockState.UNLOCKED} <= set(states.values()):
-        raise ConnectionFailed(f"Car profile {path}: states must name a value for locked and one for unlocked.")
-    database = _database(path, content["database"])
-    message = _message(path, content, database, content["message"])
+    entries = Entries(path, _read(path), databases)
+    return _polled(path, entries) if "uds_poll" in entries.content else _sent(path, entries)
+
+
+def _sent(path: pathlib.Path, entries: Entries) -> CarProfile:
+    """Of a Car that sends its state."""
+    content = entries.content
+    states = entries.states(content["states"])
+    message = entries.message(content["message"])
+    names = _signal_names(entries, message)
+    cycle_time_s = entries.duration("cycle_time_s", (_MIN_CYCLE_S, _MAX_CYCLE_S))
+    has_sources = "sources" in content
     return CarProfile(
         name=path.stem, description=str(content.get("description", "")), message=message,
-        signal=_signal(path, content, "signal", message), states=states,
-        cycle_time_s=_duration(path, content, "cycle_time_s", (_MIN_CYCLE_S, _MAX_CYCLE_S)),
-        sent_on_change=bool(content.get("sent_on_change", False)),
-        source_signal=_signal(path, content, "source_signal", message) if "sources" in content else "",
-        sources=_table(path, content, "sources", _SOURCES) if "sources" in content else {},
-        **{key: _signal(path, content, key, message) for key in _WITNESSES if key in content},
-        min_state_s=_duration(path, content, "min_state_s", (0.0, _MAX_CYCLE_S), _MIN_STATE_S),
-        relock_after_s=_duration(path, content, "relock_after_s", (1.0, _MAX_RELOCK_S)),
-        handle_output=_handle_output(path, content, database) if "handle_request" in content else None,
-        message_names={(each.frame_id, each.is_extended_frame): each.name for each in database.messages})
+        signal=_AND.join(names.values()), door_signals=names if isinstance(content["signal"], dict) else {},
+        states=states, driver_only=_driver_only(content), cycle_time_s=cycle_time_s,
+        sent_on_change=entries.flag("sent_on_change"),
+        source_signal=entries.signal(message, content["source_signal"]) if has_sources else "",
+        sources=entries.words("sources", content["sources"], SOURCES) if has_sources else {},
+        **_witnesses(entries, message), **_common(entries, message, cycle_time_s))
 
 
-def profile_files(name_or_path: str) -> tuple[pathlib.Path, pathlib.Path]:
-    """The profile and its database; ConnectionFailed when there is no such profile."""
+def _polled(path: pathlib.Path, entries: Entries) -> CarProfile:
+    """Of a Car that is asked for its state."""
+    content, poll = entries.content, read_poll(entries)
+    message = response_message(poll)
+    return CarProfile(
+        name=path.stem, description=str(content.get("description", "")), message=message, signal=poll.name,
+        states=entries.states(content["states"]), driver_only=_driver_only(content), cycle_time_s=poll.every_s,
+        sent_on_change=False, source_signal="", sources={}, poll=poll, **_common(entries, message, poll.every_s))
+
+
+def _common(entries: Entries, message: Any, cycle_time_s: float) -> dict[str, Any]:
+    content = entries.content
+    names = {} if "database" not in content else {
+        (each.frame_id, each.is_extended_frame): each.name for each in entries.database().messages}
+    return {"min_state_s": entries.duration("min_state_s", (0.0, _MAX_CYCLE_S), _MIN_STATE_S),
+            "relock_after_s": entries.duration("relock_after_s", (1.0, _MAX_RELOCK_S)),
+            "handle_output": read_output(entries, HANDLE_KEY), "extender_output": read_output(entries, EXTENDER_KEY),
+            "message_names": names, "further": read_further(entries, message, cycle_time_s),
+            "phone": read_phone(entries)}
+
+
+def _witnesses(entries: Entries, message: Any) -> dict[str, Any]:
+    """Of the state's own message."""
+    content = entries.content
+    return {key: entries.signal(message, content[key]) for key in _WITNESSES
+            if key in content and not is_elsewhere(content[key])}
+
+
+def _signal_names(entries: Entries, message: Any) -> dict[str, str]:
+    """Of each door; of a single signal under no name."""
+    signal = entries.content["signal"]
+    table = signal if isinstance(signal, dict) else {"": signal}
+    if not table or not all(isinstance(name, str) for name in table):
+        raise entries.wrong("signal must be a name, or a table from the name of a door to its signal.")
+    return {name: entries.signal(message, each) for name, each in table.items()}
+
+
+def _driver_only(content: Mapping[str, Any]) -> frozenset[int]:
+    return frozenset(raw for raw, word in content["states"].items() if word == DRIVER_ONLY)
+
+
+def profile_files(name_or_path: str) -> tuple[pathlib.Path, ...]:
+    """The profile and its databases; ConnectionFailed when there is no such profile."""
     path = _find(name_or_path)
-    return path, path.parent / str(_read(path)["database"])
+    entries = Entries(path, _read(path))
+    buses = (*((FIRST_BUS,) if "database" in entries.content else ()), *entries.buses)
+    return path, *(entries.database_path(bus) for bus in buses)
+
+
+def bus_names(name_or_path: str) -> tuple[str, ...]:
+    """Of the further buses, in their order; ConnectionFailed when there is no such profile, or a wrong one."""
+    path = _find(name_or_path)
+    return Entries(path, _read(path)).buses
 
 
 def profile_names() -> tuple[str, ...]:
@@ -167,7 +274,7 @@ def _read(path: pathlib.Path) -> dict[str, Any]:
     try:
         content = load_yaml(path)
     except OSError as error:
-        raise ConnectionFailed(f"Car profile {path} cannot be read: {_one_line(error)}.") from None
+        raise ConnectionFailed(f"Car profile {path} cannot be read: {one_line(error)}.") from None
     except BadYaml as error:
         raise ConnectionFailed(f"Car profile {path} {error}; a profile is a YAML file that names the CAN "
                                "database.") from None
@@ -177,90 +284,9 @@ def _read(path: pathlib.Path) -> dict[str, Any]:
         if key not in _REQUIRED + _OPTIONAL:
             raise ConnectionFailed(f"Car profile {path}: unknown entry {key}; allowed are "
                                    f"{', '.join(_REQUIRED + _OPTIONAL)}.")
-    for key in _REQUIRED:
+    for key in _REQUIRED_OF_POLL if "uds_poll" in content else _REQUIRED:
         if key not in content:
             raise ConnectionFailed(f"Car profile {path} lacks the entry {key}.")
     if ("source_signal" in content) != ("sources" in content):
         raise ConnectionFailed(f"Car profile {path}: source_signal and sources belong together; give both or none.")
     return content
-
-
-def _table(path: pathlib.Path, content: dict[str, Any], key: str, meanings: Mapping[str, Any]) -> dict[int, Any]:
-    """Meaning of each raw value that the entry lists."""
-    table = content[key]
-    if not isinstance(table, dict):
-        raise ConnectionFailed(f"Car profile {path}: {key} must be a table from raw value to {_either(meanings)}.")
-    for raw, text in table.items():
-        is_whole = isinstance(raw, int) and not isinstance(raw, bool)
-        if not is_whole or not isinstance(text, str) or text not in meanings:
-            raise ConnectionFailed(f"Car profile {path}: {key} has {raw!r}: {text!r}; allowed is a whole number with "
-                                   f"{_either(meanings)}.")
-    return {raw: meanings[text] for raw, text in table.items()}
-
-
-def _either(words: Mapping[str, Any]) -> str:
-    *others, last = words
-    return f"{', '.join(others)} or {last}"
-
-
-def _duration(path: pathlib.Path, content: dict[str, Any], key: str, limits_s: tuple[float, float],
-              default_s: Any = None) -> Any:
-    """Time in s of an entry, the default when it is absent."""
-    if key not in content:
-        return default_s
-    time_s, (low_s, high_s) = content[key], limits_s
-    if isinstance(time_s, bool) or not isinstance(time_s, (int, float)) or not low_s <= time_s <= high_s:
-        raise ConnectionFailed(f"Car profile {path}: {key} is {time_s}; allowed is {low_s:g} to {high_s:g} s.")
-    return float(time_s)
-
-
-def _handle_output(path: pathlib.Path, content: dict[str, Any], database: Any) -> HandleOutput:
-    table = content["handle_request"]
-    if not isinstance(table, dict) or set(table) != set(_HANDLE_KEYS):
-        raise ConnectionFailed(f"Car profile {path}: handle_request must be a table of {', '.join(_HANDLE_KEYS)}.")
-    for key in ("taken", "released"):
-        if not isinstance(table[key], int) or isinstance(table[key], bool):
-            raise ConnectionFailed(f"Car profile {path}: handle_request has {key}: {table[key]!r}; allowed is a whole "
-                                   "number.")
-    if table["taken"] == table["released"]:
-        raise ConnectionFailed(f"Car profile {path}: taken and released of handle_request are both {table['taken']}; "
-                               "give two values.")
-    message = _message(path, content, database, table["message"])
-    signal = _signal(path, {**content, "signal": table["signal"]}, "signal", message)
-    return handle_output(message, signal, table["taken"], table["released"])
-
-
-def _message(path: pathlib.Path, content: dict[str, Any], database: Any, name: Any) -> Any:
-    try:
-        return database.get_message_by_name(str(name))
-    except KeyError:
-        database_path = path.parent / str(content["database"])
-        raise ConnectionFailed(f"CAN database {database_path} has no message {name}.") from None
-
-
-def _database(path: pathlib.Path, name: Any) -> Any:
-    """One of CAN messages; of another kind an empty one, in which no message is found."""
-    database_path = path.parent / str(name)
-    try:
-        if database_path.stat().st_size > _MAX_DATABASE_BYTES:
-            raise ConnectionFailed(f"CAN database {database_path} is larger than {_MAX_DATABASE_BYTES // 1024} KiB; "
-                                   "leave the messages that the profile does not name out of it.")
-        database = cantools.database.load_file(str(database_path), strict=False)
-    except (OSError, UnicodeDecodeError, cantools.database.errors.Error) as error:
-        raise ConnectionFailed(f"CAN database {database_path} cannot be read: {_one_line(error)}.") from None
-    # The library's readers of some five formats raise whatever a damaged file leads them to.
-    except (ValueError, TypeError, AttributeError, LookupError, ArithmeticError, RecursionError):
-        raise ConnectionFailed(f"CAN database {database_path} cannot be read: it is damaged.") from None
-    return database if isinstance(database, cantools.database.can.Database) else cantools.database.can.Database()
-
-
-def _signal(path: pathlib.Path, content: dict[str, Any], key: str, message: Any) -> str:
-    signal = str(content[key])
-    if signal not in (known.name for known in message.signals):
-        database_path = path.parent / str(content["database"])
-        raise ConnectionFailed(f"Message {message.name} of CAN database {database_path} has no signal {signal}.")
-    return signal
-
-
-def _one_line(error: Exception) -> str:
-    return " ".join((getattr(error, "strerror", None) or str(error)).split()).rstrip(".")

@@ -45,6 +45,9 @@ class FrameSink(ABC):
     def reopened(self) -> None:
         """The adapter was opened again."""
 
+    def tick(self, now_s: float) -> None:  # noqa: B027, most have nothing to do
+        """Time has passed, by the laptop's monotonic clock; ten times a second and with each frame."""
+
 
 class CanReader:
     """Owns the bus between start() and stop().
@@ -112,6 +115,7 @@ class CanReader:
                 left.set()
 
     def _read(self, bus: can.BusABC) -> None:
+        self._sink.tick(self._clock())
         self._send_all()
         message = bus.recv(_POLL_S)
         now = self._clock()

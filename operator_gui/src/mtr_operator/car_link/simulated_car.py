@@ -9,8 +9,14 @@ import math
 import random
 
 from mtr_operator.domain.actions.distance import gap_to_outline
-from mtr_operator.domain.ports import OUTPUT, CarEvent, CarLink, HandlePort, LockState
+from mtr_operator.domain.assistance import OUTPUT, ExtenderPort, HandlePort
+from mtr_operator.domain.distance_feed import DistanceFeed
+from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.limits import Limit
+from mtr_operator.domain.ports import CarEvent, CarLink, LockState
 from mtr_operator.domain.robot_status import CarDimensions, PressReport, RobotStatus
+
+from .phone.simulated import SimulatedPhone
 
 # Where a standing key is noticed, from the Car's outline; it is given up farther away. Where half of the requests at
 # the handle are inside; where half of the presses work, from the Car's centre.
@@ -22,6 +28,11 @@ _PRESS_WIDTH_M, _HANDLE_WIDTH_M, _POLL_NOISE_M, _LAPSE = 0.12, 0.08, 0.02, 0.01
 # Polls that fall anywhere between two Statuses.
 _POLL_S, _REACTION_S, _TIME_SIGMA_S = 0.13, 0.02, 0.005
 _PRESS_REACTION_S = 0.1
+# Rest after which the key sleeps, and the motion that wakes it: that of the simulated robot's noise is smaller.
+KEY_SLEEP = Limit("rest after which the simulated key sleeps", 0.0, 3600.0, "s")
+_WAKE_MOVE_M = 0.03
+# By how much an extender, while it is switched on, has the key be nearer for the Car; 0: one that does nothing.
+EXTENDER = Limit("reach of the simulated extender", 0.0, 100.0, "m")
 _OTHER_STATE = {LockState.LOCKED: LockState.UNLOCKED, LockState.UNLOCKED: LockState.LOCKED}
 _NOBODY = CarDimensions(math.nan, math.nan, math.nan, math.nan)
 
@@ -52,20 +63,81 @@ class SimulatedHandle(HandlePort):
         self._is_taken = False
 
 
+class SimulatedExtender(ExtenderPort):
+    """A relay between Car and key that is switched at once; off at first.
+
+    nearer_m: by so much the key is nearer for the Car while it is on.
+    """
+
+    by = OUTPUT
+
+    def __init__(self, nearer_m: float):
+        self._nearer_m = nearer_m
+        self._is_on = self._is_switched = False
+
+    def switch(self, is_on: bool) -> None:
+        """See ExtenderPort."""
+        self._is_on, self._is_switched = is_on, True
+
+    def is_switched(self) -> bool:
+        """See ExtenderPort."""
+        return self._is_switched
+
+    def release(self) -> None:
+        """See ExtenderPort."""
+        self._is_switched = False
+
+    def gap_m(self, gap_m: float) -> float:
+        """How far a key seems to be that is so far away."""
+        return max(gap_m - self._nearer_m, 0.0) if self._is_on else gap_m
+
+
+class SleepingKey:
+    """A key whose motion sensor lets it sleep: it then answers no poll and no request; a press of its button is sent.
+
+    sleep_s: rest after which it sleeps; 0: never.
+    """
+
+    def __init__(self, sleep_s: float):
+        self._sleep_s = sleep_s
+        self._rest: tuple[float, float] | None = None
+        self._moved_s = -math.inf
+
+    def see(self, time_s: float, place: tuple[float, float]) -> None:
+        """Where it is now, in m."""
+        if self._rest is None or math.dist(self._rest, place) >= _WAKE_MOVE_M:
+            self._rest, self._moved_s = place, time_s
+
+    def is_awake(self, time_s: float) -> bool:
+        """True when it answers."""
+        return self._sleep_s == 0.0 or time_s - self._moved_s < self._sleep_s
+
+
 class SimulatedCarLink(CarLink):
     """Passive entry by the key's place, presses and requests at the handle by its distance.
 
-    Passive entry rests once a button was pressed or the handle taken: only one of them can be measured at a time. The
-    same seed and the same Statuses give the same events.
+    key_sleep_s: rest after which the key sleeps, 0 to 3600 s; 0: never. extender_m: by how much its extender has the
+    key be nearer while it is on, 0 to 100 m; 0: not at all.
+
+    Passive entry rests once a button was pressed or the handle taken: only one of them can be measured at a time. It is
+    back with the next test, which has a session of its own. The same seed and the same Statuses give the same events.
+    A phone that is its key tells its distance with the errors of PhoneModel.
     """
 
-    def __init__(self, seed: int = 1):
+    def __init__(self, seed: int = 1, key_sleep_s: float = 0.0, extender_m: float = 0.0):
+        problem = KEY_SLEEP.violation(key_sleep_s) or EXTENDER.violation(extender_m)
+        if problem:
+            raise InvalidParameter(problem)
+        self._key = SleepingKey(key_sleep_s)
         self._chance = random.Random(seed)
         self._lobes = [(count, part, self._chance.uniform(0.0, 2.0 * math.pi)) for count, part in _LOBES]
         self._handle = SimulatedHandle()
+        self._extender = SimulatedExtender(extender_m)
+        self._phone = SimulatedPhone(seed)
         self._is_active = False
         self._state = LockState.LOCKED
         self._is_passive = True
+        self._session_id = 0
         self._poll_s = self._answered_s = -math.inf
         self._agreed = 0
         self._robot: tuple[float, tuple[float, float]] | None = None
@@ -73,13 +145,18 @@ class SimulatedCarLink(CarLink):
     def connect(self) -> None:
         """See CarLink."""
         self._is_active = True
+        self._phone.connect()
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
         """See CarLink."""
         if not self._is_active:
             return []
+        if status.session_id != self._session_id and not status.controlled_by_other:
+            self._session_id, self._is_passive = status.session_id, True
         car, before = status.car or _NOBODY, self._robot
         self._robot = (status.stamp_s, status.key_place) if status.pose_valid else None
+        if self._robot is not None:
+            self._key.see(*self._robot)
         events = self._presses(status) + self._requests(status, car)
         if self._is_passive and status.car is not None and before is not None and self._robot is not None:
             events += self._polls(before, self._robot, car)
@@ -105,10 +182,11 @@ class SimulatedCarLink(CarLink):
         if not self._handle.is_waiting:
             return []
         self._handle.is_waiting, self._is_passive = False, False
-        if self._robot is None or self._state is LockState.UNLOCKED:
+        if self._robot is None or self._state is LockState.UNLOCKED or not self._key.is_awake(status.stamp_s):
             return []
         place = self._robot[1]
-        if not self._works(gap_to_outline(place, car), HANDLE_M * self._part(place), _HANDLE_WIDTH_M):
+        gap_m = self._extender.gap_m(gap_to_outline(place, car))
+        if not self._works(gap_m, HANDLE_M * self._part(place), _HANDLE_WIDTH_M):
             return []
         # Later than what was observed before, and not in the future.
         self._answered_s = max(self._answered_s, status.stamp_s)
@@ -123,7 +201,9 @@ class SimulatedCarLink(CarLink):
         while self._poll_s <= end_s - _REACTION_S:
             part = (self._poll_s - start_s) / max(end_s - start_s, 1e-9)
             place = (start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1]))
-            gap_m = gap_to_outline(place, car) + self._chance.gauss(0.0, _POLL_NOISE_M)
+            # A key that sleeps is gone for the Car.
+            gap_m = self._extender.gap_m(gap_to_outline(place, car)) + self._chance.gauss(0.0, _POLL_NOISE_M) \
+                if self._key.is_awake(self._poll_s) else math.inf
             is_other = gap_m < UNLOCK_M * self._part(place) if self._state is LockState.LOCKED else \
                 gap_m > LOCK_M * self._part(place)
             self._agreed = self._agreed + 1 if is_other else 0
@@ -158,6 +238,16 @@ class SimulatedCarLink(CarLink):
         return self._handle
 
     @property
+    def extender(self) -> ExtenderPort | None:
+        """See CarLink."""
+        return self._extender
+
+    @property
+    def distance_feed(self) -> DistanceFeed | None:
+        """See CarLink."""
+        return self._phone
+
+    @property
     def problem(self) -> str:
         """See CarLink."""
         return "" if self._is_active else "The Car's substitute is not connected."
@@ -165,3 +255,4 @@ class SimulatedCarLink(CarLink):
     def close(self) -> None:
         """See CarLink."""
         self._is_active = False
+        self._phone.close()

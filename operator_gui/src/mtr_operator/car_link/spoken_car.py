@@ -1,51 +1,76 @@
-"""The demo car's substitute on python-can's virtual bus, in lock-step with a robot's substitute.
+"""A simulated Car that speaks a profile's frames on python-can's virtual bus, in lock-step with a robot's substitute.
 
-For tests and benchmarks of all that lies between a bus and a distance. Nobody waits for a time: each frame is taken
-before the next Status comes.
+For tests and benchmarks of all that lies between a bus and a distance, and to try a profile. Nobody waits for a time:
+each frame is taken before the next Status comes.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 import collections
+import pathlib
 import time
-from typing import Iterator
+from typing import TYPE_CHECKING, Iterator
 
 import can
 
-from mtr_operator.domain.ports import CarEvent, LockState, RobotLink
+from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, CarEvent, LockState, RobotLink
 from mtr_operator.domain.requests import DesiredState
 from mtr_operator.domain.robot_status import RobotStatus
 
+from .adapter import AdapterSettings
 from .bus import CanCarLink
-from .fake_message import DemoLockMessage
+from .further.entries import FIRST_BUS
+from .further.spoken_frames import SpokenFrames, state_raw
+from .profile import CarProfile, load_profile
 from .simulated_car import SimulatedCarLink
+from .uds.declared import UdsPoll
 
-_LOCK_ID = 0x320
+if TYPE_CHECKING:
+    from .uds.spoken_ecu import SpokenEcu
+
 # Between the instant of a frame and the step of the robot's clock.
 _PHASE_S = 0.001
 _PATIENCE_S = 10.0
-_PASSIVE_ENTRY, _KEY_BUTTON = 1, 2
+_INTERFACE = "virtual"
+_BITRATE_BPS, _DATA_BITRATE_BPS = 500_000, 2_000_000
+# Of a Car that only answers: there is always something on a bus.
+_BACKGROUND_ID = 0x001
 
 
 class SpokenCar(RobotLink):
-    """A robot's link that has the Car speak on its bus up to each Status that it gives.
+    """A robot's link that has the Car speak on its buses up to each Status that it gives.
 
-    channel: of the virtual bus. profile: of a Car that speaks the demo car's message.
+    channel: of the virtual bus. profile: what the Car's frames are; databases: see load_profile.
 
     Attributes:
         car: link on that bus, not connected yet; its clock is the robot's.
+        told: changes of the locks that the Car has sent.
     """
 
-    def __init__(self, robot: RobotLink, channel: str, seed: int = 1, profile: str = "mtr_demo_car"):
+    def __init__(self, robot: RobotLink, channel: str, seed: int = 1, profile: str = "mtr_demo_car",
+                 databases: pathlib.Path | None = None):
         self.statistics = robot.statistics
-        self.car = CanCarLink("virtual", channel, profile=profile, clock=lambda: self._now_s)
+        self.told: list[CarEvent] = []
+        self._profile: CarProfile = load_profile(profile, databases)
+        self._frames = SpokenFrames(self._profile)
+        data_bitrate = _DATA_BITRATE_BPS if self._frames.is_fd else None
+        further = {name: AdapterSettings(_INTERFACE, f"{channel}-{name}", _BITRATE_BPS, data_bitrate_bps=data_bitrate)
+                   for name in self._profile.further.buses}
+        self.car = CanCarLink(_INTERFACE, channel, _BITRATE_BPS, profile, clock=lambda: self._now_s, further=further,
+                              is_listening=self._profile.poll is None, data_bitrate=data_bitrate, databases=databases)
         self._robot = robot
-        self._bus = can.Bus(interface="virtual", channel=channel)
+        self._buses = {name: can.Bus(interface=_INTERFACE, channel=each.channel) for name, each in further.items()}
+        self._buses[FIRST_BUS] = can.Bus(interface=_INTERFACE, channel=channel)
+        self._ecu = None if self._profile.poll is None else _ecu(self._profile.poll, self._buses[FIRST_BUS])
         self._model = SimulatedCarLink(seed)
-        self._message = DemoLockMessage()
         self._events: collections.deque[CarEvent] = collections.deque()
         self._now_s = self._sent_s = 0.0
         self._sent = 0
+
+    @property
+    def cycle_s(self) -> float:
+        """Of the message that tells the state."""
+        return self._profile.cycle_time_s
 
     def connect(self) -> None:
         """See RobotLink."""
@@ -58,28 +83,52 @@ class SpokenCar(RobotLink):
         if status is None:
             return None
         self._events.extend(self._model.observe(status))
-        self._message.source = _KEY_BUTTON if status.presses else _PASSIVE_ENTRY
+        self._frames.source = KEY_BUTTON if status.presses else PASSIVE_ENTRY
         for time_s in self._due(status.stamp_s):
             self._speak(time_s)
         self._now_s = status.stamp_s
         return status
 
     def _due(self, until_s: float) -> Iterator[float]:
-        cycle_s = 0.0 if self.car.profile is None else self.car.profile.cycle_time_s
-        if not cycle_s:
+        if self.car.profile is None:
             return
+        cycle_s = self._profile.cycle_time_s
         if not self._sent_s:
             self._sent_s = until_s - cycle_s - _PHASE_S
-        while self._sent_s + cycle_s + _PHASE_S <= until_s:
-            self._sent_s = round(self._sent_s + cycle_s, 6)
+        while self._next_s + _PHASE_S <= until_s:
+            self._sent_s = self._next_s
             yield self._sent_s
+
+    @property
+    def _next_s(self) -> float:
+        """When the next frames come: by their cycle, or at once with a change."""
+        next_s = round(self._sent_s + self._profile.cycle_time_s, 6)
+        is_sooner = self._profile.sent_on_change and self._events and self._sent_s < self._events[0].time_s < next_s
+        return self._events[0].time_s if is_sooner else next_s
 
     def _speak(self, time_s: float) -> None:
         while self._events and self._events[0].time_s <= time_s:
-            self._message.is_locked = self._events.popleft().lock_state is LockState.LOCKED
+            event = self._events.popleft()
+            self._frames.is_locked = event.lock_state is LockState.LOCKED
+            self.told.append(event)
         self._now_s = time_s
-        self._bus.send(can.Message(arbitration_id=_LOCK_ID, is_extended_id=False, data=self._message.next()))
-        self._sent += 1
+        if self._ecu is not None:
+            self._answer(self._ecu)
+            return
+        for bus, message in self._frames.next():
+            self._buses[bus].send(message)
+            self._sent += 1
+        self._wait()
+
+    def _answer(self, ecu: SpokenEcu) -> None:
+        """A frame lets the reader go on; then it is time that it asks."""
+        ecu.raw = state_raw(self._profile, self._frames.is_locked)
+        self._buses[FIRST_BUS].send(can.Message(arbitration_id=_BACKGROUND_ID, is_extended_id=False))
+        answered = ecu.answer(_PATIENCE_S)
+        self._sent += 1 + answered
+        self._wait()
+
+    def _wait(self) -> None:
         give_up_s = time.monotonic() + _PATIENCE_S
         while self.car.frames_received < self._sent and time.monotonic() < give_up_s:
             time.sleep(0.0)
@@ -91,4 +140,11 @@ class SpokenCar(RobotLink):
     def close(self) -> None:
         """See RobotLink."""
         self._robot.close()
-        self._bus.shutdown()
+        for bus in self._buses.values():
+            bus.shutdown()
+
+
+def _ecu(poll: UdsPoll, bus: can.BusABC) -> SpokenEcu:
+    # Needs packages that no other profile needs.
+    from .uds.spoken_ecu import SpokenEcu
+    return SpokenEcu(poll, bus)

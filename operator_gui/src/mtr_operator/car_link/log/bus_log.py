@@ -50,15 +50,15 @@ class BusLog:
         self._thread = threading.Thread(target=self._run, name="can-log", daemon=True)
         self._thread.start()
 
-    def frame(self, frame: CanFrame, local_s: float) -> None:
-        """A data frame with its time by the clock that times it."""
+    def frame(self, frame: CanFrame, local_s: float, channel: int = 0) -> None:
+        """A data frame with its time by the clock that times it. channel: 0 for the bus of the state."""
         if self._shift_s is None:
             self._shift_s = time.time() - local_s
             self.origin_s = local_s if math.isnan(self.origin_s) else self.origin_s
         self.frames += 1
         self._queue.put(can.Message(
             timestamp=local_s + self._shift_s, arbitration_id=frame.can_id, is_extended_id=frame.is_extended,
-            data=frame.data, is_fd=frame.is_fd, channel=0, check=False))
+            data=frame.data, is_fd=frame.is_fd, channel=channel, check=False))
 
     def error_frame(self) -> None:
         """The adapter told of an error on the bus."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import pathlib
-from typing import Iterator, Mapping
+from typing import Callable, Iterator, Mapping
 
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import CarEvent, CarLink, LockFacts, LockState, Refused
@@ -33,12 +33,14 @@ class LogCarLink(CarLink):
         self._watch: LockWatch | None = None
         self._log: ReadLog | None = None
         self._frames: Iterator[LoggedFrame] = iter(())
+        self._bus_of: Callable[[int], str] = str
         self._next: LoggedFrame | None = None
         self._begin_s = self._stamp_s = math.nan
 
     def connect(self) -> None:
         """See CarLink; ConnectionFailed when the log holds no frame."""
-        self._profile = load_profile(self._profile_name)
+        self._profile = profile = load_profile(self._profile_name)
+        self._bus_of = profile.further.bus_of
         self._watch = LockWatch(self._profile)
         self._log = ReadLog(self._path)
         self._frames = iter(self._log)
@@ -56,7 +58,8 @@ class LogCarLink(CarLink):
             frame = self._next
             # Frames and Statuses are on one clock here, the robot's.
             watch.frame(CanFrame(frame.can_id, frame.is_extended, frame.data, self._begin_s + frame.time_s,
-                                 kind=StampKind.ARRIVAL, is_fd=frame.is_fd))
+                                 kind=StampKind.ARRIVAL, is_fd=frame.is_fd,
+                                 bus=self._bus_of(frame.channel)))
             self._next = next(self._frames, None)
         self._stamp_s = status.stamp_s
         watch.status(status, status.stamp_s)

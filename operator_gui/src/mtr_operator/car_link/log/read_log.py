@@ -11,16 +11,22 @@ from can.io.blf import FILE_HEADER_SIZE, BLFReader
 from mtr_operator.domain.errors import ConnectionFailed
 
 SUFFIXES = (".blf", ".asc", ".trc", ".mf4", ".log", ".csv", ".db")
+# A live bus that is silent for half of it is a trouble; frames of several channels may be a little out of their order.
+_GAP_S, _DISORDER_S = 1.0, 0.1
+# Of a log with many gaps the first ones suffice.
+_MAX_NOTES = 3
 
 
 class LoggedFrame(NamedTuple):
-    """time_s: by the log's clock, from any origin; a log says nothing of which clock that is."""
+    """time_s: by the log's clock, from any origin; a log says nothing of which clock that is. channel: of the log, 0
+    where it has none."""
 
     time_s: float
     can_id: int
     is_extended: bool
     data: bytes
     is_fd: bool
+    channel: int = 0
 
 
 class ReadLog:
@@ -28,12 +34,14 @@ class ReadLog:
 
     Attributes:
         count: frames so far.
-        notice: a sentence when the log is not whole, from its end on; empty when it is.
+        notice: sentences when the log is not whole, in its order; empty when it is.
     """
 
     def __init__(self, path: pathlib.Path):
         self.count = 0
         self.notice = ""
+        self._notes = 0
+        self._is_damaged = False
         self._path = path
         if path.suffix.lower() not in SUFFIXES:
             raise ConnectionFailed(f"{path} is no CAN log; known are files that end in {', '.join(SUFFIXES)}.")
@@ -50,23 +58,40 @@ class ReadLog:
             raise ConnectionFailed(f"The CAN log {path} cannot be read: it is damaged or of another format.") from None
 
     def __iter__(self) -> Iterator[LoggedFrame]:
-        last_s = 0.0
+        last_s: float | None = None
         try:
             for message in self._reader:
                 if message.is_error_frame or message.is_remote_frame:
                     continue
                 self.count += 1
+                self._look_at_time(message.timestamp, last_s)
                 last_s = message.timestamp
-                yield LoggedFrame(last_s, message.arbitration_id, message.is_extended_id, bytes(message.data),
-                                  message.is_fd)
+                channel = message.channel if isinstance(message.channel, int) else 0
+                yield LoggedFrame(message.timestamp, message.arbitration_id, message.is_extended_id,
+                                  bytes(message.data), message.is_fd, channel)
         except GeneratorExit:
             raise
         except Exception:
-            self.notice = self._ended("is damaged")
+            self._note(self._ended("is damaged"))
+            self._is_damaged = True
         if not self.count:
             raise ConnectionFailed(f"The CAN log {self._path} holds no frame.")
-        if not self.notice and self._is_cut_off():
-            self.notice = self._ended("is cut off")
+        if not self._is_damaged and self._is_cut_off():
+            self._note(self._ended("is cut off"))
+
+    def _look_at_time(self, time_s: float, before_s: float | None) -> None:
+        step_s = 0.0 if before_s is None else time_s - before_s
+        if step_s > _GAP_S:
+            self._note(f"The CAN log {self._path} has a gap of {step_s:.1f} s after {self.count - 1} frames; a change "
+                       "within it is as uncertain as the gap is long.")
+        elif step_s < -_DISORDER_S:
+            self._note(f"The time of the CAN log {self._path} jumps back by {-step_s:.1f} s after "
+                       f"{self.count - 1} frames; what lies about it is not to be believed.")
+
+    def _note(self, sentence: str) -> None:
+        self._notes += 1
+        if self._notes <= _MAX_NOTES:
+            self.notice = f"{self.notice} {sentence}".strip()
 
     def _is_cut_off(self) -> bool:
         # A BLF says at its beginning how long it is; one whose program was killed says nothing.

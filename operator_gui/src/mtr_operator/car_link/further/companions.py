@@ -1,0 +1,133 @@
+"""Follows what the Car tells beside the state of its locks, and says what of it belongs to a change."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import collections
+from typing import Iterator, NamedTuple
+
+import cantools
+
+from .declared import Further, MessageKey, Place
+
+# Of each signal; older ones than a change waits for belong to nothing.
+_KEPT = 512
+
+
+class Told(NamedTuple):
+    """What belongs to a change. source: as in CarEvent, empty when nothing named it. raw: of a value that the profile
+    does not list. key: number of the key, None when it is not told. doubt: why the change is not to be believed."""
+
+    source: str = ""
+    raw: str = ""
+    key: int | None = None
+    doubt: str = ""
+
+
+class Companions:
+    """Fed with every frame in the order of arrival, with local times of the clock that times the first bus."""
+
+    def __init__(self, further: Further):
+        self._further = further
+        self._messages: dict[MessageKey, Place] = {place.key: place for place in further.places()}
+        self._values: dict[tuple[MessageKey, str], collections.deque[tuple[float, int]]] = {
+            (place.key, place.signal): collections.deque(maxlen=_KEPT) for place in further.places()}
+        self._open: set[str] = set()
+
+    def restart(self) -> None:
+        """The adapter was opened anew: what was before is no neighbour of what comes."""
+        for values in self._values.values():
+            values.clear()
+
+    def frame(self, key: MessageKey, data: bytes, local_s: float) -> list[str]:
+        """Take a frame; sentences on what is not to be believed from now on."""
+        place = self._messages.get(key)
+        if place is None:
+            return []
+        try:
+            values = place.message.decode(data, decode_choices=False, scaling=False)
+        except (cantools.database.DecodeError, ValueError):
+            return []
+        doubts = [*self._steps(key, values), *self._opened(key, values)]
+        for (of_message, signal), kept in self._values.items():
+            if of_message == key and signal in values:
+                kept.append((local_s, values[signal]))
+        return doubts
+
+    def _steps(self, key: MessageKey, values: dict[str, int]) -> Iterator[str]:
+        """Counters that stand still or jump."""
+        for place, is_alive in [*((each, False) for each in self._further.counters),
+                                *((each, True) for each in self._further.alive)]:
+            kept = self._values[place.key, place.signal]
+            if place.key != key or place.signal not in values or not kept:
+                continue
+            before, now = kept[-1][1], values[place.signal]
+            step = (now - before) % place.modulus
+            if step > 1:
+                yield f"{_signal(place)} went from {before} to {now}."
+            elif is_alive and step == 0:
+                yield f"{_signal(place)} stands still at {now}."
+
+    def _opened(self, key: MessageKey, values: dict[str, int]) -> Iterator[str]:
+        for door in self._further.doors:
+            if door.place.key != key or door.place.signal not in values:
+                continue
+            if values[door.place.signal] not in door.open:
+                self._open.discard(door.name)
+            elif door.name not in self._open:
+                self._open.add(door.name)
+                yield f"The Car's bus tells that {door.name} is open; leave the Car's doors closed during the test."
+
+    def told(self, change_s: float) -> Told:
+        """What belongs to a change at a local time; all of it is here settles_s later."""
+        sources, raws = self._causes(change_s)
+        key = self._key(change_s)
+        return Told(next(iter(sources), ""), "" if sources else next(iter(raws), ""), key,
+                    self._doubt(change_s, sources, key))
+
+    def _doubt(self, change_s: float, sources: list[str], key: int | None) -> str:
+        if len(set(sources)) > 1:
+            return f"The Car's bus names two causes of one change, {sources[0]} and {sources[-1]}."
+        under_test = self._further.key_under_test
+        if key is not None and under_test is not None and key != under_test:
+            return f"The key with the number {key} moved the Car's locks, and number {under_test} is under test."
+        still = next((place for place in self._further.counters if self._stood_still(place, change_s)), None)
+        if still is not None:
+            return f"The Car's locks moved on its bus, and {still.signal} counted nothing."
+        if self._open:
+            return f"The Car's locks moved while {', '.join(sorted(self._open))} was open."
+        return ""
+
+    def _causes(self, change_s: float) -> tuple[list[str], list[str]]:
+        """Causes that are listed, and values that are not."""
+        sources: dict[str, None] = {}
+        raws: dict[str, None] = {}
+        for cause in self._further.causes:
+            values = self._about(cause.place, change_s, 0.0 if cause.stays else self._further.within_s)
+            for value in values[-1:] if cause.stays else values:
+                if value in cause.sources:
+                    sources[cause.sources[value]] = None
+                elif value not in cause.idle:
+                    raws[f"{cause.place.signal} = {value}"] = None
+        return list(sources), list(raws)
+
+    def _key(self, change_s: float) -> int | None:
+        place = self._further.key
+        values = [] if place is None else self._about(place, change_s, 0.0) or self._about(
+            place, change_s, self._further.within_s)
+        return values[-1] if values else None
+
+    def _stood_still(self, place: Place, change_s: float) -> bool:
+        """False where too little was seen to say so."""
+        kept, within_s = self._values[place.key, place.signal], self._further.within_s
+        before = [value for time_s, value in kept if time_s < change_s - within_s]
+        after = self._about(place, change_s, within_s)
+        return bool(before and after) and after[-1] == before[-1]
+
+    def _about(self, place: Place, change_s: float, before_s: float) -> list[int]:
+        """Values of a signal from so long before a change to the end of the window behind it."""
+        return [value for time_s, value in self._values[place.key, place.signal]
+                if change_s - before_s <= time_s <= change_s + self._further.within_s]
+
+
+def _signal(place: Place) -> str:
+    return f"The signal {place.signal} of the Car's message {place.message.name}"

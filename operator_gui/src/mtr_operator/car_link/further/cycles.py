@@ -1,0 +1,61 @@
+"""How often the messages of a profile come, beside what profile and database say."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import collections
+import statistics
+from typing import TYPE_CHECKING, Iterator
+
+from ..can_frame import CanFrame
+
+if TYPE_CHECKING:
+    from ..profile import CarProfile
+
+# Arrivals at a laptop scatter; their median over so many gaps does not.
+_GAPS = 20
+# Cycles that are so far apart are two.
+_RATIO = 1.5
+_MS_PER_S = 1000.0
+
+
+class CycleCheck:
+    """Fed with every frame of the bus of the state; arrivals are by the laptop's clock. profile: none knows nothing."""
+
+    def __init__(self, profile: CarProfile | None = None):
+        self._expected: dict[tuple[int, bool], tuple[str, float, str]] = {}
+        self._arrivals_s: dict[tuple[int, bool], collections.deque[float]] = {}
+        if profile is not None:
+            self._expect(profile)
+
+    def _expect(self, profile: CarProfile) -> None:
+        for place in profile.further.places():
+            cycle_ms = place.message.cycle_time
+            if not place.bus and cycle_ms:
+                self._expected[place.key[1:]] = place.message.name, cycle_ms / _MS_PER_S, "its database"
+        if profile.poll is None:
+            message = profile.message
+            self._expected[message.frame_id, message.is_extended_frame] = (
+                message.name, profile.cycle_time_s, "cycle_time_s of the car profile")
+        self._arrivals_s = {key: collections.deque(maxlen=_GAPS + 1) for key in self._expected}
+
+    def frame(self, frame: CanFrame) -> None:
+        """A frame arrived."""
+        arrivals_s = self._arrivals_s.get((frame.can_id, frame.is_extended))
+        if arrivals_s is not None:
+            arrivals_s.append(frame.arrival_s)
+
+    @property
+    def notices(self) -> tuple[str, ...]:
+        """A sentence for each message that comes otherwise."""
+        return tuple(self._notices())
+
+    def _notices(self) -> Iterator[str]:
+        for key, arrivals_s in self._arrivals_s.items():
+            name, expected_s, source = self._expected[key]
+            if len(arrivals_s) <= _GAPS:
+                continue
+            times_s = list(arrivals_s)
+            measured_s = statistics.median(after - before for before, after in zip(times_s, times_s[1:]))
+            if not expected_s / _RATIO < measured_s < _RATIO * expected_s:
+                yield (f"Message {name} comes every {measured_s:.3g} s, and {source} says {expected_s:.3g} s; the "
+                       "uncertainty of a change rests on it: correct it.")

@@ -1,0 +1,183 @@
+"""Signals beside the state of the locks, as a car's profile declares them: of any message, on any of its buses."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Iterator
+
+from mtr_operator.domain.ports import HANDLE, KEY_BUTTON, PASSIVE_ENTRY
+
+from .entries import FIRST_BUS, Entries, is_whole
+
+SOURCES = (PASSIVE_ENTRY, KEY_BUTTON, HANDLE)
+# A body ECU tells a cause within some cycles of the change; a person who acts twice needs longer.
+_WITHIN_S = 0.5
+_WITHIN_CYCLES = 2.0
+_MAX_WITHIN_S = 10.0
+_CAUSE_KEYS = {"bus", "message", "signal", "sources", "idle", "stays"}
+_DOOR_KEYS = {"bus", "message", "signal", "open"}
+_KEY_KEYS = {"bus", "message", "signal", "under_test"}
+_PLACE_KEYS = {"bus", "message", "signal"}
+KEYS = ("buses", "causes", "cause_within_s", "cause_required", "doors", "key_number")
+
+MessageKey = tuple[str, int, bool]
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """A signal of a message (cantools') of a bus."""
+
+    bus: str
+    message: Any
+    signal: str
+
+    @property
+    def key(self) -> MessageKey:
+        """Which frames carry it."""
+        return self.bus, self.message.frame_id, self.message.is_extended_frame
+
+    @property
+    def modulus(self) -> int:
+        """How many values it has."""
+        return 1 << int(self.message.get_signal_by_name(self.signal).length)
+
+
+@dataclass(frozen=True, eq=False)
+class CauseSignal:
+    """What made the locks move. sources: by raw value. idle: values that say nothing. stays: until the next change,
+    so that only what comes behind a change belongs to it; otherwise it is there for a moment about the change."""
+
+    place: Place
+    sources: dict[int, str]
+    idle: frozenset[int]
+    stays: bool
+
+
+@dataclass(frozen=True, eq=False)
+class DoorSignal:
+    """open: raw values of a door that is not closed."""
+
+    name: str
+    place: Place
+    open: frozenset[int]
+
+
+@dataclass(frozen=True, eq=False)
+class Further:
+    """All of them.
+
+    within_s: around a change, in which what belongs to it comes. is_required: a change whose cause is not listed counts
+    for nothing. key: number of the key that moved the locks; key_under_test: its value, None where any may be.
+    counters: of changes or commands; alive: of the frames of their messages. buses: further ones, in the log's order.
+    """
+
+    causes: tuple[CauseSignal, ...] = ()
+    within_s: float = _WITHIN_S
+    is_required: bool = False
+    key: Place | None = None
+    key_under_test: int | None = None
+    counters: tuple[Place, ...] = ()
+    alive: tuple[Place, ...] = ()
+    doors: tuple[DoorSignal, ...] = ()
+    buses: tuple[str, ...] = field(default=())
+
+    @property
+    def sources(self) -> frozenset[str]:
+        """All causes that they can name."""
+        return frozenset(source for cause in self.causes for source in cause.sources.values())
+
+    @property
+    def settles_s(self) -> float:
+        """How long after a change all is known of it."""
+        return self.within_s if self.causes or self.counters or self.key else 0.0
+
+    def bus_of(self, channel: int) -> str:
+        """Bus of a log's channel: 0 is that of the state; of a Car with one bus each is."""
+        return self.buses[channel - 1] if 0 < channel <= len(self.buses) else FIRST_BUS
+
+    def places(self) -> Iterator[Place]:
+        """All signals."""
+        yield from (cause.place for cause in self.causes)
+        yield from (door.place for door in self.doors)
+        yield from (*self.counters, *self.alive, *((self.key,) if self.key else ()))
+
+
+def read_further(entries: Entries, first_message: Any, cycle_s: float) -> Further:
+    """What a profile declares; first_message: that of the state. ConnectionFailed says what is wrong."""
+    content, buses = entries.content, entries.buses
+    reader = _Reader(entries, first_message)
+    key = content.get("key_number")
+    return Further(
+        causes=tuple(reader.cause(each) for each in _list(entries, "causes")),
+        within_s=entries.duration("cause_within_s", (0.0, _MAX_WITHIN_S), max(_WITHIN_S, _WITHIN_CYCLES * cycle_s)),
+        is_required=entries.flag("cause_required"),
+        key=None if key is None else reader.place("key_number", key, _KEY_KEYS),
+        key_under_test=None if key is None else reader.whole("key_number", key, "under_test"),
+        counters=reader.elsewhere("command_signal"), alive=reader.elsewhere("alive_signal"),
+        doors=tuple(reader.door(name, each) for name, each in _doors(entries).items()), buses=buses)
+
+
+def is_elsewhere(entry: Any) -> bool:
+    """A signal of another message is a table, one of the state's message a name."""
+    return isinstance(entry, dict)
+
+
+def _list(entries: Entries, key: str) -> list[Any]:
+    found = entries.content.get(key, [])
+    if not isinstance(found, list):
+        raise entries.wrong(f"{key} must be a list of tables.")
+    return found
+
+
+def _doors(entries: Entries) -> dict[str, Any]:
+    table = entries.content.get("doors", {})
+    if not isinstance(table, dict) or not all(isinstance(name, str) for name in table):
+        raise entries.wrong("doors must be a table from the name of a door to its signal.")
+    return table
+
+
+class _Reader:
+    def __init__(self, entries: Entries, first_message: Any):
+        self._entries = entries
+        self._first = first_message
+
+    def place(self, key: str, table: Any, allowed: set[str]) -> Place:
+        """A signal of the state's message, or of another one."""
+        if not isinstance(table, dict) or "signal" not in table or not set(table) <= allowed:
+            raise self._entries.wrong(f"{key} must be a table of {', '.join(sorted(allowed))}.")
+        bus = table.get("bus", FIRST_BUS)
+        if bus != FIRST_BUS and bus not in self._entries.buses:
+            raise self._entries.wrong(f"{key} names the bus {bus}, which is not in buses.")
+        if bus != FIRST_BUS and "message" not in table:
+            raise self._entries.wrong(f"{key} is on the bus {bus} and names no message.")
+        message = self._entries.message(table["message"], bus) if "message" in table else self._first
+        return Place(bus, message, self._entries.signal(message, table["signal"], bus))
+
+    def elsewhere(self, key: str) -> tuple[Place, ...]:
+        """Of a counter that is not in the state's message."""
+        table = self._entries.content.get(key)
+        return (self.place(key, table, _PLACE_KEYS),) if is_elsewhere(table) else ()
+
+    def cause(self, table: Any) -> CauseSignal:
+        """One of causes."""
+        place = self.place("causes", table, _CAUSE_KEYS)
+        sources = self._entries.words("sources", table.get("sources"), SOURCES)
+        idle = self._values("causes", table, "idle", () if 0 in sources else (0,))
+        return CauseSignal(place, sources, idle - set(sources), bool(table.get("stays", False)))
+
+    def door(self, name: str, table: Any) -> DoorSignal:
+        """One of doors."""
+        return DoorSignal(name, self.place("doors", table, _DOOR_KEYS), self._values("doors", table, "open", (1,)))
+
+    def whole(self, key: str, table: dict[str, Any], name: str) -> int | None:
+        """A whole number, None when it is absent."""
+        value = table.get(name)
+        if value is not None and not is_whole(value):
+            raise self._entries.wrong(f"{key} has {name}: {value!r}; allowed is a whole number.")
+        return value
+
+    def _values(self, key: str, table: dict[str, Any], name: str, default: tuple[int, ...]) -> frozenset[int]:
+        values = table.get(name, list(default))
+        if not isinstance(values, list) or not all(is_whole(value) for value in values):
+            raise self._entries.wrong(f"{key} has {name}: {values!r}; allowed is a list of whole numbers.")
+        return frozenset(values)

@@ -1,0 +1,151 @@
+"""Entries of a car's profile: each is read with a sentence for whatever may be wrong with it."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import os
+import pathlib
+import re
+from typing import Any, Mapping, Sequence
+
+import cantools
+
+from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.ports import LockState
+
+# Databases of a whole car have some megabytes; reading one takes the library ten seconds and more.
+_MAX_DATABASE_BYTES = 16 * 1024 * 1024
+# The bus of the profile's own database; further ones have names.
+FIRST_BUS = ""
+# A state of some cars' signal: all but the driver's door are still locked.
+DRIVER_ONLY = "unlocked_driver"
+STATES = {**{state.value: state for state in LockState}, DRIVER_ONLY: LockState.UNLOCKED}
+
+
+# What public databases get wrong: names that begin with a digit, and tables of values without their end.
+_UNENDED = re.compile(r"^(VAL_ [^\n;]*\")[ \t\r]*$", re.MULTILINE)
+_DIGIT_FIRST = re.compile(r"^(\s*(?:BO_ \d+|SG_) )(\d)", re.MULTILINE)
+
+
+# Folder in which databases are looked for that do not lie beside their profiles, for every command and the window.
+DATABASES_VARIABLE = "MTR_CAR_DATABASES"
+
+
+class Entries:
+    """content: of the YAML file at path. databases: folder of its databases, None for that of the file; then that of
+    MTR_CAR_DATABASES is looked into, too, if that is set."""
+
+    def __init__(self, path: pathlib.Path, content: Mapping[str, Any], databases: pathlib.Path | None = None):
+        self.content = content
+        self._path = path
+        elsewhere = os.environ.get(DATABASES_VARIABLE, "")
+        self._folders = (databases, path.parent) if databases is not None else \
+            (path.parent, *((pathlib.Path(elsewhere),) if elsewhere else ()))
+        self._databases: dict[str, Any] = {}
+
+    def wrong(self, text: str) -> ConnectionFailed:
+        """What is wrong with the profile."""
+        return ConnectionFailed(f"Car profile {self._path}: {text}")
+
+    def states(self, table: Any) -> dict[int, LockState]:
+        """Lock state of each raw value; one for locked and one for unlocked at least."""
+        states = {raw: STATES[word] for raw, word in self.words("states", table, STATES).items()}
+        if not {LockState.LOCKED, LockState.UNLOCKED} <= set(states.values()):
+            raise self.wrong("states must name a value for locked and one for unlocked.")
+        return states
+
+    def words(self, key: str, table: Any, allowed: Sequence[str] | Mapping[str, Any]) -> dict[int, str]:
+        """Word of each raw value that an entry lists."""
+        if not isinstance(table, dict):
+            raise self.wrong(f"{key} must be a table from raw value to {_either(allowed)}.")
+        for raw, word in table.items():
+            if not is_whole(raw) or not isinstance(word, str) or word not in allowed:
+                raise self.wrong(f"{key} has {raw!r}: {word!r}; allowed is a whole number with {_either(allowed)}.")
+        return dict(table)
+
+    def duration(self, key: str, limits_s: tuple[float, float], default_s: Any = None) -> Any:
+        """Time in s of an entry, the default when it is absent."""
+        if key not in self.content:
+            return default_s
+        time_s, (low_s, high_s) = self.content[key], limits_s
+        if isinstance(time_s, bool) or not isinstance(time_s, (int, float)) or not low_s <= time_s <= high_s:
+            raise self.wrong(f"{key} is {time_s}; allowed is {low_s:g} to {high_s:g} s.")
+        return float(time_s)
+
+    def flag(self, key: str) -> bool:
+        """An entry that is true or false, false when it is absent."""
+        return bool(self.content.get(key, False))
+
+    @property
+    def buses(self) -> tuple[str, ...]:
+        """Names of the further buses, in their order."""
+        table = self.content.get("buses", {})
+        if not isinstance(table, dict) or not all(
+                isinstance(name, str) and name and isinstance(file, str) for name, file in table.items()):
+            raise self.wrong("buses must be a table from the name of a further bus to its CAN database.")
+        return tuple(table)
+
+    def database_path(self, bus: str = FIRST_BUS) -> pathlib.Path:
+        """Of a bus that is declared."""
+        name = str(self.content["database"] if bus == FIRST_BUS else self.content["buses"][bus])
+        paths = [folder / name for folder in self._folders]
+        return next((path for path in paths if path.is_file()), paths[0])
+
+    def database(self, bus: str = FIRST_BUS) -> Any:
+        """Of CAN messages; for one of another kind an empty one, in which no message is found."""
+        if bus not in self._databases:
+            self._databases[bus] = _load(self.database_path(bus))
+        return self._databases[bus]
+
+    def message(self, name: Any, bus: str = FIRST_BUS) -> Any:
+        """A message of a bus' database."""
+        try:
+            return self.database(bus).get_message_by_name(str(name))
+        except KeyError:
+            raise ConnectionFailed(f"CAN database {self.database_path(bus)} has no message {name}.") from None
+
+    def signal(self, message: Any, name: Any, bus: str = FIRST_BUS) -> str:
+        """A signal of a message."""
+        if str(name) not in (known.name for known in message.signals):
+            raise ConnectionFailed(f"Message {message.name} of CAN database {self.database_path(bus)} has no signal "
+                                   f"{name}.")
+        return str(name)
+
+
+def is_whole(value: Any) -> bool:
+    """A number without a fraction, which YAML's yes and no are not."""
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+def one_line(error: Exception) -> str:
+    """What an exception of a library says, without a full stop."""
+    return " ".join((getattr(error, "strerror", None) or str(error)).split()).rstrip(".")
+
+
+def _either(words: Sequence[str] | Mapping[str, Any]) -> str:
+    *others, last = words
+    return f"{', '.join(others)} or {last}"
+
+
+def _parsed(path: pathlib.Path) -> Any:
+    try:
+        return cantools.database.load_file(str(path), strict=False)
+    except cantools.database.errors.Error:
+        text = path.read_text(encoding="cp1252", errors="replace") if path.suffix.lower() == ".dbc" else ""
+        mended = _UNENDED.sub(r"\1 ;", _DIGIT_FIRST.sub(r"\1_\2", text))
+        if mended == text:
+            raise
+        return cantools.database.load_string(mended, "dbc", strict=False)
+
+
+def _load(path: pathlib.Path) -> Any:
+    try:
+        if path.stat().st_size > _MAX_DATABASE_BYTES:
+            raise ConnectionFailed(f"CAN database {path} is larger than {_MAX_DATABASE_BYTES // 1024} KiB; "
+                                   "leave the messages that the profile does not name out of it.")
+        database = _parsed(path)
+    except (OSError, UnicodeDecodeError, cantools.database.errors.Error) as error:
+        raise ConnectionFailed(f"CAN database {path} cannot be read: {one_line(error)}.") from None
+    # The library's readers of some five formats raise whatever a damaged file leads them to.
+    except (ValueError, TypeError, AttributeError, LookupError, ArithmeticError, RecursionError):
+        raise ConnectionFailed(f"CAN database {path} cannot be read: it is damaged.") from None
+    return database if isinstance(database, cantools.database.can.Database) else cantools.database.can.Database()

@@ -1,0 +1,119 @@
+"""Frames of a Car as its profile describes them, for a simulated Car that speaks on a bus."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Any, Iterator, NamedTuple
+
+import can
+
+from mtr_operator.domain.ports import LockState
+
+from ..profile import CarProfile
+from .declared import CauseSignal, MessageKey
+from .entries import FIRST_BUS
+
+# For so long the flag of a change and a cause that does not stay are set: some cycles of every message.
+_SHOWN_S = 0.1
+_FEWEST_FRAMES = 3
+
+
+class SpokenFrame(NamedTuple):
+    """A frame, and the name of the bus that it is for."""
+
+    bus: str
+    message: can.Message
+
+
+class SpokenFrames:
+    """One cycle after the other; all signals that the profile does not name are 0.
+
+    Attributes:
+        is_locked, source: what the next cycle says; source: as in CarEvent.
+    """
+
+    def __init__(self, profile: CarProfile, is_locked: bool = True):
+        self.is_locked, self.source = is_locked, ""
+        self._profile = profile
+        self._was_locked = is_locked
+        self._cycles = self._changes = self._shown = 0
+        # The state first: what belongs to a change comes with it or behind it.
+        self._messages: dict[MessageKey, Any] = {
+            (FIRST_BUS, profile.message.frame_id, profile.message.is_extended_frame): profile.message}
+        self._messages.update((place.key, place.message) for place in profile.further.places())
+
+    @property
+    def is_fd(self) -> bool:
+        """True when one of the messages needs CAN FD."""
+        return any(message.is_fd or message.length > 8 for message in self._messages.values())
+
+    def next(self) -> Iterator[SpokenFrame]:
+        """The frames of the next cycle."""
+        self._cycles += 1
+        self._shown = max(self._shown - 1, 0)
+        if self.is_locked is not self._was_locked:
+            self._was_locked = self.is_locked
+            self._changes += 1
+            self._shown = max(round(_SHOWN_S / self._profile.cycle_time_s), _FEWEST_FRAMES)
+        for (bus, can_id, is_extended), message in self._messages.items():
+            is_fd = bool(message.is_fd or message.length > 8)
+            yield SpokenFrame(bus, can.Message(arbitration_id=can_id, is_extended_id=is_extended, is_fd=is_fd,
+                                               bitrate_switch=is_fd, data=self._data(message)))
+
+    def _data(self, message: Any) -> bytes:
+        values = {signal.name: 0 for signal in message.signals}
+        wanted = dict(self._wanted(message))
+        values.update(_pages(message, wanted), **wanted)
+        return bytes(message.encode(values, scaling=False, strict=False))
+
+    def _wanted(self, message: Any) -> Iterator[tuple[str, int]]:
+        profile, further = self._profile, self._profile.further
+        if message is profile.message:
+            yield from self._state()
+        for place, count in [*((each, self._cycles) for each in further.alive),
+                             *((each, self._changes) for each in further.counters)]:
+            if place.message is message:
+                yield place.signal, count % place.modulus
+        for door in further.doors:
+            if door.place.message is message:
+                yield door.place.signal, _other_than(door.open)
+        if further.key is not None and further.key.message is message:
+            yield further.key.signal, further.key_under_test or 1
+        for cause in further.causes:
+            if cause.place.message is message:
+                yield cause.place.signal, self._cause(cause)
+
+    def _state(self) -> Iterator[tuple[str, int]]:
+        profile = self._profile
+        raw = state_raw(profile, self.is_locked)
+        yield from ((signal, raw) for signal in (profile.door_signals.values() or (profile.signal,)))
+        counts = {profile.alive_signal: self._cycles, profile.command_signal: self._changes}
+        yield from ((name, count % profile.modulus(name)) for name, count in counts.items() if name)
+        if profile.changed_signal:
+            yield profile.changed_signal, int(self._shown > 0)
+        if profile.source_signal:
+            yield profile.source_signal, _raw_of(profile.sources, self.source, 0)
+
+    def _cause(self, cause: CauseSignal) -> int:
+        idle = min(cause.idle, default=_other_than(frozenset(cause.sources)))
+        return _raw_of(cause.sources, self.source, idle) if cause.stays or self._shown else idle
+
+
+def state_raw(profile: CarProfile, is_locked: bool) -> int:
+    """Value of a state; of all doors where there is one for the driver's alone."""
+    wanted = LockState.LOCKED if is_locked else LockState.UNLOCKED
+    raws = [raw for raw, state in profile.states.items() if state is wanted]
+    return next((raw for raw in raws if raw not in profile.driver_only), raws[0])
+
+
+def _raw_of(sources: dict[int, str], source: str, otherwise: int) -> int:
+    return next((raw for raw, each in sources.items() if each == source), otherwise)
+
+
+def _other_than(values: frozenset[int]) -> int:
+    return next(value for value in range(len(values) + 1) if value not in values)
+
+
+def _pages(message: Any, wanted: dict[str, int]) -> dict[str, int]:
+    """Values of multiplexers that have the page of each wanted signal sent."""
+    signals = [message.get_signal_by_name(name) for name in wanted]
+    return {signal.multiplexer_signal: signal.multiplexer_ids[0] for signal in signals if signal.multiplexer_ids}

@@ -1,0 +1,40 @@
+"""The outputs of a profile on an adapter that may send."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import threading
+from typing import Callable
+
+import can
+
+from mtr_operator.domain.assistance import HandlePort
+
+from ..handle import BusHandle
+from ..profile import CarProfile
+from .extender import BusExtender
+
+_HANDLE_IDLE = ("The car's profile names an output that takes the handle, and the CAN adapter only listens: a person "
+                "takes it; choose normal mode (--can-normal) to have it switched.")
+_EXTENDER_IDLE = ("The car's profile names an output that switches the extender, and the CAN adapter only listens: a "
+                  "person switches it; choose normal mode (--can-normal) to have it switched.")
+
+
+class Outputs:
+    """Attributes: handle, extender: None where the profile declares none, and on an adapter that only listens.
+
+    notices: sentences on those that only listening leaves idle.
+    """
+
+    def __init__(self, profile: CarProfile, is_listening: bool, send: Callable[[can.Message], threading.Event]):
+        handle, extender = profile.handle_output, profile.extender_output
+        self.handle: HandlePort | None = None if handle is None or is_listening else BusHandle(handle, send)
+        self.extender = None if extender is None or is_listening else BusExtender(extender, send)
+        declared = ((handle, _HANDLE_IDLE), (extender, _EXTENDER_IDLE))
+        self.notices = tuple(notice for output, notice in declared if output is not None and is_listening)
+
+    def close(self) -> None:
+        """Let go of the handle and switch the extender off; safe to call twice."""
+        if self.handle is not None:
+            self.handle.release()
+        if self.extender is not None:
+            self.extender.close()

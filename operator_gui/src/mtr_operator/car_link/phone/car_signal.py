@@ -1,0 +1,131 @@
+"""The distance of a phone in a signal of the Car's bus."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import collections
+from dataclasses import dataclass
+
+import cantools
+
+from mtr_operator.domain.distance_feed import REPORTED, DistanceFeed, Reported
+from mtr_operator.domain.ports import Refused
+from mtr_operator.domain.robot_status import RobotStatus
+
+from ..can_frame import CanFrame
+from ..further.declared import Place
+from ..further.entries import FIRST_BUS, Entries, is_whole
+from .address import SERIAL, TCP, FeedAddress, feed_address, feed_at
+
+KEY = "phone_distance"
+_SIGNAL_KEYS = {"bus", "message", "signal", "unit", "no_distance"}
+# Metres of one of each.
+_UNITS = {"m": 1.0, "dm": 0.1, "cm": 0.01, "mm": 0.001}
+_MAX_WAITING = 6000
+
+
+@dataclass(frozen=True, eq=False)
+class PhoneSignal:
+    """metres: of one of the signal's unit. no_distance: raw values with which the Car says that it knows none."""
+
+    place: Place
+    metres: float
+    no_distance: frozenset[int]
+
+
+def read_phone(entries: Entries) -> PhoneSignal | FeedAddress | None:
+    """What a profile declares; None without it. ConnectionFailed, or InvalidParameter for an address, says what is
+    wrong."""
+    table = entries.content.get(KEY)
+    if table is None:
+        return None
+    if isinstance(table, str):
+        return _address(entries, table)
+    if not isinstance(table, dict) or not {"message", "signal"} <= set(table) or not set(table) <= _SIGNAL_KEYS:
+        raise entries.wrong(f"phone_distance must be tcp:HOST:PORT, serial:DEVICE:BAUD, or a table of "
+                            f"{', '.join(sorted(_SIGNAL_KEYS))}.")
+    bus = table.get("bus", FIRST_BUS)
+    if bus != FIRST_BUS and bus not in entries.buses:
+        raise entries.wrong(f"phone_distance names the bus {bus}, which is not in buses.")
+    if bus == FIRST_BUS and "database" not in entries.content:
+        raise entries.wrong("phone_distance needs the entry database.")
+    message = entries.message(table["message"], bus)
+    name = entries.signal(message, table["signal"], bus)
+    unit = table.get("unit") or message.get_signal_by_name(name).unit or "m"
+    if unit not in _UNITS:
+        raise entries.wrong(f"phone_distance has the unit {unit}; allowed is {', '.join(_UNITS)}: name it (unit).")
+    none = table.get("no_distance", [])
+    if not isinstance(none, list) or not all(is_whole(raw) for raw in none):
+        raise entries.wrong(f"phone_distance has no_distance: {none!r}; allowed is a list of whole numbers.")
+    return PhoneSignal(Place(bus, message, name), _UNITS[unit], frozenset(none))
+
+
+def _address(entries: Entries, text: str) -> FeedAddress:
+    address = feed_address(text)
+    if address.kind not in (TCP, SERIAL):
+        raise entries.wrong(f"phone_distance is {text}; a simulated phone is for the command line (--phone-feed).")
+    return address
+
+
+def feed_of(declared: PhoneSignal | FeedAddress | None) -> DistanceFeed | None:
+    """Of what a profile declares, not connected yet."""
+    if declared is None:
+        return None
+    return CarSignalFeed(declared) if isinstance(declared, PhoneSignal) else feed_at(declared)
+
+
+class CarSignalFeed(DistanceFeed):
+    """Fed with every frame of all buses by the link to the Car, under its lock."""
+
+    def __init__(self, signal: PhoneSignal):
+        self._signal = signal
+        self._waiting: collections.deque[float] = collections.deque(maxlen=_MAX_WAITING)
+        self._refused = Refused()
+
+    @property
+    def name(self) -> str:
+        """See DistanceFeed."""
+        return f"signal {self._signal.place.signal} of the Car's message {self._signal.place.message.name}"
+
+    def connect(self) -> None:
+        """See DistanceFeed: with the link to the Car."""
+
+    def frame(self, frame: CanFrame) -> None:
+        """A frame arrived."""
+        place = self._signal.place
+        if (frame.bus, frame.can_id, frame.is_extended) != place.key:
+            return
+        try:
+            raw = place.message.decode(frame.data, decode_choices=False, scaling=False)
+            values = place.message.decode(frame.data, decode_choices=False)
+        # Too short, or another page of a multiplexed message.
+        except (cantools.database.DecodeError, ValueError):
+            return
+        if place.signal not in raw or raw[place.signal] in self._signal.no_distance:
+            return
+        distance_m = float(values[place.signal]) * self._signal.metres
+        wrong = REPORTED.violation(distance_m)
+        if wrong:
+            self._refused = Refused(self._refused.count + 1, f"{wrong[:1].upper()}{wrong[1:]}")
+        else:
+            self._waiting.append(distance_m)
+
+    def observe(self, status: RobotStatus) -> list[Reported]:
+        """See DistanceFeed; the link to the Car has waited until its bus had caught up with this Status."""
+        told = []
+        # One frame more may come from the reader's thread meanwhile.
+        while self._waiting:
+            told.append(Reported(status.stamp_s, self._waiting.popleft()))
+        return told
+
+    @property
+    def problem(self) -> str:
+        """See DistanceFeed: a trouble of the bus is one of the link to the Car."""
+        return ""
+
+    @property
+    def refused(self) -> Refused:
+        """See DistanceFeed."""
+        return self._refused
+
+    def close(self) -> None:
+        """See DistanceFeed."""
