@@ -1,103 +1,26 @@
 """Handle request against the simulated Car that unlocks on its handle only: output, bus and truth, without ROS."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
-import math
-import threading
 
 import numpy as np
 import pytest
+from honest_car import HonestCarLink
 
-from mtr_operator.car_link.can_frame import CanFrame
-from mtr_operator.car_link.handle import BusHandle
-from mtr_operator.car_link.lock_watch import LockWatch
-from mtr_operator.car_link.profile import load_profile
 from mtr_operator.domain.actions.control_loop import ControlLoop
-from mtr_operator.domain.ports import HANDLE, OUTPUT, CarLink
+from mtr_operator.domain.assistance import OUTPUT
+from mtr_operator.domain.ports import HANDLE
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios.handle_request import SCENARIO
 from mtr_operator.domain.scenarios.handle_request.parameters import HandleRequestParameters
 from mtr_operator.report.results_csv import results_csv
 from mtr_operator.robot_link.fake import FakeRobotLink
-from mtr_simulation.car.can_port import MemoryCanPort, SentFrame
-from mtr_simulation.car.choice import chosen_car
 from mtr_simulation.car.honest.radio.key_antenna import Attitude
 from mtr_simulation.truth import compare
-from mtr_simulation.truth.log import TruthLog
 
-STEP_NS = 20_000_000
-RELEASED, PRESSED = 1000, 2000
 PARAMETERS = HandleRequestParameters.from_mapping(
     {"measurements_distance_m": 2.0, "maximum_distance_m": 3.5, "interval_m": 0.25, "attempts_limit": 14,
      "self_check": False})
-
-
-class HonestCarLink(CarLink):
-    """The application's bus parts on the simulated Car, which sees the key where the robot's Statuses say it is."""
-
-    def __init__(self, seed, folder):
-        choice = chosen_car("honest_handle")
-        profile = load_profile(choice.profile)
-        self._port = MemoryCanPort()
-        self.log = TruthLog(folder)
-        self._car = choice.car(seed, self._port, self.log)
-        self._profile, self._watch = profile, LockWatch(profile)
-        self._handle = BusHandle(profile.handle_output, self._send)
-        self._step, self._before = None, None
-        self._pressed = {}
-        self.truth = choice.reactions(seed)
-
-    def _send(self, message):
-        self._port.from_host.append(SentFrame(message.arbitration_id, bytes(message.data)))
-        left = threading.Event()
-        left.set()
-        return left
-
-    def connect(self):
-        pass
-
-    def observe(self, status):
-        until = round(status.stamp_s * 1e9) // STEP_NS
-        key = (status.x + status.key_x * math.cos(status.heading), status.y + status.key_x * math.sin(status.heading),
-               status.key_height_m)
-        before, first = self._before or key, until - 5 if self._step is None else self._step + 1
-        for step in range(first, until + 1):
-            part = (step - first + 1) / (until - first + 1)
-            place = tuple(a + part * (b - a) for a, b in zip(before, key))
-            self._car.step(step * STEP_NS, place, self._servos(status, step), status.heading)
-            for frame in self._port.frames:
-                self._watch.frame(CanFrame(frame.can_id, False, frame.data, step * STEP_NS * 1e-9,
-                                           frame.time_ns // 1_000_000 % 60_000))
-            self._port.frames.clear()
-        self._step, self._before = until, key
-        self._watch.status(status, status.stamp_s + 1e-4)
-        return self._watch.release(status.stamp_s)
-
-    def _servos(self, status, step):
-        """A press is told when it is over; this Car feels it then, for as long."""
-        for press in status.presses:
-            self._pressed.setdefault(press.id, (step, round((press.end_s - press.start_s) * 1e9) // STEP_NS))
-        is_pressed = any(begin <= step < begin + length for begin, length in self._pressed.values())
-        return (PRESSED if is_pressed else RELEASED, RELEASED)
-
-    @property
-    def lock_state(self):
-        return self._watch.lock_state
-
-    @property
-    def facts(self):
-        return self._profile.facts
-
-    @property
-    def handle(self):
-        return self._handle
-
-    @property
-    def problem(self):
-        return self._watch.problem
-
-    def close(self):
-        pass
 
 
 @pytest.fixture(name="measured", scope="module", params=[1, 2])

@@ -6,16 +6,17 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.actions.observer import RunObserver
+from mtr_operator.domain.assistance import OPERATOR, OUTPUT
 from mtr_operator.domain.errors import InvalidLimits, InvalidParameter, RobotFailed
-from mtr_operator.domain.ports import HANDLE, KEY_BUTTON, OPERATOR, OUTPUT, PASSIVE_ENTRY, LockFacts
+from mtr_operator.domain.ports import HANDLE, KEY_BUTTON, PASSIVE_ENTRY, LockFacts
 from mtr_operator.domain.requests import Direction
 from mtr_operator.domain.results.line_result import LineStatus, result_from_document
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import CarDimensions
+from mtr_operator.domain.scenarios.handle.hand import LOCK_PRESSES
 from mtr_operator.domain.scenarios.handle_request import SCENARIO
 from mtr_operator.domain.scenarios.handle_request.axis_trial import axes_of
 from mtr_operator.domain.scenarios.handle_request.parameters import HandleRequestParameters
-from mtr_operator.domain.scenarios.handle_request.request import LOCK_PRESSES
 from mtr_operator.domain.scenarios.handle_request.result import HandleRequestResult
 from mtr_operator.domain.verdict.limits import Limits
 from mtr_operator.domain.verdict.requirement import Requirement

@@ -5,7 +5,8 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.actions.robot import Robot
-from mtr_operator.domain.ports import HANDLE, KEY_BUTTON, OUTPUT, PASSIVE_ENTRY, LockFacts
+from mtr_operator.domain.assistance import OUTPUT
+from mtr_operator.domain.ports import HANDLE, KEY_BUTTON, PASSIVE_ENTRY, LockFacts
 from mtr_operator.domain.results.line_result import LineStatus, result_from_document
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios.handle_request import SCENARIO

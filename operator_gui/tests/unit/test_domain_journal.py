@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from mtr_operator.car_link.phone.simulated import PhoneModel, SimulatedPhone
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.errors import OutputError
@@ -15,7 +16,10 @@ from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
 
 FEW_LINES = {"autolock": {"measurements_distance_m": 10.0}, "key_press": {"angle_between_radials_deg": 90.0},
-             "zone_map": {"presses_limit": 6}, "handle_request": {"measurements_distance_m": 10.0}}
+             "zone_map": {"presses_limit": 6}, "handle_request": {"measurements_distance_m": 10.0},
+             "digital_key": {"angle_between_radials_deg": 90.0, "spacing_m": 4.0},
+             "sleep_time": {"shortest_wait_s": 2.0, "longest_wait_s": 4.0},
+             "relay_resistance": {"measurements_distance_m": 10.0, "requests_per_place": 1}}
 
 
 class Diary(Journal):
@@ -46,10 +50,13 @@ class Shown(RunObserver):
 
 
 @pytest.fixture
-def run(world, robot_link, car_link, output):
+def run(world, robot_link, car_link, output, extender):
     def measure(name, diary, progress=None):
-        if name == "handle_request":
+        if name in ("handle_request", "sleep_time", "relay_resistance"):
             world.unlock_m, world.facts = -1.0, LockFacts(frozenset({HANDLE}))
+        if name == "digital_key":
+            world.phone = SimulatedPhone(1, PhoneModel(shadow_m=50.0, dropouts=0.0))
+            world.phone.connect()
         scenario = SCENARIOS[name]
         parameters = scenario.parameters_type.from_mapping(FEW_LINES[name])
         send = robot_link.send

@@ -16,6 +16,7 @@ from mtr_operator.car_link.spoken_car import SpokenCar
 from mtr_operator.cli import main
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.errors import ConnectionFailed, OutputError, ProgressFileError
+from mtr_operator.domain.eventlog.entry import INFO, EventEntry, EventKind
 from mtr_operator.domain.ports import BusMark, LockState
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import now, session_record
@@ -121,6 +122,8 @@ def test_log_of_another_bus_has_no_reaction_in_it(autolock, capsys, tmp_path):
         log.frame(CanFrame(0x123, False, bytes(8), 0.02 * index), 0.02 * index)
     log.close()
     code, document = replayed(autolock, capsys, "--can-log", str(other))
+    notice, = document["notices"]
+    assert "tells no state of message DoorLockStatus (id 0x320): it is of another car or bus" in notice
     assert code == 3 and not any(each["now"]["distance_m"] for line in document["lines"] for each in line["distances"])
 
 
@@ -174,6 +177,17 @@ def test_log_that_is_cut_off_is_read_up_to_there_and_says_so(tmp_path):
     frames = list(read)
     assert 0 < len(frames) < 4000
     assert "is cut off after" in read.notice or "is damaged after" in read.notice
+
+
+@pytest.mark.parametrize(("times_s", "words"), [
+    ((0.0, 0.5, 8.0), "has a gap of 7.5 s after 2 frames"), ((0.0, 20.0, 3.0), "jumps back by 17.0 s after 2 frames"),
+    ((0.0, 0.9, 0.85, 1.8), "")])
+def test_gaps_and_jumps_of_a_logs_time_are_told(tmp_path, times_s, words):
+    path = tmp_path / "bus.log"
+    path.write_text("".join(f"({100.0 + time_s:.6f}) can0 320#0000\n" for time_s in times_s))
+    read = ReadLog(path)
+    assert len(list(read)) == len(times_s)
+    assert words in read.notice and bool(words) == bool(read.notice)
 
 
 @pytest.mark.parametrize(("name", "content", "words"), [
@@ -268,8 +282,10 @@ def test_run_that_measured_nothing_leaves_no_recording(tmp_path):
         status = spoken.next_status(1.0)
         spoken.car.observe(status)
         course.status(status, spoken.car.mark)
-        assert list(recording.end()) == ["", ""]
-        assert len(list((tmp_path / "recording").iterdir())) == 2
+        recording.event(EventEntry(now(), None, EventKind.TEST, INFO, "application", "The test begins."))
+        # Of bus, course, scans and event list.
+        assert list(recording.end()) == ["", "", "", ""]
+        assert len(list((tmp_path / "recording").iterdir())) == 3
         recording.discard()
         spoken.car.close()
         spoken.close()

@@ -6,7 +6,9 @@ OperatorError
 ├── InvalidCalibration   a calibration record of the robot is damaged
 ├── InvalidIdentity      what is said of car, key, operator or equipment is wrong, or lacks what is required
 ├── ConnectionFailed     robot or Car cannot be reached, or the port or adapter is wrong
+│   └── BusRefused       the adapter of a further bus of the Car cannot be used, or there is none
 ├── LinkLost             robot or Car fell silent during a test
+├── StoodStill           the laptop slept, or the application was stopped, during a test
 ├── RobotFailed          the robot is there, and cannot do what the test needs
 ├── ProgressFileError    a progress file cannot be read or belongs to something else
 ├── InUse                another application measures this test, or has gone on with it
@@ -39,12 +41,24 @@ class ConnectionFailed(OperatorError):
     """Robot or Car cannot be reached."""
 
 
+class BusRefused(ConnectionFailed):
+    """A further bus of the Car has no adapter, or one that cannot be used. bus: its name in the Car's profile."""
+
+    def __init__(self, text: str, bus: str):
+        super().__init__(text)
+        self.bus = bus
+
+
 class NothingLearned(OperatorError):
     """The Car's bus shows nothing that follows its locks."""
 
 
 class LinkLost(OperatorError):
     """Robot or Car fell silent during a test."""
+
+
+class StoodStill(OperatorError):
+    """The laptop slept, or the application was stopped, during a test."""
 
 
 class RobotFailed(OperatorError):

@@ -14,10 +14,14 @@ import math
 import pathlib
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from typing import Mapping, Sequence
+from typing import TYPE_CHECKING, Mapping, Sequence
 
 from .requests import DesiredState
 from .robot_status import RobotStatus
+
+if TYPE_CHECKING:
+    from .assistance import ExtenderPort, HandlePort
+    from .distance_feed import DistanceFeed
 
 
 class LockState(enum.Enum):
@@ -32,8 +36,6 @@ class LockState(enum.Enum):
 PASSIVE_ENTRY = "passive_entry"
 KEY_BUTTON = "key_button"
 HANDLE = "handle"
-# Who takes the handle when the test wants it.
-OUTPUT, OPERATOR = "output", "operator"
 
 
 @dataclass(frozen=True)
@@ -42,7 +44,9 @@ class CarEvent:
 
     time_s: robot's clock; time_sigma_s: 1 sigma of that time. source: PASSIVE_ENTRY, KEY_BUTTON or HANDLE, empty when
     the Car's bus does not say it. doubt: why it is not to be believed, or what else on the bus is not; empty when it
-    is. evidence: the frames around it, one text each.
+    is. evidence: the frames around it, one text each. cause_raw: signal and value that tell a source which the Car's
+    profile does not list. key_number: of the key that moved them, None when it is not told. doors: that are unlocked
+    when not all are; empty else.
     """
 
     time_s: float
@@ -51,6 +55,9 @@ class CarEvent:
     source: str = ""
     doubt: str = ""
     evidence: tuple[str, ...] = ()
+    cause_raw: str = ""
+    key_number: int | None = None
+    doors: str = ""
 
 
 @dataclass(frozen=True)
@@ -59,13 +66,17 @@ class LockFacts:
 
     sources: those that its bus can name; empty when it names none. relock_after_s: it locks by itself so long after it
     was unlocked, None when it does not. confirm_s: a change is to be believed when it was not taken back for so long.
-    told_every_s: cycle of the message that tells a change, 0 when it is told at once.
+    told_every_s: cycle of the message that tells a change, 0 when it is told at once. settles_s: how long after a
+    change all is known of it, so that it is told so late. needs_source: a change without a known source counts for
+    nothing.
     """
 
     sources: frozenset[str] = frozenset()
     relock_after_s: float | None = None
     confirm_s: float = 0.0
     told_every_s: float = 0.0
+    settles_s: float = 0.0
+    needs_source: bool = False
 
 
 @dataclass(frozen=True)
@@ -193,28 +204,6 @@ class RobotLink(ABC):
         """Say goodbye (the robot stops) and disconnect; safe to call twice."""
 
 
-class HandlePort(ABC):
-    """Takes the Car's handle when the test wants it: an output that is switched, or a person who is asked.
-
-    Attributes:
-        by: OUTPUT or OPERATOR.
-    """
-
-    by: str
-
-    @abstractmethod
-    def request(self, distance_m: float) -> None:
-        """Have the handle taken, with the key at a distance that a person is told. Does not wait."""
-
-    @abstractmethod
-    def is_taken(self) -> bool:
-        """True when it has been taken since request()."""
-
-    @abstractmethod
-    def release(self) -> None:
-        """The handle may be let go, and nobody need take it any more; safe to call twice."""
-
-
 class CarLink(ABC):
     """Connection to the Car's CAN bus (or its substitute)."""
 
@@ -243,6 +232,17 @@ class CarLink(ABC):
     @property
     def handle(self) -> HandlePort | None:
         """The output that takes this car's handle; None when it has none, and a person has to do it."""
+        return None
+
+    @property
+    def extender(self) -> ExtenderPort | None:
+        """The output that switches the extender; None when there is none, and a person has to do it."""
+        return None
+
+    @property
+    def distance_feed(self) -> DistanceFeed | None:
+        """What tells the distance of a phone on this Car's bus, or where its profile says; None without one. It is
+        connected, and closed, with this link."""
         return None
 
     @property

@@ -66,9 +66,12 @@ class Runner:
             self._notebook.add(SESSION, {RECOVERED: self._progress.notice})
         try:
             # Before the robot moves, for mapping too.
-            for sentence in (*self._car.notices, *self._scenario.cautions(parameters, self._car.facts)):
-                self._robot.say(f"warning: {sentence}")
+            notices = tuple(self._car.notices)
+            self._scenario.check_means(self._car)
+            self._warn(*notices, *self._scenario.cautions(parameters, self._car.facts))
             prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
+            # What the bus has told meanwhile.
+            self._warn(*(sentence for sentence in self._car.notices if sentence not in notices))
             record = {**controller_record(self._loop.status.controller_name), **self._car.record}
             if record:
                 self._notebook.add(SESSION, record)
@@ -88,6 +91,10 @@ class Runner:
         finally:
             self._halt()
         self._conclude()
+
+    def _warn(self, *sentences: str) -> None:
+        for sentence in sentences:
+            self._robot.say(f"warning: {sentence}")
 
     def _note_end(self, error: OperatorError) -> None:
         """Why a test ended and what was refused until then stands in its record, if anything can still be kept."""

@@ -76,6 +76,9 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
         default. The same results give the same answer."""
         return ()
 
+    def check_means(self, car: Car) -> None:
+        """Raise an OperatorError, before the robot moves, when something is missing that only this scenario needs."""
+
     def measure_further(self, line: AnyLine, parameters: Parameters, robot: Robot, car: Car,
                         so_far: Result) -> Result | None:
         """Make the interval of a measured line narrower by more attempts; None when more would not make it so."""
@@ -89,6 +92,10 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
     def can_go_on(self, line: AnyLine, parameters: Parameters, robot: Robot, car: Car) -> bool:
         """True when measure can finish a line from where the robot stands, with what Robot.kept has of it."""
         return False
+
+    def summary(self, results: Sequence[Result]) -> Sequence[tuple[str, str]]:
+        """What all lines together say, a name and a text each, for report and window; nothing by default."""
+        return ()
 
     @abstractmethod
     def picture(self, parameters: Parameters, car: CarDimensions, results: Sequence[Result]) -> Picture:

@@ -18,13 +18,16 @@ class ReplayedLocks:
     """The parts of the live link on a log, in the order in which frames and Statuses came.
 
     Attributes:
-        watch: what follows the locks. facts: of the profile. frames: of the log so far.
+        watch: what follows the locks. facts: of the profile. frames: of the log so far. has_state: one of them was the
+            message that tells the state.
     """
 
     def __init__(self, profile: CarProfile, log: ReadLog):
+        self._profile = profile
         self.watch = LockWatch(profile)
         self.facts = profile.facts
         self.frames = 0
+        self.has_state = False
         self._log: Iterator[LoggedFrame] = iter(log)
         self._restarts = 0
         self._first_s = math.nan
@@ -47,6 +50,7 @@ class ReplayedLocks:
                 return
             self.frames += 1
             self.watch.frame(self._frame(frame, mark))
+            self.has_state = self.has_state or self.watch.is_lock_message
 
     def _frame(self, frame: LoggedFrame, mark: BusMark) -> CanFrame:
         if math.isnan(self._first_s):
@@ -54,4 +58,5 @@ class ReplayedLocks:
         local_s = mark.origin_s + (frame.time_s - self._first_s)
         kind = StampKind[mark.stamps] if mark.stamps else StampKind.ARRIVAL
         stamp_s = local_s if kind is StampKind.ADAPTER else None
-        return CanFrame(frame.can_id, frame.is_extended, frame.data, local_s, None, stamp_s, kind, frame.is_fd)
+        return CanFrame(frame.can_id, frame.is_extended, frame.data, local_s, None, stamp_s, kind, frame.is_fd,
+                        self._profile.further.bus_of(frame.channel))

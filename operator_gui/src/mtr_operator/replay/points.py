@@ -152,7 +152,7 @@ class Points:
             if answer is None or watch.doubt:
                 return None
             distance = measure(ray, poses.at(answer.time_s), answer.time_sigma_s, outline_sigma(ray, self._car))
-            return dataclasses.replace(distance, source=answer.source)
+            return distance.answered_by(answer)
         return None if kept is None else measure(ray, poses.at(kept.robot_time_s), 0.0)
 
 

@@ -107,6 +107,10 @@ def _follow(points: Points, run: RecordedRun, profile: CarProfile, log: pathlib.
     if path is None:
         raise CannotReplay(f"No log of the Car's bus belongs to {run.course}; there was no bus, or none was wanted.")
     read = ReadLog(path)
-    points.follow(read_course(run.course), ReplayedLocks(profile, read))
+    locks = ReplayedLocks(profile, read)
+    points.follow(read_course(run.course), locks)
+    if not locks.has_state:
+        yield (f"The CAN log {path} tells no state of message {profile.message.name} (id "
+               f"0x{profile.message.frame_id:X}): it is of another car or bus, or the profile is.")
     if read.notice:
         yield read.notice

@@ -14,8 +14,13 @@ from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.scenarios.autolock_result import LOCK, UNLOCK, AutolockResult
 from mtr_operator.domain.scenarios.key_press_result import CONFIRMING, KeyPressResult
 from mtr_operator.domain.scenarios.line_search.result import SearchedResult
+from mtr_operator.domain.scenarios.relay_resistance.result import RelayResistanceResult
+from mtr_operator.domain.scenarios.sleep_time.result import SleepTimeResult, rest_columns
+from mtr_operator.domain.scenarios.sleep_time.still_trial import trials_of
+from mtr_operator.domain.scenarios.sleep_time.waits import Rests
 
 from .points import Attempt, Point
+from .relayed import relayed
 
 Result = TypeVar("Result", bound=LineResult)
 # Places are kept in whole micrometres.
@@ -56,6 +61,9 @@ def anew(result: LineResult, attempt: Attempt) -> LineResult:
     if isinstance(result, SearchedResult):
         # The derived classes are dataclasses.
         return dataclasses.replace(result, **_searched(result, attempt.points))  # type: ignore[type-var]
+    if isinstance(result, (SleepTimeResult, RelayResistanceResult)):
+        columns = _slept if isinstance(result, SleepTimeResult) else relayed
+        return dataclasses.replace(result, **columns(attempt.points))
     return result
 
 
@@ -90,7 +98,8 @@ def _distance(prefix: str, point: Point) -> dict[str, Any]:
     distance_m, uncertainty_m, robot_time_s = recorded_values(known)
     emptied: dict[str, Any] = {f"{prefix}{name}": None for name in (
         "lateral_offset_m", "heading_offset_deg", "key_height_m", "speed_mps")}
-    return {**emptied, f"{prefix}cause": "", f"{prefix}distance_m": distance_m, f"{prefix}uncertainty_m": uncertainty_m,
+    emptied.update({f"{prefix}cause": "", f"{prefix}key_number": None, f"{prefix}doors": ""})
+    return {**emptied, f"{prefix}distance_m": distance_m, f"{prefix}uncertainty_m": uncertainty_m,
             f"{prefix}robot_time_s": robot_time_s, **carried_values(prefix, known)}
 
 
@@ -117,6 +126,12 @@ def _scan(points: Sequence[Point]) -> dict[str, Any]:
                 "reason": doubts[0] if doubts else "", **_distance("", points[-1])}
     cause = "" if worked.distance is None else worked.distance.source
     return {"status": LineStatus.OK, **_distance("", worked), "cause": cause or UNKNOWN_CAUSE}
+
+
+def _slept(points: Sequence[Point]) -> dict[str, Any]:
+    """For how long the key was at rest is as it was; whether it answered is as the bus says now."""
+    return rest_columns(Rests(trials_of({point.word: (point.new_status is LineStatus.OK, point.distance.rest_s)
+                                         for point in points if point.distance is not None})))
 
 
 def _works(points: Sequence[Point], index: int) -> bool:

@@ -6,8 +6,10 @@ import contextlib
 from dataclasses import dataclass
 from typing import Iterator, Mapping, Sequence
 
+from ..distance_feed import Reported
 from ..errors import ConnectionFailed, LinkLost, RobotFailed
 from ..ports import CarEvent, LockFacts, LockState
+from ..results.session_record import PHONE_FEED
 from ..robot_status import CarDimensions
 from .control_loop import ControlLoop
 
@@ -18,6 +20,10 @@ _RECOVERY_LIMIT_S = 30.0
 
 _NOBODY = ("Nobody takes the Car's handle: its profile declares no handle_request, and there is no Operator to ask; "
            "add one to the profile, or start the test where a person can answer.")
+_NO_SWITCH = ("Nobody switches the extender: the Car's profile declares no extender_switch, and there is no Operator "
+              "to ask; add one to the profile, or start the test where a person can answer.")
+_NO_PHONE = ("Nothing tells the phone's distance: the Car's profile declares no phone_distance; add one to the "
+             "profile, or name a feed (--phone-feed).")
 
 
 @dataclass(frozen=True)
@@ -71,6 +77,54 @@ class Car:
         finally:
             handle.release()
 
+    def require_extender(self) -> None:
+        """ConnectionFailed when nothing and nobody switches an extender."""
+        if self._loop.extender is None:
+            raise ConnectionFailed(_NO_SWITCH)
+
+    def switch_extender(self, is_on: bool, patience_s: float) -> str:
+        """Have the extender switched; returns by whom when it is done, see ExtenderPort.
+
+        RobotFailed when nobody does it within patience_s of robot time.
+        """
+        extender, until_s = self._loop.extender, self._loop.now_s + patience_s
+        if extender is None:
+            raise RobotFailed(_NO_SWITCH)
+        extender.switch(is_on)
+        try:
+            while not extender.is_switched():
+                if self._loop.now_s >= until_s:
+                    raise RobotFailed(f"Nobody has switched the extender within {patience_s:g} s; continue the test "
+                                      "when somebody is there to do it, or increase switch_timeout_s.")
+                self._loop.step()
+        finally:
+            extender.release()
+        return extender.by
+
+    def require_phone(self) -> None:
+        """ConnectionFailed when nothing tells the distance of a phone."""
+        if self._loop.distance_feed is None:
+            raise ConnectionFailed(_NO_PHONE)
+
+    @property
+    def reported(self) -> Sequence[Reported]:
+        """Distances of the phone that were told of late, in their order."""
+        return self._loop.reported
+
+    @property
+    def phone_problem(self) -> str:
+        """Why the phone's distance cannot be told now; empty when it can."""
+        feed = self._loop.distance_feed
+        return _NO_PHONE if feed is None else feed.problem
+
+    def wait_for_phone(self) -> None:
+        """Wait until a trouble of what tells the phone's distance is over; LinkLost when it lasts."""
+        until_s = self._loop.now_s + _RECOVERY_LIMIT_S
+        while self.phone_problem:
+            if self._loop.now_s >= until_s:
+                raise LinkLost(f"Nothing tells the phone's distance any more: {self.phone_problem}")
+            self._loop.step()
+
     @property
     def relocks(self) -> bool:
         """True when the Car locks by itself some time after it was unlocked."""
@@ -89,7 +143,8 @@ class Car:
     @property
     def record(self) -> Mapping[str, str]:
         """How it is watched, for the record of the test."""
-        return self._loop.car_link.record
+        feed = self._loop.distance_feed
+        return {**self._loop.car_link.record, **({} if feed is None else {PHONE_FEED: feed.name})}
 
     def dimensions(self) -> CarDimensions:
         """Length and width as the robot measured them; Robot.prepare has waited for them."""

@@ -10,16 +10,20 @@ import contextlib
 from dataclasses import replace
 from typing import Any, Callable, Iterator
 
-from ..errors import LinkLost, RobotFailed
-from ..ports import CarEvent, CarLink, HandlePort, RobotLink
+from ..assistance import ExtenderPort, HandlePort
+from ..distance_feed import DistanceFeed, Reported
+from ..errors import LinkLost, RobotFailed, StoodStill
+from ..eventlog.event_log import EventLog
+from ..ports import CarEvent, CarLink, RobotLink
 from ..requests import DesiredState
 from ..results.course import Course
 from ..results.frame_history import FrameHistory
 from ..results.journal import EVENT, Journal, plain_fields
-from ..results.refusals import Refusals
+from ..results.refusals import NOTHING, Refusals
 from ..robot_status import CarDimensions, RobotStatus
 from .observer import RunObserver
 from .pose_history import STANDING_MPS, PoseHistory
+from .standstill import Standstill
 from .trouble import Cancelled, LineInvalid, trouble_between
 
 # Wall time of one look for a Status, after which a stop leaves, and another one as long as no Status comes.
@@ -38,6 +42,8 @@ _SILENCE_SHOWN_S = 1.0
 # Robot time that stopping may take.
 _STOP_LIMIT_S = 3.0
 _KEPT_EVENTS = 1000
+# Of a minute at a hundred a second.
+_KEPT_REPORTS = 6000
 HELD = "the robot stands until you have it go on"
 
 
@@ -52,8 +58,13 @@ class ControlLoop:
         frames: the Car coordinate systems that the robot has had in this run.
         journal: where events, presses and measurements are kept before the robot is ordered on.
         course: where each Status is kept, and what is expected of the Car.
+        event_log: learns what happens to robot and Car.
         refusals: what is refused meanwhile.
         person: who takes the Car's handle where no output does; None when nobody is there.
+        switcher: who switches the extender where no output does; None when nobody is there.
+        standstill: notices that nobody looked after the robot for a while.
+        phone: tells the distance of a phone in place of the Car's own feed; None for that one.
+        reported: distances that were told, in their order.
     """
 
     def __init__(self, robot_link: RobotLink, car_link: CarLink, observer: RunObserver | None = None,
@@ -66,8 +77,13 @@ class ControlLoop:
         self.frames = FrameHistory()
         self.journal = Journal()
         self.course = Course()
+        self.event_log = EventLog()
         self.refusals = Refusals()
         self.person: HandlePort | None = None
+        self.switcher: ExtenderPort | None = None
+        self.standstill = Standstill(SILENCE_LIMIT_S)
+        self.phone: DistanceFeed | None = None
+        self.reported: list[Reported] = []
         self.observer = observer or RunObserver()
         self._robot_link = robot_link
         self._car_link = car_link
@@ -97,6 +113,16 @@ class ControlLoop:
     def handle(self) -> HandlePort | None:
         """What takes the Car's handle: an output before a person; None when neither is there."""
         return self._car_link.handle or self.person
+
+    @property
+    def extender(self) -> ExtenderPort | None:
+        """What switches the extender: an output before a person; None when neither is there."""
+        return self._car_link.extender or self.switcher
+
+    @property
+    def distance_feed(self) -> DistanceFeed | None:
+        """What tells the distance of a phone; None when nothing does."""
+        return self.phone or self._car_link.distance_feed
 
     def change(self, **changes: Any) -> None:
         """Change the desired state; it leaves with the next answer."""
@@ -146,13 +172,14 @@ class ControlLoop:
             return None
         until_s = self.now_s + _STOP_LIMIT_S
         stands = False
-        with contextlib.suppress(LinkLost, RobotFailed, Cancelled):
+        with contextlib.suppress(LinkLost, RobotFailed, StoodStill, Cancelled):
             while not stands and self._exchange(patience_s=_STOP_LIMIT_S).stamp_s < until_s:
                 stands = abs(self.status.speed_mps) < STANDING_MPS
             self._robot_link.send(self.desired)
         return stands
 
     def _exchange(self, patience_s: float = SILENCE_LIMIT_S) -> RobotStatus:
+        self._check_standstill()
         before = self._status
         if before is not None:
             self._robot_link.send(self.desired)
@@ -160,13 +187,19 @@ class ControlLoop:
         restarted = before is not None and status.robot_session_id != before.robot_session_id
         if self.frames.add(status) or restarted or _is_clock_set(before, status):
             self.poses.clear()
+            self.reported = []
         self.poses.add(status)
         self._status = status
         self.car_dimensions = status.car or self.car_dimensions
         events = self._car_link.observe(status)
+        feed = self.distance_feed
+        if feed is not None:
+            self.reported = (self.reported + feed.observe(status))[-_KEPT_REPORTS:]
         self.course.status(status, self._car_link.mark)
+        self.event_log.learn(status, events, self._car_link.problem)
         self._learn_events(events)
-        self.refusals.look(status, self._robot_link.statistics, self._car_link.refused)
+        self.refusals.look(status, self._robot_link.statistics, self._car_link.refused,
+                           NOTHING if feed is None else feed.refused)
         self.observer.on_status(status)
         if restarted:
             raise RobotFailed("The robot started anew during the test; the measured lines are kept, go on with a "
@@ -184,6 +217,8 @@ class ControlLoop:
         silent_s = 0.0
         for poll in range(1, round(patience_s / POLL_PERIOD_S) + 1):
             status = self._robot_link.next_status(POLL_PERIOD_S)
+            # Before anything is sent again that moves.
+            self._check_standstill()
             if status is not None:
                 return status
             silent_s = poll * POLL_PERIOD_S
@@ -200,6 +235,11 @@ class ControlLoop:
                            f"ports are the robot's. {error}".rstrip())
         raise LinkLost(f"The robot has been silent for {silent_s:.0f} s; check the Wi-Fi and that its software runs. "
                        f"{error}".rstrip())
+
+    def _check_standstill(self) -> None:
+        said = self.standstill.look()
+        if said:
+            raise StoodStill(f"{said} The line at hand is measured anew when the test goes on.")
 
     def _send_blindly(self, stop: bool) -> None:
         """Send the desired state again without knowing what the robot does; a stop waits for no Status."""

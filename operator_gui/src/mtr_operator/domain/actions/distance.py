@@ -13,10 +13,12 @@ It is NaN when the robot does not say how well it knows its pose.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
+from typing import Any, Mapping
 
 from ..geometry.pose import Point, wrap_angle
 from ..geometry.ray import Ray
+from ..ports import CarEvent
 from ..robot_status import CarDimensions
 from .pose_history import PoseSample
 
@@ -26,7 +28,8 @@ class Distance:
     """Measured distance of the Remote key, in m, with 1 sigma, at an instant of robot time, and how it was carried.
 
     lateral_m: of the key, to the left of the ray seen from the Car. heading_rad: of the robot, from the way to the Car.
-    source: what moved the Car's locks, see CarEvent.
+    source: what moved the Car's locks, key_number: of which key, doors: that it unlocked, see CarEvent. rest_s: for
+    how long the key had been at rest, NaN where nobody asked.
     """
 
     distance_m: float
@@ -37,6 +40,24 @@ class Distance:
     key_height_m: float = math.nan
     speed_mps: float = math.nan
     source: str = ""
+    key_number: int | None = None
+    doors: str = ""
+    rest_s: float = math.nan
+
+    def answered_by(self, event: CarEvent) -> Distance:
+        """The same, of this change of the locks."""
+        return replace(self, source=event.source, key_number=event.key_number, doors=event.doors)
+
+
+# In a record what is not known is null; of these it is NaN here, of a key's number None.
+_MAY_BE_NAN = {each.name for each in fields(Distance) if each.type == "float"}
+
+
+def distance_from(values: Mapping[str, Any]) -> Distance:
+    """The distance of which these are the fields in a record; TypeError when they are not those of one."""
+    known: dict[str, Any] = {name: math.nan if value is None and name in _MAY_BE_NAN else value
+                             for name, value in values.items()}
+    return Distance(**known)
 
 
 def recorded_values(distance: Distance | None) -> tuple[float | None, float | None, float | None]:

@@ -124,7 +124,8 @@ class LockHistory:
 
     def _check_cause(self, event: CarEvent, expected: Expected) -> None:
         was = event.lock_state.value
-        if event.source == expected.cause or not event.source and expected.cause not in self._facts.sources:
+        is_told = self._facts.needs_source or expected.cause in self._facts.sources
+        if event.source == expected.cause or not event.source and not is_told:
             return
         if event.source == KEY_BUTTON:
             raise _invalid(event, f"The Car was {was} by the button of a key, not by {expected.what}; leave the keys "
@@ -135,6 +136,9 @@ class LockHistory:
         if event.source == HANDLE:
             raise _invalid(event, f"The Car was {was} by its handle, not by {expected.what}; leave its handles alone "
                                   "during the test.")
+        if event.cause_raw:
+            raise _invalid(event, f"The Car was {was} by something that its profile does not list ({event.cause_raw}), "
+                                  f"not by {expected.what}; leave its doors and switches alone during the test.")
         raise _invalid(event, f"The Car was {was} by something that its profile does not list, not by "
                               f"{expected.what}; leave its doors and switches alone during the test.")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
-from typing import Any, Callable, Iterator, Mapping, Sequence, TypeVar
+from typing import Callable, Iterator, Mapping, Sequence, TypeVar
 
 from ..errors import RobotFailed
 from ..geometry.pose import Pose
@@ -16,7 +16,7 @@ from ..results.journal import DECISION, POINT, PRESS, KeptPoint, plain_fields
 from ..results.line_result import LineResult, LineStatus
 from ..robot_status import CarCheck, CheckState, PressReport, RobotStatus, WaypointResult
 from .control_loop import ControlLoop
-from .distance import Distance, measure
+from .distance import Distance, distance_from, measure
 from .line_watch import LineWatch
 from .pose_history import PoseUnknown
 from .tolerances import Tolerances
@@ -180,8 +180,7 @@ class Robot:
         measured_in = frame_from(point.frame)
         if measured_in is None or not measured_in.is_same(frame):
             return None
-        values: dict[str, Any] = {name: math.nan if value is None else value for name, value in point.distance.items()}
-        return point.status, Distance(**values)
+        return point.status, distance_from(point.distance)
 
     @property
     def results(self) -> tuple[LineResult, ...]:
@@ -198,9 +197,12 @@ class Robot:
             "frame": None if self._loop.frames.newest is None else plain_fields(self._loop.frames.newest)})
 
     @contextlib.contextmanager
-    def watched(self, tolerances: Tolerances) -> Iterator[LineWatch]:
-        """Within the context anything that makes a measurement doubtful raises LineInvalid."""
-        line = LineWatch(self._loop, tolerances)
+    def watched(self, tolerances: Tolerances, *, judges_locks: bool = True) -> Iterator[LineWatch]:
+        """Within the context anything that makes a measurement doubtful raises LineInvalid.
+
+        judges_locks: so does a change of the Car's locks that nobody expects.
+        """
+        line = LineWatch(self._loop, tolerances, judges_locks=judges_locks)
         try:
             with self._loop.watched(line.check):
                 yield line

@@ -13,6 +13,8 @@ HEADING_DOC = "how far the robot was turned from the line, counterclockwise,"
 HEIGHT_DOC = "height of the Remote key above ground"
 SPEED_DOC = "speed of the robot, negative in reverse,"
 CAUSE_DOC = "passive_entry, key_button, handle, or unknown if its bus does not say"
+KEY_NUMBER_DOC = "number of the key that did, as the Car's bus has it; empty if that does not say"
+DOORS_DOC = "doors that it unlocked; empty for all of them, and if its bus does not tell them apart"
 UNKNOWN_CAUSE = "unknown"
 
 
@@ -23,4 +25,5 @@ def carried_values(prefix: str, distance: Distance | None) -> dict[str, Any]:
     values = {"lateral_offset_m": distance.lateral_m, "heading_offset_deg": math.degrees(distance.heading_rad),
               "key_height_m": distance.key_height_m, "speed_mps": distance.speed_mps}
     return {**{prefix + name: round(value, 6) if math.isfinite(value) else None for name, value in values.items()},
-            f"{prefix}cause": distance.source or UNKNOWN_CAUSE}
+            f"{prefix}cause": distance.source or UNKNOWN_CAUSE,
+            f"{prefix}key_number": distance.key_number, f"{prefix}doors": distance.doors}

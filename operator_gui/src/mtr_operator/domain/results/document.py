@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import enum
+import functools
 from typing import Any, Mapping, Optional, Tuple, TypeVar, Union, get_args, get_origin, get_type_hints
 
 Record = TypeVar("Record")
@@ -24,12 +25,18 @@ def read_record(record_type: type[Record], document: Mapping[str, Any]) -> Recor
     """
     if not isinstance(document, Mapping):
         raise TypeError("no table of names and values")
-    kinds = get_type_hints(record_type)
+    kinds = kinds_of(record_type)  # type: ignore[arg-type]  # a class is hashable, which mypy does not see here
     values = {}
     for field in dataclasses.fields(record_type):  # type: ignore[arg-type]  # typeshed knows no type[dataclass]
         if field.name in document or field.default is dataclasses.MISSING:
             values[field.name] = _value(kinds[field.name], document[field.name])
     return record_type(**values)
+
+
+@functools.lru_cache(maxsize=64)
+def kinds_of(record_type: type[Any]) -> Mapping[str, Any]:
+    """Kinds of a dataclass' fields; to evaluate them takes longer than to read the record."""
+    return get_type_hints(record_type)
 
 
 def plain(value: Any) -> Any:

@@ -44,7 +44,8 @@ class MeasuredDistance:
     is_boundary: the method tells the boundary by its interval, so that an end that is None is open.
     common_sigma_m: 1 sigma of what the attempts of all lines leave open alike. is_place: the distance is that of the
     farthest place that worked, and the boundary lies between it and failed_m, the next farther one that failed: None
-    when none did. Of a boundary that was not reached failed_m is the nearest place that failed.
+    when none did. Of a boundary that was not reached failed_m is the nearest place that failed. key_m: where on its
+    line the key was when the distance is not its own, but told by somebody; None when it is.
     """
 
     word: str
@@ -57,6 +58,7 @@ class MeasuredDistance:
     is_place: bool = False
     failed_m: OptionalFloat = None
     is_boundary: bool = False
+    key_m: OptionalFloat = None
 
     @property
     def is_open(self) -> bool:
@@ -120,6 +122,11 @@ class LineResult(ABC):
     def distances_at(self, share_percent: int) -> tuple[MeasuredDistance, ...]:
         """Distances at which this share of the attempts works, those that a limit may be about; () when not known."""
         return self.distances if share_percent == BOUNDARY_PERCENT else ()
+
+    @property
+    def findings(self) -> tuple[str, ...]:
+        """What the line tells beside its distances, as a person reads it: "asleep after 58.0 to 62.0 s"."""
+        return ()
 
     def holes_nearer_than(self, distance_m: float) -> tuple[float, ...]:
         """Places nearer than a distance that failed again and again although farther ones worked."""

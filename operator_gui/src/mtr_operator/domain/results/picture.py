@@ -41,6 +41,7 @@ class PointSet:
     known. bars: 1 sigma to both sides of the points, where it is known and no interval is. intervals: ends of the 95 %
     interval of each point, where both are known. brackets: two places each, between which a border lies that nobody has
     looked for any closer. figures: what is written beside each point, None for nothing; empty where nothing is.
+    errors_m: of each point, told by its colour instead of the role's; empty where the points have none.
     """
 
     label: str
@@ -51,6 +52,7 @@ class PointSet:
     intervals: tuple[tuple[Point, Point], ...] = ()
     brackets: tuple[tuple[Point, Point], ...] = ()
     figures: tuple[Figure | None, ...] = ()
+    errors_m: tuple[float, ...] = ()
 
     @property
     def known(self) -> tuple[Point, ...]:

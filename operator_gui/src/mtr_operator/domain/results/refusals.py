@@ -8,10 +8,11 @@ from typing import Mapping
 from ..ports import LinkStatistics, Refused
 from ..robot_status import RobotStatus
 from .journal import SESSION, Journal
-from .session_record import REFUSED_COMMANDS, REFUSED_FRAMES, REFUSED_STATUSES
+from .session_record import REFUSED_COMMANDS, REFUSED_FRAMES, REFUSED_REPORTS, REFUSED_STATUSES
 
 # Robot time between two entries: a flood of bad messages does not become a flood of writes.
 _ENTRY_PERIOD_S = 1.0
+NOTHING = Refused()
 _BETWEEN = "; the last one: "
 
 
@@ -26,9 +27,9 @@ class Refusals:
         self._due: dict[str, str] = {}
         self._kept_s = -math.inf
 
-    def look(self, status: RobotStatus, link: LinkStatistics, car: Refused) -> None:
+    def look(self, status: RobotStatus, link: LinkStatistics, car: Refused, phone: Refused = NOTHING) -> None:
         """Take the counts as of this Status, and keep what has grown; OutputError when it cannot be kept."""
-        for kind, refused in ((REFUSED_STATUSES, link.refused), (REFUSED_FRAMES, car),
+        for kind, refused in ((REFUSED_STATUSES, link.refused), (REFUSED_FRAMES, car), (REFUSED_REPORTS, phone),
                               (REFUSED_COMMANDS, Refused(status.rejected_messages))):
             # What was refused before the test does not count, nor does a robot that counts anew.
             grown = refused.count - self._seen.setdefault(kind, refused.count)

@@ -19,6 +19,12 @@ LINK, CONTROLLED_BY = "link", "robot controlled with the key of"
 ENCRYPTED = "encrypted"
 # Only in the record of a test on a real bus: how the adapter was opened, and which clock timed its frames.
 CAN_ADAPTER, CAN_STAMPS = "CAN adapter", "CAN frames timed by"
+CAR_PROFILE = "car profile"
+# What stands in the record for the robot or the profile where a substitute took its part.
+SUBSTITUTE = "substitute"
+# Only in the record of a test in which something tells the distance of a phone.
+PHONE_FEED = "phone's distance from"
+REFUSED_REPORTS = "distances of the phone that were not used"
 REFUSED_FRAMES = "frames of the Car that were not believed"
 
 
@@ -28,7 +34,7 @@ def session_record(started: datetime.datetime, robot: str, car_profile: str) -> 
         STARTED: written(started),
         "software": f"mtr-operator {__version__}",
         "robot": robot,
-        "car profile": car_profile,
+        CAR_PROFILE: car_profile,
         "units": "SI; angles in degrees where the column says so; 1 sigma uncertainties",
         "coordinates": "Car coordinate system: origin in the Car's centre, x to its front, y to its left",
     }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..scenario import AnyScenario
-from . import autolock, handle_request, key_press, zone_map
+from . import autolock, digital_key, handle_request, key_press, relay_resistance, sleep_time, zone_map
 
-SCENARIOS: dict[str, AnyScenario] = {module.SCENARIO.name: module.SCENARIO
-                                    for module in (autolock, key_press, zone_map, handle_request)}
+_MODULES = (autolock, key_press, zone_map, handle_request, digital_key, sleep_time, relay_resistance)
+SCENARIOS: dict[str, AnyScenario] = {module.SCENARIO.name: module.SCENARIO for module in _MODULES}

@@ -49,6 +49,12 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
 
     def measure(self, line: Axis, parameters: AutolockParameters, robot: Robot, car: Car) -> AutolockResult:
         """The thesis' algorithm 2 for one axis, and further passes at other speeds."""
+        result = self.drive(line, parameters, robot, car)
+        others = [each for each in robot.results if isinstance(each, AutolockResult) and each.axis != line.number]
+        return with_boundaries([*others, result], parameters, [result])[0]
+
+    def drive(self, line: Axis, parameters: AutolockParameters, robot: Robot, car: Car) -> AutolockResult:
+        """The same without the static boundary, which takes longer than all else; concluded() gives it."""
         first, *further = planned_passes(parameters, car.facts.told_every_s)
         course, done, trouble = Course(line, parameters, robot, car), [first], None
         try:
@@ -59,9 +65,7 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
             trouble = error
             if first.unlock.time_s >= error.since_s:
                 first.unlock = Measured()
-        result = _result(line, done, trouble, car.facts.told_every_s)
-        others = [each for each in robot.results if isinstance(each, AutolockResult) and each.axis != line.number]
-        return with_boundaries([*others, result], parameters, [result])[0]
+        return _result(line, done, trouble, car.facts.told_every_s)
 
     def concluded(self, parameters: AutolockParameters, results: Sequence[AutolockResult]) -> list[AutolockResult]:
         """See Scenario: what all axes say of the Car's reaction time moves the boundary of each."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from ..actions.car import Car
 from ..actions.distance import Distance, outline_sigma
@@ -131,7 +131,7 @@ class Course:
         if not watch.answer:
             robot.go_to(axis, parameters.minimum_distance_m, Direction.FORWARD)
             robot.wait_until_reached(or_when=lambda: watch.answer)
-        robot.wait(parameters.response_timeout_s, or_when=lambda: watch.answer)
+        robot.wait(parameters.response_timeout_s + watch.settles_s, or_when=lambda: watch.answer)
 
     def _step_nearer(self, watch: LineWatch, from_m: float, step_m: float) -> None:
         """Stand after each step for as long as the Car may take; ends where it reacts, or a step before the minimum."""
@@ -140,7 +140,7 @@ class Course:
         while not watch.answer and distance_m > parameters.minimum_distance_m:
             robot.go_to(self._line.ray, distance_m, Direction.FORWARD)
             robot.wait_until_reached()
-            robot.wait(parameters.response_timeout_s, or_when=lambda: watch.answer)
+            robot.wait(parameters.response_timeout_s + watch.settles_s, or_when=lambda: watch.answer)
             distance_m -= step_m
 
     def _retreat(self, watch: LineWatch, is_unlocked: bool) -> None:
@@ -153,7 +153,7 @@ class Course:
             watch.close()
         robot.go_to(self._line.ray, parameters.straightened_distance_m, Direction.BACKWARD)
         robot.wait_until_reached(or_when=lambda: watch.answer)
-        robot.wait(parameters.response_timeout_s, or_when=lambda: watch.answer)
+        robot.wait(parameters.response_timeout_s + watch.settles_s, or_when=lambda: watch.answer)
         # What a single frame says may be a glitch: the one before was followed by the retreat, this one by nothing.
         robot.wait(watch.confirmed_s - robot.now_s if watch.answer else 0.0)
 
@@ -166,7 +166,7 @@ class Course:
                                             outline_sigma(axis, self._car.dimensions()))
         watch.check_distance(distance, parameters.minimum_distance_m, parameters.maximum_distance_m,
                              parameters.maximum_speed_mps)
-        measured.distance = replace(distance, source=event.source)
+        measured.distance = distance.answered_by(event)
         measured.status, measured.time_s = LineStatus.OK, event.time_s
 
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..geometry.ray import Ray
-from ..results.carried import CAUSE_DOC, HEADING_DOC, HEIGHT_DOC, LATERAL_DOC, SPEED_DOC
-from ..results.document import Floats, OptionalFloat, Texts
+from ..results.carried import CAUSE_DOC, DOORS_DOC, HEADING_DOC, HEIGHT_DOC, KEY_NUMBER_DOC, LATERAL_DOC, SPEED_DOC
+from ..results.document import Floats, OptionalFloat, OptionalInt, Texts
 from ..results.line_result import LineResult, LineStatus, MeasuredDistance, column, stored
 
 UNLOCK, LOCK = "unlock", "lock"
@@ -50,7 +50,8 @@ class AutolockResult(LineResult):
                   "lock_distance_m", "lock_uncertainty_m", "lock_robot_time_s", "lock_status",
                   "unlock_lateral_offset_m", "unlock_heading_offset_deg", "unlock_key_height_m", "unlock_speed_mps",
                   "unlock_cause", "lock_lateral_offset_m", "lock_heading_offset_deg", "lock_key_height_m",
-                  "lock_speed_mps", "lock_cause", *_OF_PASSES, "told_every_s", "evidence")
+                  "lock_speed_mps", "lock_cause", *_OF_PASSES, "unlock_key_number", "unlock_doors",
+                  "lock_key_number", "lock_doors", "told_every_s", "evidence")
 
     axis: int = column("number of the axis, clockwise around the Car")
     side: str = column("side or corner of the Car that the axis belongs to")
@@ -103,6 +104,11 @@ class AutolockResult(LineResult):
     unlock_static_shared_sigma_m: OptionalFloat = _static(f"{_SHARED_DOC} unlock_static_m")
     lock_static_common_sigma_m: OptionalFloat = _static(f"{_COMMON_DOC} lock_static_m")
     lock_static_shared_sigma_m: OptionalFloat = _static(f"{_SHARED_DOC} lock_static_m")
+    unlock_key_number: OptionalInt = column(f"of unlock_cause: {KEY_NUMBER_DOC}", default=None)
+    unlock_doors: str = column(f"of the event that unlocked the Car: {DOORS_DOC}", default="")
+    lock_key_number: OptionalInt = column(f"of lock_cause: {KEY_NUMBER_DOC}", default=None)
+    lock_doors: str = column("of the event that locked the Car: doors that stayed unlocked; empty if none did, and if "
+                             "its bus does not tell them apart", default="")
     told_every_s: OptionalFloat = stored(None)
     evidence: Texts = stored(())
 

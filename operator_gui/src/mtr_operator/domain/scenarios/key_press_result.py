@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..results.carried import CAUSE_DOC, HEADING_DOC, HEIGHT_DOC, LATERAL_DOC, SPEED_DOC
-from ..results.document import Floats, OptionalFloat, Texts
+from ..results.carried import CAUSE_DOC, DOORS_DOC, HEADING_DOC, HEIGHT_DOC, KEY_NUMBER_DOC, LATERAL_DOC, SPEED_DOC
+from ..results.document import Floats, OptionalFloat, OptionalInt, Texts
 from ..results.line_result import LineStatus, MeasuredDistance, column, stored
 from .line_search.result import SearchColumns, SearchedResult
 
@@ -25,7 +25,7 @@ class KeyPressResult(SearchedResult):
                   "attempts", "reason", "lateral_offset_m", "heading_offset_deg", "key_height_m", "speed_mps", "cause",
                   "method", "reach", "d50_m", "d50_sigma_m", "d50_low_m", "d50_high_m", "d95_m", "d95_low_m",
                   "d95_high_m", "nearest_failure_m", "holes_m", "lapse", "fit_quality", "unconfirmed_m",
-                  "worked_at_m", "failed_at_m", "place_sigma_m", "evidence")
+                  "key_number", "doors", "worked_at_m", "failed_at_m", "place_sigma_m", "evidence")
 
     radial: int = column("number of the radial, clockwise from the Car's front")
     angle_deg: float = column("angle of the radial, clockwise from the Car's front", "deg", digits=3)
@@ -58,6 +58,8 @@ class KeyPressResult(SearchedResult):
     lapse: OptionalFloat = _SEARCH.lapse
     fit_quality: OptionalFloat = _SEARCH.fit_quality
     unconfirmed_m: str = _SEARCH.unconfirmed_m
+    key_number: OptionalInt = column(f"of cause: {KEY_NUMBER_DOC}", default=None)
+    doors: str = column(f"of the press that worked: {DOORS_DOC}", default="")
     worked_at_m: Floats = stored(())
     failed_at_m: Floats = stored(())
     place_sigma_m: OptionalFloat = stored(None)

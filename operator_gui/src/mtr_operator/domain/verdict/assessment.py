@@ -84,8 +84,9 @@ class Assessor:
     def _to_outline(self, progress: Progress) -> dict[tuple[int, str], float]:
         if not self._car.outline:
             return {}
-        return {(result.number, distance.word): distance_to_polygon(self._key(result, distance.word, distance_m),
-                                                                    self._car.outline)
+        return {(result.number, distance.word): distance_to_polygon(
+                    self._key(result, distance.word, distance_m if distance.key_m is None else distance.key_m),
+                    self._car.outline)
                 for result in progress.results for distance in result.distances
                 if (distance_m := distance.distance_m) is not None}
 

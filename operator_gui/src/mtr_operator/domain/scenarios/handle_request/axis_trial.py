@@ -26,7 +26,8 @@ from .request import Requester
 from .result import HANDLE_WORD, HandleRequestResult
 
 # Columns of the farthest request inside.
-_OF_FARTHEST = ("distance_m", "uncertainty_m", "robot_time_s", "lateral_offset_m", "heading_offset_deg", "cause")
+_OF_FARTHEST = ("distance_m", "uncertainty_m", "robot_time_s", "lateral_offset_m", "heading_offset_deg", "cause",
+                "key_number", "doors")
 
 
 @dataclass(frozen=True)

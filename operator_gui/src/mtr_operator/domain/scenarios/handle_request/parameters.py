@@ -11,11 +11,11 @@ from ...geometry.heights import check_heights, heights_between
 from ...parameters import CENTIMETRES, KILOMETRES_PER_HOUR, parameter
 from ...scenario import ScenarioParameters
 from ...verdict.requirement import SIDES
+from ..handle.hand import BUTTON, ITSELF
 
 # The driver's door of most cars; a file without a side means it.
 DRIVERS_SIDE, ALL_SIDES = "left", "all"
 _SIDES = (DRIVERS_SIDE, *(side for side in SIDES if side != DRIVERS_SIDE), ALL_SIDES)
-BUTTON, ITSELF = "button", "itself"
 # Rounding of a sum must not refuse what is allowed up to exactly there.
 _ROUNDING_M = 1e-9
 # From the request until an unlock is read and believed, as of a press; and the press that locks the Car again.

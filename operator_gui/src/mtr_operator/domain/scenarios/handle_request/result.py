@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...results.carried import CAUSE_DOC, HEADING_DOC, LATERAL_DOC
-from ...results.document import Floats, OptionalFloat, Texts
+from ...results.carried import CAUSE_DOC, DOORS_DOC, HEADING_DOC, KEY_NUMBER_DOC, LATERAL_DOC
+from ...results.document import Floats, OptionalFloat, OptionalInt, Texts
 from ...results.line_result import LineStatus, column, stored
 from ..line_search.result import SearchColumns, SearchedResult
 
@@ -56,6 +56,8 @@ class HandleRequestResult(SearchedResult):
     origin_y_m: OptionalFloat = column("origin of the axis, Car coordinate system", "m", default=None)
     direction_x: OptionalFloat = column("unit vector of the axis away from the Car", "", 6, None)
     direction_y: OptionalFloat = column("unit vector of the axis away from the Car", "", 6, None)
+    key_number: OptionalInt = column(f"of cause: {KEY_NUMBER_DOC}", default=None)
+    doors: str = column(f"of that request: {DOORS_DOC}", default="")
     reason: str = stored("")
     worked_at_m: Floats = stored(())
     failed_at_m: Floats = stored(())

@@ -20,9 +20,13 @@ def drive(ray: Ray, from_m: float, to_m: float, robot: Robot) -> None:
 
 def wake_key(ray: Ray, place_m: float, parameters: SearchParameters, robot: Robot) -> None:
     """Half a wavelength to the side and back, to where it stands."""
-    robot.say("move the key so that it does not sleep")
     plan = parameters.search_plan
-    beside_m = place_m + (1.0 if place_m < plan.maximum_m else -1.0) * plan.half_wavelength_m
-    drive(ray, place_m, beside_m, robot)
-    drive(ray, beside_m, place_m, robot)
+    robot.say("move the key so that it does not sleep")
+    move_key(ray, place_m, (1.0 if place_m < plan.maximum_m else -1.0) * plan.half_wavelength_m, robot)
     robot.wait(parameters.settle_time_s)
+
+
+def move_key(ray: Ray, place_m: float, by_m: float, robot: Robot) -> None:
+    """Along the line by a distance, away from the Car if it is positive, and back to where it stands."""
+    drive(ray, place_m, place_m + by_m, robot)
+    drive(ray, place_m + by_m, place_m, robot)

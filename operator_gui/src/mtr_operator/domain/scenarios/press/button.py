@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Protocol
 
 from ...actions.line_watch import LineWatch
@@ -61,12 +60,13 @@ def press_once(radial: Ray, watch: LineWatch, parameters: PressParameters, robot
     watch.expect(Expected(expected, KEY_BUTTON, f"the press at {place.distance_m:.2f} m", press.start_s,
                           press.start_s + parameters.response_timeout_s, PRESS_SIGMA_S))
     watch.check_distance(place, parameters.minimum_distance_m, parameters.maximum_distance_m, 0.0)
-    robot.wait(press.start_s + parameters.response_timeout_s - robot.now_s, or_when=lambda: watch.answer)
+    robot.wait(press.start_s + parameters.response_timeout_s + watch.settles_s - robot.now_s,
+               or_when=lambda: watch.answer)
     if watch.answer is None:
         watch.close()
         robot.keep(word, LineStatus.NOT_REACHED, place)
         return AttemptMade(place, False)
     robot.wait(watch.confirmed_s - robot.now_s)
-    made = AttemptMade(replace(place, source=watch.answer.source), True)
+    made = AttemptMade(place.answered_by(watch.answer), True)
     robot.keep(word, LineStatus.OK, made.place)
     return made

@@ -15,7 +15,7 @@ from ..line_search.campaign import DIGITS
 
 # Columns of the farthest press that worked.
 _OF_FARTHEST = ("distance_m", "uncertainty_m", "robot_time_s", "lateral_offset_m", "heading_offset_deg", "key_height_m",
-                "speed_mps", "cause")
+                "speed_mps", "cause", "key_number", "doors")
 
 
 def invalid_result(line: Radial, made: AttemptsMade, reason: str, evidence: tuple[str, ...] = ()) -> KeyPressResult:
