@@ -1,19 +1,28 @@
 """A bundle of a test is signed and chained; any changed byte is found, and named where it is in a file."""
 # SPDX-License-Identifier: Apache-2.0
+import io
 import json
 import zipfile
+from xml.etree import ElementTree
 
 import pytest
+from mcap.reader import make_reader
 
 from mtr_operator.cli import main
 from mtr_operator.domain.errors import OutputError
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.verdict.limits_document import limits_from
+from mtr_operator.evidence.adapters.junit import junit_of
+from mtr_operator.evidence.adapters.ods import ods_of
+from mtr_operator.evidence.adapters.openhtf import openhtf_of
 from mtr_operator.evidence.bundle import bundle_path, write_bundle
 from mtr_operator.evidence.manifest import sha256_of
-from mtr_operator.evidence.record import SCHEMA
+from mtr_operator.evidence.record import SCHEMA, record_of
 from mtr_operator.evidence.station_key import Station, StationKeyError
 from mtr_operator.evidence.verification import chain_problems, verify_bundle
+from mtr_operator.report.assessed import assess
 from mtr_operator.storage.progress_file import open_progress
+from mtr_operator.storage.recorded.course_file import Moment, read_course
 
 
 @pytest.fixture(name="measured", scope="module")
@@ -50,7 +59,8 @@ def test_bundle_holds_all_that_a_laboratory_keeps_and_is_intact(bundle, station)
     assert found.is_intact and found.manifest.key == station.key and found.manifest.station == station.name
     assert {"record.json", "record.schema.json", "results.csv", "budget.json", "protocol.png", "progress.json",
             "progress.journal", "parameters.json", "calibration.json", "plan.json", "versions.json",
-            "recording/course_001.jsonl", "car/mtr_demo_car.yaml", "car/mtr_demo_car.dbc"} <= set(found.manifest.files)
+            "recording/course_001.jsonl", "recording/course_001.mcap", "adapters/openhtf.json", "adapters/junit.xml",
+            "adapters/ods.json", "car/mtr_demo_car.yaml", "car/mtr_demo_car.dbc"} <= set(found.manifest.files)
 
 
 def test_changed_byte_of_each_file_is_found_and_the_file_is_named(bundle, tmp_path):
@@ -188,3 +198,61 @@ def test_record_is_as_its_schema_says(bundle):
     assert list(violations(schema, record)) == []
     assert len(record["lines"]) >= 4
     assert list(violations(schema, {**record, "version": 2, "lines": [{}]}))
+
+
+def record_in(bundle):
+    """The record of a bundle."""
+    with zipfile.ZipFile(bundle) as container:
+        return json.loads(container.read("record.json"))
+
+
+def test_verdict_of_the_record_is_a_word_of_its_schema(measured):
+    scenario, parameters, progress = open_progress(measured / "progress.json", SCENARIOS)
+    limits = limits_from({"limits": [{"what": "press", "at_least_m": 1000.0}]})
+    progress.limits = limits
+    record = record_of(scenario, progress, assess(scenario, parameters, progress))
+    assert record["verdict"] == "fail"
+    assert list(violations(json.loads(SCHEMA.read_text()), record)) == []
+    assert openhtf_of(record, "here")["outcome"] == "FAIL"
+    suite = ElementTree.fromstring(junit_of(record, "here"))
+    assert suite.find("testcase[@name='verdict']/failure").get("message") == "fail"
+
+
+def test_adapters_have_every_line_and_distance(bundle):
+    record = record_in(bundle)
+    lines, distance = record["lines"], record["lines"][0]["distances"][0]
+    phases = openhtf_of(record, "here")["phases"]
+    assert [phase["outcome"] for phase in phases] == len(lines) * ["PASS"]
+    assert next(iter(phases[0]["measurements"].values()))["measured_value"] == distance["distance_m"]
+    suite = ElementTree.fromstring(junit_of(record, "here"))
+    assert suite.get("tests") == str(len(lines)) and suite.get("failures") == "0"
+    columns = {each["name"]: each["values"] for each in
+               ods_of(record, "here")["AoMeasurement"]["AoMeasurementQuantity"]}
+    assert columns[f"{distance['word']}_distance_m"][0] == distance["distance_m"]
+    assert {len(values) for values in columns.values()} == {len(lines)}
+
+
+def test_line_that_is_invalid_has_failed_with_its_reason(bundle):
+    record = record_in(bundle)
+    record["lines"][0] = {**record["lines"][0], "reason": "a <door> was open"}
+    assert openhtf_of(record, "here")["outcome"] == "ERROR"
+    suite = ElementTree.fromstring(junit_of(record, "here"))
+    assert suite.find("testcase/failure").get("message") == "a <door> was open"
+
+
+def test_course_is_in_the_bundle_as_foxglove_reads_it(bundle, measured):
+    with zipfile.ZipFile(bundle) as container:
+        content = container.read("recording/course_001.mcap")
+    statuses = [each.status for each in read_course(measured / "recording" / "course_001.jsonl")
+                if isinstance(each, Moment) and each.status.pose_valid]
+    poses, kinds = [], set()
+    for schema, channel, message in make_reader(io.BytesIO(content)).iter_messages():
+        values = json.loads(message.data)
+        if channel.topic == "/robot/pose":
+            assert schema.name == "foxglove.PoseInFrame" and values["frame_id"] == "car"
+            poses.append((message.log_time, values["pose"]["position"]))
+        elif channel.topic == "/test/events":
+            kinds.add(values["kind"])
+    assert [place["x"] for _, place in poses] == [status.x for status in statuses]
+    assert poses[-1][0] == round(statuses[-1].stamp_s * 1e9)
+    assert {"expected", "watched"} <= kinds

@@ -86,7 +86,7 @@ def test_no_second_place_either_is_said(tmp_path, progress, monkeypatch):
 
 @pytest.fixture
 def fakes(monkeypatch, robot_link, car_link):
-    monkeypatch.setattr("mtr_operator.cli.run.robot_link", lambda options: robot_link)
+    monkeypatch.setattr("mtr_operator.cli.run.robot_link", lambda options, is_real_time: robot_link)
     monkeypatch.setattr("mtr_operator.cli.run.car_link", lambda options: car_link)
     return robot_link
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pathlib
 import shutil
 import zipfile
-from typing import BinaryIO, Iterable, Mapping, Union
+from typing import BinaryIO, Callable, Iterable, Mapping, Union
 
 SUFFIX = ".mtr.zip"
 # Nothing of the time of writing or of the computer is in it; nothing is compressed, for logs and pictures are already.
@@ -17,17 +17,25 @@ _BLOCK = 1024 * 1024
 Source = Union[bytes, pathlib.Path]
 
 
-def write_container(file: BinaryIO, sources: Mapping[str, Source]) -> None:
-    """A zip of these files, by their paths in it; OSError when one cannot be read or written."""
+def size_of(source: Source) -> int:
+    """In bytes; OSError when a file is not there."""
+    return len(source) if isinstance(source, bytes) else source.stat().st_size
+
+
+def write_container(file: BinaryIO, sources: Mapping[str, Source],
+                    done: Callable[[int], None] = lambda _: None) -> None:
+    """A zip of these files, by their paths in it; OSError when one cannot be read or written. done is told the bytes of
+    each that is in it."""
     with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as container:
         for name, source in sources.items():
-            info = _info(name, len(source) if isinstance(source, bytes) else source.stat().st_size)
+            info = _info(name, size_of(source))
             with container.open(info, "w") as target:
                 if isinstance(source, bytes):
                     target.write(source)
                 else:
                     with open(source, "rb") as read:
                         shutil.copyfileobj(read, target, _BLOCK)
+            done(info.file_size)
 
 
 def copy_container(container: zipfile.ZipFile, names: Iterable[str], file: BinaryIO) -> None:

@@ -27,7 +27,7 @@ def record_of(scenario: AnyScenario, progress: Progress, assessment: Assessment 
         "session": document["session"], "parameters": document["parameters"], "car": document["car"],
         "identity": document.get("identity"), "limits": document.get("limits"),
         "calibration": document.get("calibration"), "frame_record": document["frame_record"],
-        "verdict": None if judgement is None else judgement.verdict.value,
+        "verdict": None if judgement is None else judgement.verdict.word,
         "lines": [_line(scenario, result) for result in progress.results],
         "columns": [{"name": column.name, "unit": column.unit, "meaning": column.doc}
                     for column in scenario.result_type.columns()],

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import contextlib
 import json
 import pathlib
 import tempfile
@@ -12,8 +13,10 @@ from typing import Any, BinaryIO, Callable, Sequence
 
 from .container import copy_container, first_difference
 from .manifest import (
+    FORMAT,
     MANIFEST,
     SIGNATURE,
+    VERSION,
     BadManifest,
     FileEntry,
     Manifest,
@@ -55,6 +58,16 @@ def verify_bundle(path: pathlib.Path) -> Verification:
         return Verification(problems=(f"{path} cannot be read: {error.strerror or error}.",))
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, ValueError, RuntimeError, EOFError):
         return Verification(problems=(f"{path} is torn, or no bundle: its list of files cannot be read.",))
+
+
+def is_newer(path: pathlib.Path) -> bool:
+    """True for a bundle of a later version of this format, whose manifest cannot be read here."""
+    with contextlib.suppress(OSError, ValueError, LookupError, TypeError, zipfile.BadZipFile, zlib.error,
+                             RecursionError, NotImplementedError, RuntimeError, EOFError):
+        with zipfile.ZipFile(path) as container:
+            document = json.loads(container.read(MANIFEST))
+        return bool(document["format"] == FORMAT and document["version"] > VERSION)
+    return False
 
 
 def chain_problems(found: Sequence[Verification]) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import pathlib
+import stat
 import tempfile
 import time
 from typing import Iterator
@@ -89,3 +90,11 @@ def sync_folder(folder: pathlib.Path) -> None:
 
 def _reason(error: OSError) -> str:
     return error.strerror or str(error)
+
+
+def checked_size(path: pathlib.Path) -> int:
+    """Size in bytes of what is to be read; OSError for a pipe or device, from which reading may never end."""
+    found = path.stat()
+    if not stat.S_ISREG(found.st_mode) and not stat.S_ISDIR(found.st_mode):
+        raise OSError(0, "it is a pipe or a device, and no file")
+    return found.st_size

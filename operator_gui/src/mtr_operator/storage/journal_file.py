@@ -20,7 +20,7 @@ from mtr_operator.domain.errors import OutputError, ProgressFileError
 from mtr_operator.domain.results.journal import BEGUN, LINE, POINT
 from mtr_operator.domain.results.progress import JournalMark
 
-from .atomic import sync_folder
+from .atomic import checked_size, sync_folder
 
 FORMAT = "mtr-operator journal"
 VERSION = 1
@@ -89,7 +89,7 @@ def line_of(entry: Entry) -> bytes:
 def read_journal(path: pathlib.Path) -> Recovered:
     """All entries up to the first one that is not good; ProgressFileError when the file cannot be read."""
     try:
-        if path.stat().st_size > MAX_BYTES:
+        if checked_size(path) > MAX_BYTES:
             raise ProgressFileError(f"The journal {path} is larger than {MAX_BYTES // 1024 ** 2} MiB.")
         content = path.read_bytes()
     except OSError as error:

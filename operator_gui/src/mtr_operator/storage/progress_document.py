@@ -22,6 +22,8 @@ from mtr_operator.domain.results.progress import FORMAT, VERSION, JournalMark, P
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.limits_document import limits_from
 
+from .atomic import checked_size
+
 Given = TypeVar("Given")
 # A test of some hundred lines takes 100 kB; a larger file is something else.
 MAX_BYTES = 16 * 1024 * 1024
@@ -32,7 +34,7 @@ DAMAGED = "It is damaged: parts of it are missing or of the wrong kind."
 def read_document(path: pathlib.Path) -> Any:
     """Plain values of a JSON file; ProgressFileError when it is none."""
     try:
-        if path.stat().st_size > MAX_BYTES:
+        if checked_size(path) > MAX_BYTES:
             raise ProgressFileError(f"It is larger than {MAX_BYTES // 1024 ** 2} MiB.")
         return json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse_constant)
     except OSError as error:

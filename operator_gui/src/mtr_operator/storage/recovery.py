@@ -5,6 +5,7 @@ The journal is written first, and the progress file follows from it; so the one 
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import os
 import pathlib
 from typing import Any
 
@@ -77,6 +78,9 @@ def _read(path: pathlib.Path) -> tuple[Any, Recovered, str]:
             notice = (f"Of the journal of {path}, its last entry was cut off; the {count} entries before that are used."
                       if journal.is_torn else f"The journal of {path} is damaged; its first {count} entries are used.")
     except ProgressFileError as error:
+        if path.suffix == SUFFIX and not os.path.lexists(progress_path(path)):
+            # It is all that there is of the test.
+            raise
         journal, notice = Recovered((), b""), str(error)
     if path.suffix == SUFFIX and journal.entries:
         return None, journal, notice

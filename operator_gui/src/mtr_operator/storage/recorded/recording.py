@@ -1,4 +1,4 @@
-"""What is recorded with each run of a test, beside its progress file: the log of the Car's bus, and the course."""
+"""What is recorded with each run of a test, beside its progress file: log of the Car's bus, course, scans, events."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -6,23 +6,27 @@ import pathlib
 import shutil
 from typing import Iterator, NamedTuple
 
+from mtr_operator.domain.eventlog.entry import EventEntry
 from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.results.course import Course
 
 from .course_file import CourseFile
+from .event_file import EventFile
+from .scan_file import ScanFile
 
 DEFAULT_FORMAT = "blf"
 NO_LOG = "none"
 _FOLDER = "recording"
 _RECORD = "progress"
-_COURSE, _BUS = "course", "bus"
+_COURSE, _BUS, _EVENTS, _SCANS = "course", "bus", "events", "scans"
 
 
 class RecordedRun(NamedTuple):
-    """Files of one run; log: None where there was no bus to log."""
+    """Files of one run; log: None where there was no bus to log. scans: None of a robot that sends none."""
 
     course: pathlib.Path
     log: pathlib.Path | None
+    scans: pathlib.Path | None = None
 
 
 def recording_folder(path: pathlib.Path) -> pathlib.Path:
@@ -32,8 +36,14 @@ def recording_folder(path: pathlib.Path) -> pathlib.Path:
 
 def recorded_runs(folder: pathlib.Path) -> list[RecordedRun]:
     """What a folder holds, run by run in their order."""
-    return [RecordedRun(course, next(folder.glob(course.stem.replace(_COURSE, _BUS) + ".*"), None))
+    return [RecordedRun(course, next(folder.glob(course.stem.replace(_COURSE, _BUS) + ".*"), None),
+                        next(folder.glob(course.name.replace(_COURSE, _SCANS)), None))
             for course in sorted(folder.glob(f"{_COURSE}_*.jsonl"))]
+
+
+def recorded_events(folder: pathlib.Path) -> list[pathlib.Path]:
+    """Event lists that a folder holds, run by run in their order."""
+    return sorted(folder.glob(f"{_EVENTS}_*.csv"))
 
 
 class Recording:
@@ -44,29 +54,39 @@ class Recording:
         self._format = log_format
         self._car: CarLink | None = None
         self._course: CourseFile | None = None
+        self._scans: ScanFile | None = None
+        self._events: EventFile | None = None
         self._made: list[pathlib.Path] = []
 
     def begin(self, car: CarLink) -> Course:
         """Log the bus of a Car from now on; where the course is to be kept. OutputError when a log cannot be begun."""
         number = 1 + len(recorded_runs(self._folder))
         self._course = CourseFile(self._folder / f"{_COURSE}_{number:03d}.jsonl")
+        self._scans = ScanFile(self._folder / f"{_SCANS}_{number:03d}.jsonl", self._course)
+        self._events = EventFile(self._folder / f"{_EVENTS}_{number:03d}.csv")
         if self._format != NO_LOG:
             log = self._folder / f"{_BUS}_{number:03d}.{self._format}"
             car.log_to(log)
             self._made.append(log)
         self._car = car
-        self._made.append(self._course.path)
-        return self._course
+        self._made += [self._course.path, self._scans.path, self._events.path]
+        return self._scans
+
+    def event(self, entry: EventEntry) -> None:
+        """Keep an entry of the event list."""
+        if self._events is not None:
+            self._events.add(entry)
 
     def end(self) -> Iterator[str]:
         """End it; sentences on what is missing."""
         if self._car is not None:
             yield self._car.log_problem
             self._car.log_to(None)
-        if self._course is not None:
-            self._course.close()
-            yield self._course.problem
-        self._car = self._course = None
+        for file in (self._course, self._scans, self._events):
+            if file is not None:
+                file.close()
+                yield file.problem
+        self._car = self._course = self._scans = self._events = None
 
     def discard(self) -> None:
         """Of a run of a test that has measured nothing."""

@@ -1,0 +1,45 @@
+"""The record as JUnit XML, which servers of continuous integration show: a line is a test case."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Any, Mapping
+from xml.etree import ElementTree
+
+from .outcome import FAIL, NOTHING, line_outcome
+
+_BAD_VERDICTS = ("fail", "error", "aborted")
+
+
+def junit_of(record: Mapping[str, Any], station: str) -> bytes:
+    """Of a record as record.schema.json has it; the verdict, if there is one, is a test case of its own."""
+    suite = ElementTree.Element("testsuite", name=record["scenario"], hostname=station,
+                                timestamp=str(record["session"].get("started", "")))
+    for line in record["lines"]:
+        _line(suite, record["scenario"], line)
+    if record["verdict"] is not None:
+        case = ElementTree.SubElement(suite, "testcase", classname=record["scenario"], name="verdict")
+        if record["verdict"] in _BAD_VERDICTS:
+            ElementTree.SubElement(case, "failure", message=record["verdict"])
+        elif record["verdict"] != "pass":
+            ElementTree.SubElement(case, "skipped", message=record["verdict"])
+    suite.set("tests", str(len(suite.findall("testcase"))))
+    suite.set("failures", str(len(suite.findall("testcase/failure"))))
+    suite.set("skipped", str(len(suite.findall("testcase/skipped"))))
+    ElementTree.indent(suite)
+    return bytes(ElementTree.tostring(suite, encoding="utf-8", xml_declaration=True))
+
+
+def _line(suite: ElementTree.Element, scenario: str, line: Mapping[str, Any]) -> None:
+    case = ElementTree.SubElement(suite, "testcase", classname=scenario,
+                                  name=f"{line['kind']} {line['number']} {line['place']}")
+    outcome = line_outcome(line)
+    if outcome == FAIL:
+        ElementTree.SubElement(case, "failure", message=line["reason"] or "invalid")
+    elif outcome == NOTHING:
+        ElementTree.SubElement(case, "skipped")
+    properties = ElementTree.SubElement(case, "properties")
+    for distance in line["distances"]:
+        for name in ("status", "distance_m", "uncertainty_m", "low_m", "high_m"):
+            if distance[name] is not None:
+                ElementTree.SubElement(properties, "property", name=f"{distance['word']}_{name}",
+                                       value=str(distance[name]))

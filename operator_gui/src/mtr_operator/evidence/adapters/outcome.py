@@ -1,0 +1,16 @@
+"""What became of a line, for tools that know no more than good, bad and nothing."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Any, Mapping
+
+PASS, FAIL, NOTHING = "pass", "fail", "nothing"
+
+
+def line_outcome(line: Mapping[str, Any]) -> str:
+    """PASS for a line that is measured, with or without a reaction of the Car; FAIL for an invalid one; NOTHING for one
+    without a distance."""
+    states = {distance["status"] for distance in line["distances"]}
+    if "invalid" in states or line["reason"]:
+        return FAIL
+    return PASS if states else NOTHING

@@ -1,0 +1,72 @@
+"""Results and course of a test as tables, for analyses: a row each line, and a row each Status."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import enum
+import math
+import pathlib
+from typing import Any, Iterable, Iterator, Mapping, NamedTuple, Sequence, Union, get_args, get_origin
+
+from mtr_operator.domain.results.document import Floats, Texts, kinds_of, plain
+from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.robot_status import RobotStatus
+from mtr_operator.domain.scenario import AnyScenario
+from mtr_operator.domain.verdict.assessment import Assessment
+from mtr_operator.report.assessed_columns import AssessedColumns
+from mtr_operator.storage.recorded.course_file import Moment, read_course
+
+# Kinds of columns, as SQL calls them.
+NUMBER, WHOLE, TRUTH, TEXT = "DOUBLE", "BIGINT", "BOOLEAN", "VARCHAR"
+_KINDS = {float: NUMBER, int: WHOLE, bool: TRUTH, str: TEXT, Floats: f"{NUMBER}[]", Texts: f"{TEXT}[]"}
+_POSE_COLUMNS = {"run": WHOLE, "robot_time_s": NUMBER, "pose_valid": TRUTH, "x_m": NUMBER, "y_m": NUMBER,
+                 "heading_rad": NUMBER, "position_sigma_m": NUMBER, "heading_sigma_rad": NUMBER, "speed_mps": NUMBER,
+                 "key_x_m": NUMBER, "key_y_m": NUMBER, "key_height_m": NUMBER, "frame_revision": WHOLE}
+
+
+class Table(NamedTuple):
+    """columns: kind of each by its name, in their order. rows: values in that order; None where there is none."""
+
+    columns: Mapping[str, str]
+    rows: Iterable[Sequence[Any]]
+
+
+def results_table(scenario: AnyScenario, progress: Progress, assessment: Assessment | None) -> Table:
+    """The columns of results.csv, with the same names and units, not rounded."""
+    added = AssessedColumns(scenario, assessment)
+    kinds = kinds_of(scenario.result_type)  # type: ignore[arg-type]  # a class is hashable, which mypy does not see here
+    names = [column.name for column in scenario.result_type.columns()]
+    columns = {**{name: _kind(kinds[name]) for name in names},
+               **{column.name: NUMBER if column.unit else TEXT for column in added.columns}}
+    return Table(columns, ([*(plain(getattr(result, name)) for name in names), *added.values(result)]
+                           for result in progress.results))
+
+
+def poses_table(courses: Sequence[pathlib.Path]) -> Table:
+    """Where robot and key were, at each Status of each run: Car coordinate system, robot's clock; without places where
+    they were not known. ProgressFileError, when its rows are read, for a course that is damaged."""
+    return Table(_POSE_COLUMNS, (row for number, course in enumerate(courses, 1) for row in _poses(number, course)))
+
+
+def _poses(number: int, course: pathlib.Path) -> Iterator[Sequence[Any]]:
+    for entry in read_course(course):
+        if isinstance(entry, Moment):
+            yield [number, *(_finite(value) for value in _pose(entry.status))]
+
+
+def _pose(status: RobotStatus) -> Iterator[Any]:
+    places = (status.x, status.y, status.heading, status.position_sigma_m, status.heading_sigma_rad)
+    yield from (status.stamp_s, status.pose_valid)
+    yield from places if status.pose_valid else (None,) * len(places)
+    yield status.speed_mps
+    yield from status.key_place if status.pose_valid else (None, None)
+    yield from (status.key_height_m, status.car_frame.revision)
+
+
+def _kind(kind: Any) -> str:
+    """Of a field; of an optional one as of the other ones, for each value may be missing."""
+    kind = get_args(kind)[0] if get_origin(kind) is Union else kind
+    return TEXT if isinstance(kind, type) and issubclass(kind, enum.Enum) else _KINDS[kind]
+
+
+def _finite(value: Any) -> Any:
+    return None if isinstance(value, float) and not math.isfinite(value) else value
