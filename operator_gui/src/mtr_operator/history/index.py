@@ -15,7 +15,7 @@ from mtr_operator.domain.errors import OutputError
 from mtr_operator.storage.atomic import write_bytes
 
 from .entry import TestEntry, entry_from
-from .places import Stamp, stamps
+from .places import Stamp, look
 from .reading import read_entry
 from .search import listed
 
@@ -52,7 +52,9 @@ class Index:
                 is_cancelled: Callable[[], bool] = lambda: False) -> list[TestEntry]:
         """Read what is new or changed; tell is called with what is known so far. The entries."""
         before = self._load() if self._known is None else self._known
-        there = stamps(self._folders)
+        found = look(self._folders)
+        there = found.stamps
+        out_of_reach = [TestEntry(path, problem) for path, problem in found.problems.items()]
         known: _Known = {path: before[path] for path, stamp in there.items()
                          if path in before and before[path][0] == stamp}
         self.read = 0
@@ -64,19 +66,19 @@ class Index:
             known[path] = there[path], read_entry(pathlib.Path(path))
             self.read += 1
             if time.monotonic() - told_s >= TOLD_PERIOD_S:
-                tell(listed(entry for _, entry in known.values()))
+                tell(_listed(known, out_of_reach))
                 told_s = time.monotonic()
         self._known = known
         if self.read or known.keys() != before.keys():
             self._save(known)
-        self.entries = listed(entry for _, entry in known.values())
+        self.entries = _listed(known, out_of_reach)
         return self.entries
 
     def _load(self) -> _Known:
         """A cache that is damaged, or of another version, is as good as none."""
         known: _Known = {}
         with contextlib.suppress(OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
-            if self._cache is not None and self._cache.stat().st_size <= _MAX_BYTES:
+            if self._cache is not None and self._cache.is_file() and self._cache.stat().st_size <= _MAX_BYTES:
                 document = json.loads(self._cache.read_bytes())
                 if (document["format"], document["version"]) == (FORMAT, VERSION):
                     for stamp, entry in document["tests"]:
@@ -92,4 +94,9 @@ class Index:
         # Without a cache the next start takes longer, and that is all.
         with contextlib.suppress(OSError, OutputError):
             self._cache.parent.mkdir(parents=True, exist_ok=True)
-            write_bytes(self._cache, json.dumps(document, ensure_ascii=False).encode("utf-8"))
+            # In ASCII: names of files need not be valid UTF-8.
+            write_bytes(self._cache, json.dumps(document).encode("ascii"))
+
+
+def _listed(known: _Known, out_of_reach: Sequence[TestEntry]) -> list[TestEntry]:
+    return listed([*(entry for _, entry in known.values()), *out_of_reach])

@@ -14,6 +14,8 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.report.table import line_name
 from mtr_operator.storage.progress_file import open_progress
 
+from .bundles import progress_file_of
+
 # At 5 m this is as far as Cars may differ in size.
 _SAME_DIRECTION_RAD = math.radians(2.0)
 _SAME_HEIGHT_M = 0.05
@@ -29,8 +31,9 @@ class Side:
 
 
 def open_side(path: pathlib.Path) -> Side:
-    """The test in a progress file; ProgressFileError says what is wrong with the file."""
-    return Side(*open_progress(path, SCENARIOS))
+    """The test in a progress file or bundle; ProgressFileError says what is wrong with it."""
+    with progress_file_of(path) as file:
+        return Side(*open_progress(file, SCENARIOS))
 
 
 @dataclass(frozen=True)

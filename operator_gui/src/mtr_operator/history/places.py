@@ -2,10 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import errno
 import os
 import pathlib
-from typing import Iterator, Sequence
+import stat
+from dataclasses import dataclass, field
+from typing import Iterable
 
+from mtr_operator.evidence.container import SUFFIX as BUNDLE
+from mtr_operator.report.files import FILE_NAMES
 from mtr_operator.storage.journal_file import SUFFIX
 from mtr_operator.storage.progress_file import FILE_NAME
 
@@ -13,48 +18,99 @@ from mtr_operator.storage.progress_file import FILE_NAME
 Stamp = tuple[int, ...]
 _NOTHING = (0, 0)
 _RECORD = ".json"
+# What is not there holds nothing, and is no fault: a folder is made with its first test, and others delete files.
+_GONE = (errno.ENOENT, errno.ENOTDIR)
 
 
-def stamps(folders: Sequence[pathlib.Path]) -> dict[str, Stamp]:
-    """Stamp of each test by its path: files of their own in these folders, and one in each folder within them. A folder
-    that cannot be read holds none."""
-    found: dict[str, Stamp] = {}
+@dataclass
+class Places:
+    """Attributes:
+        stamps: of each test by the path of its progress file, journal or bundle.
+        problems: why something holds tests that nobody can list, a sentence by its path.
+    """
+
+    stamps: dict[str, Stamp] = field(default_factory=dict)
+    problems: dict[str, str] = field(default_factory=dict)
+
+    def look_into(self, folder: str) -> None:
+        """Files of their own in a folder, and one test in each folder within it."""
+        names = set(self._names(folder))
+        folders = set(filter(self._is_folder, names))
+        for path in folders:
+            self._look_at_test(os.path.join(path, FILE_NAME))
+            self._look_at_bundle(os.path.join(path, os.path.basename(path) + BUNDLE))
+            self._look_at_report(path)
+        for path in names - folders:
+            if path.endswith(_RECORD) or (path.endswith(SUFFIX) and _record_of(path) not in names):
+                self._look_at_test(path)
+            elif path.endswith(BUNDLE):
+                self._look_at_bundle(path)
+
+    def _names(self, folder: str) -> list[str]:
+        try:
+            return [os.path.join(folder, name) for name in os.listdir(folder) if not name.startswith(".")]
+        except OSError as error:
+            if error.errno not in _GONE:
+                self.problems[folder] = f"The folder {folder} cannot be read: {error.strerror or error}."
+            return []
+
+    def _is_folder(self, path: str) -> bool:
+        """False too for what cannot be looked at: the others count nevertheless."""
+        try:
+            return stat.S_ISDIR(os.stat(path).st_mode)
+        except OSError as error:
+            # A link to itself leads to no test.
+            if error.errno not in (*_GONE, errno.ELOOP):
+                self.problems[path] = f"The folder {path} cannot be read: {error.strerror or error}."
+            return False
+
+    def _look_at_test(self, path: str) -> None:
+        """A test by the path of its progress file, or of a journal that may be all that there is of it."""
+        record = _record_of(path)
+        journal = record[:-len(_RECORD)] + SUFFIX
+        of_record, of_journal = self._stamp(record), self._stamp(journal)
+        if of_record or of_journal:
+            self.stamps[record if of_record else journal] = (*(of_record or _NOTHING), *(of_journal or _NOTHING))
+
+    def _look_at_bundle(self, path: str) -> None:
+        stamp = self._stamp(path)
+        if stamp:
+            self.stamps[path] = stamp
+
+    def _look_at_report(self, folder: str) -> None:
+        """A report without its test is told: nobody would find what is missing."""
+        held = [os.path.join(folder, name) for name in
+                (FILE_NAME, FILE_NAME[:-len(_RECORD)] + SUFFIX, os.path.basename(folder) + BUNDLE)]
+        if any(path in self.stamps or path in self.problems for path in held):
+            return
+        report = next((name for name in FILE_NAMES if os.path.lexists(os.path.join(folder, name))), "")
+        if report:
+            self.problems[folder] = (f"The folder {folder} holds {report}, and no {FILE_NAME}: what was measured can "
+                                     "be read there, and is no test that can be opened.")
+
+    def _stamp(self, path: str) -> Stamp:
+        """Empty for what is not there."""
+        try:
+            found = os.stat(path)
+        except OSError as error:
+            if error.errno not in _GONE:
+                self.problems[path] = f"The test in {path} cannot be read: {error.strerror or error}."
+            return ()
+        return found.st_mtime_ns, found.st_size
+
+
+def _record_of(path: str) -> str:
+    return path[:-len(SUFFIX)] + _RECORD if path.endswith(SUFFIX) else path
+
+
+def look(folders: Iterable[pathlib.Path]) -> Places:
+    """What is in these folders."""
+    found = Places()
     for folder in dict.fromkeys(folders):
-        found.update(_of_folder(folder))
+        found.look_into(str(folder))
     return found
 
 
-def _of_folder(folder: pathlib.Path) -> Iterator[tuple[str, Stamp]]:
-    files: dict[str, tuple[int, int]] = {}
-    try:
-        with os.scandir(folder) as entries:
-            for entry in entries:
-                if entry.name.startswith("."):
-                    continue
-                if entry.is_dir():
-                    yield from _test(os.path.join(entry.path, FILE_NAME), _stamp(os.path.join(entry.path, FILE_NAME)))
-                elif entry.name.endswith((_RECORD, SUFFIX)):
-                    files[entry.path] = _stamp(entry.path)
-    except OSError:
-        # What was seen before counts.
-        pass
-    for path in files:
-        record = path[:-len(SUFFIX)] + _RECORD if path.endswith(SUFFIX) else path
-        if path == record or record not in files:
-            yield from _test(record, files.get(record, _NOTHING))
-
-
-def _test(record: str, stamp: tuple[int, int]) -> Iterator[tuple[str, Stamp]]:
-    """A test whose record has this stamp, if it is there, or its journal."""
-    journal = record[:-len(_RECORD)] + SUFFIX
-    of_journal = _stamp(journal)
-    if stamp != _NOTHING or of_journal != _NOTHING:
-        yield (record if stamp != _NOTHING else journal), (*stamp, *of_journal)
-
-
-def _stamp(path: str) -> tuple[int, int]:
-    try:
-        found = os.stat(path)
-    except OSError:
-        return _NOTHING
-    return found.st_mtime_ns, found.st_size
+def stamps(folders: Iterable[pathlib.Path]) -> dict[str, Stamp]:
+    """Stamp of each test that is not in a bundle, by its path."""
+    return {path: stamp for path, stamp in look(folders).stamps.items() if not path.endswith(BUNDLE)}

@@ -6,6 +6,7 @@ from typing import Iterable, Sequence
 
 from mtr_operator.storage.progress_file import FILE_NAME
 
+from .bundles import is_bundle
 from .entry import TestEntry
 
 
@@ -33,6 +34,12 @@ def matching(entries: Sequence[TestEntry], text: str = "", *, car: str = "", key
             and all(getattr(entry, name) == value for name, value in wanted.items())]
 
 
+def unreadable(entries: Sequence[TestEntry], text: str = "") -> list[TestEntry]:
+    """What cannot be read, and each word of a text occurs in why not."""
+    words = text.lower().split()
+    return [entry for entry in entries if entry.problem and all(word in entry.problem.lower() for word in words)]
+
+
 def values_of(entries: Sequence[TestEntry], name: str) -> list[str]:
     """Values of car, key or verdict that there are, sorted."""
     return sorted({getattr(entry, name) for entry in entries} - {""})
@@ -43,6 +50,7 @@ def problems_of(entries: Sequence[TestEntry]) -> list[str]:
     return [entry.problem for entry in entries if entry.problem]
 
 
-def _reach(entry: TestEntry) -> tuple[int, bool]:
-    """A copy beside a report has the name of a file, and no journal to go on with: of equals the other one counts."""
-    return entry.entries, entry.file.name != FILE_NAME
+def _reach(entry: TestEntry) -> tuple[int, int]:
+    """A copy beside a report has the name of a file, and no journal to go on with, and one in a bundle stays as it is:
+    of equals the other one counts."""
+    return entry.entries, 0 if is_bundle(entry.file) else 1 if entry.file.name == FILE_NAME else 2

@@ -30,6 +30,8 @@ OF_BOUNDARY = ("Beside each distance stands 1 sigma of the boundary, and its 95 
                "this one it holds where the Car decides either way equally often.")
 OF_PLACES = ("Of a range between two places the nearer one is the farthest press that worked, the other the next one "
              "that failed; a range of at least a place worked at the first.")
+OF_REPORTED = ("Beside each distance that the phone told stands 1 sigma of where it really was, and the 95 % interval "
+               "of what it told there; the errors are in results.csv.")
 # Whoever reads a distance by its sigma does not want it coarser than that.
 _FINE_M, _FINE_DIGITS, _DIGITS, _SIGMA_DIGITS = 0.05, 3, 2, 3
 Number = Callable[[float, int], str]
@@ -78,5 +80,7 @@ def meanings(results: Sequence[LineResult]) -> list[str]:
     """Sentences on what the figures of a test mean."""
     if not any(distance.status is LineStatus.OK for result in results for distance in result.distances):
         return []
+    if any(distance.key_m is not None for result in results for distance in result.distances):
+        return [OF_REPORTED]
     has_places = any(distance.is_place for result in results for distance in result.distances)
     return [OF_BOUNDARY if has_intervals(results) else OF_PLACE, *([OF_PLACES] if has_places else [])]

@@ -13,7 +13,15 @@ from mtr_operator.domain.verdict.assessment import Assessment
 
 from .identity.identity_rows import short_rows
 from .identity.signature import DATE, SIGNATURE, signatories
-from .protocol_rows import Row, assessment_rows, date_text, parameter_rows, session_rows, summary_rows
+from .protocol_rows import (
+    Row,
+    assessment_rows,
+    date_text,
+    finding_rows,
+    parameter_rows,
+    session_rows,
+    summary_rows,
+)
 
 INK = "#263238"
 # Height of a row of the tables, if there is room for all, and of the margin below them; parts of the sheet's.
@@ -47,7 +55,8 @@ def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Pro
                            fontsize=10, labelcolor=INK, handletextpad=0.4)
     legend.set_in_layout(False)
     height = top - 0.12 - 0.032 * max(len(labels), 1)
-    known = (("Result", summary_rows(scenario, progress) + assessment_rows(assessment)),
+    known = (("Result", summary_rows(scenario, progress) + finding_rows(progress)
+              + assessment_rows(assessment)),
              ("Identity", short_rows(progress.identity)),
              ("Parameters", parameter_rows(scenario, progress)), ("Test", session_rows(progress)))
     tables = [(heading, rows) for heading, rows in known if rows]

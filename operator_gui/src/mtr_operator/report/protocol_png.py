@@ -18,6 +18,7 @@ from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.verdict.assessment import Assessment
 
 from .car_drawing import draw_car
+from .error_map.colours import draw_errors, draw_scale
 from .figures import SIGNS, filled
 from .protocol_panel import BAR, BRACKET, INK, INTERVAL, write_panel
 
@@ -58,6 +59,8 @@ def protocol_png(scenario: AnyScenario, parameters: ScenarioParameters, progress
         _write_figures(axes, points)
     draw_car(axes, progress.measured_car, _POINTS_PER_INCH / _metres_per_inch(axes))
     label_stretches(axes, picture)
+    for points in picture.point_sets:
+        draw_scale(figure, points)
     write_panel(figure, axes, scenario, progress, picture=picture, assessment=assessment)
     file = io.BytesIO()
     figure.savefig(file, format="png", dpi=_RESOLUTION_DPI)
@@ -100,6 +103,9 @@ def _draw_points(axes: Axes, points: PointSet) -> None:
         axes.plot((y0, y1), (x0, x1), color=style["color"], zorder=5, **BRACKET)
     for (x0, y0), (x1, y1) in points.bars:
         axes.plot((y0, y1), (x0, x1), color=style["color"], zorder=5, **BAR)
+    if points.errors_m:
+        draw_errors(axes, points)
+        return
     axes.plot(across, ahead, linestyle="none", markersize=6, markeredgewidth=1.6, **style,
               label=f"{points.label} ({len(points.known)})", zorder=6)
 

@@ -29,14 +29,19 @@ def date_text(started: str) -> str:
 
 
 def summary_rows(scenario: AnyScenario, progress: Progress) -> list[Row]:
-    """How many of the lines came to which end."""
+    """How many of the lines came to which end, and what they say together."""
     rows = [("lines", str(len(progress.results)))]
     for index, word in enumerate(scenario.distance_words):
         states = [result.distances[index].status for result in progress.results]
         counts = [(status, states.count(status)) for status in LineStatus]
         text = ", ".join(f"{count} {status.value.replace('_', ' ')}" for status, count in counts if count)
         rows.append((word, text or "nothing measured"))
-    return rows
+    return [*rows, *scenario.summary(progress.results)]
+
+
+def finding_rows(progress: Progress) -> list[Row]:
+    """What lines tell beside their distances."""
+    return [(result.place, finding) for result in progress.results for finding in result.findings]
 
 
 def assessment_rows(assessment: Assessment | None) -> list[Row]:

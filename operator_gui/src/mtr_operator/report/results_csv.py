@@ -56,10 +56,16 @@ def _metadata(scenario: AnyScenario, progress: Progress) -> Iterator[str]:
     for column in scenario.result_type.columns():
         unit = f" [{column.unit}]" if column.unit else ""
         yield f"column {column.name}{unit}: {column.doc}"
+    yield from _results(scenario, progress)
+
+
+def _results(scenario: AnyScenario, progress: Progress) -> Iterator[str]:
     parameters = scenario.parameters_type.from_mapping(progress.parameters)
     for result in progress.results:
         yield f"result: {_one_line(line_text(scenario, result, parameters))}"
     yield from meanings(progress.results)
+    for name, text in scenario.summary(progress.results):
+        yield f"summary {name}: {text}"
     for result in progress.results:
         if result.reason:
             yield f"{scenario.line_word} {result.number} is invalid: {_one_line(result.reason)}"

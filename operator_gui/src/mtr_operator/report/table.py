@@ -38,13 +38,13 @@ def line_text(scenario: AnyScenario, result: LineResult, parameters: ScenarioPar
     figures = zip(result.distances, figures_of(scenario, parameters, result))
     distances = [f"{distance.word} {_with_unit(distance, figure)}" for distance, figure in figures]
     reason = f": {result.reason}" if result.reason else ""
-    return f"{line_name(scenario, result)}: {', '.join(distances)}{reason}"
+    return f"{line_name(scenario, result)}: {', '.join((*distances, *result.findings))}{reason}"
 
 
 def results_table(scenario: AnyScenario, results: Sequence[LineResult],
                   parameters: ScenarioParameters | None = None) -> Iterator[str]:
-    """Lines of a table of all results, distances in m with 1 sigma, then what the figures mean, and the reasons of the
-    invalid ones."""
+    """Lines of a table of all results, distances in m with 1 sigma, then what lines tell beside them, what the figures
+    mean, and the reasons of the invalid ones."""
     shows_intervals = has_intervals(results)
     heading = [scenario.line_word, ""]
     for word in scenario.distance_words:
@@ -56,6 +56,7 @@ def results_table(scenario: AnyScenario, results: Sequence[LineResult],
         cells = (cell.ljust(width) if index == 1 else cell.rjust(width)
                  for index, (cell, width) in enumerate(zip(row, widths)))
         yield _GAP.join(cells).rstrip()
+    yield from (f"{line_name(scenario, result)}: {finding}" for result in results for finding in result.findings)
     yield from meanings(results)
     for result in results:
         if result.reason:

@@ -1,0 +1,2 @@
+"""Maps of errors on the protocol."""
+# SPDX-License-Identifier: Apache-2.0
