@@ -7,15 +7,13 @@ from dataclasses import replace
 
 import pytest
 
+from mtr_operator.domain.assistance import OPERATOR, OUTPUT, ExtenderPort, HandlePort
 from mtr_operator.domain.ports import (
     HANDLE,
     KEY_BUTTON,
-    OPERATOR,
-    OUTPUT,
     PASSIVE_ENTRY,
     CarEvent,
     CarLink,
-    HandlePort,
     LinkStatistics,
     LockFacts,
     LockState,
@@ -47,7 +45,8 @@ class World:
         check: what a self-check finds, None for a robot that knows none.
         frame: Car coordinate system of the poses.
         handle_m: distance of the key from the Car's outline up to which a hand at the handle unlocks.
-        output: takes the handle; None for a Car without one.
+        output: takes the handle; extender: switches an extender; phone: tells its distance; each None for a Car
+            without one.
     """
 
     def __init__(self):
@@ -62,7 +61,7 @@ class World:
         self.check, self.frame, self.checked_id = None, CarFrame(), 0
         self.desired, self.waypoint, self.result, self.message = None, None, WaypointResult.NONE, ""
         self.press_delay_s, self.reaction_s, self.foreign = 0.03, REACTION_S, []
-        self.handle_m, self.output = 1.5, None
+        self.handle_m, self.output, self.extender, self.phone = 1.5, None, None, None
         self.pressed, self.presses, self.toggles, self.events = set(), [], [], []
 
     def take(self, desired):
@@ -112,7 +111,9 @@ class World:
         return math.hypot(max(abs(x) - CAR.length / 2, 0.0), max(abs(y) - CAR.width / 2, 0.0))
 
     def take_handle(self):
-        if self.gap_m() <= self.handle_m:
+        extender = self.extender
+        nearer_m = extender.nearer_m if extender is not None and extender.is_on else 0.0
+        if self.gap_m() - nearer_m <= self.handle_m:
             self.foreign.append((self.time_s + self.reaction_s, False, HANDLE))
 
     def _watch_key(self):
@@ -158,6 +159,28 @@ class FakeHandle(HandlePort):
 
     def release(self):
         self.due_s, self.released = None, self.released + 1
+
+
+class FakeExtender(ExtenderPort):
+    """Lets the handle of the world's Car find a key that is so many metres farther away, once it is switched on;
+    `switched` are the orders. It is switched so long after it was asked for; never with None."""
+
+    def __init__(self, world, nearer_m=0.0, by=OUTPUT, delay_s=0.0):
+        self.world, self.nearer_m, self.by, self.delay_s = world, nearer_m, by, delay_s
+        self.switched, self.wanted, self.due_s, self.is_on = [], False, math.inf, False
+
+    def switch(self, is_on):
+        self.switched.append(is_on)
+        self.wanted, self.due_s = is_on, math.inf if self.delay_s is None else self.world.time_s + self.delay_s
+
+    def is_switched(self):
+        if self.world.time_s < self.due_s:
+            return False
+        self.is_on = self.wanted
+        return True
+
+    def release(self):
+        self.due_s = math.inf
 
 
 class FakeRobot(RobotLink):
@@ -214,6 +237,14 @@ class FakeCar(CarLink):
         return self.world.output
 
     @property
+    def extender(self):
+        return self.world.extender
+
+    @property
+    def distance_feed(self):
+        return self.world.phone
+
+    @property
     def lock_state(self):
         if self.problem:
             return LockState.UNKNOWN
@@ -256,6 +287,13 @@ def output(world):
 def person(world):
     """Somebody who takes it half a second after being asked."""
     return FakeHandle(world, OPERATOR, 0.5)
+
+
+@pytest.fixture
+def extender(world):
+    """An output that switches an extender of 5 m at once."""
+    world.extender = FakeExtender(world, 5.0)
+    return world.extender
 
 
 @pytest.fixture

@@ -17,7 +17,7 @@ PARAMETERS = "angle_between_radials_deg: 90.0\n"
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch, robot_link, car_link):
-    monkeypatch.setattr("mtr_operator.cli.run.robot_link", lambda options: robot_link)
+    monkeypatch.setattr("mtr_operator.cli.run.robot_link", lambda options, is_real_time: robot_link)
     monkeypatch.setattr("mtr_operator.cli.run.car_link", lambda options: car_link)
     monkeypatch.setattr(KeyPress, "judged_shares", lambda *_: (50,))
     monkeypatch.setattr(KeyPressResult, "distances", property(with_interval))

@@ -79,7 +79,7 @@ def test_file_that_is_no_parameters_is_one_sentence(file_of, capsys):
 
 @pytest.fixture
 def fakes(monkeypatch, robot_link, car_link):
-    monkeypatch.setattr("mtr_operator.cli.run.robot_link", lambda options: robot_link)
+    monkeypatch.setattr("mtr_operator.cli.run.robot_link", lambda options, is_real_time: robot_link)
     monkeypatch.setattr("mtr_operator.cli.run.car_link", lambda options: car_link)
     car_link.world.unlock_m = car_link.world.lock_m = -1.0
 

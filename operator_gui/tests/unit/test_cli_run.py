@@ -24,7 +24,7 @@ DEMO = pathlib.Path(__file__).resolve().parents[2] / "examples" / "demo"
 
 @pytest.fixture
 def fakes(monkeypatch, robot_link, car_link):
-    monkeypatch.setattr("mtr_operator.cli.run.robot_link", lambda options: robot_link)
+    monkeypatch.setattr("mtr_operator.cli.run.robot_link", lambda options, is_real_time: robot_link)
     monkeypatch.setattr("mtr_operator.cli.run.car_link", lambda options: car_link)
 
 

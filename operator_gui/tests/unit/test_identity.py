@@ -164,7 +164,7 @@ def test_record_keeps_the_identity_and_one_from_before_has_none(tmp_path):
 @pytest.fixture
 def run(tmp_path, monkeypatch, robot_link, car_link):
     """run(*options) measures four radials on the command line; the exit code."""
-    monkeypatch.setattr("mtr_operator.cli.run.robot_link", lambda options: robot_link)
+    monkeypatch.setattr("mtr_operator.cli.run.robot_link", lambda options, is_real_time: robot_link)
     monkeypatch.setattr("mtr_operator.cli.run.car_link", lambda options: car_link)
     monkeypatch.setattr("mtr_operator.cli.identity.laboratory_path", lambda: tmp_path / "laboratory.yaml")
     (tmp_path / "parameters.yaml").write_text("angle_between_radials_deg: 90.0\n", encoding="utf-8")

@@ -9,7 +9,7 @@ import pytest
 
 from mtr_operator.domain.identity.identity import Identity
 from mtr_operator.domain.scenarios import SCENARIOS
-from mtr_operator.station.connection import CanChoice, Connection, RobotChoice
+from mtr_operator.station.connection import BusChoice, CanChoice, Connection, RobotChoice
 from mtr_operator.station.number_text import Fault, parse_number, read, shown_number, written
 from mtr_operator.station.settings import REMEMBERED_CARS, Settings
 from mtr_operator.station.settings_file import SettingsStore, default_path, former_path
@@ -43,7 +43,9 @@ def test_values_survive_being_shown_and_read():
 
 def test_settings_survive_a_restart(tmp_path):
     store = SettingsStore(tmp_path / "deep" / "settings.json")
-    connection = Connection(RobotChoice("10.0.0.7", 5, 6), CanChoice("slcan", "/dev/x", 250_000, "other"))
+    further = (BusChoice("body", "slcan", "/dev/y", 125_000), BusChoice("doors", "pcan", "USB2", 500_000, 2_000_000))
+    connection = Connection(RobotChoice("10.0.0.7", 5, 6),
+                            CanChoice("slcan", "/dev/x", 250_000, "other", further=further))
     wanted = dataclasses.replace(Settings(), theme="dark", language="cs", unfinished=tmp_path / "p.json") \
         .with_connection(connection).with_parameters("autolock", {"clearance_m": 0.4})
     store.change(wanted)
@@ -51,6 +53,28 @@ def test_settings_survive_a_restart(tmp_path):
     later = SettingsStore(tmp_path / "deep" / "settings.json")
     later.load()
     assert later.settings == wanted
+
+
+def test_settings_of_one_bus_are_read_as_before(tmp_path):
+    store = SettingsStore(tmp_path / "settings.json")
+    store.change(Settings().with_connection(Connection(can=CanChoice("slcan", "/dev/x"))))
+    document = json.loads((tmp_path / "settings.json").read_text(encoding="utf-8"))
+    assert document["version"] == 1 and document["connection"]["can"].pop("further") == []
+    (tmp_path / "settings.json").write_text(json.dumps(document), encoding="utf-8")
+    later = SettingsStore(tmp_path / "settings.json")
+    later.load()
+    assert (later.problem, later.settings) == ("", store.settings)
+
+
+@pytest.mark.parametrize("further", [5, "body", [5], [{"bus": "body"}], [{"bus": 1, "interface": "slcan"}],
+                                     [{"bus": "body", "interface": "slcan", "bitrate_bps": "fast"}]])
+def test_damaged_further_buses_are_refused(tmp_path, further):
+    document = Settings().with_connection(Connection(can=CanChoice("slcan"))).to_document()
+    document["connection"]["can"]["further"] = further
+    (tmp_path / "settings.json").write_text(json.dumps(document), encoding="utf-8")
+    store = SettingsStore(tmp_path / "settings.json")
+    store.load()
+    assert "They are damaged." in store.problem
 
 
 def test_cars_are_remembered_by_their_vin_newest_first_without_notes(tmp_path):

@@ -7,19 +7,23 @@ import threading
 import pytest
 
 from mtr_operator.domain.absent_car import AbsentCarLink
+from mtr_operator.domain.actions.standstill import Standstill
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter
+from mtr_operator.domain.results.session_record import ENDED_BY
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.connection import SIMULATED, CanChoice, Connection, LinkOpener, robot_choice
 from mtr_operator.station.events import (
     CarLinkOpened,
+    EventLogged,
     LineMeasured,
     LinkRefused,
     LinksOpened,
     Outcome,
     ProgressSaved,
     RunEnded,
+    StandstillSeen,
 )
-from mtr_operator.station.links.idle_loop import CalibrationRequest
+from mtr_operator.station.links.idle_loop import CalibrationRequest, CarRequest
 from mtr_operator.station.links.worker import Worker
 from mtr_operator.station.mailbox import Mailbox
 from mtr_operator.station.test import new_test, open_test
@@ -135,6 +139,59 @@ def test_stop_ends_the_test_and_the_rest_is_measured_later(worker, post, four_li
     worker.run_test(later)
     assert post.wait_for(RunEnded).outcome is Outcome.COMPLETE
     assert stored(later)[:len(before)] == before
+
+
+def sleepy(post, opener, passed_s):
+    """Worker on a laptop that sleeps when the time in passed_s leaps."""
+    return Worker(CONNECTION, opener, post.box, lambda: Standstill(30.0, lambda: 0.0, lambda: passed_s[0]))
+
+
+def test_laptop_that_sleeps_in_the_middle_of_a_line_pauses_the_test_which_goes_on_later(
+        post, opener, four_lines, robot_link):
+    passed_s, awake, next_status = [0.0], [], robot_link.next_status
+
+    def asleep_in_the_second_line(timeout_s):
+        if len(four_lines.progress.results) == 1 and not passed_s[0]:
+            passed_s[0] = 40.0
+            awake.append(len(robot_link.answers))
+        return next_status(timeout_s)
+
+    robot_link.next_status = asleep_in_the_second_line
+    worker = sleepy(post, opener, passed_s)
+    worker.start()
+    worker.run_test(four_lines)
+    ended = post.wait_for(RunEnded)
+    said = ("The laptop slept for 40 s, and the robot stood meanwhile. The line at hand is measured anew when the test "
+            "goes on.")
+    assert (ended.outcome, ended.text, len(ended.results)) == (Outcome.FAILED, said, 1)
+    assert all(desired.stop or desired.waypoint is None for _, desired in robot_link.answers[awake[0]:])
+    assert said in [event.entry.text for event in post.events if isinstance(event, EventLogged)]
+    robot_link.next_status = next_status
+    later = open_test(four_lines.path)
+    assert later.progress.session[ENDED_BY] == said
+    worker.run_test(later)
+    assert post.wait_for(RunEnded).outcome is Outcome.COMPLETE
+    assert worker.close(LIMIT_S) and len(stored(later)) == 4
+
+
+def test_robot_that_maps_the_car_stops_when_the_laptop_has_slept(post, opener, robot_link):
+    passed_s = [0.0]
+    worker = sleepy(post, opener, passed_s)
+    worker.start()
+    post.wait_for(LinksOpened)
+    worker.request_car(CarRequest.MAP)
+    worker.note("mapping")
+    while "mapping" not in post.wait_for(EventLogged).entry.text:
+        pass
+    passed_s[0] = 7.0
+    assert post.wait_for(StandstillSeen).text == "The laptop slept for 7 s, and the robot stood meanwhile."
+    worker.note("awake")
+    while "awake" not in post.wait_for(EventLogged).entry.text:
+        pass
+    assert worker.close(LIMIT_S)
+    orders = [desired for _, desired in robot_link.answers]
+    first = next(index for index, desired in enumerate(orders) if desired.map_car_id)
+    assert not orders[first].stop and orders[-1].stop
 
 
 def test_defect_of_a_scenario_is_a_sentence_and_the_thread_goes_on(worker, post, four_lines, monkeypatch):

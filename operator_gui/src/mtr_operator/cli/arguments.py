@@ -41,6 +41,7 @@ def argument_parser() -> argparse.ArgumentParser:
     _add_pair(commands.add_parser("pair", help="pair this computer with a robot that shows a code"))
     _add_keys(commands.add_parser("keys", help="list this computer's key and the robots that it is paired with"))
     _add_learn(commands.add_parser("learn", help="learn how a Car's bus tells its locks, and write its profile"))
+    _add_try(commands.add_parser("try", help="try a car's profile on a simulated Car that speaks its frames"))
     commands.add_parser("doctor", help="say what this computer lacks; exit code 2 when something is missing")
     return parser
 
@@ -60,6 +61,8 @@ def _add_window(parser: argparse.ArgumentParser) -> None:
 
 def _add_params(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scenario", choices=list(SCENARIOS), help="one of %(choices)s", metavar="SCENARIO")
+    parser.add_argument("--write", type=pathlib.Path, metavar="FILE",
+                        help="write them into a new parameter file that run and plan take, to be edited")
 
 
 def _add_plan(parser: argparse.ArgumentParser) -> None:
@@ -89,11 +92,21 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
     _add_robot(parser)
     car = parser.add_argument_group("Car")
     _add_adapter(car)
+    car.add_argument("--can-bus", action="append", default=[], metavar="NAME=INTERFACE:CHANNEL:BITRATE",
+                     help="adapter of a further bus that the profile names; may be given more than once")
     car.add_argument("--car-profile", default="mtr_demo_car", metavar="NAME_OR_PATH",
                      help="how the Car's bus tells its lock state, default %(default)s")
     car.add_argument("--simulated-car", action="store_true", help="use a substitute inside the application")
+    car.add_argument("--simulated-key-sleep", type=_number, default=0.0, metavar="S",
+                     help="rest in s after which the substitute's key sleeps, 0 to 3600; default 0: never")
+    car.add_argument("--simulated-extender", type=_number, default=0.0, metavar="M",
+                     help="by how many m the substitute's extender has the key be nearer while it is switched on, 0 to "
+                          "100; default 0: not at all")
     car.add_argument("--can-log", type=pathlib.Path, metavar="FILE",
                      help="play this log of a bus as the Car, at the speed of the robot's clock")
+    car.add_argument("--phone-feed", metavar="FEED",
+                     help="what tells the distance of a phone, for digital_key: tcp:HOST:PORT, serial:DEVICE:BAUD or "
+                          "simulated:NAME=VALUE,...; default: what the profile declares")
     car.add_argument("--can-log-format", choices=("blf", "asc", "trc", "mf4", "none"), default="blf", metavar="KIND",
                      help="kind of the log that is kept of the bus: %(choices)s; default %(default)s")
 
@@ -118,6 +131,17 @@ def _add_learn(parser: argparse.ArgumentParser) -> None:
     _add_adapter(parser)
 
 
+def _add_try(parser: argparse.ArgumentParser) -> None:
+    parser.description = ("Runs an Autolock on a simulated Car that speaks the frames of the profile, on a bus inside "
+                          "this computer. Exit code 0: every change was understood; 3: not; 2: the profile is wrong.")
+    parser.add_argument("profiles", nargs="+", metavar="NAME_OR_PATH", help="profile of a car")
+    parser.add_argument("--databases", type=pathlib.Path, metavar="DIR",
+                        help="folder of the profiles' CAN databases; default: beside the profile, then the folder that "
+                             "MTR_CAR_DATABASES names, as for every command")
+    parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",
+                        help="of the simulated Car's random numbers, default %(default)s")
+
+
 def _add_demo(parser: argparse.ArgumentParser) -> None:
     parser.description = ("Runs a test with usual parameters on a substitute of the robot and a simulated Car, as fast "
                           "as the computer can.")
@@ -128,9 +152,11 @@ def _add_demo(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--limits", type=pathlib.Path, metavar="FILE", help="limits that the lines are judged by, YAML")
     parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",
                         help="of the substitutes' random numbers, default %(default)s")
+    parser.set_defaults(phone_feed=None)
     parser.set_defaults(can_log=None, can_log_format="blf", bundle=False)
     parser.set_defaults(params=None, continued=None, calibration=None, identity=None, laboratory=None,
-                        simulated_robot=True, simulated_car=True)
+                        simulated_robot=True, simulated_car=True, simulated_key_sleep=0.0,
+                        simulated_extender=0.0)
 
 
 def _add_history(parser: argparse.ArgumentParser) -> None:
@@ -217,6 +243,13 @@ def _add_robot(parser: argparse.ArgumentParser) -> None:
     robot.add_argument("--simulated-robot", action="store_true", help="use a substitute inside the application")
     parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",
                         help="of the substitutes' random numbers, default %(default)s")
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
 
 
 def _whole_number(text: str) -> int:

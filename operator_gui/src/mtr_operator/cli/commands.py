@@ -14,6 +14,7 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.verdict.verdict import Verdict
 from mtr_operator.report.parameter_names import parameter_name
 from mtr_operator.station.settings import Settings
+from mtr_operator.storage.parameter_template import write_template
 
 from .arguments import argument_parser
 from .checking import check
@@ -74,8 +75,19 @@ def learn_car(options: argparse.Namespace) -> None:
     learn(options)
 
 
+def try_car(options: argparse.Namespace) -> int:
+    """Try profiles; what speaks on a bus is imported only when it is asked for."""
+    from .cars.trying import try_profiles
+    return try_profiles(options)
+
+
 def list_parameters(options: argparse.Namespace) -> None:
-    """Print a table of a scenario's parameters."""
+    """Print a table of a scenario's parameters, or write them into a file."""
+    if options.write is not None:
+        write_template(options.write, SCENARIOS[options.scenario])
+        print(f"{options.write} has the parameters of {options.scenario} as they are proposed; edit it, then: "
+              f"mtr-operator run {options.scenario} --params {options.write}")
+        return
     rows = [("parameter", "default", "range", "meaning")]
     for name, declared in SCENARIOS[options.scenario].parameters_type.declarations().items():
         default = "-" if declared.default is None else declared.text(declared.default)
@@ -102,4 +114,5 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace], int | None]] = {
     "params": list_parameters, "check": check, "history": list_history, "compare": compare_tests, "plan": plan,
     "demo": run_demo, "run": run_test, "pair": pair, "keys": keys, "learn": learn_car, "replay": replay_test,
     "bundle": bundle_test, "verify": verify_bundles,
+    "try": try_car,
     "doctor": lambda _: EXIT_PASS if doctor() else EXIT_ERROR}

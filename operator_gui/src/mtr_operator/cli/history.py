@@ -29,10 +29,15 @@ def list_history(options: argparse.Namespace) -> None:
     for problem in problems_of(entries):
         print(problem, file=sys.stderr)
     if options.json:
-        print(json.dumps([_document(entry) for entry in found], indent=1, ensure_ascii=False))
+        print(_printable(json.dumps([_document(entry) for entry in found], indent=1, ensure_ascii=False)))
     else:
         for line in _table(found):
-            print(line)
+            print(_printable(line))
+
+
+def _printable(text: str) -> str:
+    """Names of files need not be valid text."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def compare_tests(options: argparse.Namespace) -> None:

@@ -6,13 +6,16 @@ import argparse
 import contextlib
 
 from mtr_operator.domain.actions.control_loop import ControlLoop
+from mtr_operator.domain.actions.event_observer import EventObserver, run_told
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.ports import RobotLink
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import (
     CONTINUED,
     ROBOT_SOFTWARE,
+    SUBSTITUTE,
     now,
     session_record,
     written,
@@ -39,13 +42,10 @@ from .enter import Enter
 from .handle import HandleQuestion
 from .identity import RunIdentity
 from .interrupt import Interrupt
-from .links import car_link, robot_link
+from .links import car_link, lives_in_real_time, phone_feed, robot_link
 from .planning import Outlook
 from .records.evidence import write_for
 from .release import Release
-
-# What results call a robot and a Car inside the application.
-SUBSTITUTE = "substitute"
 
 
 class CommandLineRun:
@@ -66,7 +66,8 @@ class CommandLineRun:
         self._progress = self._begin()
         self._recording = Recording(self._path, options.can_log_format)
         self._car = car_link(options)
-        self._robot = robot_link(options)
+        self._phone = phone_feed(options)
+        self._robot = robot_link(options, is_real_time=lives_in_real_time(options))
 
     def run(self) -> Verdict:
         """Measure what is left and write the report; OperatorError or Cancelled when it does not come to its end."""
@@ -115,26 +116,34 @@ class CommandLineRun:
         for notice in (self._progress.notice, *cautions, *outdated):
             if notice:
                 display.say(notice)
-        with contextlib.closing(self._car) as car, contextlib.closing(self._robot) as robot:
-            for link in (car, robot):
-                link.connect()
+        with contextlib.closing(self._car) as car, contextlib.closing(self._robot) as robot, self._phone_closing():
+            for link in (car, robot, self._phone):
+                if link is not None:
+                    link.connect()
                 if interrupt.requested:
                     raise Cancelled("Interrupted; the robot was not moved.")
             enter = Enter()
-            loop = ControlLoop(robot, car, display, interrupt.is_requested, Release(display.say, enter))
-            loop.course = self._recording.begin(car)
-            loop.person = HandleQuestion(display.say, enter).person
+            events = EventLog()
+            observer = EventObserver(display, events, self._scenario.line_word)
+            loop = ControlLoop(robot, car, observer, interrupt.is_requested, Release(display.say, enter))
+            loop.course, loop.event_log = self._recording.begin(car), events
+            person = HandleQuestion(display.say, enter).person
+            loop.person, loop.switcher, loop.phone = person, person, self._phone
             rejected_before = loop.status.rejected_messages
             self._progress.session[ROBOT_SOFTWARE] = loop.status.software_version
             display.outlook = Outlook(self._scenario, self._parameters, car.facts, self._progress)
             display.say(display.outlook.before(loop.status))
             try:
-                Runner(self._scenario, self._parameters, loop, self._progress, lambda _: store.save(),
-                       journal=store).run()
+                with events.told_to(self._recording.event), run_told(events, self._progress.has_findings):
+                    Runner(self._scenario, self._parameters, loop, self._progress, lambda _: store.save(),
+                           journal=store).run()
             finally:
                 for problem in filter(None, self._recording.end()):
                     display.say(problem)
                 _say_statistics(display, robot, loop.status.rejected_messages - rejected_before)
+
+    def _phone_closing(self) -> contextlib.AbstractContextManager[object]:
+        return contextlib.nullcontext() if self._phone is None else contextlib.closing(self._phone)
 
     def _keep(self, display: Display, store: Store) -> None:
         """After a test that did not come to its end: keep what it has measured."""
@@ -161,6 +170,8 @@ class CommandLineRun:
         summaries = side_summaries(self._scenario, self._parameters, self._progress, judgement)
         for line in side_table(summaries, judgement is not None):
             print(line)
+        for name, text in self._scenario.summary(results):
+            print(f"{name}: {text}")
         for line in verdict_lines(self._scenario, results, assessment.judgement):
             print(line)
         invalid = sum(1 for result in results if result.invalid_count)

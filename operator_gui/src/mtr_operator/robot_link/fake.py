@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import math
 import time
 from typing import Callable
 
@@ -30,6 +31,7 @@ class FakeRobotLink(RobotLink):
         self._session_id = session_id
         self._pause_s = STATUS_PERIOD_S / time_factor if time_factor > 0 else 0.0
         self._sleep = sleep
+        self._due_s = math.nan
         self._connected = False
         self._desired: DesiredState | None = None
         self._command_id = 0
@@ -43,10 +45,16 @@ class FakeRobotLink(RobotLink):
         if not self._connected:
             raise ConnectionFailed("The robot is not connected.")
         if self._pause_s:
-            self._sleep(self._pause_s)
+            self._pause()
         self._robot.step()
         self.statistics.received += 1
         return self._robot.status()
+
+    def _pause(self) -> None:
+        """Until the next Status is due: on the whole its clock goes as fast as the laptop's, however late one is."""
+        now_s = time.monotonic()
+        self._due_s = self._pause_s + (now_s if math.isnan(self._due_s) else self._due_s)
+        self._sleep(min(max(self._due_s - now_s, 0.0), self._pause_s))
 
     def send(self, desired: DesiredState) -> None:
         """See RobotLink."""

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Callable
 
 from mtr_operator.domain.absent_car import AbsentCarLink
-from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter
+from mtr_operator.domain.errors import BusRefused, ConnectionFailed, InvalidParameter
 from mtr_operator.domain.ports import CarLink, RobotLink
 from mtr_operator.domain.results.document import OptionalInt
 from mtr_operator.robot_link.address import PUBLISHER_PORT, SUBSCRIBER_PORT, RobotAddress
 
 if TYPE_CHECKING:
+    from mtr_operator.car_link.adapter import AdapterSettings
     from mtr_operator.car_link.can_frame import CanFrame
     from mtr_operator.car_link.learn.listener import Listener
 
@@ -35,11 +36,23 @@ class RobotChoice:
 
 
 @dataclass(frozen=True)
+class BusChoice:
+    """Adapter on a further bus of the Car, which only listens; bus: its name in the profile. The rest as in
+    CanChoice."""
+
+    bus: str
+    interface: str
+    channel: str = ""
+    bitrate_bps: int = DEFAULT_BITRATE_BPS
+    data_bitrate_bps: OptionalInt = None
+
+
+@dataclass(frozen=True)
 class CanChoice:
     """Adapter on the Car's bus and the profile of the Car; interface as python-can names it, or SIMULATED.
 
     data_bitrate_bps: of CAN FD, None for classic CAN. is_normal: the adapter takes part in the bus; without it sends
-    nothing.
+    nothing. further: adapters on the further buses that the profile declares.
     """
 
     interface: str
@@ -48,6 +61,12 @@ class CanChoice:
     profile: str = DEFAULT_PROFILE
     data_bitrate_bps: OptionalInt = None
     is_normal: bool = False
+    further: tuple[BusChoice, ...] = ()
+
+    @property
+    def places(self) -> tuple[tuple[str, str], ...]:
+        """Interface and channel of each adapter."""
+        return ((self.interface, self.channel), *((each.interface, each.channel) for each in self.further))
 
 
 @dataclass(frozen=True)
@@ -107,7 +126,8 @@ class LinkOpener:
                         heard)
 
     def car(self, choice: CanChoice | None) -> CarLink:
-        """A new link, not connected yet."""
+        """A new link, not connected yet; InvalidParameter, or BusRefused of a further bus, for an adapter that cannot
+        be."""
         if choice is None:
             return AbsentCarLink()
         if choice.interface == SIMULATED:
@@ -115,4 +135,14 @@ class LinkOpener:
             return SimulatedCarLink()
         from mtr_operator.car_link.bus import CanCarLink
         return CanCarLink(choice.interface, choice.channel, choice.bitrate_bps, choice.profile,
-                          is_listening=not choice.is_normal, data_bitrate=choice.data_bitrate_bps)
+                          is_listening=not choice.is_normal, data_bitrate=choice.data_bitrate_bps,
+                          further={each.bus: _adapter(each) for each in choice.further})
+
+
+def _adapter(choice: BusChoice) -> AdapterSettings:
+    from mtr_operator.car_link.adapter import AdapterSettings
+    try:
+        return AdapterSettings(choice.interface, choice.channel, choice.bitrate_bps,
+                               data_bitrate_bps=choice.data_bitrate_bps)
+    except InvalidParameter as error:
+        raise BusRefused(f"Further bus {choice.bus}: {error}", choice.bus) from None

@@ -6,12 +6,13 @@ import enum
 from dataclasses import dataclass
 from typing import Union
 
+from mtr_operator.domain.eventlog.entry import EventEntry
 from mtr_operator.domain.ports import BusTraffic, CarLink, LockFacts, LockState
 from mtr_operator.domain.requests import Waypoint
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import CarDimensions, RobotStatus
 
-from .handle_prompt import HandlePrompt
+from .handle_prompt import Prompt
 
 
 @dataclass(frozen=True)
@@ -45,10 +46,11 @@ class LinksOpened:
 
 @dataclass(frozen=True)
 class LinkRefused:
-    """A link could not be opened. part: "address", "robot" or "car"."""
+    """A link could not be opened. part: "address", "robot" or "car". bus: the Car's further bus for which it failed."""
 
     part: str
     text: str
+    bus: str = ""
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,14 @@ class RobotSilent:
     """Nothing has come from the robot for so long in wall time."""
 
     silent_s: float
+
+
+@dataclass(frozen=True)
+class StandstillSeen:
+    """The application did not run for a while between two tests: the laptop slept, or it was stopped. text: a sentence
+    that says for how long."""
+
+    text: str
 
 
 @dataclass(frozen=True)
@@ -115,11 +125,18 @@ class ProgressSaved:
 
 
 @dataclass(frozen=True)
-class HandleWanted:
-    """A person has to take the Car's handle; prompt: None when nobody need do so any more."""
+class PersonWanted:
+    """A person has to take the Car's handle or to switch the extender; prompt: None when nobody need do so any more."""
 
-    prompt: HandlePrompt | None
+    prompt: Prompt | None
 
 
-StationEvent = Union[LinksOpened, LinkRefused, CarLinkOpened, RobotSilent, LinesPlanned, ActionBegun, LineMeasured,
-                     RunEnded, ProgressSaved, HandleWanted]
+@dataclass(frozen=True)
+class EventLogged:
+    """The event list has grown by this."""
+
+    entry: EventEntry
+
+
+StationEvent = Union[LinksOpened, LinkRefused, CarLinkOpened, RobotSilent, StandstillSeen, LinesPlanned, ActionBegun,
+                     LineMeasured, RunEnded, ProgressSaved, PersonWanted, EventLogged]

@@ -1,11 +1,11 @@
-"""A person who takes the Car's handle when asked, and says so."""
+"""A person who takes the Car's handle, or switches an extender, when asked, and says so."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Callable
+from typing import Callable, Union
 
-from mtr_operator.domain.ports import OPERATOR, HandlePort
+from mtr_operator.domain.assistance import OPERATOR, ExtenderPort, HandlePort
 
 
 @dataclass(frozen=True)
@@ -15,34 +15,66 @@ class HandlePrompt:
     number: int
     distance_m: float
 
+    @property
+    def done(self) -> str:
+        """What was done, for the event list."""
+        return "The handle was taken."
 
-class AskedPerson(HandlePort):
-    """show: shows a prompt, or with None takes it away; called in the thread of the test. answer() may be called in
-    another one."""
+
+@dataclass(frozen=True)
+class ExtenderPrompt:
+    """What a person is asked: number counts from 1, handles and extenders together; how the extender shall be."""
+
+    number: int
+    is_on: bool
+
+    @property
+    def done(self) -> str:
+        """What was done, for the event list."""
+        return "The extender was switched on." if self.is_on else "The extender was switched off."
+
+
+Prompt = Union[HandlePrompt, ExtenderPrompt]
+
+
+class AskedPerson(HandlePort, ExtenderPort):
+    """One question at a time. show: shows a prompt, or with None takes it away; called in the thread of the test.
+    answer() may be called in another one."""
 
     by = OPERATOR
 
-    def __init__(self, show: Callable[[HandlePrompt | None], None]):
+    def __init__(self, show: Callable[[Prompt | None], None]):
         self._show = show
         self._number = self._answered = 0
         self._is_shown = False
 
     def request(self, distance_m: float) -> None:
         """See HandlePort."""
-        self._number += 1
+        self._ask(HandlePrompt(self._number + 1, distance_m))
+
+    def switch(self, is_on: bool) -> None:
+        """See ExtenderPort."""
+        self._ask(ExtenderPrompt(self._number + 1, is_on))
+
+    def _ask(self, prompt: Prompt) -> None:
+        self._number = prompt.number
         self._is_shown = True
-        self._show(HandlePrompt(self._number, distance_m))
+        self._show(prompt)
 
     def is_taken(self) -> bool:
         """See HandlePort."""
         return self._is_shown and self._answered == self._number
 
+    def is_switched(self) -> bool:
+        """See ExtenderPort."""
+        return self.is_taken()
+
     def release(self) -> None:
-        """See HandlePort."""
+        """See HandlePort and ExtenderPort."""
         if self._is_shown:
             self._is_shown = False
             self._show(None)
 
     def answer(self, number: int) -> None:
-        """The person has taken the handle for the prompt of this number; for another one it says nothing."""
+        """The person has done it for the prompt of this number; for another one it says nothing."""
         self._answered = number

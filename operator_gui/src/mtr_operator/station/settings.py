@@ -13,7 +13,7 @@ from mtr_operator.domain.identity.identity_document import identity_from
 from mtr_operator.domain.results.document import read_record
 from mtr_operator.storage.given_files import GivenPaths
 
-from .connection import CanChoice, Connection, RobotChoice
+from .connection import BusChoice, CanChoice, Connection, RobotChoice
 
 FORMAT = "mtr-operator settings"
 VERSION = 1
@@ -23,7 +23,7 @@ REMEMBERED_CARS = 100
 _LARGEST = 1e12
 # Letters of a word to choose.
 _LONGEST = 100
-THEMES = ("system", "light", "dark")
+THEMES = ("system", "light", "dark", "contrast")
 LANGUAGES = ("system", "en", "cs")
 
 
@@ -41,7 +41,7 @@ class Settings:
         parameters: last used ones by scenario, as in a parameter file.
         limits: last used limits files by scenario. calibration: record of the robot, None for that of the design.
         unfinished: progress file of a test that has not come to its end.
-        has_sounds: the application beeps where the Operator has to hear something.
+        has_sounds: the application beeps where the Operator has to hear something. speaks: it says what that is.
         identity: of the test before, as far as the next one may have it in common. identity_day: when it was typed.
         cars: that were measured with their VIN, and their keys, newest first.
     """
@@ -60,6 +60,7 @@ class Settings:
     identity: Identity = NOBODY
     identity_day: str = ""
     cars: tuple[Identity, ...] = ()
+    speaks: bool = False
 
     def with_car(self, identity: Identity) -> Settings:
         """Settings that remember a car and its key by the car's VIN; nothing without one."""
@@ -111,8 +112,7 @@ def settings_from_document(document: Any) -> Settings:
         connection = document["connection"]
         can = connection["can"]
         return Settings(
-            Connection(read_record(RobotChoice, connection["robot"]),
-                       None if can is None else read_record(CanChoice, can)),
+            Connection(read_record(RobotChoice, connection["robot"]), None if can is None else _can(can)),
             tuple(str(host) for host in document["hosts"])[:REMEMBERED_HOSTS],
             _one_of(THEMES, document["theme"]), _one_of(LANGUAGES, document["language"]),
             _path(document["result_folder"]), _path(document["progress_folder"]),
@@ -122,9 +122,17 @@ def settings_from_document(document: Any) -> Settings:
             {str(name): _path(path) for name, path in document.get("limits", {}).items()},
             _path_or_none(document.get("calibration")), _flag(document.get("has_sounds", True)),
             identity_from(document.get("identity", {})), _text(document.get("identity_day", "")),
-            tuple(identity_from(car).of_its_car() for car in document.get("cars", ()))[:REMEMBERED_CARS])
+            tuple(identity_from(car).of_its_car() for car in document.get("cars", ()))[:REMEMBERED_CARS],
+            _flag(document.get("speaks", False)))
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError, InvalidIdentity):
         raise NotSettings("They are damaged.") from None
+
+
+def _can(document: Any) -> CanChoice:
+    first = {name: value for name, value in document.items() if name != "further"}
+    # An earlier version knew one bus.
+    further = tuple(read_record(BusChoice, each) for each in document.get("further", ()))
+    return dataclasses.replace(read_record(CanChoice, first), further=further)
 
 
 def _path(text: Any) -> pathlib.Path:

@@ -13,7 +13,7 @@ from typing import Iterator
 from mtr_operator.domain.identity.identity import Identity, Photo
 from mtr_operator.domain.results.journal import IDENTITY
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.results.session_record import ANNOTATED, CONTINUED, now, session_record, written
+from mtr_operator.domain.results.session_record import ANNOTATED, CONTINUED, SUBSTITUTE, now, session_record, written
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.scenarios import SCENARIOS
@@ -160,7 +160,7 @@ def profile_name(can: CanChoice | None) -> str:
     """What results call the Car's profile."""
     if can is None:
         return ""
-    return "substitute" if can.interface == SIMULATED else can.profile
+    return SUBSTITUTE if can.interface == SIMULATED else can.profile
 
 
 def open_test(path: pathlib.Path) -> Test:

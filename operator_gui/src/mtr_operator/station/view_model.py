@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import time
 from typing import Callable
 
+from mtr_operator.domain.actions.standstill import since_boot_s
 from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.eventlog.event_list import EventList
 from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.ports import LockFacts, LockState
 from mtr_operator.domain.prospect import Prospect
@@ -21,16 +22,18 @@ from .checks.finding import Item
 from .estimate import USUAL_CAR, USUAL_FACTS, TimeLeft, plan_of
 from .events import (
     ActionBegun,
-    HandleWanted,
+    EventLogged,
     LineMeasured,
     LinesPlanned,
     Outcome,
+    PersonWanted,
     RobotSilent,
     RobotSnapshot,
     RunEnded,
+    StandstillSeen,
     StationEvent,
 )
-from .handle_prompt import HandlePrompt
+from .handle_prompt import Prompt
 from .mailbox import Batch
 from .motion import Motion
 from .readiness import RUNNING, Phase, Readiness, ReadinessWord, readiness_of
@@ -57,13 +60,15 @@ class ViewModel:
         action: what the robot does now. trouble: why the test was interrupted; empty when the Operator did it.
         outcome: how measuring ended last, None while it has not.
         judgement: of the lines measured so far, None without limits.
-        handle: what the Operator is asked to do at the Car's handle, None when nothing.
+        prompt: what the Operator is asked to do at the Car's handle or with the extender, None when nothing.
         motion: what was ordered between two tests.
         view: what the robot sees, None while it does not say. obstacles: where something stands around the Car.
+        events: what has happened since the start.
         wanted: the test that is about to begin. free_bytes: room on the disk of the results, None when not known.
     """
 
-    def __init__(self, clock: Callable[[], float] = time.monotonic):
+    def __init__(self, clock: Callable[[], float] = since_boot_s):
+        """clock: wall time in s, which goes on while the laptop sleeps: what was new before is old then."""
         self._clock = clock
         self._received_s = clock()
         self._time_left = TimeLeft(())
@@ -78,10 +83,11 @@ class ViewModel:
         self.action = self.trouble = ""
         self.outcome: Outcome | None = None
         self.judgement: TestJudgement | None = None
-        self.handle: HandlePrompt | None = None
+        self.prompt: Prompt | None = None
         self.motion = Motion()
         self.view: View | None = None
         self.obstacles = ObstacleMap()
+        self.events = EventList()
         self.wanted = Wanted()
         self.free_bytes: int | None = None
         self._answered_s: float | None = None
@@ -232,8 +238,12 @@ class ViewModel:
             self.motion.stop()
             self.phase = Phase.FINISHED if event.outcome is Outcome.COMPLETE else Phase.PAUSED
             self._judge()
-        elif isinstance(event, HandleWanted):
-            self.handle = event.prompt
+        elif isinstance(event, StandstillSeen):
+            self.motion.stop()
+        elif isinstance(event, PersonWanted):
+            self.prompt = event.prompt
+        elif isinstance(event, EventLogged):
+            self.events.add(event.entry)
         elif isinstance(event, RobotSilent):
             self._received_s = min(self._received_s, self._clock() - event.silent_s)
 

@@ -8,6 +8,7 @@ import sys
 
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.results.session_record import CAR_PROFILE
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.verdict.assessment import Assessment
@@ -15,8 +16,6 @@ from mtr_operator.report.assessed import assess
 from mtr_operator.storage.progress_file import FILE_NAME, open_progress
 
 from ..exit_codes import EXIT_CHANGED, EXIT_PASS
-
-_PROFILE = "car profile"
 
 
 def bundle_test(options: argparse.Namespace) -> None:
@@ -32,11 +31,23 @@ def write_for(path: pathlib.Path, scenario: AnyScenario, progress: Progress, ass
               target: pathlib.Path | None = None) -> str:
     """Write the bundle of a test; what is said of it."""
     # Needs a package of its own, which no other command needs.
-    from mtr_operator.evidence.bundle import bundle_path, write_bundle
-    place = target or bundle_path(path)
-    manifest = write_bundle(place, path, scenario, progress, assessment, profile=progress.session.get(_PROFILE, ""))
-    return (f"bundle {manifest.number} of {manifest.station} with {len(manifest.files)} files is in {place}; its key "
-            f"is {manifest.key}")
+    from mtr_operator.evidence.bundle import BundleWatch, bundle_path, write_bundle
+
+    class Missing(BundleWatch):
+        """Keeps a line for each file that is left out."""
+
+        def __init__(self) -> None:
+            self.lines: list[str] = []
+
+        def left_out(self, name: str, reason: str) -> None:
+            """See BundleWatch."""
+            self.lines.append(f"without {name}: {reason}")
+
+    place, missing = target or bundle_path(path), Missing()
+    manifest = write_bundle(place, path, scenario, progress, assessment, profile=progress.session.get(CAR_PROFILE, ""),
+                            watch=missing)
+    return "\n".join([f"bundle {manifest.number} of {manifest.station} with {len(manifest.files)} files is in {place}; "
+                      f"its key is {manifest.key}", *missing.lines])
 
 
 def verify_bundles(options: argparse.Namespace) -> int:

@@ -7,6 +7,7 @@ import random
 from dataclasses import dataclass
 
 from mtr_operator import __version__
+from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.requests import DesiredState, Waypoint
 from mtr_operator.domain.robot_status import CarDimensions, CarFrame, EmergencyStop, Mode, RobotStatus, WaypointResult
 
@@ -20,15 +21,17 @@ _START_DISTANCE_M = 4.0
 _TURN_RATE_RADPS = 1.0
 _DEFAULT_SPEED_MPS = 0.5
 _MAX_SPEED_MPS = 2.0
-_POSITION_SIGMA_M = 0.02
-_HEADING_SIGMA_RAD = 0.005
 # Half diagonal of the robot's footprint (0.51 m x 0.43 m).
 _ROBOT_RADIUS_M = 0.34
 
 
 @dataclass(frozen=True)
 class VirtualWorld:
-    """The Car, how long the robot takes to start and to map it, and how far it finds it moved when it checks."""
+    """The Car, how long the robot takes to start and to map it, and how far it finds it moved when it checks.
+
+    position_sigma_m, heading_sigma_rad, car_sigma_m: 1 sigma that it tells, of its pose and of the Car's length and
+    width.
+    """
 
     car_length_m: float = 4.5
     car_width_m: float = 1.8
@@ -36,6 +39,9 @@ class VirtualWorld:
     starting_s: float = 0.5
     mapping_s: float = 3.0
     check_difference_m: float = 0.002
+    position_sigma_m: float = 0.02
+    heading_sigma_rad: float = 0.005
+    car_sigma_m: float = 0.01
 
 
 DEFAULT_WORLD = VirtualWorld()
@@ -48,6 +54,7 @@ class VirtualRobot:
         chance = random.Random(seed)
         bearing = chance.uniform(-math.pi, math.pi)
         self._world = world
+        self._car = CarDimensions(world.car_length_m, world.car_width_m, world.car_sigma_m, world.car_sigma_m)
         self._box = Box(world.car_length_m / 2 + _ROBOT_RADIUS_M, world.car_width_m / 2 + _ROBOT_RADIUS_M)
         self._robot_session_id = chance.randrange(1, 2 ** 63)
         self._session_id = 0
@@ -70,6 +77,22 @@ class VirtualRobot:
     def time_s(self) -> float:
         """Virtual clock."""
         return self._time_s
+
+    @property
+    def pose(self) -> Pose:
+        """Of base_link in the Car's frame, m and rad."""
+        return Pose(*self._here, self._heading)
+
+    @property
+    def key_height_m(self) -> float:
+        """Above ground."""
+        return self._key.height_m
+
+    @property
+    def is_driving(self) -> bool:
+        """It is on the way to a waypoint."""
+        return (self._result is WaypointResult.PENDING and not self._desired.stop
+                and self._desired.waypoint is not None)
 
     def take(self, session_id: int, command_id: int, desired: DesiredState) -> None:
         """Follow this desired state from now on. A new session forgets the ids of the old one."""
@@ -130,12 +153,12 @@ class VirtualRobot:
             id=self._status_id, robot_session_id=self._robot_session_id, stamp_s=stamp_s, sent_s=stamp_s,
             steady_s=stamp_s, emergency_stop=EmergencyStop.RELEASED,
             x=self._here[0], y=self._here[1], heading=self._heading, speed_mps=self._speed_mps,
-            yaw_rate_radps=self._yaw_rate_radps, pose_valid=mapped, position_sigma_m=_POSITION_SIGMA_M,
-            heading_sigma_rad=_HEADING_SIGMA_RAD, key_x=world.key_x_m, key_y=0.0, key_height_m=self._key.height_m,
+            yaw_rate_radps=self._yaw_rate_radps, pose_valid=mapped, position_sigma_m=world.position_sigma_m,
+            heading_sigma_rad=world.heading_sigma_rad, key_x=world.key_x_m, key_y=0.0, key_height_m=self._key.height_m,
             pressed_buttons=self._key.pressed_buttons(self._time_s),
-            localization_accuracy_cm=round(_POSITION_SIGMA_M * 100), battery_percent=80,
+            localization_accuracy_cm=round(world.position_sigma_m * 100), battery_percent=80,
             is_mapping_car=self._mode() is Mode.MAPPING_CAR, mode=self._mode(),
-            car=CarDimensions(world.car_length_m, world.car_width_m, 0.01, 0.01) if mapped else None,
+            car=self._car if mapped else None,
             car_frame=CarFrame(revision=1) if mapped else CarFrame(), car_check=self._check.report,
             session_id=self._session_id, command_id=self._command_id,
             waypoint_id=self._waypoint.id if self._waypoint else 0, waypoint_result=self._result,

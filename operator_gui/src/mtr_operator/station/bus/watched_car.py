@@ -5,17 +5,9 @@ from __future__ import annotations
 import pathlib
 from typing import Mapping, Sequence
 
-from mtr_operator.domain.ports import (
-    BusMark,
-    BusMessages,
-    BusTraffic,
-    CarEvent,
-    CarLink,
-    HandlePort,
-    LockFacts,
-    LockState,
-    Refused,
-)
+from mtr_operator.domain.assistance import ExtenderPort, HandlePort
+from mtr_operator.domain.distance_feed import DistanceFeed
+from mtr_operator.domain.ports import BusMark, BusMessages, BusTraffic, CarEvent, CarLink, LockFacts, LockState, Refused
 from mtr_operator.domain.robot_status import RobotStatus
 
 from .time_line import TimeLine
@@ -52,6 +44,16 @@ class WatchedCarLink(CarLink):
     def handle(self) -> HandlePort | None:
         """See CarLink."""
         return self._link.handle
+
+    @property
+    def extender(self) -> ExtenderPort | None:
+        """See CarLink."""
+        return self._link.extender
+
+    @property
+    def distance_feed(self) -> DistanceFeed | None:
+        """See CarLink."""
+        return self._link.distance_feed
 
     @property
     def traffic(self) -> BusTraffic | None:

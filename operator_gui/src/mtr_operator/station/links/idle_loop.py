@@ -6,6 +6,7 @@ import enum
 from dataclasses import dataclass, replace
 from typing import Callable
 
+from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.requests import DesiredState, Press
 from mtr_operator.domain.robot_status import RobotStatus
@@ -38,8 +39,10 @@ class CalibrationRequest:
 class IdleLoop:
     """One Status, one answer; without a request the answer asks for nothing."""
 
-    def __init__(self, robot: WatchedRobotLink, car: CarLink, resumed_hold: Callable[[int], int] = lambda _: 0):
+    def __init__(self, robot: WatchedRobotLink, car: CarLink, resumed_hold: Callable[[int], int] = lambda _: 0,
+                 event_log: EventLog | None = None):
         self._robot = robot
+        self._event_log = event_log or EventLog()
         self._resumed_hold = resumed_hold
         self._car = car
         self._desired = DesiredState()
@@ -81,7 +84,7 @@ class IdleLoop:
                 self._robot.send(self._desired)
             return None
         self._has_status, self.silent_s = True, 0.0
-        self._car.observe(status)
+        self._event_log.learn(status, self._car.observe(status), self._car.problem)
         self._forget_done_press(status)
         self._desired = replace(self._desired, resume_hold_id=self._resumed_hold(status.hold_id))
         self._robot.send(self._desired)

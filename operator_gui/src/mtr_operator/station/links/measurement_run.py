@@ -8,9 +8,13 @@ from dataclasses import dataclass
 from typing import Callable
 
 from mtr_operator.domain.actions.control_loop import ControlLoop
+from mtr_operator.domain.actions.event_observer import EventObserver, run_told
+from mtr_operator.domain.actions.standstill import Standstill
 from mtr_operator.domain.actions.trouble import Cancelled
+from mtr_operator.domain.assistance import ExtenderPort, HandlePort
 from mtr_operator.domain.errors import OperatorError, OutputError
-from mtr_operator.domain.ports import CarLink, HandlePort
+from mtr_operator.domain.eventlog.event_log import EventLog
+from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.results.session_record import ROBOT_SOFTWARE
 from mtr_operator.domain.runner import Runner
 from mtr_operator.storage.recorded.recording import Recording
@@ -27,11 +31,13 @@ from .watched_link import WatchedRobotLink
 class Answers:
     """What the Operator says during a test.
 
-    resumed_hold: see ControlLoop. person: who takes the Car's handle, None when nobody is there.
+    resumed_hold: see ControlLoop. person: who takes the Car's handle, switcher: who
+    switches an extender; None when nobody is there.
     """
 
     resumed_hold: Callable[[int], int] = lambda _: 0
     person: HandlePort | None = None
+    switcher: ExtenderPort | None = None
 
 
 NO_ANSWERS = Answers()
@@ -41,12 +47,16 @@ class MeasurementRun:
     """Measures what is left of a test with the runner of the command line."""
 
     def __init__(self, test: Test, new_robot: Callable[[], WatchedRobotLink], car: CarLink, mailbox: Mailbox,
-                 answers: Answers = NO_ANSWERS):
+                 answers: Answers = NO_ANSWERS, *, event_log: EventLog | None = None,
+                 standstill: Standstill | None = None):
+        """standstill: notices that the laptop slept; None for the loop's own."""
         self._test = test
         self._new_robot = new_robot
         self._car = car
         self._mailbox = mailbox
         self._answers = answers
+        self._event_log = event_log or EventLog()
+        self._standstill = standstill
 
     def run(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> RunEnded:
         """Measure; never raises, for what is measured has to be reported in any case."""
@@ -83,17 +93,21 @@ class MeasurementRun:
 
     def _measure(self, store: Store, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> None:
         test = self._test
+        recording = Recording(test.path)
         with contextlib.closing(self._new_robot()) as robot:
             robot.connect()
             reporter = Reporter(self._mailbox, robot, self._car, test.progress, after_status)
-            loop = ControlLoop(robot, self._car, reporter, is_cancelled, self._answers.resumed_hold)
-            loop.person = self._answers.person
-            recording = Recording(test.path)
-            loop.course = recording.begin(self._car)
-            test.progress.session[ROBOT_SOFTWARE] = loop.status.software_version
+            observer = EventObserver(reporter, self._event_log, test.scenario.line_word)
+            loop = ControlLoop(robot, self._car, observer, is_cancelled, self._answers.resumed_hold)
+            loop.person, loop.switcher = self._answers.person, self._answers.switcher
+            loop.event_log = self._event_log
+            loop.standstill = self._standstill or loop.standstill
             try:
-                Runner(test.scenario, test.parameters, loop, test.progress, lambda _: test.save(), journal=store,
-                       again=test.again).run()
+                loop.course = recording.begin(self._car)
+                with self._event_log.told_to(recording.event), run_told(self._event_log, test.progress.has_findings):
+                    test.progress.session[ROBOT_SOFTWARE] = loop.status.software_version
+                    Runner(test.scenario, test.parameters, loop, test.progress, lambda _: test.save(), journal=store,
+                           again=test.again).run()
             finally:
                 self._end(recording)
             test.again = ()

@@ -9,15 +9,29 @@ import threading
 from typing import Callable
 
 from mtr_operator.domain.absent_car import AbsentCarLink
-from mtr_operator.domain.errors import InvalidParameter, OperatorError
+from mtr_operator.domain.actions.control_loop import SILENCE_LIMIT_S
+from mtr_operator.domain.actions.standstill import Standstill
+from mtr_operator.domain.errors import BusRefused, InvalidParameter, OperatorError
+from mtr_operator.domain.eventlog.entry import ERROR, INFO, WARNING, EventKind
+from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.ports import CarLink
+from mtr_operator.domain.results.session_record import now
 
 from ..bus.bus_view import BusView
 from ..bus.time_line import TimeLine
 from ..bus.watched_car import WatchedCarLink
 from ..connection import CanChoice, Connection, LinkOpener
-from ..events import CarLinkOpened, HandleWanted, LinkRefused, LinksOpened, ProgressSaved, RobotSilent
-from ..handle_prompt import AskedPerson
+from ..events import (
+    CarLinkOpened,
+    EventLogged,
+    LinkRefused,
+    LinksOpened,
+    PersonWanted,
+    ProgressSaved,
+    RobotSilent,
+    StandstillSeen,
+)
+from ..handle_prompt import AskedPerson, Prompt
 from ..mailbox import Mailbox
 from ..test import Test
 from .idle_loop import CalibrationRequest, CarRequest, IdleLoop
@@ -34,17 +48,23 @@ SILENCE_SHOWN_S = 1.0
 class Worker:
     """Everything that waits for robot or Car happens in its thread; requests are taken between two Statuses."""
 
-    def __init__(self, connection: Connection, opener: LinkOpener, mailbox: Mailbox):
+    def __init__(self, connection: Connection, opener: LinkOpener, mailbox: Mailbox,
+                 new_standstill: Callable[[], Standstill] = lambda: Standstill(SILENCE_LIMIT_S)):
+        """new_standstill: makes what notices that the laptop slept, for each run and for the time between them."""
+        self._new_standstill = new_standstill
+        self._standstill = new_standstill()
         self._connection = connection
         self._opener = opener
         self._mailbox = mailbox
+        self._event_log = EventLog()
+        self._event_log.listen(lambda entry: mailbox.put(EventLogged(entry)))
         self._requests: queue.Queue[Callable[[], None]] = queue.Queue()
         # Short ones, which a running test does not put off.
         self._short_requests: queue.Queue[Callable[[], None]] = queue.Queue()
         self._closing = threading.Event()
         self._stop = StopOrder()
         self._released_hold = 0
-        self._person = AskedPerson(lambda prompt: self._mailbox.put(HandleWanted(prompt)))
+        self._person = AskedPerson(lambda prompt: self._mailbox.put(PersonWanted(prompt)))
         self._thread = threading.Thread(target=self._run, name="links", daemon=True)
         self._robot: WatchedRobotLink | None = None
         self._time_line = TimeLine()
@@ -73,14 +93,17 @@ class Worker:
         measured is kept; what was ordered before and not begun yet is not begun."""
         self._stop.give()
         self._requests.put(lambda: self._idle.request_car(CarRequest.STOP) if self._idle else None)
+        self.note("Stop.")
 
     def release_hold(self, hold_id: int) -> None:
         """Have the robot go on that is held under this id."""
         self._released_hold = hold_id
+        self.note("Go on.")
 
-    def answer_handle(self, number: int) -> None:
-        """The Car's handle was taken, for the prompt of this number."""
-        self._person.answer(number)
+    def answer(self, prompt: Prompt) -> None:
+        """A person has done what this prompt asks for."""
+        self._person.answer(prompt.number)
+        self.note(prompt.done)
 
     def save(self, test: Test) -> None:
         """Write a test's progress; Saved comes into the mailbox."""
@@ -96,6 +119,12 @@ class Worker:
             self.stop()
         else:
             self._order(lambda idle: idle.request_car(request))
+            self.note("Map the Car." if request is CarRequest.MAP else "Check where the Car stands.")
+
+    def note(self, text: str, kind: EventKind = EventKind.OPERATOR) -> None:
+        """Add to the event list what the Operator does, or a fault of the application."""
+        time, severity = now(), INFO if kind is EventKind.OPERATOR else ERROR
+        self._short_requests.put(lambda: self._event_log.add(kind, text, severity, time))
 
     def bus_view(self) -> BusView:
         """What comes over the Car's bus now, and what its locks did."""
@@ -136,6 +165,7 @@ class Worker:
                 self._short_requests.get_nowait()()
 
     def _turn(self) -> None:
+        self._look_for_standstill()
         self._run_short_requests()
         with contextlib.suppress(queue.Empty):
             self._requests.get_nowait()()
@@ -145,10 +175,21 @@ class Worker:
             self._closing.wait(RETRY_S)
             return
         snapshot = idle.step()
+        self._look_for_standstill()
         if snapshot is not None:
             self._mailbox.put_robot(snapshot)
         elif idle.silent_s >= SILENCE_SHOWN_S:
             self._mailbox.put(RobotSilent(idle.silent_s))
+            self._event_log.silent()
+
+    def _look_for_standstill(self) -> None:
+        """The robot does not go on with what it was ordered to before the laptop slept."""
+        said = self._standstill.look()
+        if said:
+            if self._idle is not None:
+                self._idle.request_car(CarRequest.STOP)
+            self._event_log.add(EventKind.FAULT, said, WARNING)
+            self._mailbox.put(StandstillSeen(said))
 
     def _open(self) -> bool:
         part = "car"
@@ -163,9 +204,9 @@ class Worker:
             self._mailbox.put(LinkRefused("address" if part == "robot" else part, str(error)))
             return False
         except OperatorError as error:
-            self._mailbox.put(LinkRefused(part, str(error)))
+            self._mailbox.put(LinkRefused(part, str(error), _bus_of(error)))
             return False
-        self._idle = IdleLoop(self._robot, self._car, self._released)
+        self._idle = IdleLoop(self._robot, self._car, self._released, self._event_log)
         return True
 
     def _watched(self, choice: CanChoice | None) -> CarLink:
@@ -182,7 +223,7 @@ class Worker:
         except OperatorError:
             self._mailbox.put(RobotSilent(SILENCE_SHOWN_S))
             return None
-        self._robot, self._idle = robot, IdleLoop(robot, self._car, self._released)
+        self._robot, self._idle = robot, IdleLoop(robot, self._car, self._released, self._event_log)
         return self._idle
 
     def _change_car(self, choice: CanChoice | None) -> None:
@@ -193,7 +234,8 @@ class Worker:
             car = self._watched(choice)
             car.connect()
         except OperatorError as error:
-            self._mailbox.put(LinkRefused("car", str(error)))
+            self._mailbox.put(LinkRefused("car", str(error), _bus_of(error)))
+            self._event_log.add(EventKind.FAULT, str(error), ERROR)
         else:
             self._car = car
             self._mailbox.put(CarLinkOpened())
@@ -213,8 +255,11 @@ class Worker:
         # A stop that came meanwhile stays in force, and ends the run at its first Status.
         self._stop.lift(ticket)
         run = MeasurementRun(test, self._new_robot, self._car, self._mailbox,
-                             Answers(self._released, self._person))
+                             Answers(self._released, self._person, self._person), event_log=self._event_log,
+                             standstill=self._new_standstill())
         self._mailbox.put(run.run(lambda: self._stop.is_in_force, self._run_short_requests))
+        # What happened during the run was told there.
+        self._standstill = self._new_standstill()
 
     def _released(self, _hold_id: int) -> int:
         return self._released_hold
@@ -227,3 +272,7 @@ class Worker:
     def _close_links(self) -> None:
         self._close_robot()
         self._car.close()
+
+
+def _bus_of(error: OperatorError) -> str:
+    return error.bus if isinstance(error, BusRefused) else ""

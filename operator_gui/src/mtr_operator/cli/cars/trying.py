@@ -1,0 +1,94 @@
+"""The command that tries a profile: an Autolock of a simulated Car that speaks the profile's frames."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import argparse
+import math
+import pathlib
+import sys
+from dataclasses import dataclass
+from typing import Sequence
+
+from mtr_operator.domain.actions.control_loop import ControlLoop
+from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.ports import CarEvent
+from mtr_operator.domain.results.line_result import LineResult
+from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.runner import Runner
+from mtr_operator.domain.scenarios import SCENARIOS
+
+from ..exit_codes import EXIT_CHANGED, EXIT_ERROR, EXIT_PASS
+
+_SCENARIO = "autolock"
+_PARAMETERS = {"passes": 1, "measurements_distance_m": 5.0, "self_check": False, "maximum_distance_m": 3.5}
+_MS_PER_S = 1000.0
+
+
+@dataclass(frozen=True)
+class Tried:
+    """An Autolock. sent: changes on the bus, heard: those that were understood. worst_s: largest difference of their
+    times."""
+
+    results: Sequence[LineResult]
+    sent: int
+    heard: int
+    worst_s: float
+    cycle_s: float
+
+    @property
+    def invalid(self) -> Sequence[LineResult]:
+        """Lines that could not be measured."""
+        return [result for result in self.results if result.invalid_count]
+
+    @property
+    def is_good(self) -> bool:
+        """Every change was understood, within a cycle of its message, and every line measured."""
+        return bool(self.results) and not self.invalid and self.heard == self.sent and self.worst_s <= self.cycle_s
+
+
+def try_profiles(options: argparse.Namespace) -> int:
+    """Try each; the exit code."""
+    code = EXIT_PASS
+    for profile in options.profiles:
+        try:
+            tried = try_profile(profile, options.databases, options.seed)
+        except OperatorError as error:
+            print(f"{profile}: {error}", file=sys.stderr)
+            code = EXIT_ERROR
+            continue
+        for result in tried.invalid:
+            print(f"{profile}: {result.place} is invalid: {result.reason}", file=sys.stderr)
+        print(f"{profile}: {tried.heard} of {tried.sent} changes understood, {_MS_PER_S * tried.worst_s:.1f} ms off at "
+              f"most, cycle {_MS_PER_S * tried.cycle_s:g} ms; {len(tried.results) - len(tried.invalid)} of "
+              f"{len(tried.results)} axes measured")
+        code = code if tried.is_good else max(code, EXIT_CHANGED)
+    return code
+
+
+def try_profile(profile: str, databases: pathlib.Path | None = None, seed: int = 1) -> Tried:
+    """An Autolock; OperatorError when the profile is wrong."""
+    # What speaks on a bus is imported only when it is asked for.
+    from mtr_operator.car_link.spoken_car import SpokenCar
+    from mtr_operator.robot_link.fake import FakeRobotLink
+    scenario = SCENARIOS[_SCENARIO]
+    kind = scenario.parameters_type
+    parameters = kind.from_mapping({**kind.proposed(), **_PARAMETERS})
+    progress = Progress(_SCENARIO, parameters.to_mapping())
+    spoken = SpokenCar(FakeRobotLink(seed), f"try {profile}", seed, profile, databases)
+    try:
+        spoken.connect()
+        spoken.car.connect()
+        loop = ControlLoop(spoken, spoken.car)
+        Runner(scenario, parameters, loop, progress, lambda _: None).run()
+    finally:
+        spoken.car.close()
+        spoken.close()
+    heard = [event for event in loop.events if not event.doubt]
+    return Tried(progress.results, len(spoken.told), len(loop.events), _worst_s(spoken.told, heard),
+                 spoken.cycle_s)
+
+
+def _worst_s(sent: Sequence[CarEvent], heard: Sequence[CarEvent]) -> float:
+    differences = [abs(one.time_s - other.time_s) if one.lock_state is other.lock_state else math.inf
+                   for one, other in zip(sent, heard)]
+    return max(differences, default=math.inf)
