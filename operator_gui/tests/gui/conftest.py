@@ -51,6 +51,10 @@ class KeyCar(CarLink):
             wanted = LockState.UNLOCKED
         elif self._opener.passive and gap_m > LOCK_M:
             wanted = LockState.LOCKED
+        if self._opener.handle_taken.is_set():
+            # Once: a Car that went on to unlock by itself would unlock after it was locked again, too.
+            self._opener.handle_taken.clear()
+            wanted = LockState.UNLOCKED
         for press in status.presses:
             if press.start_s > self._answered:
                 self._answered = press.start_s
@@ -101,12 +105,14 @@ class FakeOpener(LinkOpener):
     Attributes:
         robot_refusal, car_refusal: why a link cannot be opened. is_silent: the robot says nothing any more.
         car_problem: sentence of the Car's bus. spoil: changes a Status. passive: the Car reacts to the key's vicinity.
+        handle_taken: set when a person takes the Car's handle, once; the Car unlocks and clears it.
         sent: desired states. connecting: while it is clear, connecting takes time.
     """
 
     def __init__(self):
         self.robot_refusal = self.car_refusal = self.car_problem = ""
         self.is_silent = self.passive = False
+        self.handle_taken = threading.Event()
         self.spoil = lambda status: status
         self.sent = []
         self.connecting = threading.Event()

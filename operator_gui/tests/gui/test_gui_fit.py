@@ -32,6 +32,18 @@ def test_choices_and_parameters_fit__B5(application, main, monkeypatch, name):
     assert_fits(main, monkeypatch, WANTED)
 
 
+@pytest.mark.parametrize("name", ["autolock", "key_press"])
+def test_parameters_fit_with_the_longest_sentences_and_the_picture_is_seen(application, main, monkeypatch, name):
+    tell(application, car=None, battery_percent=5)
+    main.types.chosen.emit(name)
+    screen = main.settings[name]
+    screen.caution.setText("At 3.6 km/h, with a message of the Car every 0.20 s, the distance of a pass has a sigma of "
+                           "0.058 m by that message alone; the parameter asks for 0.030 m. Pass at 1.836 km/h.")
+    screen.caution.show()
+    assert_fits(main, monkeypatch, WANTED)
+    assert screen.picture.view.height() >= 100
+
+
 def test_identity_fits_with_what_is_missing(application, main, monkeypatch):
     main.types.chosen.emit("key_press")
     form = main.settings["key_press"].identity

@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 from fit_checks import CAR, assert_fits, faults, visible
 from PyQt5.QtCore import QSize
-from PyQt5.QtWidgets import QLabel, QWidget
+from PyQt5.QtWidgets import QLabel, QLineEdit, QWidget
 
 from mtr_operator.domain.identity.identity import Identity
 from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
+from mtr_operator.gui.forms.adapters.bus_forms import BusForm
 from mtr_operator.gui.header.stop_button import StopButton
 from mtr_operator.gui.history.comparison_window import ComparisonWindow
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
@@ -16,7 +17,7 @@ from mtr_operator.gui.windows.connection_window import ConnectionWindow
 from mtr_operator.gui.windows.settings_window import SettingsWindow
 from mtr_operator.history.comparison import compare
 from mtr_operator.history.line_pairs import Side
-from mtr_operator.station.connection import Connection
+from mtr_operator.station.connection import BusChoice, CanChoice, Connection
 
 
 def test_connection_window_fits__B6(application, show, monkeypatch):
@@ -25,6 +26,25 @@ def test_connection_window_fits__B6(application, show, monkeypatch):
     window.can.interface.setCurrentIndex(1)
     window._show_refusal("robot", "No answer from the subscriber port 3334 of 192.168.0.10; is the robot on?")
     assert_fits(window, monkeypatch)
+
+
+def test_adapters_of_three_buses_fit(application, main, show, monkeypatch, tmp_path):
+    # A path that is typed may be longer than its line, and that of this folder is.
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "car.yaml").write_text(
+        "database: car.dbc\nmessage: State\nsignal: Lock\nstates: {0: locked, 1: unlocked}\ncycle_time_s: 0.1\n"
+        "buses: {body: car.dbc, diagnostics_behind_the_gateway_of_the_left_doors: car.dbc}\n", encoding="utf-8")
+    choice = CanChoice("slcan", "/dev/ttyACM0", profile="car.yaml",
+                       further=(BusChoice("body", "slcan", "/dev/ttyACM1"),))
+    window = show(lambda: ConnectionWindow(application.flow, Connection(can=choice)))
+    window._show_refusal("car", "Further bus body: There is no CAN adapter at /dev/ttyACM1; check the channel and the "
+                                "USB plug.", "body")
+    assert len(visible(window, BusForm)) == 2
+    assert_fits(window, monkeypatch)
+    settings = show(lambda: SettingsWindow(application.flow, application.appearance, main))
+    settings.can.show_choice(choice)
+    assert len(visible(settings, BusForm)) == 2
+    assert_fits(settings, monkeypatch)
 
 
 def test_calibration_fits_and_has_its_stop_in_sight__B6(application, main, show, monkeypatch):
@@ -59,3 +79,18 @@ def test_text_that_is_cut_is_noticed(show):
     holder.resize(40, 20)
     label.setParent(holder)
     assert len(faults(show(lambda: holder))) == 1
+
+
+def test_hint_that_is_cut_in_its_line_is_noticed(show):
+    line, holder = QLineEdit(), QWidget()
+    line.setPlaceholderText("A hint that has no room in its line")
+    line.resize(80, 40)
+    holder.resize(700, 60)
+    line.setParent(holder)
+    window = show(lambda: holder)
+    assert faults(window) == ["'A hint that has no room in its line' is cut in its line"]
+    line.setText("gone")
+    assert faults(window) == []
+    line.clear()
+    line.resize(600, 40)
+    assert faults(window) == []

@@ -6,10 +6,13 @@ import pytest
 
 from mtr_operator.domain.identity.identity import Identity
 from mtr_operator.domain.results.progress import JournalMark
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.evidence.bundle import write_bundle
+from mtr_operator.evidence.station_key import Station
 from mtr_operator.gui.header.stop_button import StopButton
 from mtr_operator.gui.history.comparison_window import ComparisonWindow
 from mtr_operator.gui.history.history_model import HistoryModel
-from mtr_operator.storage.progress_file import save_progress
+from mtr_operator.storage.progress_file import open_progress, save_progress
 
 
 @pytest.fixture
@@ -92,12 +95,50 @@ def test_two_tests_are_compared_with_stop_in_sight(lab):
     window.close()
 
 
-def test_broken_record_is_named_and_skipped(lab):
+def test_broken_record_is_a_row_with_its_sentence_and_nothing_can_be_done_with_it(lab):
     folder = lab.application.flow.store.settings.progress_folder
     (folder / "broken.json").write_bytes(b"{")
     history = show(lab)
     lab.wait(lambda: "broken.json" in history.notice.text())
-    assert history.notice.text().startswith("3 tests, 3 of them shown.")
+    summary = history.notice.text()
+    assert summary.startswith("3 tests, 3 of them shown.")
+    model = history.table.model()
+    assert model.rowCount() == 4
+    texts = [model.data(model.index(3, column)) for column in range(model.columnCount())]
+    assert "cannot be read" in texts and "broken.json" in texts
+    history.table.selectRow(3)
+    assert "truncated or not a JSON file" in history.notice.text()
+    assert not history.open.isEnabled() and not history.repeat.isEnabled()
+    history.table.doubleClicked.emit(model.index(3, 0))
+    assert lab.window.screen is history
+    history.table.selectRow(0)
+    assert history.open.isEnabled() and history.notice.text() == summary
+    history.search.setText("truncated")
+    assert model.rowCount() == 1
+    history.search.setText("")
+    history.car.setCurrentIndex(history.car.findData("OTHER"))
+    assert model.rowCount() == 1
+
+
+def test_test_in_a_bundle_is_listed_repeated_and_not_opened(lab):
+    flow = lab.application.flow
+    folder = flow.store.settings.progress_folder
+    record = folder / "1.json"
+    scenario, _, progress = open_progress(record, SCENARIOS)
+    write_bundle(folder / "1.mtr.zip", record, scenario, progress, None, station=Station(folder.parent / "station"))
+    record.unlink()
+    history = show(lab)
+    history.search.setText("other")
+    history.table.selectRow(0)
+    assert not history.open.isEnabled() and "signed bundle" in history.notice.text()
+    lab.click(history.repeat)
+    assert lab.window.screen is lab.window.settings["key_press"]
+
+
+def test_test_of_a_scenario_that_this_version_does_not_know_is_shown_by_its_name(lab):
+    history = show(lab)
+    history._learn_all([dataclasses.replace(history.shown[0], scenario="teleport")])
+    assert history.table.model().data(history.table.model().index(0, 1)) == "teleport"
 
 
 def test_file_that_changes_between_list_and_click_is_said(lab):

@@ -9,9 +9,9 @@ from PyQt5.QtTest import QTest
 from PyQt5.QtWidgets import QApplication
 
 from mtr_operator.domain.robot_status import EmergencyStop, Mode
+from mtr_operator.gui.alerts.sounds import Sounds
 from mtr_operator.gui.forms.hold_button import HoldButton
 from mtr_operator.gui.header import popup
-from mtr_operator.gui.sounds import Sounds
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
 from mtr_operator.gui.windows.settings_window import SettingsWindow
 from mtr_operator.station.readiness import Phase

@@ -43,6 +43,10 @@ def test_bad_text_is_told_at_the_field_with_the_range(form_of, name, field, text
         form.choices[declared.only[0]].show_word(declared.only[1])
     form.fields[field].edit.setText(text)
     fault = form.fields[field].fault
+    if text == "-1" and declared.low <= -1.0:
+        # A coordinate of the Car's frame lies to either side.
+        assert not fault
+        return
     assert "llowed" in fault
     assert " to " in fault
     assert form.parameters is None
@@ -106,6 +110,15 @@ def test_parameters_that_contradict_each_other_are_told(form_of, name, values, p
         form.fields[field].edit.setText(text)
     assert part in form.fault.text()
     assert form.parameters is None
+    assert set(values) <= marked(form) and len(marked(form)) < len(form.fields)
+    for field in values:
+        form.fields[field].show_value(getattr(usual(name), field))
+    assert marked(form) == set()
+
+
+def marked(form):
+    """Names of the fields that are framed as wrong."""
+    return {name for name, field in form.fields.items() if field.edit.property("faulty")}
 
 
 def test_fault_in_a_hidden_field_shows_it(form_of):
@@ -157,7 +170,10 @@ def test_parameters_that_do_not_suit_the_car_are_told_before_the_start(operator)
     screen.form.fields["minimum_distance_m"].edit.setText("2")
     assert "Remote key and Car" in screen.form.fault.text()
     assert not screen.start.isEnabled()
-    assert screen.notice.text() == ""
+    assert screen.notice.text() == "No preview of the lines while the parameters are not right."
+    assert marked(screen.form) == {"minimum_distance_m", "clearance_m"}
+    screen.form.fields["minimum_distance_m"].edit.setText("3")
+    assert marked(screen.form) == set()
 
 
 def test_attempts_and_interval_are_told_before_the_start_with_what_an_interval_out_of_reach_takes(operator):
@@ -201,7 +217,7 @@ def test_used_parameters_are_remembered(operator, start):
     assert operator.choose("key_press").form.fields["maximum_distance_m"].text == "6"
 
 
-def test_third_scenario_appears_by_itself(qtbot):
+def test_another_scenario_appears_by_itself(qtbot):
     from mtr_operator.domain.scenarios.key_press import KeyPress
     from mtr_operator.gui.screens.measurement_type import MeasurementTypeScreen
 
@@ -210,8 +226,7 @@ def test_third_scenario_appears_by_itself(qtbot):
         name, title = "trunk", "Trunk"
     screen = MeasurementTypeScreen({**SCENARIOS, "trunk": Trunk()})
     qtbot.addWidget(screen)
-    assert [tile.title for tile in screen.tiles.values()] == ["Autolock", "Key press", "Zone map", "Handle request",
-                                                                "Trunk"]
+    assert [tile.title for tile in screen.tiles.values()] == [*(each.title for each in SCENARIOS.values()), "Trunk"]
     with qtbot.waitSignal(screen.chosen) as chosen:
         screen.tiles["trunk"].click()
     assert chosen.args == ["trunk"]

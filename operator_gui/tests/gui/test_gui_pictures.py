@@ -1,18 +1,23 @@
 """Pictures: places on the screen, zoom, pan, ruler, the gliding robot."""
 # SPDX-License-Identifier: Apache-2.0
+import itertools
 import math
 
 import pytest
-from PyQt5.QtCore import QEvent, QPoint, QPointF, Qt
+from PyQt5.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QImage, QMouseEvent, QPainter
 from PyQt5.QtTest import QTest
 from PyQt5.QtWidgets import QApplication
 
 from mtr_operator.domain.geometry.pose import Pose
+from mtr_operator.domain.results.figure import Figure, Kind
+from mtr_operator.domain.results.picture import PointRole, PointSet, Stretch
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.gui.pictures.glide import Glide
 from mtr_operator.gui.pictures.layers.car_layer import CarLayer
-from mtr_operator.gui.pictures.layers.layer import Canvas
+from mtr_operator.gui.pictures.layers.layer import Canvas, paint_all
+from mtr_operator.gui.pictures.layers.lines_layer import LinesLayer
+from mtr_operator.gui.pictures.layers.points_layer import PointsLayer
 from mtr_operator.gui.pictures.layers.robot_layer import TrailLayer
 from mtr_operator.gui.pictures.layers.surroundings import step_for
 from mtr_operator.gui.pictures.picture_panel import PicturePanel
@@ -68,6 +73,14 @@ def test_body_from_which_distances_count_is_shown_within_an_outline_with_mirrors
     seen = [not is_blank(painted(CarLayer(each, True), 60.0), across, 150 - dy, 0) for dy in range(20, 30)
             for each in (car,)]
     assert any(seen)
+
+
+def test_dashes_of_many_lines_make_no_stripes_across_them__C():
+    columns = range(60, 340, 14)
+    lines = LinesLayer([Stretch((2.5, (200 - x) / 50.0), (-2.5, (200 - x) / 50.0), "") for x in columns])
+    image = painted(lines, 50.0)
+    inked = [sum(not is_blank(image, x, y, 0) for x in columns) for y in range(60, 240)]
+    assert all(0 < count < len(columns) for count in inked)
 
 
 def test_front_of_a_small_car_is_told_by_an_arrow():
@@ -164,3 +177,28 @@ def test_robot_jumps_after_a_gap_and_vanishes_when_lost():
     assert glide.at(12.0).x == 0.5
     glide.put(None, 12.1)
     assert glide.at(12.1) is None
+
+
+# Where the border lies on radials at these angles, clockwise from the front, in m and degrees.
+PLACES = [(far_m * math.cos(math.radians(angle)), -far_m * math.sin(math.radians(angle)))
+          for far_m, angle in ((2.1, 0.0), (2.0, 90.0), (1.9, 120.0), (1.9, 240.0))]
+
+
+def labels_of(layers, px_per_m=50.0):
+    """Boxes of all labels of a picture of 500x400 pixels."""
+    image = QImage(500, 400, QImage.Format_RGB32)
+    painter = QPainter(image)
+    canvas = Canvas(painter, Viewport(500.0, 400.0, px_per_m), LIGHT)
+    paint_all(layers, canvas)
+    painter.end()
+    return canvas.labels
+
+
+def test_figures_hide_no_number_of_a_line_and_lie_inside_the_picture():
+    lines = LinesLayer([Stretch((0.0, 0.0), place, "240\u00b0") for place in PLACES])
+    figures = PointSet("press", PointRole.FIRST, tuple(PLACES), intervals=tuple((place, place) for place in PLACES),
+                       figures=len(PLACES) * (Figure(Kind.VALUE, 5.58),))
+    boxes = labels_of([lines, PointsLayer([figures], shows_figures=True)])
+    assert len(boxes) == 2 * len(PLACES)
+    assert not [box for box in boxes if not QRectF(0.0, 0.0, 500.0, 400.0).contains(box)]
+    assert not [pair for pair in itertools.combinations(boxes, 2) if pair[0].intersects(pair[1])]

@@ -232,7 +232,7 @@ def test_enter_says_that_the_handle_is_taken_and_the_focus_goes_back_to_stop(ope
     screen = operator.begin("handle_request", border_distance_m="1.8", handle_timeout_s="3600")
     operator.wait(screen.taken.hasFocus)
     press(Qt.Key_Return)
-    operator.wait(lambda: operator.model.handle is not None and operator.model.handle.number == 2)
+    operator.wait(lambda: operator.model.prompt is not None and operator.model.prompt.number == 2)
     operator.click(operator.window.header.stop)
     operator.wait(lambda: operator.model.phase is Phase.PAUSED)
     assert operator.window.header.stop.hasFocus()

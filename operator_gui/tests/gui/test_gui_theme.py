@@ -8,8 +8,12 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.gui.bus.bus_window import BusWindow
 from mtr_operator.gui.calibration.guide_window import GuideWindow
 from mtr_operator.gui.theme.palette import THEMES, contrast
+from mtr_operator.gui.theme.sheet import ICON
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
 from mtr_operator.gui.windows.settings_window import SettingsWindow
+from mtr_operator.station import settings
+
+IMAGES = ICON.parent
 
 TEXT = 4.5
 GRAPHICS = 3.0
@@ -39,6 +43,22 @@ def test_text_can_be_read(theme, ink, ground):
 def test_shapes_can_be_told_from_their_ground(theme, shape, ground):
     palette = THEMES[theme]
     assert contrast(getattr(palette, shape), getattr(palette, ground)) >= GRAPHICS
+
+
+@pytest.mark.parametrize(("ink", "ground"), [*PAIRS, ("on_stop", "stop")])
+def test_text_of_high_contrast_is_of_level_aaa(ink, ground):
+    assert contrast(getattr(THEMES["contrast"], ink), getattr(THEMES["contrast"], ground)) >= 7.0
+
+
+@pytest.mark.parametrize(("shape", "ground"), [*SHAPES, ("stop", "surface"), ("line", "window")])
+def test_shapes_of_high_contrast_stand_out_as_text_does(shape, ground):
+    assert contrast(getattr(THEMES["contrast"], shape), getattr(THEMES["contrast"], ground)) >= TEXT
+
+
+@pytest.mark.parametrize("theme", list(THEMES))
+def test_theme_has_its_signs_and_can_be_chosen(theme):
+    assert theme in settings.THEMES
+    assert all((IMAGES / f"{sign}_{theme}.svg").is_file() for sign in ("arrow", "tick"))
 
 
 def controls(window):

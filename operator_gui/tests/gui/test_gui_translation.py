@@ -94,6 +94,9 @@ def raised_sentences():
             call = node if is_said else node.exc if isinstance(node, ast.Raise) else None
             if isinstance(call, ast.Call) and call.args and getattr(call.func, "id", "") not in INTERNAL:
                 text = template_of(call.args[0])
+                # Entries.wrong puts the profile before it.
+                if text and getattr(call.func, "attr", "") == "wrong":
+                    text = f"Car profile {{}}: {text}"
                 if text and " " in text and not any(part in text for part in NOT_SHOWN):
                     yield pytest.param(text, id=f"{path.name}:{text[:50]}")
 

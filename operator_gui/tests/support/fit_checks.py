@@ -10,10 +10,12 @@ from PyQt5.QtWidgets import (
     QApplication,
     QComboBox,
     QLabel,
+    QLineEdit,
     QScrollArea,
     QScrollBar,
     QStyle,
     QStyleOptionComboBox,
+    QStyleOptionFrame,
     QTableView,
 )
 
@@ -35,6 +37,8 @@ SCREENS = {"1366x768": QSize(1366, 736), "1024x700": QSize(1024, 700), "1280x720
 WANTED = QSize(1360, 860)
 # A row ends at these; the second one has no width.
 _BREAKS = re.compile("[ \n\N{ZERO WIDTH SPACE}]+")
+# Of QLineEdit, left and right of its text, in pixels.
+_LINE_MARGIN = 2
 CAR = CarDimensions(4.5, 1.8, 0.01, 0.01)
 
 
@@ -122,8 +126,20 @@ def faults(window):
         field = box.style().subControlRect(QStyle.CC_ComboBox, option, QStyle.SC_ComboBoxEditField, box)
         if box.fontMetrics().horizontalAdvance(box.currentText()) > field.width():
             found.append(f"{box.currentText()!r} is cut in its box")
+    found += [f"{edit.placeholderText()!r} is cut in its line" for edit in visible(window, QLineEdit)
+              if edit.placeholderText() and not edit.text() and is_hint_cut(edit)]
     found += [f"{widget.text()!r} is cut by {by}" for widget in texts if (by := cut_off(widget, window))]
     return found
+
+
+def is_hint_cut(edit):
+    """Whether the text that stands in an empty line has no room."""
+    option = QStyleOptionFrame()
+    edit.initStyleOption(option)
+    room = edit.style().subElementRect(QStyle.SE_LineEditContents, option, edit).width()
+    margins = edit.textMargins()
+    room -= margins.left() + margins.right() + 2 * _LINE_MARGIN
+    return edit.fontMetrics().horizontalAdvance(edit.placeholderText()) > room
 
 
 def faults_of_tables(window):

@@ -15,14 +15,16 @@ from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
 from mtr_operator.station.settings_file import SettingsStore, default_path, former_path
 from mtr_operator.station.view_model import ViewModel
 
+from .alerts.sounds import Sounds
 from .bridge import Bridge
 from .defects import Defects
+from .evidence.bundle_check import BundleCheck
+from .fitting.screen_watch import ScreenWatch
 from .flow import Flow
 from .header.stop_button import add_stop
 from .history.history_reader import HistoryReader
 from .i18n import Language
 from .report_writer import ReportWriter
-from .sounds import Sounds
 from .stopping import Stopping
 from .theme.appearance import Appearance
 from .theme.sheet import ICON
@@ -44,6 +46,7 @@ class Application:
         self.sounds = Sounds(self.flow)
         self.appearance = Appearance()
         self.language = Language()
+        self.screens = ScreenWatch()
         self.defects = Defects()
         self.defects.found.connect(self.flow.keep_after_defect)
         self.window: QWidget | None = None
@@ -52,6 +55,7 @@ class Application:
         """Load the settings and show the connection window; robot, can: what to fill in instead of the last choice."""
         self.defects.install()
         self.stopping.install()
+        self.screens.install()
         self._store.load()
         settings = self._store.settings
         self.language.use(settings.language)
@@ -67,8 +71,10 @@ class Application:
             self.window.hide()
         self.flow.close()
         self.stopping.remove()
+        self.screens.remove()
         ReportWriter.finish_all()
         HistoryReader.finish_all()
+        BundleCheck.finish_all()
         self.defects.remove()
 
     def _show_main(self) -> None:

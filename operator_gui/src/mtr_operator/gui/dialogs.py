@@ -30,6 +30,11 @@ def ask_yaml_file(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.P
     return _chosen_file(parent, title, start, "YAML (*.yaml *.yml)")
 
 
+def ask_bundle(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.Path | None:
+    """A bundle of evidence that the Operator chooses; None when he does not."""
+    return _chosen_file(parent, title, start, "MTR (*.mtr.zip)")
+
+
 def ask_files(parent: QWidget, title: str, start: pathlib.Path, patterns: str) -> list[pathlib.Path]:
     """Files that the Operator chooses, of names that fit patterns such as "*.jpg *.png"; none when he does not."""
     dialog = QFileDialog(parent, title, str(start), f"({patterns})")

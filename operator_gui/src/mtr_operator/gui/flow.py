@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import datetime
 import enum
 import pathlib
 from typing import Sequence
@@ -11,8 +10,10 @@ from typing import Sequence
 from PyQt5.QtCore import QObject, pyqtSignal
 
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.eventlog.entry import EventKind
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
-from mtr_operator.domain.verdict.suitability import check_before_start
+from mtr_operator.station.begun.starting import begun_test
+from mtr_operator.station.begun.unfinished import UnfinishedTest
 from mtr_operator.station.bus.bus_view import BusView
 from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
 from mtr_operator.station.disk_watch import DiskWatch
@@ -25,15 +26,15 @@ from mtr_operator.station.events import (
     Outcome,
     ProgressSaved,
     RunEnded,
+    StandstillSeen,
     StationEvent,
 )
-from mtr_operator.station.identity_entry import check_begin, remembering
 from mtr_operator.station.links.idle_loop import CalibrationRequest, CarRequest
 from mtr_operator.station.links.worker import Worker
 from mtr_operator.station.readiness import Phase
 from mtr_operator.station.settings_file import SettingsStore
-from mtr_operator.station.test import NOTHING_SAID, Test, new_test, note_continued, open_test
-from mtr_operator.storage.given_files import Given, GivenPaths
+from mtr_operator.station.test import NOTHING_SAID, note_continued, open_test
+from mtr_operator.storage.given_files import GivenPaths
 from mtr_operator.storage.identity_file import GivenIdentity
 
 from .bridge import Bridge
@@ -57,10 +58,11 @@ class Flow(QObject):
 
     Attributes:
         model: what is known of robot, Car and test. store: settings. connection: in use.
+        unfinished: the test that can be gone on with.
         pairing: with a robot that is not connected yet. opener: of links.
     Signals:
-        connected, refused(part, text): how an attempt to connect ended.
-        can_opened, can_refused(text): how a change of the CAN adapter ended.
+        connected, refused(part, text, bus): how an attempt to connect ended, as in LinkRefused.
+        can_opened, can_refused(text, bus): how a change of the CAN adapter ended.
         step_changed(Step): another screen is due.
         failed(text): the Operator has to know this sentence.
         saved(text): the progress was written there.
@@ -70,9 +72,9 @@ class Flow(QObject):
     """
 
     connected = pyqtSignal()
-    refused = pyqtSignal(str, str)
+    refused = pyqtSignal(str, str, str)
     can_opened = pyqtSignal()
-    can_refused = pyqtSignal(str)
+    can_refused = pyqtSignal(str, str)
     step_changed = pyqtSignal(object)
     failed = pyqtSignal(str)
     saved = pyqtSignal(str)
@@ -85,6 +87,7 @@ class Flow(QObject):
         self.bridge = bridge
         self.model = bridge.model
         self.store = store
+        self.unfinished = UnfinishedTest(store)
         self.connection = Connection()
         self.step = Step.WELCOME
         self.opener = opener
@@ -93,7 +96,6 @@ class Flow(QObject):
         self._is_connected = False
         self._wanted_can: CanChoice | None = None
         self._disk = DiskWatch(lambda: self.store.settings.progress_folder)
-        self._dismissed: pathlib.Path | None = None
         bridge.happened.connect(self._learn)
         bridge.changed.connect(self._learn_room)
 
@@ -123,8 +125,10 @@ class Flow(QObject):
 
     def keep_after_defect(self, text: str) -> None:
         """The application has a defect: write what is measured, and say it."""
-        if self._worker is not None and self.model.test is not None and self.model.test.progress.has_findings:
-            self._worker.save(self.model.test)
+        if self._worker is not None:
+            self._worker.note(text, EventKind.FAULT)
+            if self.model.test is not None and self.model.test.progress.has_findings:
+                self._worker.save(self.model.test)
         self.failed.emit(text)
 
     # Screens
@@ -151,17 +155,11 @@ class Flow(QObject):
         """Begin a test; failed follows when a file that is given does not suit it any more, or the laboratory requires
         more."""
         try:
-            check_begin(self.store, who)
-            given = Given(*paths)
-            if given.limits is not None:
-                check_before_start(given.limits, scenario, parameters)
+            self.model.take_up(begun_test(self.store, self.connection, scenario, parameters,
+                                          paths=paths, who=who))
         except OperatorError as error:
             self.failed.emit(str(error))
             return
-        settings = self.store.settings.with_parameters(scenario.name, parameters.to_mapping())
-        settings = settings.with_given(scenario.name, paths)
-        self.store.change(remembering(settings, who.identity, datetime.date.today()))
-        self.model.take_up(new_test(scenario, parameters, settings.progress_folder, self.connection, given, who=who))
         self.resume()
         self.show(Step.MEASUREMENT)
 
@@ -197,10 +195,10 @@ class Flow(QObject):
         if self.model.robot is not None:
             self._links.release_hold(self.model.robot.status.hold_id)
 
-    def answer_handle(self) -> None:
-        """The Operator has taken the Car's handle."""
-        if self.model.handle is not None:
-            self._links.answer_handle(self.model.handle.number)
+    def answer_prompt(self) -> None:
+        """The Operator has taken the Car's handle, or switched the extender."""
+        if self.model.prompt is not None:
+            self._links.answer(self.model.prompt)
 
     def save_progress(self) -> None:
         """Write the progress now; saved or folder_wanted follows."""
@@ -225,29 +223,15 @@ class Flow(QObject):
             self.failed.emit(test.progress.notice)
         if test.is_complete:
             self.model.phase = Phase.FINISHED
-            self._forget_unfinished()
+            self.unfinished.forget()
             self.show(Step.PROTOCOL)
         else:
             self.show(Step.MEASUREMENT)
 
-    def unfinished_test(self) -> Test | None:
-        """The test that was not finished, also by an earlier start; None when there is none, or none is wanted now."""
-        path = self.store.settings.unfinished
-        try:
-            test = None if path is None or path == self._dismissed else open_test(path)
-        except OperatorError:
-            return None
-        return test if test is not None and test.progress.has_findings else None
-
     def open_unfinished(self) -> None:
-        """Take it up."""
-        path = self.store.settings.unfinished
-        if path is not None:
-            self.open(path)
-
-    def dismiss_unfinished(self) -> None:
-        """Offer it no more until the next start."""
-        self._dismissed = self.store.settings.unfinished
+        """Take up the test that was not finished."""
+        if self.unfinished.path is not None:
+            self.open(self.unfinished.path)
 
     def calibrate(self, request: CalibrationRequest) -> None:
         """Have the robot try something."""
@@ -277,11 +261,13 @@ class Flow(QObject):
             self.connected.emit()
         elif isinstance(event, LinkRefused):
             self._learn_refusal(event)
+        elif isinstance(event, StandstillSeen):
+            self.failed.emit(event.text)
         elif isinstance(event, CarLinkOpened):
             self._use_connection(dataclasses.replace(self.connection, can=self._wanted_can))
             self.can_opened.emit()
         elif isinstance(event, (LinesPlanned, LineMeasured)):
-            self._remember_unfinished(self.model.current_test.path)
+            self.unfinished.remember(self.model.current_test.path)
         elif isinstance(event, RunEnded):
             self._learn_end(event)
         elif isinstance(event, ProgressSaved):
@@ -290,22 +276,17 @@ class Flow(QObject):
     def _learn_room(self) -> None:
         self.model.free_bytes = self._disk.free
 
-    def _remember_unfinished(self, path: pathlib.Path) -> None:
-        self._dismissed = None
-        if self.store.settings.unfinished != path:
-            self.store.change(dataclasses.replace(self.store.settings, unfinished=path))
-
     def _learn_refusal(self, event: LinkRefused) -> None:
         if not self._is_connected:
-            self.refused.emit(event.part, event.text)
+            self.refused.emit(event.part, event.text, event.bus)
         else:
-            self.can_refused.emit(event.text)
+            self.can_refused.emit(event.text, event.bus)
 
     def _learn_end(self, event: RunEnded) -> None:
         if not self.model.current_test.progress.has_findings:
-            self._forget_unfinished()
+            self.unfinished.forget()
         if event.outcome is Outcome.COMPLETE:
-            self._forget_unfinished()
+            self.unfinished.forget()
             self.show(Step.PROTOCOL)
         elif event.outcome is Outcome.NOT_SAVED:
             self.folder_wanted.emit(event.text)
@@ -315,14 +296,9 @@ class Flow(QObject):
         if event.text:
             self.folder_wanted.emit(event.text)
         elif test is not None:
-            if self.store.settings.unfinished is not None and test.progress.results:
-                self.store.change(dataclasses.replace(self.store.settings, unfinished=test.path))
+            self.unfinished.move(test)
             self.saved.emit(str(test.path))
 
     def _use_connection(self, connection: Connection) -> None:
         self.connection = connection
         self.store.change(self.store.settings.with_connection(connection))
-
-    def _forget_unfinished(self) -> None:
-        if self.store.settings.unfinished is not None:
-            self.store.change(dataclasses.replace(self.store.settings, unfinished=None))

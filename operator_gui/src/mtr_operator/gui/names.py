@@ -25,7 +25,8 @@ def flag_title(name: str) -> str:
 def choice_title(name: str) -> str:
     """Label of the choice of a parameter that is a word."""
     titles = {"method": translate("Parameter", "Method"), "side": translate("Parameter", "Side of the Car"),
-              "relock": translate("Parameter", "Locking the Car again")}
+              "relock": translate("Parameter", "Locking the Car again"),
+              "reference": translate("Parameter", "Compared with")}
     return titles.get(name) or name.replace("_", " ").capitalize()
 
 
@@ -34,7 +35,9 @@ def choice_word(word: str) -> str:
     words = {"scan": translate("Parameter", "from far to near (scan)"),
              "adaptive": translate("Parameter", "search with intervals (adaptive)"),
              "all": translate("Parameter", "all around"), "button": translate("Parameter", "by the key's button"),
-             "itself": translate("Parameter", "the Car by itself")}
+             "itself": translate("Parameter", "the Car by itself"),
+             "outline": translate("Parameter", "the way to the Car's outline"),
+             "anchor": translate("Parameter", "the way to an anchor")}
     return words.get(word) or domain_word(word.replace("_", " "))
 
 

@@ -20,19 +20,24 @@ from .pictures import export
 from .pictures.protocol_picture import Protocol
 from .pictures.protocol_sheet import ProtocolSheet
 
-CSV, PNG, PDF, SVG = "csv", "png", "pdf", "svg"
+CSV, PNG, PDF, SVG, BUNDLE = "csv", "png", "pdf", "svg", "bundle"
 # A large protocol in all its forms takes some seconds.
 FINISH_LIMIT_MS = 20_000
+_PERCENT = 100.0
 _PICTURES = {PNG: export.png, PDF: export.pdf, SVG: export.svg}
 
 
 class ReportWriter(QThread):
     """Signals: written(paths), refused(text): of the files; not_annotated(text): nothing was written, for the notes or
-    photos could not be kept."""
+    photos could not be kept. bundling(percent): how much of the bundle is done. bundled(Bundled): it is written, before
+    written. not_bundled(text): the other files are written, and no bundle."""
 
     written = pyqtSignal(list)
     refused = pyqtSignal(str)
     not_annotated = pyqtSignal(str)
+    bundling = pyqtSignal(int)
+    bundled = pyqtSignal(object)
+    not_bundled = pyqtSignal(str)
     _running: ClassVar[set[ReportWriter]] = set()
 
     def __init__(self, protocol: Protocol, test: Test, folder: pathlib.Path, kinds: Sequence[str],
@@ -51,7 +56,10 @@ class ReportWriter(QThread):
     def finish_all(cls) -> None:
         """Wait for what is being written: a thread that Qt ends with the window leaves half a file, or a crash."""
         for writer in list(cls._running):
-            writer.wait(FINISH_LIMIT_MS)
+            if not writer.wait(FINISH_LIMIT_MS):
+                # A bundle of a long recording: nothing of it is left.
+                writer.requestInterruption()
+                writer.wait(FINISH_LIMIT_MS)
 
     def run(self) -> None:
         """See QThread."""
@@ -78,9 +86,26 @@ class ReportWriter(QThread):
     def _write_all(self) -> None:
         try:
             with output_folder(self._folder):
-                self.written.emit([self._write(kind) for kind in self._kinds])
+                paths = [self._write(kind) for kind in self._kinds if kind != BUNDLE]
         except OutputError as error:
             self.refused.emit(str(error))
+            return
+        try:
+            paths += [self._bundle()] if BUNDLE in self._kinds else []
+        except OperatorError as error:
+            self.not_bundled.emit(str(error))
+        self.written.emit(paths)
+
+    def _bundle(self) -> pathlib.Path:
+        from .evidence.bundling import bundle
+        target, written = bundle(self._protocol, self._test, self._folder, self._tell)
+        self.bundled.emit(written)
+        return target
+
+    def _tell(self, share: float) -> None:
+        if self.isInterruptionRequested():
+            raise OutputError("The bundle was given up, for the window closes.")
+        self.bundling.emit(int(share * _PERCENT))
 
     def _write(self, kind: str) -> pathlib.Path:
         protocol = self._protocol

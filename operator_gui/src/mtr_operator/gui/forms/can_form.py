@@ -1,28 +1,22 @@
-"""Choice of the CAN adapter and of the Car's profile, or none yet."""
+"""Choice of the CAN adapters and of the Car's profile, or none yet."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 from PyQt5.QtCore import Qt, pyqtSignal
-from PyQt5.QtWidgets import QCheckBox, QComboBox, QLabel, QPushButton, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QCheckBox, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from mtr_operator.car_link.profile import profile_names
-from mtr_operator.station.connection import DEFAULT_BITRATE_BPS, SIMULATED, CanChoice
+from mtr_operator.car_link.profile import bus_names, profile_names
+from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.station.connection import SIMULATED, CanChoice
 
-from ..theme.scale import XS, M
-from .buddy_label import BuddyLabel
-from .field import Field
-
-# The usual ones; any other interface of python-can can be typed in.
-_INTERFACES = ("pcan", "socketcan", "slcan", "kvaser", "vector", "ixxat")
-_CHANNELS = {"pcan": "PCAN_USBBUS1", "socketcan": "can0", "slcan": "/dev/ttyACM0", "kvaser": "0", "vector": "0",
-             "ixxat": "0"}
-_BITRATES = ("125000", "250000", "500000", "1000000")
-_DATA_BITRATES = ("2000000", "5000000")
+from ..theme.scale import M
+from .adapters.adapter_fields import AdapterFields, add_titled, editable_box
+from .adapters.bus_forms import BusForms
 
 
 class CanForm(QWidget):
     """Attributes: interface, bitrate, data_bitrate, profile: combo boxes. channel: field. normal: check box. learn:
-    button.
+    button. further: of the further buses that the profile declares.
 
     Signals: submitted: Enter was pressed. changed: something else was chosen or typed. learn_wanted: of the Car that
     has no profile yet.
@@ -34,48 +28,47 @@ class CanForm(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.interface = QComboBox()
-        self.interface.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.interface.setMinimumContentsLength(12)
-        self.interface.addItem(self.tr("None yet"), None)
-        for name in _INTERFACES:
-            self.interface.addItem(name, name)
-        self.interface.addItem(self.tr("Simulated Car (to try the application)"), SIMULATED)
         self._may_learn = True
-        self.channel = Field(self.tr("Channel"), self.tr("as the adapter's driver calls it"))
-        self.bitrate = self._editable(_BITRATES)
-        self.data_bitrate = self._editable(_DATA_BITRATES)
-        self.data_bitrate.insertItem(0, self.tr("classic CAN"), 0)
-        self.data_bitrate.setCurrentIndex(0)
+        self._fields = fields = AdapterFields(parent=self)
+        self.interface, self.channel = fields.interface, fields.channel
+        self.bitrate, self.data_bitrate = fields.bitrate, fields.data_bitrate
+        self.interface.addItem(self.tr("Simulated Car (to try the application)"), SIMULATED)
         self.normal = QCheckBox(self.tr("Take part in the bus (a bench of one node)"))
         self.normal.setToolTip(self.tr("The adapter acknowledges frames. Without it the adapter only listens and sends "
                                        "nothing: a Car does not notice it."))
-        self.profile = self._editable(profile_names())
-        self.interface.currentIndexChanged.connect(self._suit_interface)
-        self.channel.edit.returnPressed.connect(self.submitted)
+        self.profile = editable_box(profile_names())
         self._hint = QLabel(self.tr("Without an adapter everything but a test works."))
         self._hint.setWordWrap(True)
         self._hint.setProperty("role", "hint")
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(M)
-        self._add(layout, self.tr("CAN adapter"), self.interface, self._hint)
-        layout.addWidget(self.channel)
-        self._add(layout, self.tr("Bit rate in bit/s"), self.bitrate)
-        self._add(layout, self.tr("CAN FD data in bit/s"), self.data_bitrate)
-        self._add(layout, self.tr("Car profile"), self.profile)
         self.learn = QPushButton(self.tr("Learn a new Car from its bus"))
         self.learn.setProperty("role", "flat")
         self.learn.setAutoDefault(False)
-        self.learn.clicked.connect(self.learn_wanted)
+        self.further = BusForms(self)
+        self._lay_out()
+        self._suit_interface()
+        self._connect()
+
+    def _lay_out(self) -> None:
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(M)
+        self._fields.add_to(layout, self._hint)
+        add_titled(layout, self.tr("Car profile"), self.profile)
         layout.addWidget(self.learn, 0, Qt.AlignmentFlag.AlignLeft)
         layout.addWidget(self.normal)
+        layout.addWidget(self.further)
         layout.addStretch(1)
-        self._suit_interface()
-        self.channel.changed.connect(self.changed)
+
+    def _connect(self) -> None:
+        self.interface.currentIndexChanged.connect(self._suit_interface)
+        self.profile.currentTextChanged.connect(self._suit_profile)
+        self.learn.clicked.connect(self.learn_wanted)
+        for part in (self._fields, self.further):
+            part.submitted.connect(self.submitted)
+            part.changed.connect(self.changed)
+        self.profile.lineEdit().returnPressed.connect(self.submitted)
         self.normal.toggled.connect(lambda _: self.changed.emit())
-        for box in (self.interface, self.bitrate, self.data_bitrate, self.profile):
-            box.currentTextChanged.connect(lambda _: self.changed.emit())
+        self.profile.currentTextChanged.connect(lambda _: self.changed.emit())
         self.changed.connect(lambda: self.channel.show_fault(""))
 
     def allow_learning(self, may_learn: bool) -> None:
@@ -83,39 +76,24 @@ class CanForm(QWidget):
         self._may_learn = may_learn
         self.learn.setEnabled(may_learn and self.channel.isEnabled())
 
-    def show_fault(self, sentence: str) -> None:
-        """Say, at the field for it, why the adapter cannot be used."""
-        self.channel.show_fault(sentence)
-
-    def _editable(self, entries: tuple[str, ...]) -> QComboBox:
-        box = QComboBox()
-        box.setEditable(True)
-        box.addItems(entries)
-        box.lineEdit().returnPressed.connect(self.submitted)
-        return box
-
-    @staticmethod
-    def _add(layout: QVBoxLayout, title: str, box: QComboBox, hint: QLabel | None = None) -> None:
-        label = BuddyLabel(title, box)
-        box.setAccessibleName(title)
-        group = QVBoxLayout()
-        group.setSpacing(XS)
-        for widget in (label, box, *([hint] if hint else [])):
-            group.addWidget(widget)
-        layout.addLayout(group)
+    def show_fault(self, sentence: str, bus: str = "") -> None:
+        """Say, at the field for it, why the adapter cannot be used. bus: name of a further one."""
+        if bus:
+            # The profile may have been written anew since it was chosen.
+            self._suit_profile()
+            self.further.show_fault(bus, sentence)
+        else:
+            self.channel.show_fault(sentence)
 
     def show_choice(self, choice: CanChoice | None) -> None:
         """Fill the fields."""
-        self.interface.setCurrentIndex(self._index_of(None if choice is None else choice.interface))
+        self._fields.show_interface(None if choice is None else choice.interface)
         if choice is None:
-            self.bitrate.setCurrentText(str(DEFAULT_BITRATE_BPS))
             return
-        self.channel.edit.setText(choice.channel)
-        self.bitrate.setCurrentText(str(choice.bitrate_bps))
+        self._fields.show_adapter(choice.channel, choice.bitrate_bps, choice.data_bitrate_bps)
         self.profile.setCurrentText(choice.profile)
-        if choice.data_bitrate_bps is not None:
-            self.data_bitrate.setCurrentText(str(choice.data_bitrate_bps))
         self.normal.setChecked(choice.is_normal)
+        self.further.show_choices(choice.further)
 
     @property
     def choice(self) -> CanChoice | None:
@@ -123,33 +101,30 @@ class CanForm(QWidget):
         interface = self.interface.currentData()
         if interface is None:
             return None
-        return CanChoice(interface, self.channel.text.strip(), _rate(self.bitrate), self.profile.currentText().strip(),
-                         self._data_bitrate, self.normal.isChecked())
+        return CanChoice(interface, self.channel.text.strip(), self._fields.bitrate_bps,
+                         self.profile.currentText().strip(), self._fields.data_bitrate_bps, self.normal.isChecked(),
+                         self.further.choices)
 
     @property
-    def _data_bitrate(self) -> int | None:
-        is_classic = self.data_bitrate.currentText() in ("", self.data_bitrate.itemText(0))
-        return None if is_classic else _rate(self.data_bitrate)
-
-    def _index_of(self, interface: str | None) -> int:
-        index = self.interface.findData(interface)
-        if index < 0 and interface is not None:
-            self.interface.insertItem(1, interface, interface)
-            index = 1
-        return index
+    def _needs_adapter(self) -> bool:
+        return self.interface.currentData() not in (None, SIMULATED)
 
     def _suit_interface(self) -> None:
-        interface = self.interface.currentData()
-        needs_adapter = interface not in (None, SIMULATED)
-        for widget in (self.channel, self.bitrate, self.data_bitrate, self.profile, self.normal):
-            widget.setEnabled(needs_adapter)
-        self.learn.setEnabled(needs_adapter and self._may_learn)
-        self._hint.setVisible(interface is None)
-        known = self.channel.text in ("", *_CHANNELS.values())
-        if needs_adapter and known:
-            self.channel.edit.setText(_CHANNELS.get(interface, ""))
+        self._fields.suit_interface(self._needs_adapter)
+        for widget in (self.profile, self.normal):
+            widget.setEnabled(self._needs_adapter)
+        self.learn.setEnabled(self._needs_adapter and self._may_learn)
+        self._hint.setVisible(self.interface.currentData() is None)
+        self._suit_profile()
 
-
-def _rate(box: QComboBox) -> int:
-    text = box.currentText().strip()
-    return int(text) if text.isdecimal() else 0
+    def _suit_profile(self) -> None:
+        """One adapter more for each further bus; a wrong profile is told when it is used."""
+        try:
+            names = bus_names(self.profile.currentText().strip()) if self._needs_adapter else ()
+        except ConnectionFailed:
+            names = ()
+        self.further.show_buses(names)
+        before: QWidget = self.normal
+        for field in (field for form in self.further.shown for field in form.fields.in_order):
+            QWidget.setTabOrder(before, field)
+            before = field

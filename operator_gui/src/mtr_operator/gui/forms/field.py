@@ -63,6 +63,10 @@ class Field(QWidget):
         """The sentence that is shown; empty when the hint is."""
         return self.note.text() if self.note.property("role") == "error" else ""
 
+    def mark(self, is_faulty: bool) -> None:
+        """Frame the line as wrong although its own text is right: it does not go with another one."""
+        show_state(self.edit, "faulty", is_faulty or bool(self.fault))
+
     def show_fault(self, sentence: str) -> None:
         """Say what is wrong; empty shows the hint again."""
         if sentence == self.fault:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pathlib
 
-from PyQt5.QtCore import Qt, pyqtSignal
-from PyQt5.QtWidgets import QHBoxLayout, QPushButton, QWidget
+from PyQt5.QtCore import pyqtSignal
+from PyQt5.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from ..dialogs import ask_yaml_file
 from ..theme.scale import S
@@ -34,12 +34,17 @@ class FileField(QWidget):
         self.remove = QPushButton(self.tr("Without"))
         self.remove.setAccessibleName(self.tr("Without a file: {what}").format(what=title))
         self.remove.clicked.connect(lambda: self._change(None))
-        layout = QHBoxLayout(self)
+        # Beside the line they would leave its hint no room on a laptop.
+        buttons = QHBoxLayout()
+        buttons.setSpacing(S)
+        for button in (self.choose, self.remove):
+            buttons.addWidget(button)
+        buttons.addStretch(1)
+        layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(S)
-        layout.addWidget(self.field, 1)
-        for button in (self.choose, self.remove):
-            layout.addWidget(button, 0, Qt.AlignmentFlag.AlignVCenter)
+        layout.addWidget(self.field)
+        layout.addLayout(buttons)
         self.show_path(None)
         self.show_fault("")
 

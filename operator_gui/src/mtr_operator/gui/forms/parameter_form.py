@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import re
 from typing import Any, Mapping
 
 from PyQt5.QtCore import Qt, pyqtSignal
@@ -142,6 +143,11 @@ class ParameterForm(QWidget):
         self._is_filling = False
         self._check()
 
+    def mark_fields(self, said: str) -> None:
+        """Frame the fields of the parameters that a sentence names as files do; none for an empty one."""
+        for field in self.fields.values():
+            field.mark(re.search(rf"\b{field.declared.file_key}\b", said) is not None)
+
     def show_fault(self, sentence: str) -> None:
         """Say what does not fit together, e.g. with the Car's size."""
         self.fault.setText(sentence)
@@ -161,14 +167,15 @@ class ParameterForm(QWidget):
             return
         for field in self.fields.values():
             field.check()
-        sentence = ""
+        sentence = said = ""
         faulty = self._faulty_fields()
         if not faulty:
             try:
                 self._typed()
             except InvalidParameter as error:
-                sentence = parameter_sentence(error, self._type)
+                said, sentence = str(error), parameter_sentence(error, self._type)
         elif any(self._rest.isAncestorOf(field) for field in faulty):
             self.more.setChecked(True)
+        self.mark_fields(said)
         self.show_fault(sentence)
         self.changed.emit()

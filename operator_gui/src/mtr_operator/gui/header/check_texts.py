@@ -31,6 +31,13 @@ def check_text(item: Item) -> str:
     """What was found, in a sentence."""
     finding, said = item.finding, translated(item.said)
     first, second = (*item.numbers, math.nan, math.nan)[:2]
+    texts = {**_of_link(), **_of_robot(said), **_of_place(said, bool(item.numbers)), **_of_battery(),
+             **_of_car(said, is_cyclic=not math.isnan(second)), **_of_files(said)}
+    return texts[finding].format(first=_shown(item, first), second=_shown(item, second, 1),
+                                 said=domain_word(item.said) if finding is Finding.LOCKS_HEARD else "")
+
+
+def _of_link() -> dict[Finding, str]:
     return {
         Finding.UNHEARD: translate("Check", "Not known while the robot is silent."),
         Finding.LINK_ALIVE: translate("Check", "The robot's newest message is {first} s old."),
@@ -39,34 +46,54 @@ def check_text(item: Item) -> str:
         Finding.NOT_ENCRYPTED: translate("Check", "The link is not encrypted: whoever is in its network can listen and "
                                                   "send."),
         Finding.LOCAL_LINK: translate("Check", "Not encrypted; it does not leave this computer."),
+    }
+
+
+def _of_robot(said: str) -> dict[Finding, str]:
+    return {
         Finding.ROBOT_READY: translate("Check", "It takes orders, and reports nothing against a test."),
         Finding.ROBOT_STARTING: translate("Check", "The robot is still starting."),
         Finding.ROBOT_FAULT: said or translate("Check", "The robot reports a fault."),
         Finding.OTHER_OPERATOR: translate("Check", "Another application controls the robot."),
         Finding.ROBOT_SAYS: said, Finding.PART_TROUBLED: said,
-        Finding.BUS_TROUBLED: said, Finding.CLOCK_NOT_MAPPED: said, Finding.LIMITS_UNFIT: said,
         Finding.STOP_RELEASED: translate("Check", "The one by hand is heard, and released."),
         Finding.STOP_ENGAGED: translate("Check", "The one by hand is engaged: the robot stands."),
         Finding.STOP_ABSENT: translate("Check", "The robot has none by hand."),
         Finding.STOP_UNKNOWN: translate("Check", "The robot does not say whether it has one by hand."),
+        Finding.LIDARS_FINE: translate("Check", "The robot reports nothing against them."),
+        Finding.BOARD_FINE: translate("Check", "The robot reports nothing against them."),
+    }
+
+
+def _of_place(said: str, has_sigma: bool) -> dict[Finding, str]:
+    return {
         Finding.POSITION_KNOWN: translate("Check", "Known beside the Car to {first} cm (1 sigma).")
-        if item.numbers else translate("Check", "Known beside the Car."),
+        if has_sigma else translate("Check", "Known beside the Car."),
         Finding.POSITION_TO_COME: translate("Check", "Not known yet: a test begins with a drive around the Car."),
         Finding.POSITION_LOST: said or translate("Check", "The robot does not know its position."),
         Finding.SIZE_KNOWN: translate("Check", "The robot has it from the data sheet."),
         Finding.SIZE_OF_PLANE: translate("Check", "Only as the LiDARs see it at their height: distances from the Car's "
                                                   "outline may be up to {first} cm too long."),
         Finding.SIZE_TO_COME: translate("Check", "Not known before the Car is mapped."),
-        Finding.LIDARS_FINE: translate("Check", "The robot reports nothing against them."),
-        Finding.BOARD_FINE: translate("Check", "The robot reports nothing against them."),
+    }
+
+
+def _of_battery() -> dict[Finding, str]:
+    return {
         Finding.BATTERY_FINE: translate("Check", "At {first} %; what a test takes is told when it is chosen."),
         Finding.BATTERY_SUFFICES: translate("Check", "At {first} %; the test takes about {second} %."),
         Finding.BATTERY_SHORT: translate("Check", "At {first} % it may not suffice: the test takes about {second} %."),
         Finding.BATTERY_LOW: translate("Check", "Low: {first} %."),
         Finding.BATTERY_EMPTY: translate("Check", "Nearly empty: {first} %."),
         Finding.BATTERY_UNKNOWN: translate("Check", "The robot does not say its charge."),
+    }
+
+
+def _of_car(said: str, is_cyclic: bool) -> dict[Finding, str]:
+    return {
+        Finding.BUS_TROUBLED: said, Finding.CLOCK_NOT_MAPPED: said,
         Finding.BUS_FINE: translate("Check", "Load {first} %, lock message every {second} ms.")
-        if not math.isnan(second) else translate("Check", "Load {first} %, no lock message yet."),
+        if is_cyclic else translate("Check", "Load {first} %, no lock message yet."),
         Finding.BUS_SIMULATED: translate("Check", "There is none: the Car is a substitute inside the application."),
         Finding.BUS_FULL: translate("Check", "Load {first} %: messages may be late, and so the time of events."),
         Finding.BUS_SLOW: translate("Check", "The lock message comes every {first} ms; the profile says {second} ms."),
@@ -77,14 +104,19 @@ def check_text(item: Item) -> str:
         Finding.CLOCK_UNKNOWN: translate("Check", "Not known without an adapter."),
         Finding.KEY_ANSWERED: translate("Check", "The Car has reacted {first} s ago: the key is awake."),
         Finding.KEY_UNKNOWN: translate("Check", "Whether it is awake nobody knows before the Car reacts to it."),
+    }
+
+
+def _of_files(said: str) -> dict[Finding, str]:
+    return {
+        Finding.LIMITS_UNFIT: said,
         Finding.DISK_FINE: translate("Check", "{first} GB are free."),
         Finding.DISK_SHORT: translate("Check", "Only {first} GB are free."),
         Finding.DISK_FULL: translate("Check", "Nearly full: {first} GB are free."),
         Finding.DISK_UNKNOWN: translate("Check", "The system does not say how much room there is."),
         Finding.LIMITS_LOADED: translate("Check", "Limits loaded: {first}."),
         Finding.NO_LIMITS: translate("Check", "None: the lines get no verdict."),
-    }[finding].format(first=_shown(item, first), second=_shown(item, second, 1),
-                      said=domain_word(item.said) if finding is Finding.LOCKS_HEARD else "")
+    }
 
 
 def check_advice(item: Item) -> str:

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from PyQt5.QtWidgets import QPushButton, QWidget
+from PyQt5.QtCore import pyqtSignal
+from PyQt5.QtWidgets import QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.station.checks.finding import Item
 from mtr_operator.station.readiness import Cause, Readiness, ReadinessWord
@@ -32,13 +33,21 @@ _LIST_WIDTH = 680
 
 
 class StatusWord(QPushButton):
-    """Attributes: popup: the list of reasons. checklist: below them, what has to be right before the robot moves."""
+    """Attributes: popup: the list of reasons. checklist: below them, what has to be right before the robot moves.
+
+    events: below it, the way to the event list. Signals: events_wanted.
+    """
+
+    events_wanted = pyqtSignal()
 
     def __init__(self, stopping: Stopping, parent: QWidget | None = None):
         super().__init__(parent)
         self.popup = Popup(self, stopping)
         self.checklist = ChecklistPanel()
-        self.popup.widen(_LIST_WIDTH, self.checklist)
+        self.events = QPushButton(self.tr("All events"))
+        self.events.setProperty("role", "flat")
+        self.events.clicked.connect(self._want_events)
+        self.popup.widen(_LIST_WIDTH, self._below())
         self._items: tuple[Item, ...] = ()
         self._readiness: Readiness | None = None
         self.clicked.connect(self._open)
@@ -65,6 +74,18 @@ class StatusWord(QPushButton):
         self._items = items
         if self.popup.isVisible():
             self.checklist.show_items(items)
+
+    def _below(self) -> QWidget:
+        holder = QWidget()
+        column = QVBoxLayout(holder)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.checklist)
+        column.addWidget(self.events)
+        return holder
+
+    def _want_events(self) -> None:
+        self.popup.hide()
+        self.events_wanted.emit()
 
     def _open(self) -> None:
         self.checklist.show_items(self._items)

@@ -10,13 +10,16 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.history.entry import TestEntry
 
 from ..names import domain_word, scenario_title
+from ..sentences import translated
 from .table_model import TableModel
 
 _LINES = 2
+_NONE = "\N{EN DASH}"
 
 
 class HistoryModel(TableModel):
-    """When, which scenario, how many lines, verdict, car, key, operator, place. Attributes: entries: a row each."""
+    """When, which scenario, how many lines, verdict, car, key, operator, place; of what cannot be read the file, with
+    why as its tip. Attributes: entries: a row each."""
 
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
@@ -37,7 +40,7 @@ class HistoryModel(TableModel):
         if role == Qt.ItemDataRole.DisplayRole:
             return self._texts(entry)[index.column()]
         if role == Qt.ItemDataRole.ToolTipRole:
-            return entry.path
+            return translated(entry.problem) or entry.path
         if role == Qt.ItemDataRole.TextAlignmentRole and index.column() == _LINES:
             return int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         return None
@@ -46,8 +49,11 @@ class HistoryModel(TableModel):
         return (self.tr("Begun"), self.tr("Scenario"), self.tr("Lines"), self.tr("Verdict"), self.tr("Car"),
                 self.tr("Key"), self.tr("Operator"), self.tr("Place"))
 
-    @staticmethod
-    def _texts(entry: TestEntry) -> tuple[str, ...]:
-        return (entry.moment, scenario_title(SCENARIOS[entry.scenario]), f"{entry.done}/{entry.total or '?'}",
-                domain_word(entry.verdict) if entry.verdict else "\N{EN DASH}", entry.car, entry.key, entry.operator,
-                entry.place)
+    def _texts(self, entry: TestEntry) -> tuple[str, ...]:
+        if entry.problem:
+            return (_NONE, self.tr("cannot be read"), "", _NONE, "", "", "", entry.file.name)
+        # A list that a later version has kept may name a scenario of its own.
+        scenario = SCENARIOS.get(entry.scenario)
+        return (entry.moment, entry.scenario if scenario is None else scenario_title(scenario),
+                f"{entry.done}/{entry.total or '?'}", domain_word(entry.verdict) if entry.verdict else _NONE,
+                entry.car, entry.key, entry.operator, entry.place)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pathlib
-from typing import Callable, Sequence
+from typing import TYPE_CHECKING, Callable, Sequence
 
 from PyQt5.QtCore import QItemSelection, QItemSelectionModel, pyqtSignal
 from PyQt5.QtWidgets import (
@@ -19,12 +19,15 @@ from PyQt5.QtWidgets import (
 )
 
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.history.bundles import is_bundle
 from mtr_operator.history.comparison import compare
 from mtr_operator.history.entry import TestEntry
 from mtr_operator.history.index import Index, cache_path
 from mtr_operator.history.line_pairs import open_side
-from mtr_operator.history.search import matching, problems_of, values_of
+from mtr_operator.history.search import matching, problems_of, unreadable, values_of
 
+from ..dialogs import ask_bundle
+from ..evidence.bundle_check import BundleCheck, check_text
 from ..fitting.breaks import breakable
 from ..fitting.plain_table import plain_table
 from ..fitting.scroller import Scroller
@@ -34,6 +37,9 @@ from ..theme.scale import L, M, S
 from .history_model import HistoryModel
 from .history_reader import HistoryReader
 
+if TYPE_CHECKING:
+    from mtr_operator.evidence.verification import Verification
+
 _TABLE_HEIGHT = 120
 _BOX_LETTERS = 10
 _PROBLEMS_SHOWN = 2
@@ -42,7 +48,7 @@ _PROBLEMS_SHOWN = 2
 class HistoryScreen(QWidget):
     """Attributes: search: text field. car, key, verdict: boxes. table. notice: how many there are, and what is wrong.
 
-    open, repeat, compare, file, back: buttons.
+    open, repeat, compare, file, verify, back: buttons.
 
     Signals: open_wanted(path), repeat_wanted(side), compare_wanted(comparison), file_wanted, closed.
     """
@@ -59,7 +65,9 @@ class HistoryScreen(QWidget):
         self._index: Index | None = None
         self._folders: tuple[pathlib.Path, ...] = ()
         self._reader: HistoryReader | None = None
+        self._check: BundleCheck | None = None
         self._entries: Sequence[TestEntry] = ()
+        self._summary = ""
         self._model = HistoryModel(self)
         self.search = QLineEdit()
         self.search.setPlaceholderText(self.tr("Search: VIN, key, day, operator, note"))
@@ -77,6 +85,8 @@ class HistoryScreen(QWidget):
         self.repeat.setToolTip(self.tr("A new test with the same parameters, car and key"))
         self.compare = self._button(self.tr("Compare two"), self._compare)
         self.file = self._button(self.tr("Open a file"), self.file_wanted.emit)
+        self.verify = self._button(self.tr("Verify a bundle"), self._ask_bundle)
+        self.verify.setToolTip(self.tr("Whether a bundle of evidence is as it was signed, by whom and when"))
         self.back = self._button(self.tr("Back"), self.closed.emit)
         self._lay_out()
         self._show_choice()
@@ -110,15 +120,19 @@ class HistoryScreen(QWidget):
     def _lay_out(self) -> None:
         title = QLabel(self.tr("Tests so far"))
         title.setProperty("role", "heading")
-        filters, buttons = QHBoxLayout(), QHBoxLayout()
-        for row, widgets in ((filters, (self.search, self.car, self.key, self.verdict)),
+        filters, buttons, top = QHBoxLayout(), QHBoxLayout(), QHBoxLayout()
+        top.addWidget(title, 1)
+        top.addWidget(self.verify)
+        for row, widgets in ((filters, (self.car, self.key, self.verdict)),
                              (buttons, (self.back, self.file, self.repeat, self.compare, self.open))):
             row.setSpacing(S)
             for widget in widgets:
-                row.addWidget(widget, 2 if widget is self.search else 1)
+                row.addWidget(widget, 1)
         column = QVBoxLayout()
         column.setSpacing(S)
-        column.addWidget(title)
+        column.addLayout(top)
+        # Its hint is longer than what three boxes leave of a laptop's width.
+        column.addWidget(self.search)
         column.addLayout(filters)
         column.addWidget(self.table, 1)
         column.addWidget(self.notice)
@@ -135,6 +149,7 @@ class HistoryScreen(QWidget):
         if self._index is None or tuple(folders) != self._folders:
             self._folders = tuple(folders)
             self._index = Index(self._folders, cache_path(self._folders))
+        self._summary = ""
         self.notice.setText(self.tr("The folders are being read."))
         # No child of the screen, and no lambda: it may outlive it when the window is made anew.
         self._reader = HistoryReader(self._index)
@@ -151,11 +166,29 @@ class HistoryScreen(QWidget):
     @property
     def shown(self) -> Sequence[TestEntry]:
         """Tests in the table."""
-        return self._model.entries
+        return [entry for entry in self._model.entries if not entry.problem]
 
     def say(self, sentence: str) -> None:
         """Tell the Operator something."""
         self.notice.setText(breakable(sentence))
+
+    def _ask_bundle(self) -> None:
+        path = ask_bundle(self, self.tr("Bundle of evidence"), self._folders[-1] if self._folders else pathlib.Path())
+        if path is not None:
+            self.verify_bundle(path)
+
+    def verify_bundle(self, path: pathlib.Path) -> None:
+        """Say whether a bundle is intact."""
+        self.verify.setEnabled(False)
+        self.say(self.tr("{name} is being verified.").format(name=path.name))
+        # No child of the screen, and no lambda: it may outlive it when the window is made anew.
+        self._check = BundleCheck(path)
+        self._check.checked.connect(self._show_check)
+        self._check.start()
+
+    def _show_check(self, path: pathlib.Path, found: Verification) -> None:
+        self.verify.setEnabled(True)
+        self.say(check_text(path, found))
 
     def _learn(self, entries: list[TestEntry]) -> None:
         self._entries = entries
@@ -177,31 +210,44 @@ class HistoryScreen(QWidget):
                                                                         shown=len(self.shown))
         more = len(problems) - _PROBLEMS_SHOWN
         tail = [self.tr("{count} more files cannot be read.").format(count=more)] if more > 0 else []
-        self.say("\n".join([counted, *map(translated, problems[:_PROBLEMS_SHOWN]), *tail]))
+        self._summary = "\n".join([counted, *map(translated, problems[:_PROBLEMS_SHOWN]), *tail])
+        self.say(self._summary)
         self.notice.setToolTip("\n".join(map(translated, problems)))
 
     def _show(self) -> None:
-        before = {entry.test_id for entry in self.chosen}
-        self._model.show_entries(matching(self._entries, self.search.text(), car=self.car.currentData() or "",
-                                          key=self.key.currentData() or "",
-                                          verdict=self.verdict.currentData() or ""))
+        before = set(map(_mark, self.chosen))
+        text, car, key, verdict = (self.search.text(), *(box.currentData() or "" for box in
+                                                         (self.car, self.key, self.verdict)))
+        # Whoever looks for a car does not look for what nobody can read.
+        broken = [] if car or key or verdict else unreadable(self._entries, text)
+        self._model.show_entries([*matching(self._entries, text, car=car, key=key, verdict=verdict), *broken])
         # What grows while it is read must not take a choice away.
-        for row, entry in enumerate(self.shown if before else ()):
-            if entry.test_id in before:
+        for row, entry in enumerate(self._model.entries if before else ()):
+            if _mark(entry) in before:
                 whole = QItemSelection(self._model.index(row, 0), self._model.index(row, self._model.columnCount() - 1))
                 self.table.selectionModel().select(whole, QItemSelectionModel.SelectionFlag.Select)
         self._show_choice()
 
     def _show_choice(self) -> None:
         chosen = self.chosen
-        self.open.setEnabled(len(chosen) == 1)
-        self.repeat.setEnabled(len(chosen) == 1)
-        self.compare.setEnabled(len(chosen) == 2)
-        is_unfinished = len(chosen) == 1 and not chosen[0].is_complete
+        is_good = not any(entry.problem for entry in chosen)
+        is_bundle_alone = len(chosen) == 1 and is_bundle(chosen[0].file)
+        self.open.setEnabled(is_good and len(chosen) == 1 and not is_bundle_alone)
+        self.repeat.setEnabled(is_good and len(chosen) == 1)
+        self.compare.setEnabled(is_good and len(chosen) == 2)
+        is_unfinished = len(chosen) == 1 and is_good and not chosen[0].is_complete
         self.open.setText(self.tr("Continue") if is_unfinished else self.tr("Open"))
+        if not is_good and len(chosen) == 1:
+            self.say(translated(chosen[0].problem))
+        elif is_bundle_alone:
+            self.say(self.tr("This test is in a signed bundle: it can be repeated and compared. Unpack the bundle into "
+                             "a folder of its own to open it."))
+        elif self._summary:
+            self.say(self._summary)
 
     def _open(self) -> None:
-        if len(self.chosen) == 1:
+        # A row is opened by two clicks, too.
+        if self.open.isEnabled():
             self.open_wanted.emit(self.chosen[0].file)
 
     def _repeat(self) -> None:
@@ -216,3 +262,8 @@ class HistoryScreen(QWidget):
             self.compare_wanted.emit(compare(open_side(first.file), open_side(second.file)))
         except OperatorError as error:
             self.say(translated(str(error)))
+
+
+def _mark(entry: TestEntry) -> str:
+    """The same for a test in each copy of it, and in each look."""
+    return entry.test_id or entry.path

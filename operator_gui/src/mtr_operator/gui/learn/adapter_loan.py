@@ -23,7 +23,7 @@ class AdapterLoan(QObject):
     def take(self, choice: CanChoice) -> None:
         """Free this adapter; taken follows, at once when nobody has it."""
         used = self._flow.can_in_use
-        if used is None or (used.interface, used.channel) != (choice.interface, choice.channel):
+        if used is None or (choice.interface, choice.channel) not in used.places:
             self.taken.emit()
             return
         self._former = used

@@ -8,6 +8,7 @@ from PyQt5.QtCore import QPointF, QRectF, QSize, Qt
 from PyQt5.QtGui import QColor, QPainter, QPaintEvent
 from PyQt5.QtWidgets import QSizePolicy, QWidget
 
+from mtr_operator.domain.results.diverging import colour_of_error, scale_of
 from mtr_operator.domain.results.picture import PointSet
 
 from ..i18n import translate
@@ -21,6 +22,7 @@ from .viewport import Viewport
 ROW_PX = 24.0
 _TEXT_LEFT_PX = 26.0
 _FONT_PX = 15.0
+_CM_PER_M = 100.0
 
 
 def _meanings(sets: Sequence[PointSet]) -> list[tuple[str, str]]:
@@ -28,7 +30,15 @@ def _meanings(sets: Sequence[PointSet]) -> list[tuple[str, str]]:
     return [(kind, text) for kind, text in (
         ("bars", translate("Picture", "place of the key (1 sigma)")),
         ("brackets", translate("Picture", "border somewhere in between")),
-        ("intervals", translate("Picture", "95 % interval"))) if any(getattr(points, kind) for points in sets)]
+        ("intervals", translate("Picture", "95 % interval")),
+        ("errors_m", _scale_text(sets))) if any(getattr(points, kind) for points in sets)]
+
+
+def _scale_text(sets: Sequence[PointSet]) -> str:
+    """Which errors the ends of the colours are."""
+    scale_m = scale_of([error_m for points in sets for error_m in points.errors_m])
+    return translate("Picture", "error from {low} to {high} cm").format(
+        low=f"\N{MINUS SIGN}{_CM_PER_M * scale_m:g}", high=f"+{_CM_PER_M * scale_m:g}")
 
 
 def legend_texts(sets: Sequence[PointSet]) -> list[str]:
@@ -56,6 +66,9 @@ def paint_entry(canvas: Canvas, sets: Sequence[PointSet], index: int, corner: QP
 
 def _paint_meaning(canvas: Canvas, kind: str, middle: QPointF) -> None:
     reach, colour = QPointF(8.0 * canvas.unit, 0.0), canvas.palette.ink_soft
+    if kind == "errors_m":
+        _paint_scale(canvas, middle)
+        return
     if kind == "intervals":
         canvas.painter.setPen(canvas.pen(colour, 2.2))
         draw_interval(canvas.painter, middle - reach, middle + reach, 5.0 * canvas.unit)
@@ -64,6 +77,17 @@ def _paint_meaning(canvas: Canvas, kind: str, middle: QPointF) -> None:
     pen.setCapStyle(Qt.PenCapStyle.FlatCap)
     canvas.painter.setPen(pen)
     canvas.painter.drawLine(middle - reach, middle + reach)
+
+
+def _paint_scale(canvas: Canvas, middle: QPointF) -> None:
+    """The colours from end to end."""
+    unit, count = canvas.unit, 7
+    wide, high = 18.0 * unit / count, 10.0 * unit
+    canvas.painter.setPen(Qt.PenStyle.NoPen)
+    for index in range(count):
+        canvas.painter.setBrush(QColor(*colour_of_error(2.0 * index / (count - 1) - 1.0, 1.0)))
+        left = middle.x() + (index - count / 2.0) * wide
+        canvas.painter.drawRect(QRectF(left, middle.y() - high / 2.0, wide, high))
 
 
 class LegendStrip(QWidget):

@@ -9,6 +9,7 @@ from mtr_operator.report.protocol_rows import (
     Row,
     assessment_rows,
     date_text,
+    finding_rows,
     numbers_with_effect,
     session_rows,
     summary_rows,
@@ -120,8 +121,10 @@ class ProtocolSheet:
     def _result_rows(self) -> list[Row]:
         rows = summary_rows(self._protocol.scenario, self._protocol.progress)
         rows += assessment_rows(self._protocol.assessment)
-        return [(domain_word(name), ", ".join(_count(part) for part in value.split(", ")).replace(".", decimal_sign()))
-                for name, value in rows]
+        counted = [(domain_word(name), ", ".join(map(_count, value.split(", "))).replace(".", decimal_sign()))
+                   for name, value in rows]
+        return counted + [(domain_word(place), translated(finding))
+                          for place, finding in finding_rows(self._protocol.progress)]
 
     def _parameter_rows(self) -> list[Row]:
         protocol = self._protocol

@@ -120,6 +120,9 @@ def _lines(protocol: Protocol) -> Iterator[Row]:
                       *([interval_text(distance)] if shows_intervals else [])]
         verdict = "" if judgement is None else domain_word(judgement.of_line(result.number).word.replace("_", " "))
         yield table_row((*cells, verdict), columns)
+    for result in results:
+        for finding in result.findings:
+            yield from sentence_rows(f"{result.number} ({domain_word(result.place)}): {translated(finding)}")
     for sentence in meanings(results):
         yield from sentence_rows(translated(sentence))
     yield table_row((), WHOLE)

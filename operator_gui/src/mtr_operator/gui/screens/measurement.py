@@ -8,6 +8,7 @@ from PyQt5.QtCore import QTimer, pyqtBoundSignal, pyqtSignal
 from PyQt5.QtGui import QHideEvent, QShowEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
+from mtr_operator.station.handle_prompt import HandlePrompt, Prompt
 from mtr_operator.station.readiness import HELD_CODE, Phase, can_resume
 from mtr_operator.station.view_model import ViewModel
 
@@ -29,18 +30,19 @@ _SIDE_WIDTH, _MIN_SIDE_WIDTH = 400, 330
 
 
 class MeasurementScreen(QWidget):
-    """Attributes: panel: the picture. facts: progress and state in words. resume, save, leave: buttons.
+    """Attributes: panel: the picture. facts: progress and state in words. resume, save, events, leave: buttons.
 
     held: why the robot stands until the Operator has it go on. go_on: the button for that.
-    handle: what the Operator is to do at the Car's handle. taken: the button that says it is done.
-    Signals: resume_wanted, release_wanted, handle_taken, save_wanted, leave_wanted; answered: nothing is asked any more
-        of the person who had the focus on `taken`.
+    handle: what the Operator is to do at the Car's handle or with the extender. taken: the button that says it is done.
+    Signals: resume_wanted, release_wanted, prompt_answered, save_wanted, events_wanted, leave_wanted; answered: nothing
+        is asked any more of the person who had the focus on `taken`.
     """
 
     resume_wanted = pyqtSignal()
     release_wanted = pyqtSignal()
-    handle_taken = pyqtSignal()
+    prompt_answered = pyqtSignal()
     save_wanted = pyqtSignal()
+    events_wanted = pyqtSignal()
     leave_wanted = pyqtSignal()
     answered = pyqtSignal()
 
@@ -54,9 +56,10 @@ class MeasurementScreen(QWidget):
         self.trouble, self.held, self.handle = (self._label("banner") for _ in range(3))
         self.note = self._label("soft")
         self.go_on = self._hold_button(self.tr("Hold to go on"), self.release_wanted)
-        self.taken = self._button(self.tr("Handle taken"), "primary", self.handle_taken)
+        self.taken = self._button(self.tr("Handle taken"), "primary", self.prompt_answered)
         self.resume = self._hold_button(self.tr("Hold to resume"), self.resume_wanted)
         self.save = self._button(self.tr("Save progress"), "", self.save_wanted)
+        self.events = self._button(self.tr("Events"), "", self.events_wanted)
         self.leave = self._button(self.tr("Back to the beginning"), "", self.leave_wanted)
         self._frames = QTimer(self)
         self._frames.setInterval(FRAME_MS)
@@ -95,8 +98,14 @@ class MeasurementScreen(QWidget):
         side = QVBoxLayout()
         side.setSpacing(S)
         side.addWidget(Scroller(told), 1)
-        for button in (self.go_on, self.taken, self.resume, self.save, self.leave):
+        for button in (self.go_on, self.taken, self.resume):
             side.addWidget(button)
+        row = QHBoxLayout()
+        row.setSpacing(S)
+        for button in (self.save, self.events):
+            row.addWidget(button, 1)
+        side.addLayout(row)
+        side.addWidget(self.leave)
         holder = QWidget()
         holder.setMinimumWidth(_MIN_SIDE_WIDTH)
         holder.setMaximumWidth(_SIDE_WIDTH)
@@ -119,7 +128,7 @@ class MeasurementScreen(QWidget):
         self.trouble.setText(translated(model.trouble))
         self._show_cause(can_resume(model.readiness))
         self._show_hold()
-        self._show_handle()
+        self._show_prompt()
         self.resume.setVisible(model.phase is Phase.PAUSED)
         self.resume.setEnabled(can_resume(model.readiness))
         self.leave.setVisible(model.phase is Phase.PAUSED)
@@ -136,14 +145,13 @@ class MeasurementScreen(QWidget):
         self.held.setVisible(is_held and bool(reason))
         self.go_on.setVisible(is_held)
 
-    def _show_handle(self) -> None:
+    def _show_prompt(self) -> None:
         """It has the focus, so that a person who comes back from the Car presses Enter."""
-        prompt = self._model.handle if self._model.phase is Phase.MEASURING else None
+        prompt = self._model.prompt if self._model.phase is Phase.MEASURING else None
         if prompt is not None:
-            sentence = self.tr("Take the Car's handle now, with the Remote key at {distance} m, and then say so here, "
-                               "by Enter or the button. "
-                               "When the Car unlocks, nothing more is to be done.")
-            self.handle.setText(sentence.format(distance=number(prompt.distance_m, 2)))
+            self.handle.setText(self._question(prompt))
+            self.taken.setText(self.tr("Handle taken") if isinstance(prompt, HandlePrompt)
+                               else self.tr("Extender switched"))
         is_new = prompt is not None and self.taken.isHidden()
         is_over = prompt is None and self.taken.hasFocus()
         self.handle.setVisible(prompt is not None)
@@ -152,6 +160,16 @@ class MeasurementScreen(QWidget):
             self.taken.setFocus()
         elif is_over:
             self.answered.emit()
+
+    def _question(self, prompt: Prompt) -> str:
+        if isinstance(prompt, HandlePrompt):
+            sentence = self.tr("Take the Car's handle now, with the Remote key at {distance} m, and then say so here, "
+                               "by Enter or the button. "
+                               "When the Car unlocks, nothing more is to be done.")
+            return sentence.format(distance=number(prompt.distance_m, 2))
+        if prompt.is_on:
+            return self.tr("Switch the extender on now, and then say so here, by Enter or the button.")
+        return self.tr("Switch the extender off now, and then say so here, by Enter or the button.")
 
     def say(self, sentence: str) -> None:
         """Show a sentence above the buttons; a path in it may go on in the next row."""

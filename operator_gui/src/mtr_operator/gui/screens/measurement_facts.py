@@ -128,7 +128,7 @@ class MeasurementFacts(QFrame):
 
 
 def newest_text(model: ViewModel) -> str:
-    """The newest result: place and distances."""
+    """The newest result: place, distances, and what else it tells."""
     if not model.results or model.newest is None:
         return _UNKNOWN
     result = model.newest
@@ -136,7 +136,8 @@ def newest_text(model: ViewModel) -> str:
     figures = zip(result.distances, figures_of(test.scenario, test.parameters, result))
     distances = [f"{domain_word(distance.word)} {figure_text(figure, distance.uncertainty_m)}"
                  for distance, figure in figures]
-    text = f"{result.number} ({domain_word(result.place)}): {', '.join(distances)}"
+    told = (*distances, *map(translated, result.findings))
+    text = f"{result.number} ({domain_word(result.place)}): {', '.join(told)}"
     if model.judgement is None or not model.judgement.names(result.number):
         return text
     return f"{text} \N{EN DASH} {domain_word(model.judgement.of_line(result.number).word)}"

@@ -6,7 +6,7 @@ import dataclasses
 import math
 import os
 import pathlib
-from typing import Callable
+from typing import TYPE_CHECKING, Callable
 
 from PyQt5.QtCore import Qt, QTimer, QUrl, pyqtSignal
 from PyQt5.QtGui import QDesktopServices
@@ -27,7 +27,7 @@ from ..forms.hold_button import HoldButton
 from ..names import scenario_title
 from ..pictures.picture_panel import PicturePanel
 from ..pictures.protocol_picture import Protocol, ProtocolPicture
-from ..report_writer import CSV, PDF, PNG, SVG, ReportWriter
+from ..report_writer import BUNDLE, CSV, PDF, PNG, SVG, ReportWriter
 from ..sentences import translated
 from ..theme.appearance import Appearance
 from ..theme.scale import M, S
@@ -35,6 +35,9 @@ from ..verdict_text import verdict_text
 from .annotation_dialog import AnnotationDialog
 from .budget_model import BudgetModel
 from .results_model import ResultsModel
+
+if TYPE_CHECKING:
+    from ..evidence.bundling import Bundled
 
 _SIDE_WIDTH = 600
 _TABLE_HEIGHT, _BUDGET_HEIGHT = 180, 140
@@ -46,7 +49,8 @@ class ProtocolScreen(QWidget):
     """Attributes: protocol: what is shown. panel: the picture. table: the results. budget: of the row chosen.
     notice: what was saved.
 
-    save, save_pdf, save_svg, show_folder, annotate, again, done: buttons; again is held, for it moves the robot.
+    save, save_pdf, save_svg, bundle, show_folder, annotate, again, done: buttons; again is held, for it moves the
+    robot.
 
     Signals: closed: the Operator is done with it.
     """
@@ -61,6 +65,7 @@ class ProtocolScreen(QWidget):
         self._writer: ReportWriter | None = None
         self._kinds: tuple[str, ...] = ()
         self._saved: set[str] = set()
+        self._said = ""
         self._folder: pathlib.Path | None = None
         self.panel = PicturePanel(appearance)
         self.panel.view.clicked.connect(self._choose_point)
@@ -82,6 +87,9 @@ class ProtocolScreen(QWidget):
         self.again = HoldButton(self.tr("Hold to measure again"))
         self.again.held.connect(self._measure_again)
         self.annotate = self._button(self.tr("Notes and photos"), "", self._open_annotation)
+        self.bundle = self._button(self.tr("Save evidence bundle"), "", lambda: self._write((CSV, PNG, BUNDLE)))
+        self.bundle.setToolTip(self.tr("One signed file with results, recording, profile, software versions and "
+                                       "journal"))
         self.done = self._button(self.tr("New test"), "", self.closed.emit)
         self._lay_out()
 
@@ -120,6 +128,7 @@ class ProtocolScreen(QWidget):
         side.addWidget(self.notice)
         side.addWidget(self.again)
         side.addWidget(self.annotate)
+        side.addWidget(self.bundle)
         side.addLayout(first)
         side.addLayout(second)
         holder = Scroller(side)
@@ -138,6 +147,7 @@ class ProtocolScreen(QWidget):
         protocol = Protocol(test.scenario, test.parameters, progress)
         self._shown = ProtocolPicture(protocol)
         self._saved.clear()
+        self._said = ""
         self._folder = None
         self.title.setText(self.tr("{scenario} protocol").format(scenario=scenario_title(test.scenario)))
         self.date.setText(date_text(str(progress.session.get("started", ""))))
@@ -217,6 +227,10 @@ class ProtocolScreen(QWidget):
         self._writer.written.connect(self._show_written)
         self._writer.refused.connect(self._show_refused)
         self._writer.not_annotated.connect(self._show_not_annotated)
+        self._writer.bundling.connect(self._show_bundling)
+        self._writer.bundled.connect(self._show_bundled)
+        self._writer.not_bundled.connect(self._show_not_bundled)
+        self._said = ""
         self._writer.start()
 
     def _open_annotation(self) -> None:
@@ -231,7 +245,7 @@ class ProtocolScreen(QWidget):
         self._write((CSV, PNG), annotation)
 
     def _set_saving(self, is_saving: bool) -> None:
-        for button in (self.save, self.save_pdf, self.save_svg, self.annotate):
+        for button in (self.save, self.save_pdf, self.save_svg, self.annotate, self.bundle):
             button.setEnabled(not is_saving)
 
     def _show_written(self, paths: list[pathlib.Path]) -> None:
@@ -240,8 +254,21 @@ class ProtocolScreen(QWidget):
         files = ", ".join(sorted(self._saved))
         # A long path goes on in the next line.
         folder = str(self._folder).replace(os.sep, f"{os.sep}{_MAY_BREAK}")
-        self._show_notice(self.tr("Saved {files} to {folder}").format(files=files, folder=folder))
+        saved = self.tr("Saved {files} to {folder}").format(files=files, folder=folder)
+        self._show_notice(f"{saved}. {self._said}" if self._said else saved)
         self.show_folder.setEnabled(True)
+
+    def _show_bundling(self, percent: int) -> None:
+        self._show_notice(self.tr("The bundle is written: {percent} %.").format(percent=percent))
+
+    def _show_bundled(self, bundled: Bundled) -> None:
+        self._said = self.tr("It is bundle {number} of {station}.").format(number=bundled.number,
+                                                                          station=bundled.station)
+        for name, reason in bundled.left_out.items():
+            self._said += " " + self.tr("Left out is {name}: {reason}").format(name=name, reason=translated(reason))
+
+    def _show_not_bundled(self, text: str) -> None:
+        self._said = translated(text)
 
     def _show_refused(self, text: str) -> None:
         self._set_saving(False)

@@ -20,8 +20,8 @@ _DISTANCE, _INTERVAL = 0, 2
 
 
 class ResultsModel(QAbstractTableModel):
-    """Number and place of each line, then distance, uncertainty and perhaps interval of each measurement in m; at the
-    end the verdict, where there are limits."""
+    """Number and place of each line, then distance, uncertainty and perhaps interval of each measurement in m, what
+    else lines tell where they do, and at the end the verdict, where there are limits."""
 
     def __init__(self, protocol: Protocol, parent: QObject | None = None):
         super().__init__(parent)
@@ -30,7 +30,8 @@ class ResultsModel(QAbstractTableModel):
         self._results = protocol.progress.results
         self._kinds = 3 if has_intervals(self._results) else 2
         self._judgement = protocol.assessment.judgement
-        self._verdict_column = _FIXED_COLUMNS + self._kinds * len(self._scenario.distance_words)
+        self._finding_column = _FIXED_COLUMNS + self._kinds * len(self._scenario.distance_words)
+        self._verdict_column = self._finding_column + any(result.findings for result in self._results)
 
     def rowCount(self, parent: QModelIndex = QModelIndex()) -> int:  # noqa: B008
         """See QAbstractItemModel."""
@@ -50,6 +51,8 @@ class ResultsModel(QAbstractTableModel):
             return ("#", domain_word(self._scenario.line_word).capitalize())[section]
         if section == self._verdict_column:
             return domain_word("verdict").capitalize()
+        if section >= self._finding_column:
+            return domain_word("finding").capitalize()
         word = domain_word(self._scenario.distance_words[self._index(section)]).capitalize()
         return (f"{word} [m]", sigma_heading(self._results), f"{INTERVAL} [m]")[self._kind(section)]
 
@@ -69,6 +72,8 @@ class ResultsModel(QAbstractTableModel):
             return (str(result.number), domain_word(result.place))[column]
         if self._judgement is not None and column == self._verdict_column:
             return domain_word(self._judgement.of_line(result.number).word.replace("_", " "))
+        if column >= self._finding_column:
+            return "; ".join(map(translated, result.findings))
         distance, kind = result.distances[self._index(column)], self._kind(column)
         if kind == _INTERVAL:
             return interval_text(distance)

@@ -32,6 +32,9 @@ from ..sentences import in_window_words, parameter_sentence
 from ..theme.appearance import Appearance
 from ..theme.scale import L, M, S
 
+# Least of it beside the longest sentences; what has no room scrolls.
+_PICTURE_HEIGHT = 240
+
 
 class SettingsScreen(QWidget):
     """Attributes: form: the parameters. given: files that go with them. identity: car, key and who measures.
@@ -60,6 +63,7 @@ class SettingsScreen(QWidget):
         self.given = GivenForm(scenario)
         self.identity = IdentityForm()
         self.picture = PicturePanel(appearance)
+        self.picture.setMinimumHeight(_PICTURE_HEIGHT)
         self.notice = QLabel()
         self.notice.setWordWrap(True)
         self.caution = QLabel()
@@ -90,12 +94,13 @@ class SettingsScreen(QWidget):
         buttons = QHBoxLayout()
         buttons.setSpacing(M)
         buttons.addWidget(back)
-        buttons.addWidget(self._hindrance, 1)
+        buttons.addStretch(1)
         buttons.addWidget(self.start)
         left = QVBoxLayout()
         left.setSpacing(M)
         left.addWidget(title)
         left.addWidget(Scroller(given), 1)
+        left.addWidget(self._hindrance)
         left.addLayout(buttons)
         right = QVBoxLayout()
         right.setSpacing(S)
@@ -106,7 +111,7 @@ class SettingsScreen(QWidget):
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(L)
         layout.addLayout(left, 11)
-        layout.addLayout(right, 10)
+        layout.addWidget(Scroller(right), 10)
 
     def show_model(self) -> None:
         """Something of robot or Car is another one."""
@@ -129,9 +134,11 @@ class SettingsScreen(QWidget):
         if parameters is not None:
             try:
                 self._plan = plan_of(self._scenario, parameters, car, mapped is not None, self._model.facts)
+                self.form.mark_fields("")
                 self.form.show_fault("")
                 self._lines.stretches, self._lines.is_visible = self._plan.stretches, True
             except InvalidParameter as error:
+                self.form.mark_fields(str(error))
                 self.form.show_fault(parameter_sentence(error, self._scenario.parameters_type))
         self._show_obstacles()
         self.picture.view.show_layers([GridLayer(), self._obstacles, self._lines, CarLayer(car, mapped is not None),
@@ -179,7 +186,7 @@ class SettingsScreen(QWidget):
     def _forecast(self, is_mapped: bool) -> str:
         plan = self._plan
         if plan is None:
-            return ""
+            return self.tr("No preview of the lines while the parameters are not right.")
         lines = self.tr("{count} lines ({word}), about {time}.").format(
             count=len(plan.stretches), word=domain_word(self._scenario.line_word), time=duration(plan.duration_s))
         lines = " ".join(filter(None, (lines, prospect_text(plan.prospect))))
@@ -198,6 +205,7 @@ class SettingsScreen(QWidget):
         # The fields of the files say themselves what is wrong with them.
         missing = [item for item in hindrances(self._model.checklist) if item.check is not Check.LIMITS]
         self._hindrance.setText(" ".join(map(check_text, missing)))
+        self._hindrance.setVisible(bool(missing))
         is_given_well = self.given.judge(None if self._plan is None else self.form.parameters)
         is_well = is_given_well and not self.identity.problem
         self.start.setEnabled(self._plan is not None and is_well and readiness.can_start and not missing)

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
-from . import can, figures, handle, identity, keeping, learn, limits, pairing, passes
+from ..events import sentences as events
+from . import can, cars, figures, handle, identity, keeping, learn, limits, pairing, passes
+from .keys import phone, relay
 
 SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "wait for robot and Car"),
@@ -69,6 +71,9 @@ SENTENCES = (
                                   "ports are the robot's. {}"),
     QT_TRANSLATE_NOOP("Sentence", "The robot's ports are open, but no Status has come for {} s; check that both "
                                   "ports are the robot's."),
+    QT_TRANSLATE_NOOP("Sentence", "The laptop slept for {} s, and the robot stood meanwhile."),
+    QT_TRANSLATE_NOOP("Sentence", "The application stood still for {} s, and the robot stood meanwhile."),
+    QT_TRANSLATE_NOOP("Sentence", "{} The line at hand is measured anew when the test goes on."),
     QT_TRANSLATE_NOOP("Sentence", "The robot started anew during the test; the measured lines are kept, go on with "
                                   "a continued test."),
     QT_TRANSLATE_NOOP("Sentence", "Another application has taken over the control of the robot."),
@@ -105,6 +110,7 @@ SENTENCES = (
     *keeping.SENTENCES,
     *limits.SENTENCES, *identity.SENTENCES, *pairing.SENTENCES,
     *can.SENTENCES, *handle.SENTENCES, *passes.SENTENCES, *figures.SENTENCES, *learn.SENTENCES,
+    *cars.SENTENCES, *events.SENTENCES, *phone.SENTENCES, *relay.SENTENCES,
     QT_TRANSLATE_NOOP("Sentence", "It cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is truncated or not a JSON file."),
     QT_TRANSLATE_NOOP("Sentence", "The progress file belongs to another Car: its {} was {} m, now it measures {} m."),

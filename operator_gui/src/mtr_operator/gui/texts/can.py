@@ -36,6 +36,10 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The CAN log {} holds no frame."),
     QT_TRANSLATE_NOOP("Sentence", "The CAN log {} has come to its end."),
     QT_TRANSLATE_NOOP("Sentence", "The CAN log is not open."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN log {} has a gap of {} s after {} frames; a change within it is as "
+                                  "uncertain as the gap is long."),
+    QT_TRANSLATE_NOOP("Sentence", "The time of the CAN log {} jumps back by {} s after {} frames; what lies about it "
+                                  "is not to be believed."),
     QT_TRANSLATE_NOOP("Sentence", "The course {} cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "The course {} is damaged; it is no text."),
     QT_TRANSLATE_NOOP("Sentence", "The course {} is damaged in line {}, or of another version."),

@@ -1,4 +1,4 @@
-"""Sentences on handle requests, with {} for what varies."""
+"""Sentences on handle requests and what is measured by them, with {} for what varies."""
 # SPDX-License-Identifier: Apache-2.0
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
@@ -41,4 +41,19 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: taken and released of handle_request are both {}; give two "
                                   "values."),
     QT_TRANSLATE_NOOP("Sentence", "Signal {} of message {} cannot carry the value {}."),
+    QT_TRANSLATE_NOOP("Sentence", "trial {}: the key is held still for {} s"),
+    QT_TRANSLATE_NOOP("Sentence", "a trial was disturbed and is made again"),
+    QT_TRANSLATE_NOOP("Sentence", "move the key: it has to answer then"),
+    QT_TRANSLATE_NOOP("Sentence", "asleep after {} to {} s"),
+    QT_TRANSLATE_NOOP("Sentence", "asleep after {} s at most"),
+    QT_TRANSLATE_NOOP("Sentence", "awake for at least {} s"),
+    QT_TRANSLATE_NOOP("Sentence", "The Remote key was moved while it was to be held still."),
+    QT_TRANSLATE_NOOP("Sentence", "Nobody knows since when the Remote key has been at rest."),
+    QT_TRANSLATE_NOOP("Sentence", "The key did not answer {} requests at {} m right after it was moved: the place lies "
+                                  "outside the zone, the key's battery is empty, it is not the Car's key, or the "
+                                  "handle of this side was not taken."),
+    QT_TRANSLATE_NOOP("Sentence", "Parameter wake_move_m is {} m; allowed is at most {} m, up to maximum_distance_m."),
+    QT_TRANSLATE_NOOP("Sentence", "Parameter interval_s is {} s; allowed is more than {} s, for the requests to a "
+                                  "silent key take half of that; decrease requests or response_timeout_s."),
+    QT_TRANSLATE_NOOP("Sentence", "Parameter longest_wait_s is {} s; it has to be longer than shortest_wait_s, {} s."),
 )

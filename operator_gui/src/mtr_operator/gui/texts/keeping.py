@@ -39,4 +39,38 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "refers to another part of itself; write the value out"),
     QT_TRANSLATE_NOOP("Sentence", "says {} twice"),
     QT_TRANSLATE_NOOP("Sentence", "They are larger than {} KiB."),
+    QT_TRANSLATE_NOOP("Sentence", "it is a pipe or a device, and no file"),
+    QT_TRANSLATE_NOOP("Sentence", "The folder {} cannot be read: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The test in {} cannot be read: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The folder {} holds {}, and no {}: what was measured can be read there, and is no "
+                                  "test that can be opened."),
+    QT_TRANSLATE_NOOP("Sentence", "{} is no file."),
+    QT_TRANSLATE_NOOP("Sentence", "The bundle {} was written by a newer version of the application."),
+    QT_TRANSLATE_NOOP("Sentence", "The bundle {} holds no {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The bundle {} cannot be unpacked: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The bundle {} is not as it was signed. {}"),
+    QT_TRANSLATE_NOOP("Sentence", "{} is torn, or no bundle: its list of files cannot be read."),
+    QT_TRANSLATE_NOOP("Sentence", "There is no {} or {} in it: it is no bundle."),
+    QT_TRANSLATE_NOOP("Sentence", "{} or {} is changed: it cannot be read any more."),
+    QT_TRANSLATE_NOOP("Sentence", "{} or {} is changed: the signature is not that of the station's key over it."),
+    QT_TRANSLATE_NOOP("Sentence", "{} is missing."),
+    QT_TRANSLATE_NOOP("Sentence", "{} is changed."),
+    QT_TRANSLATE_NOOP("Sentence", "{} was added."),
+    QT_TRANSLATE_NOOP("Sentence", "A file is in it twice."),
+    QT_TRANSLATE_NOOP("Sentence", "The bundle {} cannot be written: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The bundle was given up, for the window closes."),
+    QT_TRANSLATE_NOOP("Sentence", "The chain of bundles in {} is damaged; move that file elsewhere to begin a new "
+                                  "chain."),
+    QT_TRANSLATE_NOOP("Sentence", "The key of this station in {} cannot be read or made: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The key of this station in {} is damaged; restore it from a copy, or move it "
+                                  "elsewhere to have a new one made."),
+    QT_TRANSLATE_NOOP("Sentence", "The package duckdb is not installed; pip install duckdb, then bundle the test "
+                                  "anew."),
+    QT_TRANSLATE_NOOP("Sentence", "It cannot be made: {}"),
+    QT_TRANSLATE_NOOP("Sentence", "The file {} is not there any more."),
+    QT_TRANSLATE_NOOP("Sentence", "The scans {} are damaged in line {}, or of another version."),
+    QT_TRANSLATE_NOOP("Sentence", "The scans {} cannot be read: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The files are as they were signed, but the zip around them is not as it was "
+                                  "written, from byte {} on: it was packed anew, or a byte between the files is "
+                                  "changed."),
 )

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
+from .keys import phone, relay
+
 SENTENCES = (
     QT_TRANSLATE_NOOP("ParameterDoc", "Where the approach ends if the Car stays locked."),
     QT_TRANSLATE_NOOP("ParameterDoc", "Starting distance of each axis."),
@@ -87,4 +89,19 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("ParameterDoc", "How the Car is locked again after each unlock. button: the robot presses the "
                                       "key's lock button. itself: the robot drives away and waits, for a key whose "
                                       "button it cannot press."),
+    *phone.PARAMETERS,
+    *relay.PARAMETERS,
+    QT_TRANSLATE_NOOP("ParameterDoc", "Side or corner of the Car at which the key is held: that of the handle that is "
+                                      "taken."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Where the Remote key is held still, well inside the zone."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Rest after which the key is asked first."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Longest rest; a key that still answers after it is recorded as awake for at "
+                                      "least so long."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Time between the last answer and the first silence at which the search ends."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Trials at each end of that time that have to agree."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Requests without an answer, one right after the other, before the key counts "
+                                      "as asleep."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Trials after which the search ends although its interval is wider."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "How far the key is moved and brought back before each trial, so that it is "
+                                      "awake."),
 )

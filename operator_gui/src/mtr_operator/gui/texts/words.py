@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
+from .keys import phone, relay
+
 WORDS = (
     QT_TRANSLATE_NOOP("Word", "axis"),
     QT_TRANSLATE_NOOP("Word", "radial"),
@@ -11,6 +13,9 @@ WORDS = (
     QT_TRANSLATE_NOOP("Word", "zone"),
     QT_TRANSLATE_NOOP("Word", "reach"),
     QT_TRANSLATE_NOOP("Word", "handle"),
+    QT_TRANSLATE_NOOP("Word", "finding"),
+    QT_TRANSLATE_NOOP("Word", "held"),
+    QT_TRANSLATE_NOOP("Word", "Held still"),
     QT_TRANSLATE_NOOP("Word", "Border: half of the requests inside"),
     QT_TRANSLATE_NOOP("Word", "Inside"),
     QT_TRANSLATE_NOOP("Word", "Outside"),
@@ -89,4 +94,5 @@ WORDS = (
     QT_TRANSLATE_NOOP("Word", "checked by"),
     QT_TRANSLATE_NOOP("Word", "date"),
     QT_TRANSLATE_NOOP("Word", "signature"),
+    *relay.WORDS, *phone.WORDS,
 )

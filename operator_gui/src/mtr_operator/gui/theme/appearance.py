@@ -28,7 +28,7 @@ class Appearance(QObject):
         self.palette: Palette = LIGHT
 
     def use(self, theme: str) -> None:
-        """Apply "light", "dark", or what the system prefers."""
+        """Apply "light", "dark", "contrast", or what the system prefers."""
         app = QApplication.instance()
         if not isinstance(app, QApplication):
             raise RuntimeError("there is no Qt application yet")

@@ -1,4 +1,4 @@
-"""The colours of both themes, by role. Contrasts are tested against WCAG 2.1 AA."""
+"""The colours of the themes, by role. Contrasts are tested against WCAG 2.1 AA, those of high contrast against AAA."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ class Palette:
         window, surface, raised: backgrounds from far to near. line: decoration. border: of fields.
         ink, ink_soft: texts. accent, on_accent: what is chosen, and text on it. tint, on_tint: what is finished.
         ok, warning, danger: meanings, readable as text on window and surface. on_signal: text on these.
-        stop, on_stop: the button that stops the robot while it may move, red in both themes, and text on it.
+        stop, on_stop: the button that stops the robot while it may move, red in all themes, and text on it.
         body, glass, edge: the Car in pictures. robot, robot_mark, key: the robot in pictures.
         trail, waypoint: its way.
         first, second, failed, invalid: results, told apart by colour-blind readers too (Okabe and Ito).
@@ -66,7 +66,16 @@ DARK = Palette(
     body="#3b4754", glass="#66798b", edge="#c3ced8", robot="#f5bd3d", robot_mark="#10161c", key="#5fd391",
     trail="#8796a4", waypoint="#7cbcfb", first="#5cb8ee", second="#f59a5b", failed="#ff8fa6", invalid="#c9a4f0")
 
-THEMES = {"light": LIGHT, "dark": DARK}
+# For bright sun and weak eyes.
+CONTRAST = Palette(
+    window="#000000", surface="#000000", raised="#1c1c1c", line="#9a9a9a", border="#ffffff",
+    ink="#ffffff", ink_soft="#e6e6e6", accent="#ffe100", on_accent="#000000", tint="#003f7d", on_tint="#ffffff",
+    ok="#3dff8f", warning="#ffcc4d", danger="#ff9088", on_signal="#000000",
+    stop="#ff5f57", on_stop="#000000",
+    body="#3a3a3a", glass="#8a8a8a", edge="#ffffff", robot="#ffd21f", robot_mark="#000000", key="#4dffa6",
+    trail="#bdbdbd", waypoint="#ffe100", first="#56c8ff", second="#ffad5c", failed="#ff9fb5", invalid="#d3b3ff")
+
+THEMES = {"light": LIGHT, "dark": DARK, "contrast": CONTRAST}
 
 
 def contrast(one: str, other: str) -> float:

@@ -2,6 +2,44 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="cs_CZ" sourcelanguage="en">
 <context>
+    <name>AdapterFields</name>
+    <message>
+        <location filename="../forms/adapters/adapter_fields.py" line="41"/>
+        <source>Channel</source>
+        <translation>Kanál</translation>
+    </message>
+    <message>
+        <location filename="../forms/adapters/adapter_fields.py" line="40"/>
+        <source>as the adapter&apos;s driver calls it</source>
+        <translation>jak jej nazývá ovladač adaptéru</translation>
+    </message>
+    <message>
+        <location filename="../forms/adapters/adapter_fields.py" line="45"/>
+        <source>classic CAN</source>
+        <translation>klasická CAN</translation>
+    </message>
+    <message>
+        <location filename="../forms/adapters/adapter_fields.py" line="59"/>
+        <source>None yet</source>
+        <translation>Zatím žádný</translation>
+    </message>
+    <message>
+        <location filename="../forms/adapters/adapter_fields.py" line="66"/>
+        <source>CAN adapter</source>
+        <translation>Adaptér CAN</translation>
+    </message>
+    <message>
+        <location filename="../forms/adapters/adapter_fields.py" line="68"/>
+        <source>Bit rate in bit/s</source>
+        <translation>Přenosová rychlost v bit/s</translation>
+    </message>
+    <message>
+        <location filename="../forms/adapters/adapter_fields.py" line="69"/>
+        <source>CAN FD data in bit/s</source>
+        <translation>Data CAN FD v bit/s</translation>
+    </message>
+</context>
+<context>
     <name>AnnotationDialog</name>
     <message>
         <location filename="../screens/annotation_dialog.py" line="32"/>
@@ -83,6 +121,32 @@
         <location filename="../screens/budget_model.py" line="37"/>
         <source>expanded uncertainty, 95 %</source>
         <translation>rozšířená nejistota, 95 %</translation>
+    </message>
+</context>
+<context>
+    <name>BundleCheck</name>
+    <message>
+        <location filename="../evidence/bundle_check.py" line="56"/>
+        <source>{name} is not as it was signed: {problems}</source>
+        <translation>{name} není tak, jak byl podepsán: {problems}</translation>
+    </message>
+    <message>
+        <location filename="../evidence/bundle_check.py" line="58"/>
+        <source>{name} is intact: {count} files, bundle {number} of {station}, signed {time} with the key {key}; compare it with the station&apos;s.</source>
+        <translation>{name} je neporušený: {count} souborů, balíček {number} stanice {station}, podepsán {time} klíčem {key}; porovnejte jej s klíčem stanice.</translation>
+    </message>
+</context>
+<context>
+    <name>BusForm</name>
+    <message>
+        <location filename="../forms/adapters/bus_forms.py" line="24"/>
+        <source>Bus {name}</source>
+        <translation>Sběrnice {name}</translation>
+    </message>
+    <message>
+        <location filename="../forms/adapters/bus_forms.py" line="26"/>
+        <source>The Car&apos;s profile needs this bus, too. Its adapter only listens.</source>
+        <translation>Profil auta potřebuje i tuto sběrnici. Její adaptér jen naslouchá.</translation>
     </message>
 </context>
 <context>
@@ -249,67 +313,32 @@
 <context>
     <name>CanForm</name>
     <message>
-        <location filename="../forms/can_form.py" line="40"/>
-        <source>None yet</source>
-        <translation>Zatím žádný</translation>
-    </message>
-    <message>
-        <location filename="../forms/can_form.py" line="43"/>
+        <location filename="../forms/can_form.py" line="35"/>
         <source>Simulated Car (to try the application)</source>
         <translation>Simulované auto (na vyzkoušení aplikace)</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="45"/>
-        <source>Channel</source>
-        <translation>Kanál</translation>
-    </message>
-    <message>
-        <location filename="../forms/can_form.py" line="45"/>
-        <source>as the adapter&apos;s driver calls it</source>
-        <translation>jak jej nazývá ovladač adaptéru</translation>
-    </message>
-    <message>
-        <location filename="../forms/can_form.py" line="56"/>
+        <location filename="../forms/can_form.py" line="40"/>
         <source>Without an adapter everything but a test works.</source>
         <translation>Bez adaptéru funguje vše kromě testu.</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="62"/>
-        <source>CAN adapter</source>
-        <translation>Adaptér CAN</translation>
-    </message>
-    <message>
-        <location filename="../forms/can_form.py" line="64"/>
-        <source>Bit rate in bit/s</source>
-        <translation>Přenosová rychlost v bit/s</translation>
-    </message>
-    <message>
-        <location filename="../forms/can_form.py" line="66"/>
+        <location filename="../forms/can_form.py" line="56"/>
         <source>Car profile</source>
         <translation>Profil auta</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="48"/>
-        <source>classic CAN</source>
-        <translation>klasická CAN</translation>
-    </message>
-    <message>
-        <location filename="../forms/can_form.py" line="50"/>
+        <location filename="../forms/can_form.py" line="36"/>
         <source>Take part in the bus (a bench of one node)</source>
         <translation>Účastnit se sběrnice (stůl s jedním uzlem)</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="51"/>
+        <location filename="../forms/can_form.py" line="37"/>
         <source>The adapter acknowledges frames. Without it the adapter only listens and sends nothing: a Car does not notice it.</source>
         <translation>Adaptér potvrzuje rámce. Jinak jen naslouchá a nic nevysílá: auto si ho nevšimne.</translation>
     </message>
     <message>
-        <location filename="../forms/can_form.py" line="65"/>
-        <source>CAN FD data in bit/s</source>
-        <translation>Data CAN FD v bit/s</translation>
-    </message>
-    <message>
-        <location filename="../forms/can_form.py" line="67"/>
+        <location filename="../forms/can_form.py" line="43"/>
         <source>Learn a new Car from its bus</source>
         <translation>Naučit nové auto z jeho sběrnice</translation>
     </message>
@@ -483,302 +512,302 @@
         <translation>Meze</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="35"/>
+        <location filename="../header/check_texts.py" line="42"/>
         <source>Not known while the robot is silent.</source>
         <translation>Dokud robot mlčí, není známo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="36"/>
+        <location filename="../header/check_texts.py" line="43"/>
         <source>The robot&apos;s newest message is {first} s old.</source>
         <translation>Nejnovější zpráva robotu je stará {first} s.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="37"/>
+        <location filename="../header/check_texts.py" line="44"/>
         <source>The robot has not answered for {first} s.</source>
         <translation>Robot už {first} s neodpovídá.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="38"/>
+        <location filename="../header/check_texts.py" line="45"/>
         <source>The link to the robot is encrypted.</source>
         <translation>Spojení s robotem je šifrované.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="39"/>
+        <location filename="../header/check_texts.py" line="46"/>
         <source>The link is not encrypted: whoever is in its network can listen and send.</source>
         <translation>Spojení není šifrované: kdo je v jeho síti, může poslouchat i vysílat.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="42"/>
+        <location filename="../header/check_texts.py" line="54"/>
         <source>It takes orders, and reports nothing against a test.</source>
         <translation>Přijímá pokyny a nehlásí nic, co by bránilo testu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="43"/>
+        <location filename="../header/check_texts.py" line="55"/>
         <source>The robot is still starting.</source>
         <translation>Robot se ještě spouští.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="44"/>
+        <location filename="../header/check_texts.py" line="56"/>
         <source>The robot reports a fault.</source>
         <translation>Robot hlásí poruchu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="45"/>
+        <location filename="../header/check_texts.py" line="57"/>
         <source>Another application controls the robot.</source>
         <translation>Robot ovládá jiná aplikace.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="48"/>
+        <location filename="../header/check_texts.py" line="59"/>
         <source>The one by hand is heard, and released.</source>
         <translation>Ruční ovladač je slyšet a je uvolněný.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="49"/>
+        <location filename="../header/check_texts.py" line="60"/>
         <source>The one by hand is engaged: the robot stands.</source>
         <translation>Na ručním ovladači je stisknuto: robot stojí.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="50"/>
+        <location filename="../header/check_texts.py" line="61"/>
         <source>The robot has none by hand.</source>
         <translation>Robot nemá ruční ovladač.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="51"/>
+        <location filename="../header/check_texts.py" line="62"/>
         <source>The robot does not say whether it has one by hand.</source>
         <translation>Robot neříká, zda má ruční ovladač.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="53"/>
+        <location filename="../header/check_texts.py" line="71"/>
         <source>Known beside the Car.</source>
         <translation>Vůči autu známa.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="54"/>
+        <location filename="../header/check_texts.py" line="72"/>
         <source>Not known yet: a test begins with a drive around the Car.</source>
         <translation>Zatím neznámá: test začíná objetím auta.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="55"/>
+        <location filename="../header/check_texts.py" line="73"/>
         <source>The robot does not know its position.</source>
         <translation>Robot nezná svou polohu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="61"/>
+        <location filename="../header/check_texts.py" line="64"/>
         <source>The robot reports nothing against them.</source>
         <translation>Robot nehlásí nic, co by jim vadilo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="62"/>
+        <location filename="../header/check_texts.py" line="83"/>
         <source>At {first} %; what a test takes is told when it is chosen.</source>
         <translation>Na {first} %; kolik test spotřebuje, se ukáže po jeho zvolení.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="63"/>
+        <location filename="../header/check_texts.py" line="84"/>
         <source>At {first} %; the test takes about {second} %.</source>
         <translation>Na {first} %; test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="64"/>
+        <location filename="../header/check_texts.py" line="85"/>
         <source>At {first} % it may not suffice: the test takes about {second} %.</source>
         <translation>Na {first} % nemusí stačit: test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="65"/>
+        <location filename="../header/check_texts.py" line="86"/>
         <source>Low: {first} %.</source>
         <translation>Slabá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="66"/>
+        <location filename="../header/check_texts.py" line="87"/>
         <source>Nearly empty: {first} %.</source>
         <translation>Téměř vybitá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="67"/>
+        <location filename="../header/check_texts.py" line="88"/>
         <source>The robot does not say its charge.</source>
         <translation>Robot neříká, jak je nabitá.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="68"/>
+        <location filename="../header/check_texts.py" line="95"/>
         <source>Load {first} %, lock message every {second} ms.</source>
         <translation>Vytížení {first} %, zpráva o zámcích každých {second} ms.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="69"/>
+        <location filename="../header/check_texts.py" line="96"/>
         <source>Load {first} %, no lock message yet.</source>
         <translation>Vytížení {first} %, zpráva o zámcích zatím nepřišla.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="70"/>
+        <location filename="../header/check_texts.py" line="97"/>
         <source>There is none: the Car is a substitute inside the application.</source>
         <translation>Žádná není: auto je náhrada uvnitř aplikace.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="71"/>
+        <location filename="../header/check_texts.py" line="98"/>
         <source>Load {first} %: messages may be late, and so the time of events.</source>
         <translation>Vytížení {first} %: zprávy se mohou opožďovat, a s nimi čas událostí.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="72"/>
+        <location filename="../header/check_texts.py" line="99"/>
         <source>The lock message comes every {first} ms; the profile says {second} ms.</source>
         <translation>Zpráva o zámcích chodí každých {first} ms; profil uvádí {second} ms.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="73"/>
+        <location filename="../header/check_texts.py" line="100"/>
         <source>No CAN adapter is chosen.</source>
         <translation>Není zvolen žádný adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="74"/>
+        <location filename="../header/check_texts.py" line="101"/>
         <source>The Car says: {said}.</source>
         <translation>Auto hlásí: {said}.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="75"/>
+        <location filename="../header/check_texts.py" line="102"/>
         <source>The Car does not say whether it is locked.</source>
         <translation>Auto neříká, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="76"/>
+        <location filename="../header/check_texts.py" line="103"/>
         <source>Events of the Car have a time on the robot&apos;s clock.</source>
         <translation>Události auta mají čas na hodinách robotu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="77"/>
+        <location filename="../header/check_texts.py" line="104"/>
         <source>Not known without an adapter.</source>
         <translation>Bez adaptéru není známo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="78"/>
+        <location filename="../header/check_texts.py" line="105"/>
         <source>The Car has reacted {first} s ago: the key is awake.</source>
         <translation>Auto reagovalo před {first} s: klíč je vzhůru.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="79"/>
+        <location filename="../header/check_texts.py" line="106"/>
         <source>Whether it is awake nobody knows before the Car reacts to it.</source>
         <translation>Zda je vzhůru, se pozná, až na něj auto zareaguje.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="80"/>
+        <location filename="../header/check_texts.py" line="113"/>
         <source>{first} GB are free.</source>
         <translation>Volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="81"/>
+        <location filename="../header/check_texts.py" line="114"/>
         <source>Only {first} GB are free.</source>
         <translation>Volných je jen {first} GB.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="82"/>
+        <location filename="../header/check_texts.py" line="115"/>
         <source>Nearly full: {first} GB are free.</source>
         <translation>Téměř plný: volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="83"/>
+        <location filename="../header/check_texts.py" line="116"/>
         <source>The system does not say how much room there is.</source>
         <translation>Systém neříká, kolik je na něm místa.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="84"/>
+        <location filename="../header/check_texts.py" line="117"/>
         <source>Limits loaded: {first}.</source>
         <translation>Načtené meze: {first}.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="85"/>
+        <location filename="../header/check_texts.py" line="118"/>
         <source>None: the lines get no verdict.</source>
         <translation>Žádné: přímky nebudou hodnoceny.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="93"/>
+        <location filename="../header/check_texts.py" line="125"/>
         <source>Check the Wi-Fi and that the robot is on; the link comes back by itself.</source>
         <translation>Zkontrolujte Wi-Fi a že je robot zapnutý; spojení se obnoví samo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="97"/>
+        <location filename="../header/check_texts.py" line="129"/>
         <source>Wait a moment.</source>
         <translation>Chvíli počkejte.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="98"/>
+        <location filename="../header/check_texts.py" line="130"/>
         <source>Make sure that nothing blocks the robot; if the fault stays, switch it off and on.</source>
         <translation>Ujistěte se, že robotu nic nebrání; pokud porucha trvá, vypněte jej a zapněte.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="100"/>
+        <location filename="../header/check_texts.py" line="132"/>
         <source>End the other application; control comes here by itself.</source>
         <translation>Ukončete druhou aplikaci; řízení sem přejde samo.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="101"/>
+        <location filename="../header/check_texts.py" line="133"/>
         <source>Release it when the area is clear.</source>
         <translation>Uvolněte je, až bude prostor volný.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="102"/>
+        <location filename="../header/check_texts.py" line="134"/>
         <source>Stay where you reach the button on the robot.</source>
         <translation>Zůstaňte tam, kde dosáhnete na tlačítko na robotu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="103"/>
+        <location filename="../header/check_texts.py" line="135"/>
         <source>Drive or turn it by hand where it sees the Car; if it stays lost, map the Car again under Calibrate.</source>
         <translation>Popojeďte s ním nebo ho otočte ručně tam, kde vidí auto; pokud polohu nenajde, zmapujte auto znovu v Kalibraci.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="109"/>
+        <location filename="../header/check_texts.py" line="141"/>
         <source>Charge it, or measure fewer lines; an interrupted test can be gone on with.</source>
         <translation>Nabijte ji, nebo změřte méně přímek; v přerušeném testu lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="111"/>
+        <location filename="../header/check_texts.py" line="143"/>
         <source>Charge it soon.</source>
         <translation>Brzy ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="112"/>
+        <location filename="../header/check_texts.py" line="144"/>
         <source>Charge it before the test.</source>
         <translation>Před testem ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="113"/>
+        <location filename="../header/check_texts.py" line="145"/>
         <source>Check bit rate and other testers on the bus.</source>
         <translation>Zkontrolujte rychlost a další testery na sběrnici.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="114"/>
+        <location filename="../header/check_texts.py" line="146"/>
         <source>Check whether the profile is that of this Car.</source>
         <translation>Zkontrolujte, zda profil patří tomuto autu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="115"/>
+        <location filename="../header/check_texts.py" line="147"/>
         <source>Choose one under Settings, CAN adapter.</source>
         <translation>Zvolte jej v Nastavení, Adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="116"/>
+        <location filename="../header/check_texts.py" line="148"/>
         <source>If the adapter is the wrong one, choose another under Settings.</source>
         <translation>Pokud je to jiný adaptér, zvolte správný v Nastavení.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="117"/>
+        <location filename="../header/check_texts.py" line="149"/>
         <source>Wake the Car, e.g. open a door; check the car profile.</source>
         <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="118"/>
+        <location filename="../header/check_texts.py" line="150"/>
         <source>Press one of its buttons under Calibrate; a test notices a key that sleeps.</source>
         <translation>Stiskněte v Kalibraci některé jeho tlačítko; test pozná, že klíč spí.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="121"/>
+        <location filename="../header/check_texts.py" line="153"/>
         <source>Make room, or choose another folder under Settings.</source>
         <translation>Uvolněte místo, nebo zvolte v Nastavení jinou složku.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="122"/>
+        <location filename="../header/check_texts.py" line="154"/>
         <source>Choose a limits file below the parameters if there are limits.</source>
         <translation>Jsou-li předepsané meze, zvolte pod parametry jejich soubor.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="123"/>
+        <location filename="../header/check_texts.py" line="155"/>
         <source>Choose another file below the parameters, or none.</source>
         <translation>Zvolte pod parametry jiný soubor, nebo žádný.</translation>
     </message>
@@ -803,7 +832,7 @@
         <translation>brání testu</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="52"/>
+        <location filename="../header/check_texts.py" line="70"/>
         <source>Known beside the Car to {first} cm (1 sigma).</source>
         <translation>Vůči autu známa na {first} cm (1 sigma).</translation>
     </message>
@@ -813,37 +842,37 @@
         <translation>Rozměry auta</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="56"/>
+        <location filename="../header/check_texts.py" line="74"/>
         <source>The robot has it from the data sheet.</source>
         <translation>Robot je zná z technického listu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="57"/>
+        <location filename="../header/check_texts.py" line="75"/>
         <source>Only as the LiDARs see it at their height: distances from the Car&apos;s outline may be up to {first} cm too long.</source>
         <translation>Jen tak, jak je vidí LiDARy ve své výšce: vzdálenosti od obrysu auta mohou být až o {first} cm delší.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="59"/>
+        <location filename="../header/check_texts.py" line="77"/>
         <source>Not known before the Car is mapped.</source>
         <translation>Neznámé, dokud není auto zmapováno.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="105"/>
+        <location filename="../header/check_texts.py" line="137"/>
         <source>Start the robot with length and width of the data sheet (car_file), and map the Car again.</source>
         <translation>Spusťte robot s délkou a šířkou z technického listu (car_file) a zmapujte auto znovu.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="107"/>
+        <location filename="../header/check_texts.py" line="139"/>
         <source>Have length and width of the Car&apos;s data sheet ready: the robot is started with them (car_file).</source>
         <translation>Mějte po ruce délku a šířku z technického listu auta: robot se s nimi spouští (car_file).</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="41"/>
+        <location filename="../header/check_texts.py" line="48"/>
         <source>Not encrypted; it does not leave this computer.</source>
         <translation>Nešifrováno; neopouští tento počítač.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="95"/>
+        <location filename="../header/check_texts.py" line="127"/>
         <source>Pair this laptop with the robot in the connection window, and have the robot encrypt its link.</source>
         <translation>Spárujte tento notebook s robotem v okně připojení a nechte robot šifrovat spojení.</translation>
     </message>
@@ -968,39 +997,44 @@
         <translation>Připojení k robotu</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="66"/>
+        <location filename="../windows/connection_window.py" line="67"/>
         <source>Connect</source>
         <translation>Připojit</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="70"/>
+        <location filename="../windows/connection_window.py" line="71"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="70"/>
+        <location filename="../windows/connection_window.py" line="71"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="129"/>
+        <location filename="../windows/connection_window.py" line="139"/>
         <source>The IP address or port provided is invalid.</source>
         <translation>Zadaná IP adresa nebo port je neplatný.</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="120"/>
+        <location filename="../windows/connection_window.py" line="130"/>
         <source>Connecting to {host} ...</source>
         <translation>Připojuji se k {host} ...</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="130"/>
+        <location filename="../windows/connection_window.py" line="140"/>
         <source>Connection failed, check the parameters.</source>
         <translation>Připojení selhalo, zkontrolujte parametry.</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="135"/>
+        <location filename="../windows/connection_window.py" line="142"/>
         <source>The CAN adapter cannot be used.</source>
         <translation>Adaptér CAN nelze použít.</translation>
+    </message>
+    <message>
+        <location filename="../windows/connection_window.py" line="141"/>
+        <source>The CAN adapter of the bus {bus} cannot be used.</source>
+        <translation>Adaptér CAN sběrnice {bus} nelze použít.</translation>
     </message>
 </context>
 <context>
@@ -1019,6 +1053,160 @@
         <location filename="../i18n.py" line="64"/>
         <source>{hours} h {minutes:02d} min</source>
         <translation>{hours} h {minutes:02d} min</translation>
+    </message>
+</context>
+<context>
+    <name>Event</name>
+    <message>
+        <location filename="../events/event_model.py" line="90"/>
+        <source>Robot&apos;s log</source>
+        <translation>Záznam robotu</translation>
+    </message>
+    <message>
+        <location filename="../events/event_model.py" line="90"/>
+        <source>Fault</source>
+        <translation>Závada</translation>
+    </message>
+    <message>
+        <location filename="../events/event_model.py" line="91"/>
+        <source>Answer</source>
+        <translation>Odpověď</translation>
+    </message>
+    <message>
+        <location filename="../events/event_model.py" line="91"/>
+        <source>Locks</source>
+        <translation>Zámky</translation>
+    </message>
+    <message>
+        <location filename="../events/event_model.py" line="92"/>
+        <source>Test</source>
+        <translation>Test</translation>
+    </message>
+    <message>
+        <location filename="../events/event_model.py" line="92"/>
+        <source>Operator</source>
+        <translation>Operátor</translation>
+    </message>
+    <message>
+        <location filename="../events/event_model.py" line="96"/>
+        <source>robot</source>
+        <translation>robot</translation>
+    </message>
+    <message>
+        <location filename="../events/event_model.py" line="96"/>
+        <source>Car</source>
+        <translation>Auto</translation>
+    </message>
+    <message>
+        <location filename="../events/event_model.py" line="97"/>
+        <source>application</source>
+        <translation>aplikace</translation>
+    </message>
+</context>
+<context>
+    <name>EventModel</name>
+    <message>
+        <location filename="../events/event_model.py" line="85"/>
+        <source>Time</source>
+        <translation>Čas</translation>
+    </message>
+    <message>
+        <location filename="../events/event_model.py" line="85"/>
+        <source>Kind</source>
+        <translation>Druh</translation>
+    </message>
+    <message>
+        <location filename="../events/event_model.py" line="85"/>
+        <source>Source</source>
+        <translation>Zdroj</translation>
+    </message>
+    <message>
+        <location filename="../events/event_model.py" line="85"/>
+        <source>What happened</source>
+        <translation>Co se stalo</translation>
+    </message>
+</context>
+<context>
+    <name>EventWindow</name>
+    <message>
+        <location filename="../events/event_window.py" line="51"/>
+        <source>Events</source>
+        <translation>Události</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="55"/>
+        <source>Which events</source>
+        <translation>Které události</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="55"/>
+        <source>Since the start</source>
+        <translation>Od spuštění</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="55"/>
+        <source>Of the test</source>
+        <translation>Tohoto testu</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="57"/>
+        <source>Kind</source>
+        <translation>Druh</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="57"/>
+        <source>All kinds</source>
+        <translation>Všechny druhy</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="59"/>
+        <source>Severity</source>
+        <translation>Závažnost</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="59"/>
+        <source>All</source>
+        <translation>Vše</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="59"/>
+        <source>Warnings</source>
+        <translation>Varování</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="59"/>
+        <source>Errors</source>
+        <translation>Chyby</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="63"/>
+        <source>Search</source>
+        <translation>Hledat</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="89"/>
+        <source>Events, the newest first</source>
+        <translation>Události, nejnovější první</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="97"/>
+        <source>Close</source>
+        <translation>Zavřít</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="133"/>
+        <source>{count} events, {shown} of them shown.</source>
+        <translation>Událostí: {count}, zobrazeno: {shown}.</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="155"/>
+        <source>No test is at hand.</source>
+        <translation>Žádný test není otevřen.</translation>
+    </message>
+    <message>
+        <location filename="../events/event_window.py" line="155"/>
+        <source>They are kept in {folder}.</source>
+        <translation>Jsou uloženy v {folder}.</translation>
     </message>
 </context>
 <context>
@@ -1357,132 +1545,162 @@
 <context>
     <name>HistoryModel</name>
     <message>
-        <location filename="../history/history_model.py" line="46"/>
+        <location filename="../history/history_model.py" line="49"/>
         <source>Begun</source>
         <translation>Začátek</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="46"/>
+        <location filename="../history/history_model.py" line="49"/>
         <source>Scenario</source>
         <translation>Scénář</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="46"/>
+        <location filename="../history/history_model.py" line="49"/>
         <source>Lines</source>
         <translation>Přímky</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="46"/>
+        <location filename="../history/history_model.py" line="49"/>
         <source>Verdict</source>
         <translation>Verdikt</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="46"/>
+        <location filename="../history/history_model.py" line="49"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="46"/>
+        <location filename="../history/history_model.py" line="49"/>
         <source>Key</source>
         <translation>Klíč</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="46"/>
+        <location filename="../history/history_model.py" line="49"/>
         <source>Operator</source>
         <translation>Operátor</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="46"/>
+        <location filename="../history/history_model.py" line="49"/>
         <source>Place</source>
         <translation>Místo</translation>
+    </message>
+    <message>
+        <location filename="../history/history_model.py" line="54"/>
+        <source>cannot be read</source>
+        <translation>nelze přečíst</translation>
     </message>
 </context>
 <context>
     <name>HistoryScreen</name>
     <message>
-        <location filename="../history/history_screen.py" line="65"/>
+        <location filename="../history/history_screen.py" line="73"/>
         <source>Search: VIN, key, day, operator, note</source>
         <translation>Hledat: VIN, klíč, den, operátor, poznámka</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="66"/>
+        <location filename="../history/history_screen.py" line="74"/>
         <source>Search</source>
         <translation>Hledat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="68"/>
+        <location filename="../history/history_screen.py" line="76"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="69"/>
+        <location filename="../history/history_screen.py" line="77"/>
         <source>Key</source>
         <translation>Klíč</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="70"/>
+        <location filename="../history/history_screen.py" line="78"/>
         <source>Verdict</source>
         <translation>Verdikt</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="201"/>
+        <location filename="../history/history_screen.py" line="239"/>
         <source>Open</source>
         <translation>Otevřít</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="76"/>
+        <location filename="../history/history_screen.py" line="84"/>
         <source>Repeat</source>
         <translation>Opakovat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="77"/>
+        <location filename="../history/history_screen.py" line="85"/>
         <source>A new test with the same parameters, car and key</source>
         <translation>Nový test se stejnými parametry, autem a klíčem</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="78"/>
+        <location filename="../history/history_screen.py" line="86"/>
         <source>Compare two</source>
         <translation>Porovnat dva</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="79"/>
+        <location filename="../history/history_screen.py" line="87"/>
         <source>Open a file</source>
         <translation>Otevřít soubor</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="80"/>
+        <location filename="../history/history_screen.py" line="90"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="94"/>
+        <location filename="../history/history_screen.py" line="104"/>
         <source>Tests; choose one to open it, or two to compare them</source>
         <translation>Testy; vyberte jeden k otevření, nebo dva k porovnání</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="111"/>
+        <location filename="../history/history_screen.py" line="121"/>
         <source>Tests so far</source>
         <translation>Dosavadní testy</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="138"/>
+        <location filename="../history/history_screen.py" line="153"/>
         <source>The folders are being read.</source>
         <translation>Složky se čtou.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="176"/>
+        <location filename="../history/history_screen.py" line="209"/>
         <source>{count} tests, {shown} of them shown.</source>
         <translation>Testů: {count}, zobrazeno: {shown}.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="179"/>
+        <location filename="../history/history_screen.py" line="212"/>
         <source>{count} more files cannot be read.</source>
         <translation>Dalších {count} souborů nelze přečíst.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="201"/>
+        <location filename="../history/history_screen.py" line="239"/>
         <source>Continue</source>
         <translation>Pokračovat</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="243"/>
+        <source>This test is in a signed bundle: it can be repeated and compared. Unpack the bundle into a folder of its own to open it.</source>
+        <translation>Tento test je v podepsaném balíku: lze jej opakovat a porovnat. Pro otevření balík rozbalte do vlastní složky.</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="88"/>
+        <source>Verify a bundle</source>
+        <translation>Ověřit balíček</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="89"/>
+        <source>Whether a bundle of evidence is as it was signed, by whom and when</source>
+        <translation>Zda je balíček důkazů tak, jak byl podepsán, kým a kdy</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="176"/>
+        <source>Bundle of evidence</source>
+        <translation>Balíček důkazů</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="183"/>
+        <source>{name} is being verified.</source>
+        <translation>{name} se ověřuje.</translation>
     </message>
 </context>
 <context>
@@ -1706,17 +1924,17 @@
 <context>
     <name>Locks</name>
     <message>
-        <location filename="../names.py" line="63"/>
+        <location filename="../names.py" line="66"/>
         <source>locked</source>
         <translation>zamčeno</translation>
     </message>
     <message>
-        <location filename="../names.py" line="63"/>
+        <location filename="../names.py" line="66"/>
         <source>unlocked</source>
         <translation>odemčeno</translation>
     </message>
     <message>
-        <location filename="../names.py" line="64"/>
+        <location filename="../names.py" line="67"/>
         <source>not known</source>
         <translation>není známo</translation>
     </message>
@@ -1747,42 +1965,42 @@
 <context>
     <name>MainWindow</name>
     <message>
-        <location filename="../windows/main_window.py" line="57"/>
+        <location filename="../windows/main_window.py" line="58"/>
         <source>Mobile testing robot</source>
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="219"/>
+        <location filename="../windows/main_window.py" line="225"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="222"/>
+        <location filename="../windows/main_window.py" line="228"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="224"/>
+        <location filename="../windows/main_window.py" line="230"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="239"/>
+        <location filename="../windows/main_window.py" line="245"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="243"/>
+        <location filename="../windows/main_window.py" line="249"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="243"/>
+        <location filename="../windows/main_window.py" line="249"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="202"/>
+        <location filename="../windows/main_window.py" line="208"/>
         <source>Open a test</source>
         <translation>Otevřít test</translation>
     </message>
@@ -1868,34 +2086,54 @@
 <context>
     <name>MeasurementScreen</name>
     <message>
-        <location filename="../screens/measurement.py" line="59"/>
+        <location filename="../screens/measurement.py" line="61"/>
         <source>Save progress</source>
         <translation>Uložit průběh</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="60"/>
+        <location filename="../screens/measurement.py" line="63"/>
         <source>Back to the beginning</source>
         <translation>Zpět na začátek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="57"/>
+        <location filename="../screens/measurement.py" line="153"/>
         <source>Handle taken</source>
         <translation>Klika uchopena</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="143"/>
+        <location filename="../screens/measurement.py" line="166"/>
         <source>Take the Car&apos;s handle now, with the Remote key at {distance} m, and then say so here, by Enter or the button. When the Car unlocks, nothing more is to be done.</source>
         <translation>Uchopte nyní kliku auta, klíč je ve vzdálenosti {distance} m, a pak to zde potvrďte klávesou Enter nebo tlačítkem. Když se auto odemkne, není třeba nic dalšího.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="58"/>
+        <location filename="../screens/measurement.py" line="60"/>
         <source>Hold to resume</source>
         <translation>Podržením pokračovat</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="56"/>
+        <location filename="../screens/measurement.py" line="58"/>
         <source>Hold to go on</source>
         <translation>Podržením jet dál</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="62"/>
+        <source>Events</source>
+        <translation>Události</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="153"/>
+        <source>Extender switched</source>
+        <translation>Extender přepnut</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="171"/>
+        <source>Switch the extender on now, and then say so here, by Enter or the button.</source>
+        <translation>Zapněte nyní extender a pak to zde potvrďte klávesou Enter nebo tlačítkem.</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="172"/>
+        <source>Switch the extender off now, and then say so here, by Enter or the button.</source>
+        <translation>Vypněte nyní extender a pak to zde potvrďte klávesou Enter nebo tlačítkem.</translation>
     </message>
 </context>
 <context>
@@ -2070,12 +2308,12 @@
         <translation>Před testem ověřit polohu auta</translation>
     </message>
     <message>
-        <location filename="../names.py" line="43"/>
+        <location filename="../names.py" line="46"/>
         <source>yes</source>
         <translation>ano</translation>
     </message>
     <message>
-        <location filename="../names.py" line="43"/>
+        <location filename="../names.py" line="46"/>
         <source>no</source>
         <translation>ne</translation>
     </message>
@@ -2145,12 +2383,12 @@
         <translation>Metoda</translation>
     </message>
     <message>
-        <location filename="../names.py" line="34"/>
+        <location filename="../names.py" line="35"/>
         <source>from far to near (scan)</source>
         <translation>z dálky k autu (scan)</translation>
     </message>
     <message>
-        <location filename="../names.py" line="35"/>
+        <location filename="../names.py" line="36"/>
         <source>search with intervals (adaptive)</source>
         <translation>hledání s intervaly (adaptive)</translation>
     </message>
@@ -2195,17 +2433,17 @@
         <translation>Opětovné zamčení auta</translation>
     </message>
     <message>
-        <location filename="../names.py" line="36"/>
+        <location filename="../names.py" line="37"/>
         <source>all around</source>
         <translation>kolem celého auta</translation>
     </message>
     <message>
-        <location filename="../names.py" line="36"/>
+        <location filename="../names.py" line="37"/>
         <source>by the key&apos;s button</source>
         <translation>tlačítkem klíče</translation>
     </message>
     <message>
-        <location filename="../names.py" line="37"/>
+        <location filename="../names.py" line="38"/>
         <source>the Car by itself</source>
         <translation>auto samo</translation>
     </message>
@@ -2234,303 +2472,543 @@
         <source>Presses in a zone at most</source>
         <translation>Stisků v zóně nejvýše</translation>
     </message>
+    <message>
+        <location filename="../names.py" line="29"/>
+        <source>Compared with</source>
+        <translation>Porovnává se s</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="39"/>
+        <source>the way to the Car&apos;s outline</source>
+        <translation>cesta k obrysu auta</translation>
+    </message>
+    <message>
+        <location filename="../names.py" line="40"/>
+        <source>the way to an anchor</source>
+        <translation>cesta ke kotvě</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Standstill before a reading</source>
+        <translation>Stání před čtením</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Reading time</source>
+        <translation>Doba čtení</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Distances at least</source>
+        <translation>Nejméně vzdáleností</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Age at most</source>
+        <translation>Nejvyšší stáří</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Step of the distances</source>
+        <translation>Krok vzdáleností</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Anchor ahead of the centre</source>
+        <translation>Kotva před středem</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Anchor to the left</source>
+        <translation>Kotva vlevo</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Anchor height</source>
+        <translation>Výška kotvy</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Shortest rest</source>
+        <translation>Nejkratší klid</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Longest rest</source>
+        <translation>Nejdelší klid</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Time left open</source>
+        <translation>Neurčená doba</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Trials that confirm</source>
+        <translation>Potvrzující pokusy</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Requests to a silent key</source>
+        <translation>Dotazy na mlčící klíč</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Trials at most</source>
+        <translation>Nejvíce pokusů</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Way that wakes the key</source>
+        <translation>Dráha k probuzení klíče</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Places beyond the border</source>
+        <translation>Místa za hranicí</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Requests at each place</source>
+        <translation>Počet uchopení na místě</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_names.py" line="5"/>
+        <source>Time to switch</source>
+        <translation>Čas na přepnutí</translation>
+    </message>
 </context>
 <context>
     <name>ParameterDoc</name>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Where the approach ends if the Car stays locked.</source>
         <translation>Kde přibližování skončí, zůstane-li auto zamčené.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Starting distance of each axis.</source>
         <translation>Počáteční vzdálenost na každé ose.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>First piece of the approach, to correct the heading; the retreat ends where it ended.</source>
         <translation>První úsek přiblížení na srovnání směru; kde skončil, tam skončí i couvání.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Distance between neighbouring axes of a side.</source>
         <translation>Vzdálenost sousedních os jedné strany.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Height of the Remote key above ground.</source>
         <translation>Výška klíče nad zemí.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Speed limit on the whole way.</source>
         <translation>Omezení rychlosti na celé cestě.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Speed limit while approaching and retreating; default: the maximum speed.</source>
         <translation>Omezení rychlosti při přibližování a couvání; jinak nejvyšší rychlost.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Gap that has to remain between Remote key and Car.</source>
         <translation>Mezera, která musí zůstat mezi klíčem a autem.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>How long the Car may take to react at the end of the approach and of the retreat.</source>
         <translation>Jak dlouho smí auto na konci přibližování a couvání otálet s reakcí.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>How long to wait at the starting distance for the Car to be locked.</source>
         <translation>Jak dlouho čekat v počáteční vzdálenosti, než se auto zamkne.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Nearest place at which the button is pressed.</source>
         <translation>Nejbližší místo, kde se tlačítko stiskne.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Starting distance of each radial.</source>
         <translation>Počáteční vzdálenost na každém paprsku.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>First piece of the approach, to correct the heading; the first press is at its end.</source>
         <translation>První úsek přiblížení na srovnání směru; na jeho konci je první stisk.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Step towards the Car after a press without success.</source>
         <translation>Krok k autu po neúspěšném stisku.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Angle between neighbouring radials.</source>
         <translation>Úhel mezi sousedními paprsky.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Travel of the button: 1 is pressed down fully.</source>
         <translation>Zdvih tlačítka: 1 je úplné stisknutí.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>How long the button is held down.</source>
         <translation>Jak dlouho se tlačítko drží.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Standstill before each press.</source>
         <translation>Doba klidu před každým stiskem.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>How long after the beginning of a press the Car may take to react.</source>
         <translation>Jak dlouho po začátku stisku smí auto otálet s reakcí.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Presses at each place before it counts as failed.</source>
         <translation>Počet stisků na místě, než platí za neúspěšné.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Before the test the robot looks at the Car again from two places; it does not begin when the Car stands elsewhere than it was measured.</source>
         <translation>Před testem si robot auto znovu prohlédne ze dvou míst; stojí-li auto jinde, než bylo změřeno, test nezačne.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>How far the Remote key may be beside the line when something is measured.</source>
         <translation>Jak daleko stranou od osy smí být klíč, když se měří.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>How far the robot may be turned from the line when something is measured.</source>
         <translation>Jak smí být robot natočen od osy, když se měří.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>How far the Remote key may be from its height while a line is measured.</source>
         <translation>O kolik se smí výška klíče lišit, dokud se osa měří.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>How much faster than wanted the robot may be when something is measured.</source>
         <translation>O kolik smí robot jet rychleji, než má, když se měří.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Approaches and retreats on each axis; those at two speeds tell the Car&apos;s reaction time from the static boundary.</source>
         <translation>Přiblížení a vzdálení na každé ose; dvě rychlosti oddělí reakční dobu vozu od statické hranice.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Speed limits of the passes, in turn; default: proposed from the cycle of the Car&apos;s message.</source>
         <translation>Nejvyšší rychlosti průjezdů, postupně; výchozí: navržené podle periody zprávy vozu.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Sigma of the static boundary for which the speeds are proposed.</source>
         <translation>Sigma statické hranice, pro kterou se rychlosti navrhují.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Step of one more approach, with a stop for the response time after each, for Cars that poll slowly; default: none.</source>
         <translation>Krok ještě jednoho přiblížení se zastavením na dobu odezvy po každém kroku, pro vozy s pomalým dotazováním; výchozí: žádný.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>adaptive: search for the distances at which 50 and 95 % of the presses work, with their intervals. scan: from far to near until a press works, as the thesis does; it reads too far where the Car&apos;s range is no sharp border.</source>
         <translation>adaptive: hledá vzdálenosti, na které funguje 50 a 95 % stisků, a jejich intervaly. scan: z dálky k autu, dokud stisk nefunguje, jako v diplomové práci; kde dosah auta nemá ostrou hranici, naměří příliš mnoho.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Half the width of the 95 % interval of the distance at which a radial ends.</source>
         <translation>Polovina šířky 95% intervalu vzdálenosti, při které paprsek končí.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Presses after which a radial ends although its interval is wider.</source>
         <translation>Počet stisků, po kterém paprsek končí, i když je jeho interval širší.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Radio frequency of the Remote key: presses half a wavelength apart meet another fading.</source>
         <translation>Rádiová frekvence klíče: stisky vzdálené půl vlnové délky mají jiný únik signálu.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Standstill after which the Remote key is moved before it is pressed, so that it does not sleep.</source>
         <translation>Doba klidu, po které se klíč před stiskem pohne, aby neusnul.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Nearest places of the map.</source>
         <translation>Nejbližší místa mapy.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Farthest places of the map.</source>
         <translation>Nejvzdálenější místa mapy.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Distance between neighbouring places away from the Car.</source>
         <translation>Vzdálenost sousedních míst směrem od vozidla.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Highest of the heights at which the map is made, if there are several.</source>
         <translation>Nejvyšší z výšek, ve kterých se mapa pořizuje, je-li jich více.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Heights at which the map is made.</source>
         <translation>Počet výšek, ve kterých se mapa pořizuje.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Half the width of the 95 % interval of a zone&apos;s coverage at which the zone ends.</source>
         <translation>Polovina šířky 95% intervalu pokrytí zóny, při které zóna končí.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Presses in a zone after which it ends anyway.</source>
         <translation>Počet stisků v zóně, po kterém zóna končí v každém případě.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Half a wavelength of the Remote key&apos;s radio: 0.35 m at 434 MHz, 0.17 m at 868 MHz.</source>
         <translation>Polovina vlnové délky klíče: 0,35 m při 434 MHz, 0,17 m při 868 MHz.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Presses at the place of one that worked; unless one of them works too, another key or a late answer may have been taken for it, and the place counts as failed. 0: none, as the thesis does.</source>
         <translation>Stisky na místě toho, který zafungoval; nezafunguje-li žádný z nich, mohl být za něj zaměněn jiný klíč nebo opožděná odpověď a místo platí za neúspěšné. 0: žádné, jako v diplomové práci.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Nearest place at which the handle is taken.</source>
         <translation>Nejbližší místo, při kterém se uchopí klika.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>First piece of the approach, to correct the heading; the farthest request is at its end.</source>
         <translation>První úsek přiblížení k vyrovnání směru; na jeho konci je nejvzdálenější žádost.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Nominal border of the zone, where the first requests of each axis are made.</source>
         <translation>Jmenovitá hranice zóny, kde se na každé ose uskuteční první žádosti.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Requests at the nominal border on each axis before the border is searched; 0: only the search.</source>
         <translation>Žádosti na jmenovité hranici každé osy, než se hranice hledá; 0: jen hledání.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Half the width of the 95 % interval of the border at which an axis ends.</source>
         <translation>Polovina šířky 95% intervalu hranice, při které osa končí.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Requests after which an axis ends although its interval is wider.</source>
         <translation>Počet žádostí, po kterém osa končí, i když je její interval širší.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Highest of the heights at which the border is measured, if there are several.</source>
         <translation>Nejvyšší z výšek, ve kterých se hranice měří, je-li jich více.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Heights at which the border is measured.</source>
         <translation>Počet výšek, ve kterých se hranice měří.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Standstill before each request.</source>
         <translation>Doba klidu před každou žádostí.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>How long after the handle was taken the Car may take to unlock; outside otherwise.</source>
         <translation>Jak dlouho po uchopení kliky se auto smí odemykat; jinak je klíč venku.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>How long the Operator may take to come to the handle before the test is interrupted.</source>
         <translation>Jak dlouho smí obsluze trvat, než přijde ke klice; pak se test přeruší.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>How long the Car may take to lock by itself, as the key goes away or by its timer.</source>
         <translation>Jak dlouho smí autu trvat, než se samo zamkne odchodem klíče nebo časovačem.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Requests so far apart meet another field; half a wavelength of the Remote key&apos;s radio: 0.35 m at 434 MHz, 0.17 m at 868 MHz.</source>
         <translation>Žádosti takto vzdálené od sebe potkávají jiné pole; polovina vlnové délky rádia klíče: 0,35 m na 434 MHz, 0,17 m na 868 MHz.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Standstill after which the Remote key is moved before the handle is taken, so that it does not sleep.</source>
         <translation>Doba klidu, po které se klíčem před uchopením kliky pohne, aby neusnul.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Side or corner of the Car whose border is measured: that of the handle that is taken.</source>
         <translation>Strana nebo roh auta, jehož hranice se měří: ta s klikou, která se uchopí.</translation>
     </message>
     <message>
-        <location filename="../texts/parameter_docs.py" line="5"/>
+        <location filename="../texts/parameter_docs.py" line="7"/>
         <source>How the Car is locked again after each unlock. button: the robot presses the key&apos;s lock button. itself: the robot drives away and waits, for a key whose button it cannot press.</source>
         <translation>Jak se auto po každém odemčení znovu zamkne. button: robot stiskne na klíči tlačítko zamčení. itself: robot odjede a počká, pro klíč, jehož tlačítko stisknout nemůže.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="67"/>
+        <source>Nearest places at which the distance is read.</source>
+        <translation>Nejbližší místa, na kterých se vzdálenost čte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="67"/>
+        <source>Farthest places at which the distance is read.</source>
+        <translation>Nejvzdálenější místa, na kterých se vzdálenost čte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="67"/>
+        <source>Standstill before the distance is read.</source>
+        <translation>Stání před čtením vzdálenosti.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="67"/>
+        <source>How long the distance is read at each place.</source>
+        <translation>Jak dlouho se vzdálenost na každém místě čte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="67"/>
+        <source>Fewer reported distances at a place tell nothing.</source>
+        <translation>Méně hlášených vzdáleností na místě nic neříká.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="67"/>
+        <source>Longest time for which the newest reported distance may stand; a place where it is older is invalid.</source>
+        <translation>Nejdelší doba, po kterou smí platit nejnovější hlášená vzdálenost; místo, kde je starší, je neplatné.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="67"/>
+        <source>Step of the reported distances.</source>
+        <translation>Krok hlášených vzdáleností.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="67"/>
+        <source>What the reported distance is compared with. outline: the shortest way from the phone to the Car&apos;s outline, over ground. anchor: the straight way to a point of the Car, with the difference in height.</source>
+        <translation>S čím se hlášená vzdálenost porovnává. outline: nejkratší cesta od telefonu k obrysu auta, po zemi. anchor: přímá cesta k bodu auta, s rozdílem výšek.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="67"/>
+        <source>The anchor, ahead of the Car&apos;s centre.</source>
+        <translation>Kotva, před středem auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="67"/>
+        <source>The anchor, to the left of the Car&apos;s centre.</source>
+        <translation>Kotva, vlevo od středu auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="67"/>
+        <source>Height of the anchor above ground.</source>
+        <translation>Výška kotvy nad zemí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="7"/>
+        <source>Side or corner of the Car at which the key is held: that of the handle that is taken.</source>
+        <translation>Strana nebo roh auta, u nichž se klíč drží: ta s klikou, za kterou se bere.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="7"/>
+        <source>Where the Remote key is held still, well inside the zone.</source>
+        <translation>Kde se klíč drží v klidu, bezpečně uvnitř zóny.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="7"/>
+        <source>Rest after which the key is asked first.</source>
+        <translation>Doba klidu, po které se klíč osloví poprvé.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="7"/>
+        <source>Longest rest; a key that still answers after it is recorded as awake for at least so long.</source>
+        <translation>Nejdelší doba klidu; klíč, který odpoví i po ní, se zapíše jako bdělý nejméně po tuto dobu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="7"/>
+        <source>Time between the last answer and the first silence at which the search ends.</source>
+        <translation>Doba mezi poslední odpovědí a prvním mlčením, při které hledání skončí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="7"/>
+        <source>Trials at each end of that time that have to agree.</source>
+        <translation>Kolik pokusů se na každém konci této doby musí shodnout.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="7"/>
+        <source>Requests without an answer, one right after the other, before the key counts as asleep.</source>
+        <translation>Kolik dotazů těsně po sobě musí zůstat bez odpovědi, aby se klíč počítal za spící.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="7"/>
+        <source>Trials after which the search ends although its interval is wider.</source>
+        <translation>Počet pokusů, po kterém hledání skončí, i když je interval širší.</translation>
+    </message>
+    <message>
+        <location filename="../texts/parameter_docs.py" line="7"/>
+        <source>How far the key is moved and brought back before each trial, so that it is awake.</source>
+        <translation>Jak daleko se klíč před každým pokusem posune a vrátí, aby byl bdělý.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="39"/>
+        <source>Side or corner of the Car at which the extender is tried: that of the handle that is taken.</source>
+        <translation>Strana nebo roh auta, u nichž se extender zkouší: ta s klikou, za kterou se bere.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="39"/>
+        <source>Where the key has to unlock the Car, well inside the zone: a key that is not heard there says nothing by its silence farther away.</source>
+        <translation>Kde klíč musí auto odemknout, bezpečně uvnitř zóny: mlčení klíče, který není slyšet ani tam, dál od auta nic neříká.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="39"/>
+        <source>Nominal border of the zone; an unlock beyond it is one too many.</source>
+        <translation>Jmenovitá hranice zóny; každé odemčení za ní je o jedno víc, než smí být.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="39"/>
+        <source>Farthest place at which the key is carried, and starting distance of each axis.</source>
+        <translation>Nejvzdálenější místo, na které se klíč nese, a počáteční vzdálenost každé osy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="39"/>
+        <source>Places beyond the border at which the handle is taken, up to 8. Without it half way from the border to the farthest place, and there.</source>
+        <translation>Místa za hranicí, při kterých se uchopí klika, nejvýše 8. Bez nich v polovině cesty od hranice k nejvzdálenějšímu místu a na něm.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="39"/>
+        <source>Requests at each place with the extender off, and again with it on.</source>
+        <translation>Počet uchopení kliky na každém místě s vypnutým extenderem a znovu se zapnutým.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="39"/>
+        <source>How long the Operator may take to switch the extender before the test is interrupted.</source>
+        <translation>Jak dlouho smí obsluze trvat přepnutí extenderu, než se test přeruší.</translation>
     </message>
 </context>
 <context>
@@ -2569,17 +3047,17 @@
 <context>
     <name>ParameterForm</name>
     <message>
-        <location filename="../forms/parameter_form.py" line="44"/>
+        <location filename="../forms/parameter_form.py" line="45"/>
         <source>Usual values</source>
         <translation>Obvyklé hodnoty</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_form.py" line="118"/>
+        <location filename="../forms/parameter_form.py" line="119"/>
         <source>Fewer parameters</source>
         <translation>Méně parametrů</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_form.py" line="118"/>
+        <location filename="../forms/parameter_form.py" line="119"/>
         <source>More parameters</source>
         <translation>Více parametrů</translation>
     </message>
@@ -2615,19 +3093,24 @@
         <translation>PŘEDEK</translation>
     </message>
     <message>
-        <location filename="../pictures/legend.py" line="28"/>
+        <location filename="../pictures/legend.py" line="30"/>
         <source>95 % interval</source>
         <translation>95% interval</translation>
     </message>
     <message>
-        <location filename="../pictures/legend.py" line="28"/>
+        <location filename="../pictures/legend.py" line="30"/>
         <source>place of the key (1 sigma)</source>
         <translation>místo klíče (1 sigma)</translation>
     </message>
     <message>
-        <location filename="../pictures/legend.py" line="28"/>
+        <location filename="../pictures/legend.py" line="30"/>
         <source>border somewhere in between</source>
         <translation>hranice je někde mezi</translation>
+    </message>
+    <message>
+        <location filename="../pictures/legend.py" line="40"/>
+        <source>error from {low} to {high} cm</source>
+        <translation>chyba od {low} do {high} cm</translation>
     </message>
 </context>
 <context>
@@ -2697,27 +3180,27 @@
 <context>
     <name>Protocol</name>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="96"/>
+        <location filename="../pictures/protocol_sheet.py" line="97"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="114"/>
+        <location filename="../pictures/protocol_sheet.py" line="115"/>
         <source>Result</source>
         <translation>Výsledek</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="114"/>
+        <location filename="../pictures/protocol_sheet.py" line="115"/>
         <source>Parameters</source>
         <translation>Parametry</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="114"/>
+        <location filename="../pictures/protocol_sheet.py" line="115"/>
         <source>Test</source>
         <translation>Test</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_sheet.py" line="67"/>
+        <location filename="../pictures/protocol_sheet.py" line="68"/>
         <source>page {page} of {count}</source>
         <translation>strana {page} z {count}</translation>
     </message>
@@ -2747,7 +3230,7 @@
         <translation>Nejhorší</translation>
     </message>
     <message>
-        <location filename="../pictures/protocol_tables.py" line="136"/>
+        <location filename="../pictures/protocol_tables.py" line="139"/>
         <source>Course of the test</source>
         <translation>Průběh testu</translation>
     </message>
@@ -2760,99 +3243,124 @@
 <context>
     <name>ProtocolScreen</name>
     <message>
-        <location filename="../screens/protocol.py" line="77"/>
+        <location filename="../screens/protocol.py" line="82"/>
         <source>Save</source>
         <translation>Uložit</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="78"/>
+        <location filename="../screens/protocol.py" line="83"/>
         <source>Save as CSV and PNG</source>
         <translation>Uložit jako CSV a PNG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="79"/>
+        <location filename="../screens/protocol.py" line="84"/>
         <source>Save PDF</source>
         <translation>Uložit PDF</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="80"/>
+        <location filename="../screens/protocol.py" line="85"/>
         <source>Save SVG</source>
         <translation>Uložit SVG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="81"/>
+        <location filename="../screens/protocol.py" line="86"/>
         <source>Show folder</source>
         <translation>Ukázat složku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="85"/>
+        <location filename="../screens/protocol.py" line="93"/>
         <source>New test</source>
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="142"/>
+        <location filename="../screens/protocol.py" line="152"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="243"/>
+        <location filename="../screens/protocol.py" line="257"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="248"/>
+        <location filename="../screens/protocol.py" line="275"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="256"/>
+        <location filename="../screens/protocol.py" line="283"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="176"/>
+        <location filename="../screens/protocol.py" line="186"/>
         <source>Verdict: {verdict}.</source>
         <translation>Verdikt: {verdict}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="74"/>
+        <location filename="../screens/protocol.py" line="79"/>
         <source>What the uncertainty of the chosen row is made of</source>
         <translation>Z čeho se skládá nejistota vybraného řádku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="264"/>
+        <location filename="../screens/protocol.py" line="291"/>
         <source>No file manager opens it; the files are in {folder}</source>
         <translation>Žádný správce souborů ji neotevře; soubory jsou ve složce {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="71"/>
+        <location filename="../screens/protocol.py" line="76"/>
         <source>Results; choose a row to see its points, or several to measure them again</source>
         <translation>Výsledky; volbou řádku uvidíte jeho body, více řádků lze změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="82"/>
+        <location filename="../screens/protocol.py" line="87"/>
         <source>Hold to measure again</source>
         <translation>Podržením změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="150"/>
+        <location filename="../screens/protocol.py" line="160"/>
         <source>Not saved as CSV and PNG yet.</source>
         <translation>Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="184"/>
+        <location filename="../screens/protocol.py" line="194"/>
         <source>{count} lines, {invalid} of them invalid.</source>
         <translation>Počet přímek: {count}, z toho neplatných: {invalid}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="185"/>
+        <location filename="../screens/protocol.py" line="195"/>
         <source>{count} lines.</source>
         <translation>Počet přímek: {count}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="84"/>
+        <location filename="../screens/protocol.py" line="89"/>
         <source>Notes and photos</source>
         <translation>Poznámky a fotografie</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="90"/>
+        <source>Save evidence bundle</source>
+        <translation>Uložit balíček důkazů</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="91"/>
+        <source>One signed file with results, recording, profile, software versions and journal</source>
+        <translation>Jeden podepsaný soubor s výsledky, záznamem, profilem, verzemi programů a deníkem</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="262"/>
+        <source>The bundle is written: {percent} %.</source>
+        <translation>Balíček se zapisuje: {percent} %.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="265"/>
+        <source>It is bundle {number} of {station}.</source>
+        <translation>Je to balíček {number} stanice {station}.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="268"/>
+        <source>Left out is {name}: {reason}</source>
+        <translation>Chybí {name}: {reason}</translation>
     </message>
 </context>
 <context>
@@ -2930,656 +3438,686 @@
         <source>Have the handle taken with the key at places on every axis, and find where the Car takes the key for outside.</source>
         <translation>Nechat uchopit kliku s klíčem na místech každé osy a najít, odkud auto považuje klíč za vzdálený.</translation>
     </message>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Digital key</source>
+        <translation>Digitální klíč</translation>
+    </message>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Carry the phone to places around the Car, read there the distance that phone or Car tells, and map its error.</source>
+        <translation>Dovézt telefon na místa kolem auta, číst tam vzdálenost, kterou telefon nebo auto hlásí, a zmapovat její chybu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Sleep time</source>
+        <translation>Doba usnutí</translation>
+    </message>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Hold the key still near the Car, have the handle taken after ever longer rests, and find after which the key no longer answers.</source>
+        <translation>Držet klíč v klidu u auta, po stále delší době klidu nechat vzít za kliku a zjistit, po které už klíč neodpoví.</translation>
+    </message>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Relay resistance</source>
+        <translation>Odolnost proti přenosu</translation>
+    </message>
+    <message>
+        <location filename="../texts/scenarios.py" line="5"/>
+        <source>Have the handle taken with the key beyond the zone, first with an extender switched off, then on, and bound how often the Car unlocks.</source>
+        <translation>Nechat uchopit kliku s klíčem za zónou, nejprve s vypnutým extenderem, pak se zapnutým, a omezit, jak často se auto odemkne.</translation>
+    </message>
 </context>
 <context>
     <name>Sentence</name>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>wait for robot and Car</source>
         <translation>čekám na robot a auto</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>move the key to {} cm</source>
         <translation>klíč jede do výšky {} cm</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>map the Car</source>
         <translation>robot mapuje auto</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>the robot stands still</source>
         <translation>robot stojí</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>the robot does not confirm that it stands still; without an application it stops by itself</source>
         <translation>robot nepotvrdil, že stojí; bez aplikace se zastaví sám</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>axis {} ({}): go to the start</source>
         <translation>osa {} ({}): jízda na začátek</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>approach until the Car unlocks</source>
         <translation>přibližování, dokud se auto neodemkne</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>retreat until the Car locks</source>
         <translation>couvání, dokud se auto nezamkne</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>radial {} ({}): go to the start</source>
         <translation>paprsek {} ({}): jízda na začátek</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>press at {} m</source>
         <translation>stisk ve vzdálenosti {} m</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The Car&apos;s lock state is unknown: {}</source>
         <translation>Stav zámků auta není znám: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The bus does not carry it.</source>
         <translation>Sběrnice jej nepřenáší.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The Car fell silent: {}</source>
         <translation>Auto se odmlčelo: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot did not start within {} s. {}</source>
         <translation>Robot se do {} s nespustil. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot did not start within {} s.</source>
         <translation>Robot se do {} s nespustil.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot did not find the Car within {} s. {}</source>
         <translation>Robot do {} s nenašel auto. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot did not find the Car within {} s.</source>
         <translation>Robot do {} s nenašel auto.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot is controlled by another application; end that one, then start again.</source>
         <translation>Robot ovládá jiná aplikace; ukončete ji a začněte znovu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The Remote key did not reach the height of {} cm within {} s; it is at {} cm.</source>
         <translation>Klíč nedosáhl výšky {} cm do {} s; je ve výšce {} cm.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot refused the waypoint: {}</source>
         <translation>Robot odmítl cílový bod: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot did not reach the waypoint within {} s. {}</source>
         <translation>Robot nedojel do cílového bodu do {} s. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot did not reach the waypoint within {} s.</source>
         <translation>Robot nedojel do cílového bodu do {} s.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The button could not be pressed: {}</source>
         <translation>Tlačítko nešlo stisknout: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot did not confirm a button press within {} s.</source>
         <translation>Robot do {} s nepotvrdil stisk tlačítka.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>No poses of the robot enclose the instant {} s.</source>
         <translation>Kolem okamžiku {} s nejsou známy polohy robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot&apos;s pose is unknown for {} s around the instant {} s.</source>
         <translation>Poloha robotu není po dobu {} s kolem okamžiku {} s známa.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The progress file holds {} {}; this test has {}.</source>
         <translation>Soubor průběhu obsahuje číslo {1} ({0}); tento test jich má {2}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The Car was still unlocked {} s after the robot had reached the starting distance of {} m; lock it with its key, or increase maximum_distance_m if it locks farther away.</source>
         <translation>Auto bylo ještě {} s po dosažení počáteční vzdálenosti {} m odemčené; zamkněte je klíčem, nebo zvětšete počáteční vzdálenost, zamyká-li dále.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot has been silent for {} s; check the Wi-Fi and that its software runs.</source>
         <translation>Robot mlčí {} s; zkontrolujte Wi-Fi a zda běží jeho software.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot&apos;s ports are open, but no Status has come for {} s; check that both ports are the robot&apos;s. {}</source>
         <translation>Porty robotu jsou otevřené, ale {} s nepřišla zpráva o stavu; zkontrolujte, zda oba porty patří robotu. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot&apos;s ports are open, but no Status has come for {} s; check that both ports are the robot&apos;s.</source>
         <translation>Porty robotu jsou otevřené, ale {} s nepřišla zpráva o stavu; zkontrolujte, zda oba porty patří robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot started anew during the test; the measured lines are kept, go on with a continued test.</source>
         <translation>Robot se během testu spustil znovu; změřené přímky zůstaly uloženy, pokračujte v testu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Another application has taken over the control of the robot.</source>
         <translation>Řízení robotu převzala jiná aplikace.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The test was interrupted.</source>
         <translation>Test byl přerušen.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The link to the robot was interrupted for {} s.</source>
         <translation>Spojení s robotem bylo na {} s přerušeno.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The link to the robot was interrupted: {}</source>
         <translation>Spojení s robotem bylo přerušeno: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot does not know its position relative to the Car.</source>
         <translation>Robot nezná svou polohu vůči autu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The Car does not say whether it is locked.</source>
         <translation>Auto nesděluje, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot has restarted; the present order was sent to it again.</source>
         <translation>Robot se spustil znovu; současný příkaz mu byl odeslán ještě jednou.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot is not connected.</source>
         <translation>Robot není připojen.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Parameter {} is {}; it has to be below {}, {}.</source>
         <translation>Parametr {} je {}; musí být menší než {}, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Parameter {} is {}; allowed is at most {}, {}.</source>
         <translation>Parametr {} je {}; povoleno je nejvýše {}, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Parameter {} is {}; allowed is clearance_m, {}, and more.</source>
         <translation>Parametr {} je {}; povolen je odstup, {}, a více.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Parameter {} is {}; allowed is {}.</source>
         <translation>Parametr {} je {}; povoleno je {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Parameter {} is {}; allowed are {}.</source>
         <translation>Parametr {} je {}; povoleno je {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Parameter {} is {}; {}</source>
         <translation>Parametr {} je {}; {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Parameter {} is unknown; {}</source>
         <translation>Parametr {} není znám; {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>allowed is a number, {}.</source>
         <translation>povoleno je číslo, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>write a decimal point: {}.</source>
         <translation>pište desetinnou tečku: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>did you mean {}?</source>
         <translation>nemá to být {}?</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>known are {}.</source>
         <translation>známé jsou {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Parameter minimum_distance_m is {} m; on the radial of {} degrees that leaves {} m between Remote key and Car, and clearance_m, {} m, has to remain.</source>
         <translation>Nejmenší vzdálenost je {} m; na paprsku {} stupňů tak mezi klíčem a autem zbude {} m, zůstat ale musí odstup {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The test cannot be continued from {}. {}</source>
         <translation>V testu ze souboru {} nelze pokračovat. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>It is not a progress file of this application.</source>
         <translation>Není to soubor průběhu této aplikace.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>It is not a progress file of this application, or of a scenario that it does not know.</source>
         <translation>Není to soubor průběhu této aplikace, nebo patří ke scénáři, který aplikace nezná.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>It has version {}; this application reads version {}.</source>
         <translation>Má verzi {}; tato aplikace čte verzi {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>It belongs to the scenario {}, not to {}.</source>
         <translation>Patří ke scénáři {}, ne k {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>It is damaged: the parameters are missing.</source>
         <translation>Je poškozený: chybí parametry.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>It is damaged: parts of it are missing or of the wrong kind.</source>
         <translation>Je poškozený: části chybí nebo jsou nesprávného druhu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>It was measured with other parameters: {} was {}, now it is {}.</source>
         <translation>Byl změřen s jinými parametry: {} bylo {}, nyní je {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>It is larger than {} MiB.</source>
         <translation>Je větší než {} MiB.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>It cannot be read: {}.</source>
         <translation>Nelze jej přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>It is truncated or not a JSON file.</source>
         <translation>Je useknutý, nebo to není soubor JSON.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The progress file belongs to another Car: its {} was {} m, now it measures {} m.</source>
         <translation>Soubor průběhu patří k jinému autu: {} byla {} m, nyní je {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The file {} cannot be written: {}.</source>
         <translation>Soubor {} nelze zapsat: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Results cannot be written to the folder {}: {}.</source>
         <translation>Výsledky nelze zapsat do složky {}: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The settings in {} were not used. {}</source>
         <translation>Nastavení v souboru {} nebylo použito. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The settings cannot be kept: {}</source>
         <translation>Nastavení nelze uložit: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>They are of another format or version.</source>
         <translation>Má jiný formát nebo verzi.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>They are damaged.</source>
         <translation>Je poškozené.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>They cannot be read.</source>
         <translation>Nelze je přečíst.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The application has a defect: {}: {}</source>
         <translation>Aplikace má chybu: {}: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Robot address is {}; allowed is an IPv4 address or a host name.</source>
         <translation>Adresa robotu je {}; povolena je adresa IPv4 nebo jméno počítače.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Robot address is {}; an IPv4 address is four numbers from 0 to 255 with dots between them.</source>
         <translation>Adresa robotu je {}; adresa IPv4 jsou čtyři čísla od 0 do 255 oddělená tečkami.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The {} is {}; allowed is a whole number from {} to {}.</source>
         <translation>Pole „{}“ obsahuje {}; povoleno je celé číslo od {} do {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The {} is {}; allowed is a whole number.</source>
         <translation>Pole „{}“ obsahuje {}; povoleno je celé číslo.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Subscriber port and publisher port are both {}; the robot uses two different ones.</source>
         <translation>Port odběratele i vydavatele je {}; robot používá dva různé.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>No host of the name {} is known; check the robot&apos;s address.</source>
         <translation>Počítač jménem {} není znám; zkontrolujte adresu robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>No answer from {} within {} s; check the address, the Wi-Fi and that the robot is on.</source>
         <translation>{} do {} s neodpovídá; zkontrolujte adresu, Wi-Fi a zda je robot zapnutý.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Nothing listens on {}; check the port and that the robot&apos;s software runs.</source>
         <translation>Na adrese {} nic neposlouchá; zkontrolujte port a zda běží software robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Cannot reach {}: {}.</source>
         <translation>{} není dosažitelný: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>CAN interface is {}; allowed are {}.</source>
         <translation>Rozhraní CAN je {}; povolena jsou {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>CAN channel is empty; give the adapter&apos;s port, e.g. /dev/ttyACM0, can0 or PCAN_USBBUS1.</source>
         <translation>Kanál CAN je prázdný; zadejte port adaptéru, např. /dev/ttyACM0, can0 nebo PCAN_USBBUS1.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>CAN bit rate is {}; allowed is {} to {} bit/s.</source>
         <translation>Přenosová rychlost CAN je {}; povoleno je {} až {} bit/s.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>There is no CAN adapter at {}; check the channel and the USB plug.</source>
         <translation>Na {} není adaptér CAN; zkontrolujte kanál a zástrčku USB.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>{} is no serial port; give the CAN adapter&apos;s, e.g. /dev/ttyACM0.</source>
         <translation>{} není sériový port; zadejte port adaptéru CAN, např. /dev/ttyACM0.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Cannot open the {} at {} bit/s: {}.</source>
         <translation>Nelze otevřít {} při {} bit/s: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The {} has gone: {}.</source>
         <translation>Zařízení zmizelo ({}): {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The {} sends something else than the slcan protocol; check the channel, and that the device is a CAN adapter.</source>
         <translation>Zařízení ({}) neposílá protokol slcan; zkontrolujte kanál a zda jde o adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The {} does not answer; check the channel, and that the device is a CAN adapter.</source>
         <translation>Zařízení ({}) neodpovídá; zkontrolujte kanál a zda jde o adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>CAN adapter {} ({})</source>
         <translation>adaptér CAN {} ({})</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>another program uses it</source>
         <translation>používá jej jiný program</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The CAN bus has errors ({} error frames); check bit rate, plug and termination.</source>
         <translation>Na sběrnici CAN jsou chyby (chybových rámců: {}); zkontrolujte rychlost, zástrčku a zakončení.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The Car&apos;s CAN bus is not connected.</source>
         <translation>Sběrnice CAN auta není připojena.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>No CAN adapter is chosen.</source>
         <translation>Není vybrán adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>No CAN frame for {} s; check the plug, the bit rate and that the Car is awake.</source>
         <translation>Už {} s nepřišel rámec CAN; zkontrolujte zástrčku, rychlost a zda je auto probuzené.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>No message {} (id 0x{}) for {} s although the CAN bus is alive; check the car profile.</source>
         <translation>Zpráva {} (id 0x{}) už {} s nepřišla, ačkoli sběrnice CAN žije; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The clock of the CAN frames is not mapped to the robot&apos;s yet; this takes about two seconds.</source>
         <translation>Hodiny rámců CAN ještě nejsou přepočteny na hodiny robotu; trvá to asi dvě sekundy.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The CAN adapter reports errors on the bus or has left it (bus-off); check bit rate, plug and termination.</source>
         <translation>Adaptér CAN hlásí chyby na sběrnici, nebo se odpojil (bus-off); zkontrolujte rychlost, zástrčku a zakončení.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The CAN adapter is error-passive; check bit rate, plug and termination.</source>
         <translation>Adaptér CAN je ve stavu error-passive; zkontrolujte rychlost, zástrčku a zakončení.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The CAN adapter has failed: {}.</source>
         <translation>Adaptér CAN selhal: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>There is no car profile {}; shipped are: {}; a path to a YAML file works too.</source>
         <translation>Profil auta {} neexistuje; dodávané jsou: {}; lze zadat i cestu k souboru YAML.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Car profile {}: states must name a value for locked and one for unlocked.</source>
         <translation>Profil auta {}: states musí uvést hodnotu pro locked a pro unlocked.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Car profile {} is no table of names and values.</source>
         <translation>Profil auta {} není tabulka jmen a hodnot.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Car profile {}: source_signal and sources belong together; give both or none.</source>
         <translation>Profil auta {}: source_signal a sources patří k sobě; uveďte obojí, nebo nic.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Car profile {}: {} must be a table from raw value to {}.</source>
         <translation>Profil auta {}: {} musí být tabulka, která hodnotám přiřadí {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Car profile {} cannot be read: {}.</source>
         <translation>Profil auta {} nelze přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Car profile {}: unknown entry {}; allowed are {}.</source>
         <translation>Profil auta {}: neznámá položka {}; povoleny jsou {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Car profile {} lacks the entry {}.</source>
         <translation>V profilu auta {} chybí položka {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Car profile {}: {} has {}: {}; allowed is a whole number with {}.</source>
         <translation>Profil auta {}: {} obsahuje {}: {}; povoleno je celé číslo a k němu {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Message {} of CAN database {} has no signal {}.</source>
         <translation>Zpráva {} databáze CAN {} nemá signál {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>CAN database {} has no message {}.</source>
         <translation>Databáze CAN {} nemá zprávu {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>CAN database {} cannot be read: {}.</source>
         <translation>Databázi CAN {} nelze přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>A message of {} bytes was ignored; allowed is at most {} bytes.</source>
         <translation>Zpráva o {} bajtech byla ignorována; povoleno je nejvýše {} bajtů.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>A message was ignored: {}</source>
         <translation>Zpráva byla ignorována: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>wait for the robot</source>
         <translation>čekám na robot</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>check where the Car stands</source>
         <translation>robot ověřuje, kde auto stojí</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>warning: the robot&apos;s software is too old to check where the Car stands; it is taken as it is</source>
         <translation>pozor: software robotu je příliš starý na ověření, kde auto stojí; bere se, jak je</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot has not found the Car yet, so there is nothing to check; a test begins with it.</source>
         <translation>Robot ještě nenašel auto, takže není co ověřit; test tím začíná.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot&apos;s software is too old to check where the Car stands.</source>
         <translation>Software robotu je příliš starý na ověření, kde auto stojí.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot did not check the Car within {} s. {}</source>
         <translation>Robot auto do {} s neověřil. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot did not check the Car within {} s.</source>
         <translation>Robot auto do {} s neověřil.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The test does not begin. {}</source>
         <translation>Test nezačne. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The Car coordinate system was corrected during the measurement.</source>
         <translation>Souřadnicová soustava auta byla během měření opravena.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The Car&apos;s bus is not connected.</source>
         <translation>Sběrnice auta není připojena.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The package mtr_proto, the contract with the robot, is not installed; pip install the folder proto of the project.</source>
         <translation>Balíček mtr_proto, rozhraní k robotu, není nainstalován; nainstalujte složku proto projektu příkazem pip install.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot&apos;s clock was set; the clock of the CAN frames is mapped to it anew, which takes about two seconds.</source>
         <translation>Hodiny robotu byly přestaveny; hodiny rámců CAN se na ně přepočítávají znovu, trvá to asi dvě sekundy.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The clock of the CAN adapter jumped; it is mapped to the robot&apos;s anew, which takes about two seconds.</source>
         <translation>Hodiny adaptéru CAN poskočily; přepočítávají se na hodiny robotu znovu, trvá to asi dvě sekundy.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Frames or messages of the robot are late, or a clock was set; the time at which the locks changed is not known yet.</source>
         <translation>Rámce nebo zprávy robotu se opožďují, nebo byly přestaveny hodiny; čas změny zámků ještě není znám.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The instant of the event is not known.</source>
         <translation>Okamžik události není znám.</translation>
     </message>
@@ -3739,27 +4277,27 @@
         <translation>Jsou větší než {} KiB.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>the robot stands until you have it go on</source>
         <translation>robot stojí, dokud nedáte pokyn pokračovat</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot has been silent for {} s; check the Wi-Fi and that its software runs. {}</source>
         <translation>Robot mlčí už {} s; zkontrolujte Wi-Fi a zda běží jeho software. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Status {} was ignored: {}</source>
         <translation>Stav {} byl ignorován: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The robot no longer takes this application&apos;s Commands, as if it had said goodbye; connect again, or go on with a continued test.</source>
         <translation>Robot už nepřijímá příkazy této aplikace, jako by se rozloučila; připojte se znovu, nebo v testu pokračujte.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Car profile {}: {} is {}; allowed is {} to {} s.</source>
         <translation>Profil auta {}: {} je {}; povoleno je {} až {} s.</translation>
     </message>
@@ -4114,22 +4652,22 @@
         <translation>Parametr {} je {}; dovolen je seznam čísel, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>move the key so that it does not sleep</source>
         <translation>pohyb klíčem, aby neusnul</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The key has answered nowhere on {} radials one after the other; see whether it sleeps, whether its battery is empty and whether it is the Car&apos;s key, then continue the test, or begin one with a smaller minimum_distance_m.</source>
         <translation>Klíč na {} paprscích za sebou nikde neodpověděl; zjistěte, zda nespí, zda nemá vybitou baterii a zda patří k autu, pak v testu pokračujte, nebo začněte nový s menší minimum_distance_m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Parameter minimum_distance_m leaves {} m up to the first press at {} m; the method adaptive needs {} m.</source>
         <translation>Parametr minimum_distance_m nechává {} m k prvnímu stisku na {} m; metoda adaptive potřebuje {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Parameter {} is {}; allowed is {} or {}.</source>
         <translation>Parametr {} je {}; povoleno je {} nebo {}.</translation>
     </message>
@@ -4139,17 +4677,17 @@
         <translation>Žádný stisk nefungoval, ani žádný z {} na {} m: klíč spí, má vybitou baterii, nebo dosah auta končí blíž; pak zmenšete minimum_distance_m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>{} presses on each radial reach an interval of {} m where the Car&apos;s range ends within {} m; interval_m asks for {} m: allow {} presses (attempts_limit), or ask for {} m.</source>
         <translation>Kde dosah auta končí pozvolna, dá {} stisků na každém paprsku interval {} m (dosah končí během {} m); interval_m žádá {} m: dovolte {} stisků (attempts_limit), nebo žádejte {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>{} presses on each radial reach an interval of {} m where the Car&apos;s range ends within {} m; interval_m asks for {} m: ask for {} m.</source>
         <translation>Kde dosah auta končí pozvolna, dá {} stisků na každém paprsku interval {} m (dosah končí během {} m); interval_m žádá {} m: žádejte {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>zone {} ({})</source>
         <translation>zóna {} ({})</translation>
     </message>
@@ -4339,22 +4877,22 @@
         <translation>U dosahu mezi dvěma místy je bližší nejvzdálenější stisk, který zabral, a druhé nejbližší vzdálenější, který nezabral; dosah nejméně nějaký zabral hned na prvním místě.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The key has answered nowhere in {} zones one after the other; see whether it sleeps, whether its battery is empty and whether it is the Car&apos;s key, then continue the test, or begin one with a smaller minimum_distance_m.</source>
         <translation>Klíč v {} zónách za sebou nikde neodpověděl; zjistěte, zda nespí, zda nemá vybitou baterii a zda patří k autu, pak v testu pokračujte, nebo začněte nový s menší minimum_distance_m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>No press worked in this zone, not at its nearest places either: the key sleeps, its battery is empty, or the Car&apos;s range ends nearer; then decrease minimum_distance_m.</source>
         <translation>V této zóně nezabral žádný stisk, ani na jejích nejbližších místech: klíč spí, má vybitou baterii, nebo dosah auta končí blíž; pak zmenšete minimum_distance_m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>{} presses in each zone reach an interval of the coverage of {} %; coverage_percent asks for {} %: allow {} presses (presses_limit), or ask for {} %.</source>
         <translation>{} stisků v každé zóně dosáhne intervalu pokrytí {} %; coverage_percent žádá {} %: povolte {} stisků (presses_limit), nebo žádejte {} %.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>{} presses in each zone reach an interval of the coverage of {} %; coverage_percent asks for {} %: ask for {} %.</source>
         <translation>{} stisků v každé zóně dosáhne intervalu pokrytí {} %; coverage_percent žádá {} %: žádejte {} %.</translation>
     </message>
@@ -4514,7 +5052,7 @@
         <translation>Fotografii {} nelze zkopírovat: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>Without length and width of the Car&apos;s data sheet the distances may be up to {} cm too long: the Car may be wider above the height at which the LiDARs see it. Start the robot with car_file, and map the Car again.</source>
         <translation>Bez délky a šířky z technického listu auta mohou být vzdálenosti až o {} cm delší: nad výškou, ve které auto vidí LiDARy, může být širší. Spusťte robot s car_file a zmapujte auto znovu.</translation>
     </message>
@@ -4559,7 +5097,7 @@
         <translation>Výšky jsou od sebe {} cm; zadejte takové, které jsou od sebe alespoň {} cm.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="7"/>
+        <location filename="../texts/application.py" line="9"/>
         <source>The {} port {} is open, but not the robot&apos;s; subscriber and publisher port may be swapped, the robot&apos;s link may be encrypted, or another program listens there.</source>
         <translation>Port {} {} je otevřený, ale nepatří robotu; porty mohou být prohozené, spojení robotu může být šifrované, nebo tam naslouchá jiný program.</translation>
     </message>
@@ -4853,181 +5391,1096 @@
         <source>The course {} is damaged in line {}, or of another version.</source>
         <translation>Průběh {} je poškozený na řádku {}, nebo v jiné verzi.</translation>
     </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: signal must be a name, or a table from the name of a door to its signal.</source>
+        <translation>Profil auta {}: signal musí být název, nebo tabulka od názvu dveří k jejich signálu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: buses must be a table from the name of a further bus to its CAN database.</source>
+        <translation>Profil auta {}: buses musí být tabulka od názvu další sběrnice k její databázi CAN.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: doors must be a table from the name of a door to its signal.</source>
+        <translation>Profil auta {}: doors musí být tabulka od názvu dveří k jejich signálu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: {} must be a list of tables.</source>
+        <translation>Profil auta {}: {} musí být seznam tabulek.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: {} names the bus {}, which is not in buses.</source>
+        <translation>Profil auta {}: {} uvádí sběrnici {}, která není v buses.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: {} is on the bus {} and names no message.</source>
+        <translation>Profil auta {}: {} je na sběrnici {} a neuvádí zprávu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: {} has {}: {}; allowed is a whole number.</source>
+        <translation>Profil auta {}: {} má {}: {}; povoleno je celé číslo.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: {} has {}: {}; allowed is a list of whole numbers.</source>
+        <translation>Profil auta {}: {} má {}: {}; povolen je seznam celých čísel.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: uds_poll must be a table of {}; needed are {}.</source>
+        <translation>Profil auta {}: uds_poll musí být tabulka s položkami {}; nutné jsou {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: uds_poll has {}: {}; allowed is {} to {}.</source>
+        <translation>Profil auta {}: uds_poll má {}: {}; povoleno je {} až {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: {} must be a table of {}.</source>
+        <translation>Profil auta {}: {} musí být tabulka s položkami {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>The car profile {} asks the Car for its lock state (uds_poll), and the CAN adapter only listens; choose normal mode (--can-normal) where the Car may be asked, or a profile with a state that it sends.</source>
+        <translation>Profil auta {} se auta ptá na stav zámků (uds_poll) a adaptér CAN jen poslouchá; zvolte normální režim (--can-normal) tam, kde je dovoleno se auta ptát, nebo profil se stavem, který auto vysílá.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>The car profile needs the bus {}, too; name its adapter (--can-bus {}=INTERFACE:CHANNEL:BITRATE).</source>
+        <translation>Profil auta potřebuje i sběrnici {}; uveďte její adaptér (--can-bus {}=INTERFACE:CHANNEL:BITRATE).</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Further bus {}: {}</source>
+        <translation>Další sběrnice {}: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Message {} comes every {} s, and {} says {} s; the uncertainty of a change rests on it: correct it.</source>
+        <translation>Zpráva {} přichází každých {} s a {} uvádí {} s; závisí na tom nejistota změny: opravte to.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Message {} (id {}) comes without the signal {}: another page of a multiplexed message, or a shorter one than the database says; check the car profile.</source>
+        <translation>Zpráva {} (id {}) přichází bez signálu {}: jiná stránka multiplexované zprávy, nebo zpráva kratší, než uvádí databáze; zkontrolujte profil auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>The signal {} of the Car&apos;s message {} went from {} to {}.</source>
+        <translation>Signál {} zprávy auta {} přešel z {} na {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>The signal {} of the Car&apos;s message {} stands still at {}.</source>
+        <translation>Signál {} zprávy auta {} stojí na {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>The Car&apos;s bus tells that {} is open; leave the Car&apos;s doors closed during the test.</source>
+        <translation>Sběrnice auta hlásí, že je otevřeno: {}; během testu nechte dveře auta zavřené.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>The Car&apos;s bus names two causes of one change, {} and {}.</source>
+        <translation>Sběrnice auta uvádí dvě příčiny jedné změny, {} a {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>The key with the number {} moved the Car&apos;s locks, and number {} is under test.</source>
+        <translation>Zámky auta změnil klíč číslo {}, testuje se ale číslo {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>The Car&apos;s locks moved on its bus, and {} counted nothing.</source>
+        <translation>Zámky auta se podle sběrnice změnily a {} nic nenapočítal.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>The Car&apos;s locks moved while {} was open.</source>
+        <translation>Zámky auta se změnily, když bylo otevřeno: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>The Car was {} by something that its profile does not list ({}), not by {}; leave its doors and switches alone during the test.</source>
+        <translation>Stav auta („{}“) způsobilo něco, co profil auta neuvádí ({}), ne {}; během testu nesahejte na dveře ani spínače auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN log {} has a gap of {} s after {} frames; a change within it is as uncertain as the gap is long.</source>
+        <translation>V záznamu CAN {} je mezera {} s po {} rámcích; změna v ní je nejistá po celou její délku.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The time of the CAN log {} jumps back by {} s after {} frames; what lies about it is not to be believed.</source>
+        <translation>Čas záznamu CAN {} skáče zpět o {} s po {} rámcích; údajům kolem tohoto místa nelze věřit.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot starts.</source>
+        <translation>Robot se spouští.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot is ready to map the Car.</source>
+        <translation>Robot je připraven zmapovat auto.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot maps the Car.</source>
+        <translation>Robot mapuje auto.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot is ready to drive.</source>
+        <translation>Robot je připraven k jízdě.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot has a fault.</source>
+        <translation>Robot má závadu.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot checks where the Car stands.</source>
+        <translation>Robot ověřuje, kde auto stojí.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot was driven by hand.</source>
+        <translation>Robot byl řízen ručně.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The lift was moved by hand.</source>
+        <translation>Zdvihem bylo pohnuto ručně.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The path to the waypoint was planned anew.</source>
+        <translation>Cesta k bodu byla naplánována znovu.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot stopped because something stood in its way, or because it saw nothing.</source>
+        <translation>Robot zastavil, protože mu něco stálo v cestě nebo nic neviděl.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>A motion lock stopped the robot.</source>
+        <translation>Robot byl zastaven zámkem pohybu.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot&apos;s peripherals started anew.</source>
+        <translation>Periferie robotu se spustily znovu.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot&apos;s clock was set.</source>
+        <translation>Hodiny robotu byly přestaveny.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The emergency stop is pressed.</source>
+        <translation>Nouzové zastavení je stisknuto.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The emergency stop is released.</source>
+        <translation>Nouzové zastavení je uvolněno.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot has no emergency stop that its software sees.</source>
+        <translation>Robot nemá nouzové zastavení, které by jeho software viděl.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>Waypoint {} is reached.</source>
+        <translation>Bod {} je dosažen.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>Waypoint {} is refused.</source>
+        <translation>Bod {} je odmítnut.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>Something stands in the robot&apos;s way.</source>
+        <translation>Robotu něco stojí v cestě.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot&apos;s way is free again.</source>
+        <translation>Cesta robotu je opět volná.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The button was pressed for {} s.</source>
+        <translation>Tlačítko bylo stisknuto {} s.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The Car stands where it was measured.</source>
+        <translation>Auto stojí tam, kde bylo změřeno.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The Car does not stand where it was measured.</source>
+        <translation>Auto nestojí tam, kde bylo změřeno.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The Car is found: {} m long, {} m wide.</source>
+        <translation>Auto je nalezeno: délka {} m, šířka {} m.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The Car coordinate system was corrected by {} cm and {} degrees.</source>
+        <translation>Souřadnicová soustava auta byla opravena o {} cm a {} stupňů.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>Another application controls the robot.</source>
+        <translation>Robot ovládá jiná aplikace.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>No other application controls the robot any more.</source>
+        <translation>Robot už žádná jiná aplikace neovládá.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot has started anew.</source>
+        <translation>Robot se spustil znovu.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>Over: {}</source>
+        <translation>Pominulo: {}</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot is not heard any more.</source>
+        <translation>Robot už není slyšet.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The robot is heard again after {} s.</source>
+        <translation>Robot je po {} s opět slyšet.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The Car is {} now.</source>
+        <translation>Stav zámků auta: {}.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The Car is {} now ({}).</source>
+        <translation>Stav zámků auta: {} (příčina: {}).</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>the key&apos;s vicinity</source>
+        <translation>blízkost klíče</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>the key&apos;s button</source>
+        <translation>tlačítko klíče</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>the handle</source>
+        <translation>klika</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The test begins.</source>
+        <translation>Test začíná.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The test goes on.</source>
+        <translation>Test pokračuje.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The test is paused.</source>
+        <translation>Test je pozastaven.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>All lines are measured.</source>
+        <translation>Všechny přímky jsou změřeny.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>axis {} ({}): {}</source>
+        <translation>osa {} ({}): {}</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>radial {} ({}): {}</source>
+        <translation>paprsek {} ({}): {}</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>zone {} ({}): {}</source>
+        <translation>zóna {} ({}): {}</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>measured</source>
+        <translation>změřeno</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>Stop.</source>
+        <translation>Zastavit.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>Go on.</source>
+        <translation>Pokračovat.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The handle was taken.</source>
+        <translation>Klika byla uchopena.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>Map the Car.</source>
+        <translation>Zmapovat auto.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>Check where the Car stands.</source>
+        <translation>Ověřit, kde auto stojí.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The event list {} holds {} entries; the rest is not kept.</source>
+        <translation>Seznam událostí {} obsahuje {} záznamů; zbytek se neukládá.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The event list is not kept in {} any more: {}.</source>
+        <translation>Seznam událostí se do {} už neukládá: {}.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The event list {} cannot be read: {}.</source>
+        <translation>Seznam událostí {} nelze přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>The event list {} is damaged in line {}, or of another version.</source>
+        <translation>Seznam událostí {} je poškozen na řádku {}, nebo jiné verze.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>it is a pipe or a device, and no file</source>
+        <translation>je to roura nebo zařízení, a ne soubor</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The folder {} cannot be read: {}.</source>
+        <translation>Složku {} nelze přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The test in {} cannot be read: {}.</source>
+        <translation>Test v {} nelze přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The folder {} holds {}, and no {}: what was measured can be read there, and is no test that can be opened.</source>
+        <translation>Složka {} obsahuje {}, ale ne {}: co bylo změřeno, lze v ní přečíst, není to však test, který by šlo otevřít.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>{} is no file.</source>
+        <translation>{} není soubor.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The bundle {} was written by a newer version of the application.</source>
+        <translation>Balík {} zapsala novější verze aplikace.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The bundle {} holds no {}.</source>
+        <translation>Balík {} neobsahuje {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The bundle {} cannot be unpacked: {}.</source>
+        <translation>Balík {} nelze rozbalit: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The bundle {} is not as it was signed. {}</source>
+        <translation>Balík {} není takový, jak byl podepsán. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>{} is torn, or no bundle: its list of files cannot be read.</source>
+        <translation>{} je neúplný, nebo to není balík: seznam jeho souborů nelze přečíst.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>There is no {} or {} in it: it is no bundle.</source>
+        <translation>Chybí v něm {} nebo {}: není to balík.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>{} or {} is changed: it cannot be read any more.</source>
+        <translation>{} nebo {} je změněn: už jej nelze přečíst.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>{} or {} is changed: the signature is not that of the station&apos;s key over it.</source>
+        <translation>{} nebo {} je změněn: podpis není podpisem klíče stanice.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>{} is missing.</source>
+        <translation>{} chybí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>{} is changed.</source>
+        <translation>{} je změněn.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>{} was added.</source>
+        <translation>{} byl přidán.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>A file is in it twice.</source>
+        <translation>Některý soubor je v něm dvakrát.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The files are as they were signed, but the zip around them is not as it was written, from byte {} on: it was packed anew, or a byte between the files is changed.</source>
+        <translation>Soubory jsou takové, jak byly podepsány, ale zip kolem nich není takový, jak byl zapsán, od bajtu {} dále: byl zabalen znovu, nebo je změněn bajt mezi soubory.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>The laptop slept for {} s, and the robot stood meanwhile.</source>
+        <translation>Notebook spal {} s a robot mezitím stál.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>The application stood still for {} s, and the robot stood meanwhile.</source>
+        <translation>Aplikace {} s neběžela a robot mezitím stál.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>{} The line at hand is measured anew when the test goes on.</source>
+        <translation>{} Rozpracovaná přímka se změří znovu, až bude test pokračovat.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>position {} ({}, {} m)</source>
+        <translation>poloha {} ({}, {} m)</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>Nothing tells the phone&apos;s distance: the Car&apos;s profile declares no phone_distance; add one to the profile, or name a feed (--phone-feed).</source>
+        <translation>Vzdálenost telefonu nic nehlásí: profil auta neuvádí phone_distance; doplňte ji do profilu, nebo uveďte zdroj (--phone-feed).</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>Nothing tells the phone&apos;s distance any more: {}</source>
+        <translation>Vzdálenost telefonu už nic nehlásí: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The phone&apos;s distance was told {} times within {} s; {} times are needed.</source>
+        <translation>Vzdálenost telefonu byla hlášena {}krát za {} s; je třeba {}krát.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The phone&apos;s distances scatter by {} m; their median is not known.</source>
+        <translation>Vzdálenosti telefonu kolísají o {} m; jejich medián není znám.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The clock of the phone&apos;s distance was set forward by {} s.</source>
+        <translation>Hodiny vzdálenosti telefonu byly posunuty dopředu o {} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The clock of the phone&apos;s distance was set back by {} s.</source>
+        <translation>Hodiny vzdálenosti telefonu byly posunuty zpět o {} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The newest distance of the phone was {} s old while it was read; allowed are {} s.</source>
+        <translation>Nejnovější vzdálenost telefonu byla při čtení stará {} s; dovoleno je {} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The phone&apos;s distance was {} m without any change at places {} and {} m away; the feed is frozen or at the end of its range.</source>
+        <translation>Vzdálenost telefonu byla beze změny {} m na místech vzdálených {} a {} m; zdroj zamrzl, nebo je na konci svého rozsahu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The phone&apos;s distance, {} m, is off by {} m; that is none.</source>
+        <translation>Vzdálenost telefonu, {} m, se liší o {} m; to žádná vzdálenost není.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The phone is at the reference itself.</source>
+        <translation>Telefon je přímo v místě, se kterým se porovnává.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The robot moved while the phone&apos;s distance was read.</source>
+        <translation>Robot se při čtení vzdálenosti telefonu pohnul.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The robot does not say how sure it is of its position.</source>
+        <translation>Robot neříká, jak jistou má svou polohu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The phone&apos;s distance cannot be read from {}: {}; start what sends it, or correct the feed&apos;s address.</source>
+        <translation>Vzdálenost telefonu nelze číst ({}): {}; spusťte to, co ji posílá, nebo opravte adresu zdroje.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The phone&apos;s distance does not come from {} any more: {}.</source>
+        <translation>Vzdálenost telefonu už nepřichází ({}): {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>What comes from {} is no distance: {}</source>
+        <translation>Co přichází ({}), není vzdálenost: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>Nothing has come from {} since it was connected; see whether it sends a line for each distance.</source>
+        <translation>Od připojení nic nepřišlo ({}); podívejte se, zda zdroj posílá pro každou vzdálenost řádek.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>Car profile {}: phone_distance must be tcp:HOST:PORT, serial:DEVICE:BAUD, or a table of {}.</source>
+        <translation>Profil auta {}: phone_distance musí být tcp:HOST:PORT, serial:DEVICE:BAUD, nebo tabulka s položkami {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>Car profile {}: phone_distance names the bus {}, which is not in buses.</source>
+        <translation>Profil auta {}: phone_distance uvádí sběrnici {}, která není v buses.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>Car profile {}: phone_distance needs the entry database.</source>
+        <translation>Profil auta {}: phone_distance potřebuje položku database.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>Car profile {}: phone_distance has the unit {}; allowed is {}: name it (unit).</source>
+        <translation>Profil auta {}: phone_distance má jednotku {}; dovoleno je {}: uveďte ji (unit).</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>Car profile {}: phone_distance has no_distance: {}; allowed is a list of whole numbers.</source>
+        <translation>Profil auta {}: phone_distance má no_distance: {}; dovolen je seznam celých čísel.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>Car profile {}: phone_distance is {}; a simulated phone is for the command line (--phone-feed).</source>
+        <translation>Profil auta {}: phone_distance je {}; simulovaný telefon je jen pro příkazovou řádku (--phone-feed).</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>Parameter minimum_distance_m is {} m; it has to be at most maximum_distance_m, {} m.</source>
+        <translation>Parametr minimum_distance_m je {} m; smí být nejvýše maximum_distance_m, {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>Parameter maximum_age_s is {} s; it has to be at most reading_time_s, {} s.</source>
+        <translation>Parametr maximum_age_s je {} s; smí být nejvýše reading_time_s, {} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>Beside each distance that the phone told stands 1 sigma of where it really was, and the 95 % interval of what it told there; the errors are in results.csv.</source>
+        <translation>Vedle každé vzdálenosti, kterou telefon hlásil, stojí 1 sigma toho, kde skutečně byl, a 95% interval toho, co tam hlásil; chyby jsou v results.csv.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The feed of the phone&apos;s distance is {}; allowed is {}.</source>
+        <translation>Zdroj vzdálenosti telefonu je {}; dovoleno je {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The {} of the phone&apos;s feed is {}; allowed is {} to {}.</source>
+        <translation>{} zdroje telefonu: {}; dovoleno je {} až {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>A simulated phone has no {}; allowed are {}.</source>
+        <translation>Simulovaný telefon nemá {}; dovoleno je {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>{} of a simulated phone is {}; allowed is a number.</source>
+        <translation>{} simulovaného telefonu je {}; dovoleno je číslo.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>nobody has answered for {} s</source>
+        <translation>nikdo neodpověděl po {} s</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>it is not connected</source>
+        <translation>není připojen</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>it is not open</source>
+        <translation>není otevřena</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>the other side has closed the connection</source>
+        <translation>druhá strana ukončila spojení</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The bundle {} cannot be written: {}.</source>
+        <translation>Balíček {} nelze zapsat: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The bundle was given up, for the window closes.</source>
+        <translation>Balíček se nedokončil, protože se okno zavírá.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The chain of bundles in {} is damaged; move that file elsewhere to begin a new chain.</source>
+        <translation>Řetěz balíčků v {} je poškozený; přesuňte tento soubor jinam, a začne nový řetěz.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The key of this station in {} cannot be read or made: {}.</source>
+        <translation>Klíč této stanice v {} nelze přečíst ani vytvořit: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The key of this station in {} is damaged; restore it from a copy, or move it elsewhere to have a new one made.</source>
+        <translation>Klíč této stanice v {} je poškozený; obnovte jej z kopie, nebo jej přesuňte jinam, a vytvoří se nový.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The package duckdb is not installed; pip install duckdb, then bundle the test anew.</source>
+        <translation>Balík duckdb není nainstalován; zadejte pip install duckdb a uložte balíček znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>It cannot be made: {}</source>
+        <translation>Nelze vytvořit: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The file {} is not there any more.</source>
+        <translation>Soubor {} už neexistuje.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The scans {} are damaged in line {}, or of another version.</source>
+        <translation>Skeny {} jsou poškozené na řádku {}, nebo jsou jiné verze.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The scans {} cannot be read: {}.</source>
+        <translation>Skeny {} nelze přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>trial {}: the key is held still for {} s</source>
+        <translation>pokus {}: klíč se drží v klidu {} s</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>a trial was disturbed and is made again</source>
+        <translation>pokus byl narušen a opakuje se</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>move the key: it has to answer then</source>
+        <translation>pohnout klíčem: pak musí odpovědět</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>asleep after {} to {} s</source>
+        <translation>usne po {} až {} s</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>asleep after {} s at most</source>
+        <translation>usne nejpozději po {} s</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>awake for at least {} s</source>
+        <translation>bdí nejméně {} s</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>The Remote key was moved while it was to be held still.</source>
+        <translation>Klíčem se pohnulo, když měl být držen v klidu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Nobody knows since when the Remote key has been at rest.</source>
+        <translation>Není známo, od kdy je klíč v klidu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>The key did not answer {} requests at {} m right after it was moved: the place lies outside the zone, the key&apos;s battery is empty, it is not the Car&apos;s key, or the handle of this side was not taken.</source>
+        <translation>Klíč neodpověděl na {} dotazů ve vzdálenosti {} m hned poté, co se jím pohnulo: místo leží mimo zónu, klíč má prázdnou baterii, není to klíč tohoto auta, nebo se za kliku na této straně nevzalo.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Parameter wake_move_m is {} m; allowed is at most {} m, up to maximum_distance_m.</source>
+        <translation>Parametr wake_move_m je {} m; povoleno je nejvýše {} m, po maximum_distance_m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Parameter interval_s is {} s; allowed is more than {} s, for the requests to a silent key take half of that; decrease requests or response_timeout_s.</source>
+        <translation>Parametr interval_s je {} s; povoleno je více než {} s, protože dotazy na mlčící klíč trvají polovinu toho; zmenšete requests nebo response_timeout_s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/handle.py" line="5"/>
+        <source>Parameter longest_wait_s is {} s; it has to be longer than shortest_wait_s, {} s.</source>
+        <translation>Parametr longest_wait_s je {} s; musí být delší než shortest_wait_s, {} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>The CAN adapter {} ({}) is that of another bus already; give each bus an adapter of its own.</source>
+        <translation>Adaptér CAN {} ({}) už patří jiné sběrnici; dejte každé sběrnici vlastní adaptér.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>switch the extender off</source>
+        <translation>vypnout extender</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>switch the extender on</source>
+        <translation>zapnout extender</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>The extender was switched off.</source>
+        <translation>Extender byl vypnut.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>The extender was switched on.</source>
+        <translation>Extender byl zapnut.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>handle request at {} m: the Car has to unlock there</source>
+        <translation>uchopení kliky ve vzdálenosti {} m: auto se tam musí odemknout</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>handle request at {} m, extender off</source>
+        <translation>uchopení kliky ve vzdálenosti {} m, extender vypnut</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>handle request at {} m, extender on</source>
+        <translation>uchopení kliky ve vzdálenosti {} m, extender zapnut</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>not resistant: with the extender {} of {} unlocked, up to {} m</source>
+        <translation>neodolné: s extenderem odemklo {} z {}, až do {} m</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>resistant but for at most {} % (95 %): with the extender {} of {} unlocked</source>
+        <translation>odolné až na nejvýše {} % (95 %): s extenderem odemklo {} z {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>zone beyond its border: without the extender {} of {} unlocked, up to {} m</source>
+        <translation>zóna za svou hranicí: bez extenderu odemklo {} z {}, až do {} m</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>Nobody switches the extender: the Car&apos;s profile declares no extender_switch, and there is no Operator to ask; add one to the profile, or start the test where a person can answer.</source>
+        <translation>Nikdo nepřepíná extender: profil auta neuvádí extender_switch a není tu obsluha, které by se dalo říci; doplňte jej do profilu, nebo spusťte test tam, kde může někdo odpovědět.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>Nobody has switched the extender within {} s; continue the test when somebody is there to do it, or increase switch_timeout_s.</source>
+        <translation>Během {} s nikdo nepřepnul extender; pokračujte v testu, až tu bude někdo, kdo to udělá, nebo zvětšete switch_timeout_s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>The Car did not unlock at {} requests at {} m, inside its zone: the key sleeps, its battery is empty, it is not the Car&apos;s key, or the handle of this side was not taken; its silence beyond the border says nothing.</source>
+        <translation>Auto se neodemklo při {} uchopeních kliky ve vzdálenosti {} m, uvnitř své zóny: klíč spí, má vybitou baterii, není to klíč tohoto auta, nebo se neuchopila klika této strany; jeho mlčení za hranicí nic neříká.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>The Remote key was at {} m, with 1 sigma of {} m: not surely beyond the nominal border at {} m.</source>
+        <translation>Klíč byl ve vzdálenosti {} m s 1 sigma {} m: není jisté, že za jmenovitou hranicí {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>Parameter minimum_distance_m is {} m; it has to be at most border_distance_m, {} m.</source>
+        <translation>Parametr minimum_distance_m je {} m; smí být nejvýše border_distance_m, {} m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>Parameter places_m has {} m; allowed is {} m, which is {} m beyond border_distance_m, to {} m, maximum_distance_m.</source>
+        <translation>Parametr places_m obsahuje {} m; dovoleno je od {} m, což je {} m za border_distance_m, do {} m, maximum_distance_m.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>Car profile {}: extender_switch must be a table of {}.</source>
+        <translation>Profil auta {}: extender_switch musí být tabulka s klíči {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>Car profile {}: extender_switch has {}: {}; allowed is a whole number.</source>
+        <translation>Profil auta {}: extender_switch má {}: {}; dovoleno je celé číslo.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>Car profile {}: {} and {} of {} are both {}; give two values.</source>
+        <translation>Profil auta {}: {} a {} v {} jsou obě {}; uveďte dvě hodnoty.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>The car&apos;s profile names an output that switches the extender, and the CAN adapter only listens: a person switches it; choose normal mode (--can-normal) to have it switched.</source>
+        <translation>Profil auta uvádí výstup, který přepíná extender, a adaptér CAN jen poslouchá: přepne jej člověk; zvolte normální režim (--can-normal), aby se přepínal sám.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="5"/>
+        <source>The Car did not unlock inside its zone, so that its silence beyond the border says nothing.</source>
+        <translation>Auto se uvnitř své zóny neodemklo, takže jeho mlčení za hranicí nic neříká.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
     <message>
-        <location filename="../screens/settings.py" line="88"/>
+        <location filename="../screens/settings.py" line="92"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="183"/>
+        <location filename="../screens/settings.py" line="190"/>
         <source>{count} lines ({word}), about {time}.</source>
         <translation>Počet přímek ({word}): {count}, asi {time}.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="187"/>
+        <location filename="../screens/settings.py" line="194"/>
         <source>The Car is not measured yet; its size is a guess.</source>
         <translation>Auto ještě není změřeno; jeho rozměry jsou odhad.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="192"/>
+        <location filename="../screens/settings.py" line="199"/>
         <source>The battery, at {percent} %, suffices.</source>
         <translation>Baterie ({percent} %) stačí.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="193"/>
+        <location filename="../screens/settings.py" line="200"/>
         <source>The battery, at {percent} %, may not suffice: the test takes about {need} %.</source>
         <translation>Baterie ({percent} %) nemusí stačit: test spotřebuje asi {need} %.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="68"/>
+        <location filename="../screens/settings.py" line="72"/>
         <source>Hold to start</source>
         <translation>Podržením spustit</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="160"/>
+        <location filename="../screens/settings.py" line="167"/>
         <source>Something stands in the way of {lines}: grey squares, the nearest {distance} m from the Car. Move it, or measure from nearer.</source>
         <translation>V cestě stojí překážka ({lines}): šedé čtverce, nejbližší {distance} m od auta. Odstraňte ji, nebo měřte z menší vzdálenosti.</translation>
+    </message>
+    <message>
+        <location filename="../screens/settings.py" line="189"/>
+        <source>No preview of the lines while the parameters are not right.</source>
+        <translation>Dokud nejsou parametry v pořádku, není náhled přímek.</translation>
     </message>
 </context>
 <context>
     <name>SettingsWindow</name>
     <message>
-        <location filename="../windows/settings_window.py" line="39"/>
+        <location filename="../windows/settings_window.py" line="40"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="43"/>
+        <location filename="../windows/settings_window.py" line="44"/>
         <source>Results</source>
         <translation>Výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="44"/>
+        <location filename="../windows/settings_window.py" line="45"/>
         <source>Progress of tests</source>
         <translation>Průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="45"/>
+        <location filename="../windows/settings_window.py" line="46"/>
         <source>IP address</source>
         <translation>IP adresa</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="46"/>
+        <location filename="../windows/settings_window.py" line="47"/>
         <source>Subscriber port</source>
         <translation>Port odběratele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="47"/>
+        <location filename="../windows/settings_window.py" line="48"/>
         <source>Publisher port</source>
         <translation>Port vydavatele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="48"/>
+        <location filename="../windows/settings_window.py" line="49"/>
         <source>As the system</source>
         <translation>Podle systému</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="48"/>
+        <location filename="../windows/settings_window.py" line="49"/>
         <source>Light</source>
         <translation>Světlý</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="48"/>
+        <location filename="../windows/settings_window.py" line="49"/>
         <source>Dark</source>
         <translation>Tmavý</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="59"/>
+        <location filename="../windows/settings_window.py" line="62"/>
         <source>Use this adapter</source>
         <translation>Použít tento adaptér</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="196"/>
+        <location filename="../windows/settings_window.py" line="214"/>
         <source>The CAN adapter is in use.</source>
         <translation>Adaptér CAN se používá.</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="111"/>
+        <location filename="../windows/settings_window.py" line="115"/>
         <source>Folders</source>
         <translation>Složky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="128"/>
+        <location filename="../windows/settings_window.py" line="133"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="114"/>
+        <location filename="../windows/settings_window.py" line="118"/>
         <source>Appearance</source>
         <translation>Vzhled</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="115"/>
+        <location filename="../windows/settings_window.py" line="119"/>
         <source>Theme</source>
         <translation>Motiv</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="115"/>
+        <location filename="../windows/settings_window.py" line="119"/>
         <source>Language</source>
         <translation>Jazyk</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="135"/>
+        <location filename="../windows/settings_window.py" line="140"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="94"/>
+        <location filename="../windows/settings_window.py" line="98"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="142"/>
+        <location filename="../windows/settings_window.py" line="147"/>
         <source>Change</source>
         <translation>Změnit</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="143"/>
+        <location filename="../windows/settings_window.py" line="148"/>
         <source>Change the folder: {what}</source>
         <translation>Změnit složku: {what}</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="156"/>
+        <location filename="../windows/settings_window.py" line="161"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="163"/>
+        <location filename="../windows/settings_window.py" line="168"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="211"/>
+        <location filename="../windows/settings_window.py" line="231"/>
         <source>The CAN adapter that you have chosen is not in use yet. Use it?</source>
         <translation>Zvolený adaptér CAN se zatím nepoužívá. Použít jej?</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="214"/>
+        <location filename="../windows/settings_window.py" line="234"/>
         <source>Use it</source>
         <translation>Použít</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="214"/>
+        <location filename="../windows/settings_window.py" line="234"/>
         <source>Leave it as it was</source>
         <translation>Ponechat původní</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="51"/>
+        <location filename="../windows/settings_window.py" line="53"/>
         <source>Sounds</source>
         <translation>Zvuky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="52"/>
+        <location filename="../windows/settings_window.py" line="54"/>
         <source>One beep when the robot begins to move, two when the test is done, three at trouble</source>
         <translation>Jedno pípnutí, když se robot rozjíždí, dvě po skončení testu, tři při potížích</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="50"/>
+        <source>High contrast</source>
+        <translation>Vysoký kontrast</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="184"/>
+        <source>Speech</source>
+        <translation>Řeč</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="187"/>
+        <source>Says what the beeps mean, and what the trouble is</source>
+        <translation>Řekne, co pípnutí znamenají a jaká je potíž</translation>
+    </message>
+    <message>
+        <location filename="../windows/settings_window.py" line="187"/>
+        <source>This computer cannot speak: Qt&apos;s text to speech or an engine for it is missing (Debian: python3-pyqt5.qttexttospeech, speech-dispatcher)</source>
+        <translation>Tento počítač neumí mluvit: chybí převod textu na řeč z Qt nebo jeho nástroj (Debian: python3-pyqt5.qttexttospeech, speech-dispatcher)</translation>
     </message>
 </context>
 <context>
@@ -5147,18 +6600,33 @@
         <source>Clear its way; it goes on by itself, or stands until you have it go on.</source>
         <translation>Uvolněte mu cestu; pokračuje sám, nebo stojí, dokud mu nedáte pokyn.</translation>
     </message>
+    <message>
+        <location filename="../alerts/sounds.py" line="63"/>
+        <source>The test is done.</source>
+        <translation>Test je hotov.</translation>
+    </message>
+    <message>
+        <location filename="../alerts/sounds.py" line="65"/>
+        <source>The robot moves.</source>
+        <translation>Robot se pohybuje.</translation>
+    </message>
 </context>
 <context>
     <name>StatusWord</name>
     <message>
-        <location filename="../header/status_word.py" line="57"/>
+        <location filename="../header/status_word.py" line="66"/>
         <source>Status: {word}</source>
         <translation>Stav: {word}</translation>
     </message>
     <message>
-        <location filename="../header/status_word.py" line="59"/>
+        <location filename="../header/status_word.py" line="68"/>
         <source>Everything is ready for a test.</source>
         <translation>Vše je připraveno k testu.</translation>
+    </message>
+    <message>
+        <location filename="../header/status_word.py" line="47"/>
+        <source>All events</source>
+        <translation>Všechny události</translation>
     </message>
 </context>
 <context>
@@ -5264,434 +6732,529 @@
 <context>
     <name>Word</name>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>axis</source>
         <translation>osa</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>radial</source>
         <translation>paprsek</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>unlock</source>
         <translation>odemčení</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>lock</source>
         <translation>zamčení</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>press</source>
         <translation>stisk</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>front</source>
         <translation>vpředu</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>rear</source>
         <translation>vzadu</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>left</source>
         <translation>vlevo</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>right</source>
         <translation>vpravo</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>front left</source>
         <translation>vpředu vlevo</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>front right</source>
         <translation>vpředu vpravo</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>rear left</source>
         <translation>vzadu vlevo</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>rear right</source>
         <translation>vzadu vpravo</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>ok</source>
         <translation>změřeno</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>not reached</source>
         <translation>nedosaženo</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>invalid</source>
         <translation>neplatné</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>locked</source>
         <translation>zamčeno</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>unlocked</source>
         <translation>odemčeno</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Unlocked</source>
         <translation>Odemčeno</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Locked</source>
         <translation>Zamčeno</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Unlock not reached</source>
         <translation>Odemčení nedosaženo</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Lock not reached</source>
         <translation>Zamčení nedosaženo</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Invalid</source>
         <translation>Neplatné</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Press worked</source>
         <translation>Stisk zabral</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Press failed</source>
         <translation>Stisk nezabral</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>lines</source>
         <translation>přímky</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>nothing measured</source>
         <translation>nic nezměřeno</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Car measured</source>
         <translation>změřené auto</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>car profile</source>
         <translation>profil auta</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>robot</source>
         <translation>robot</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>software</source>
         <translation>software</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>robot software</source>
         <translation>software robotu</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>length</source>
         <translation>délka</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>width</source>
         <translation>šířka</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>subscriber port</source>
         <translation>port odběratele</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>publisher port</source>
         <translation>port vydavatele</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>subscriber</source>
         <translation>odběratel</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>publisher</source>
         <translation>vydavatel</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>largest uncertainty (95 %)</source>
         <translation>největší nejistota (95 %)</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>verdict</source>
         <translation>verdikt</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>judged lines</source>
         <translation>posouzené čáry</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>pass</source>
         <translation>vyhověl</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>inconclusive</source>
         <translation>nerozhodnuto</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>fail</source>
         <translation>nevyhověl</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>aborted</source>
         <translation>přerušeno</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>50 % of the presses work</source>
         <translation>funguje 50 % stisků</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>95 % of the presses work</source>
         <translation>funguje 95 % stisků</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Border farther than here</source>
         <translation>hranice dále než zde</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Border nearer than here</source>
         <translation>hranice blíže než zde</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Hole</source>
         <translation>díra</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>zone</source>
         <translation>zóna</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>reach</source>
         <translation>dosah</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Covered for sure</source>
         <translation>Jistě pokryto</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Covered perhaps</source>
         <translation>Snad pokryto</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Half of the presses work</source>
         <translation>Funguje polovina stisků</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>handle</source>
         <translation>klika</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Border: half of the requests inside</source>
         <translation>hranice: polovina žádostí uvnitř</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Inside</source>
         <translation>uvnitř</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Outside</source>
         <translation>venku</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>not set</source>
         <translation>neposouzeno</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>place and instant of the key</source>
         <translation>místo a okamžik klíče</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>attempts</source>
         <translation>pokusy</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>length of the Car</source>
         <translation>délka auta</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>width of the Car</source>
         <translation>šířka auta</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>mast_lean_deg</source>
         <translation>náklon stožáru</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>floor_slope_deg</source>
         <translation>sklon podlahy</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>key_lever_m</source>
         <translation>poloha klíče na robotu</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>lidar_yaw_deg</source>
         <translation>natočení lidaru</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>robot&apos;s Status and the Car&apos;s bus</source>
         <translation>stav robotu a sběrnice auta</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>robot&apos;s map of the Car</source>
         <translation>mapa auta v robotu</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>attempts of the test</source>
         <translation>pokusy testu</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>all sides</source>
         <translation>všechny strany</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>started</source>
         <translation>začátek</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>continued</source>
         <translation>pokračování</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>measured again</source>
         <translation>změřeno znovu</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>ended before its end</source>
         <translation>skončil předčasně</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>recovered</source>
         <translation>obnoveno</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>messages of the robot that were not used</source>
         <translation>nepoužité zprávy robotu</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>messages that the robot refused</source>
         <translation>zprávy, které robot odmítl</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>frames of the Car that were not believed</source>
         <translation>rámce auta, kterým se nevěří</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>measured by</source>
         <translation>měřil</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>checked by</source>
         <translation>zkontroloval</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>date</source>
         <translation>datum</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>signature</source>
         <translation>podpis</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>Border unknown</source>
         <translation>Hranice neznámá</translation>
     </message>
     <message>
-        <location filename="../texts/words.py" line="5"/>
+        <location filename="../texts/words.py" line="7"/>
         <source>notes and photos added</source>
         <translation>poznámky a fotografie doplněny</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="52"/>
+        <source>position</source>
+        <translation>poloha</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="52"/>
+        <source>phone</source>
+        <translation>telefon</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="52"/>
+        <source>Error</source>
+        <translation>Chyba</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="52"/>
+        <source>No answer</source>
+        <translation>Bez odpovědi</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="52"/>
+        <source>bias</source>
+        <translation>systematická chyba</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="52"/>
+        <source>spread of errors</source>
+        <translation>rozptyl chyb</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="52"/>
+        <source>95 % of errors within</source>
+        <translation>95 % chyb do</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="52"/>
+        <source>places without answer</source>
+        <translation>místa bez odpovědi</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="52"/>
+        <source>phone&apos;s distance from</source>
+        <translation>vzdálenost telefonu z</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="52"/>
+        <source>distances of the phone that were not used</source>
+        <translation>vzdálenosti telefonu, které nebyly použity</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="52"/>
+        <source>port</source>
+        <translation>port</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="52"/>
+        <source>baud rate</source>
+        <translation>rychlost linky</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>finding</source>
+        <translation>zjištění</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>held</source>
+        <translation>držen</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>Held still</source>
+        <translation>Držen v klidu</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="53"/>
+        <source>relay</source>
+        <translation>přenos</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="53"/>
+        <source>Farthest unlock, extender on</source>
+        <translation>Nejvzdálenější odemčení, extender zapnut</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="53"/>
+        <source>Unlocked beyond the border</source>
+        <translation>Odemčeno za hranicí</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/relay.py" line="53"/>
+        <source>Stayed locked, extender on</source>
+        <translation>Zůstalo zamčeno, extender zapnut</translation>
     </message>
 </context>
 </TS>

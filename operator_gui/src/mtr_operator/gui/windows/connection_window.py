@@ -55,6 +55,7 @@ class ConnectionWindow(QWidget):
         self.pairing.unencrypted.toggled.connect(self._forget_refusal)
         for form in (self.robot, self.can):
             form.changed.connect(self._forget_refusal)
+        self.can.changed.connect(self._suit_buses)
         flow.refused.connect(self._show_refusal)
         self.robot.show_choice(proposed.robot, flow.store.settings.hosts)
         self.can.show_choice(proposed.can)
@@ -72,6 +73,7 @@ class ConnectionWindow(QWidget):
             card.column.addWidget(form, 1)
             if form is self.robot:
                 card.column.addWidget(self.pairing)
+                card.column.addStretch(0)
             cards.addWidget(card, 1)
         notice = QVBoxLayout()
         notice.setSpacing(0)
@@ -107,6 +109,14 @@ class ConnectionWindow(QWidget):
     def _as_chosen(self, robot: RobotChoice) -> RobotChoice:
         return dataclasses.replace(robot, is_unencrypted=self.pairing.unencrypted.isChecked())
 
+    def _suit_buses(self) -> None:
+        """Beside the adapters of many buses the pairing stays with the robot's address, instead of below them all."""
+        column = self.pairing.parentWidget().layout()
+        if isinstance(column, QVBoxLayout):
+            has_further = bool(self.can.further.shown)
+            column.setStretchFactor(self.robot, int(not has_further))
+            column.setStretch(column.count() - 1, int(has_further))
+
     def _change_language(self) -> None:
         self._flow.use_language(self.language.currentData())
 
@@ -122,17 +132,18 @@ class ConnectionWindow(QWidget):
         self.language.setEnabled(False)
         self._flow.connect_to(Connection(self._as_chosen(robot), self.can.choice))
 
-    def _show_refusal(self, part: str, text: str) -> None:
+    def _show_refusal(self, part: str, text: str, bus: str = "") -> None:
         self.button.setEnabled(True)
         self.language.setEnabled(True)
         message = {
             "address": self.tr("The IP address or port provided is invalid."),
             "robot": self.tr("Connection failed, check the parameters."),
-            "car": self.tr("The CAN adapter cannot be used."),
+            "car": self.tr("The CAN adapter of the bus {bus} cannot be used.").format(bus=bus) if bus else
+            self.tr("The CAN adapter cannot be used."),
         }[part]
         self._say(message, translated(text))
         if part == "car":
-            self.can.show_fault(self.tr("The CAN adapter cannot be used."))
+            self.can.show_fault(message, bus)
 
     def _forget_refusal(self) -> None:
         """What was wrong is being put right."""

@@ -17,6 +17,7 @@ from mtr_operator.station.readiness import RUNNING
 from ..bus.bus_window import BusWindow
 from ..calibration.guide_window import GuideWindow
 from ..dialogs import ask_folder, ask_progress_file, confirm, show_message
+from ..events.event_window import EventWindow
 from ..fitting.place import open_within
 from ..flow import Flow, Step
 from ..header.header_bar import HeaderBar
@@ -104,6 +105,9 @@ class MainWindow(QMainWindow):
     def _show_bus(self) -> None:
         self._open_beside(BusWindow, lambda: BusWindow(self._flow, self._appearance, self))
 
+    def _show_events(self) -> None:
+        self._open_beside(EventWindow, lambda: EventWindow(self._flow, self._appearance, self))
+
     def _open_beside(self, kind: type[QDialog], make: Callable[[], QDialog]) -> None:
         """Open a window of a kind, or show the one that is open; this one stays alive, and its Stop."""
         dialog = self._opened.get(kind)
@@ -128,6 +132,8 @@ class MainWindow(QMainWindow):
         flow.folder_wanted.connect(self._want_progress_folder)
         self.header.settings_wanted.connect(self.show_settings)
         self.header.bus_wanted.connect(self._show_bus)
+        self.header.status.events_wanted.connect(self._show_events)
+        self.measurement.events_wanted.connect(self._show_events)
         self.welcome.new_test.connect(lambda: flow.show(Step.TYPE))
         self.welcome.history.connect(self._show_history)
         self.welcome.calibrate.connect(self._show_calibration)
@@ -137,7 +143,7 @@ class MainWindow(QMainWindow):
         self.types.chosen.connect(self._show_settings)
         self.measurement.resume_wanted.connect(flow.resume)
         self.measurement.release_wanted.connect(flow.release_hold)
-        self.measurement.handle_taken.connect(flow.answer_handle)
+        self.measurement.prompt_answered.connect(flow.answer_prompt)
         self.measurement.save_wanted.connect(flow.save_progress)
         self.measurement.leave_wanted.connect(flow.to_welcome)
         self.measurement.answered.connect(self.header.stop.setFocus)
@@ -163,7 +169,7 @@ class MainWindow(QMainWindow):
     def _show_step(self, step: Step) -> None:
         self.header.steps.select(step.value)
         if step is Step.WELCOME:
-            self.welcome.offer_unfinished(self._flow.unfinished_test())
+            self.welcome.offer_unfinished(self._flow.unfinished.offered)
             self.welcome.take_focus()
         elif step is Step.PROTOCOL:
             self.protocol.show_test()
@@ -204,7 +210,7 @@ class MainWindow(QMainWindow):
             self._flow.open(path)
 
     def _dismiss(self) -> None:
-        self._flow.dismiss_unfinished()
+        self._flow.unfinished.dismiss()
         self.welcome.offer_unfinished(None)
 
     # A dialog within the delivery of events would let the later ones pass the earlier ones.

@@ -12,6 +12,7 @@ from PyQt5.QtWidgets import QCheckBox, QComboBox, QDialog, QHBoxLayout, QLabel, 
 from mtr_operator.station.readiness import RUNNING
 from mtr_operator.station.settings import THEMES
 
+from ..alerts.speech import Voice, speech_module
 from ..dialogs import ask_folder, confirm
 from ..fitting.place import open_within
 from ..fitting.scroller import Scroller
@@ -45,13 +46,15 @@ class SettingsWindow(QDialog):
         self.host = self._read_only(self.tr("IP address"), robot.host)
         self.subscriber_port = self._read_only(self.tr("Subscriber port"), str(robot.subscriber_port))
         self.publisher_port = self._read_only(self.tr("Publisher port"), str(robot.publisher_port))
-        self.theme = self._box({"system": self.tr("As the system"), "light": self.tr("Light"), "dark": self.tr("Dark")},
-                               THEMES, settings.theme)
+        names = {"system": self.tr("As the system"), "light": self.tr("Light"), "dark": self.tr("Dark"),
+                 "contrast": self.tr("High contrast")}
+        self.theme = self._box(names, THEMES, settings.theme)
         self.language = LanguageBox(settings.language)
         self.sounds = QCheckBox(self.tr("Sounds"))
         self.sounds.setToolTip(self.tr("One beep when the robot begins to move, two when the test is done, three at "
                                        "trouble"))
         self.sounds.setChecked(settings.has_sounds)
+        self.speech = self._speech_box(settings.speaks)
         self.can = CanForm()
         self.can.show_choice(flow.connection.can)
         self._can_in_use = self.can.choice
@@ -65,6 +68,7 @@ class SettingsWindow(QDialog):
         self.theme.currentIndexChanged.connect(self._change_theme)
         self.language.currentIndexChanged.connect(self._change_language)
         self.sounds.toggled.connect(self._change_sounds)
+        self.speech.toggled.connect(self._change_speech)
         self.use_can.clicked.connect(self._change_can)
         flow.can_opened.connect(self._show_can_in_use)
         flow.can_refused.connect(self._show_can_refused)
@@ -122,6 +126,7 @@ class SettingsWindow(QDialog):
             group.addWidget(box)
             card.column.addLayout(group)
         card.column.addWidget(self.sounds)
+        card.column.addWidget(self.speech)
         return card
 
     def _connection_card(self) -> Card:
@@ -175,6 +180,19 @@ class SettingsWindow(QDialog):
     def _change_sounds(self, is_wanted: bool) -> None:
         self._change(has_sounds=is_wanted)
 
+    def _speech_box(self, is_wanted: bool) -> QCheckBox:
+        box = QCheckBox(self.tr("Speech"))
+        box.setChecked(is_wanted)
+        box.setEnabled(Voice(speech_module()).can_speak)
+        box.setToolTip(
+            self.tr("Says what the beeps mean, and what the trouble is") if box.isEnabled() else
+            self.tr("This computer cannot speak: Qt's text to speech or an engine for it is missing (Debian: "
+                    "python3-pyqt5.qttexttospeech, speech-dispatcher)"))
+        return box
+
+    def _change_speech(self, is_wanted: bool) -> None:
+        self._change(speaks=is_wanted)
+
     def _suit_test(self) -> None:
         """While a test runs the adapter stays as it is; also when it has begun, or paused, since this was opened."""
         is_free = self._flow.model.phase not in RUNNING
@@ -195,8 +213,10 @@ class SettingsWindow(QDialog):
         self._can_in_use = self.can.choice
         self._show_can(self.tr("The CAN adapter is in use."))
 
-    def _show_can_refused(self, text: str) -> None:
+    def _show_can_refused(self, text: str, bus: str) -> None:
         self._show_can(translated(text))
+        if bus:
+            self.can.show_fault(translated(text), bus)
 
     def done(self, result: int) -> None:
         """See QDialog; an adapter that was chosen and is not in use is asked about first."""

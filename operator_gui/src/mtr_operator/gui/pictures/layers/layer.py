@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Sequence
 
 from PyQt5.QtCore import QPointF, QRectF, Qt
@@ -17,12 +17,16 @@ from ..viewport import Viewport
 
 @dataclass(frozen=True)
 class Canvas:
-    """What a layer paints on. unit: length of one screen pixel in the painter's units, for lines and letters."""
+    """What a layer paints on. unit: length of one screen pixel in the painter's units, for lines and letters.
+
+    labels: where labels were painted, by all layers.
+    """
 
     painter: QPainter
     viewport: Viewport
     palette: Palette
     unit: float = 1.0
+    labels: list[QRectF] = field(default_factory=list)
 
     def at(self, point: Point) -> QPointF:
         """Place of a point of the Car coordinate system."""
@@ -49,9 +53,8 @@ class Canvas:
 
     def label(self, place: QPointF, text: str, colour: str) -> None:
         """Text centred at a place, legible on whatever is below it. The painter's font is used."""
-        rect = self.painter.fontMetrics().boundingRect(text)
-        box = QRectF(0, 0, rect.width() + 8 * self.unit, rect.height() + 2 * self.unit)
-        box.moveCenter(place)
+        box = self.label_box(place, text)
+        self.labels.append(box)
         ground = QColor(self.palette.surface)
         ground.setAlphaF(0.85)
         self.painter.setPen(Qt.PenStyle.NoPen)
@@ -59,6 +62,18 @@ class Canvas:
         self.painter.drawRoundedRect(box, 3 * self.unit, 3 * self.unit)
         self.painter.setPen(QColor(colour))
         self.painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+
+    def label_box(self, place: QPointF, text: str) -> QRectF:
+        """What a label takes up at a place."""
+        rect = self.painter.fontMetrics().boundingRect(text)
+        box = QRectF(0, 0, rect.width() + 8 * self.unit, rect.height() + 2 * self.unit)
+        box.moveCenter(place)
+        return box
+
+    def has_room(self, box: QRectF) -> bool:
+        """The picture has it whole, and no label is there."""
+        whole = QRectF(0.0, 0.0, self.viewport.width, self.viewport.height)
+        return whole.contains(box) and not any(box.intersects(other) for other in self.labels)
 
 
 class Layer(ABC):

@@ -15,6 +15,8 @@ from .layer import Canvas, Layer
 _LABEL_GAP_PX = 15.0
 _LABEL_WIDTH_PX = 30.0
 _LABEL_HEIGHT_PX = 17.0
+# No two of many multiples of it are near each other, but for whole numbers.
+_GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 
 
 class LinesLayer(Layer):
@@ -29,8 +31,12 @@ class LinesLayer(Layer):
 
     def paint(self, canvas: Canvas) -> None:
         """See Layer."""
-        canvas.painter.setPen(canvas.pen(canvas.palette.trail, 1.2, Qt.PenStyle.DashLine))
-        for stretch in self.stretches:
+        pen = canvas.pen(canvas.palette.trail, 1.2, Qt.PenStyle.DashLine)
+        period = sum(pen.dashPattern())
+        for index, stretch in enumerate(self.stretches):
+            # Dashes of lines beside each other would make stripes across them, if they began at the same place.
+            pen.setDashOffset(period * (index * _GOLDEN % 1.0))
+            canvas.painter.setPen(pen)
             canvas.painter.drawLine(canvas.at(stretch.start), canvas.at(stretch.end))
         canvas.painter.setFont(canvas.font(14.0))
         written: list[QPointF] = []

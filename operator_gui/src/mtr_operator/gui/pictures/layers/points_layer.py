@@ -9,6 +9,7 @@ from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QPainter
 
 from mtr_operator.domain.geometry.pose import Point
+from mtr_operator.domain.results.diverging import colour_of_error, scale_of
 from mtr_operator.domain.results.picture import PointRole, PointSet
 
 from ...figure_text import sign_text
@@ -100,31 +101,34 @@ class PointsLayer(Layer):
             self._write_figures(canvas)
 
     def _write_figures(self, canvas: Canvas) -> None:
+        """As many figures as have room beside each other and the lines' numbers."""
         canvas.painter.setFont(canvas.font(14.0, True))
-        written: list[QPointF] = []
         for points in self.sets:
             for point, figure in zip(points.points, points.figures):
                 if point is None or figure is None:
                     continue
                 text = sign_text(figure)
                 is_beyond = points.intervals or points.brackets
-                place = _outward(canvas, points, point, text) if is_beyond else _inward(canvas, point, text)
-                if all(_is_apart(canvas, place, other, text) for other in written):
-                    written.append(place)
+                places = _outward(canvas, points, point, text) if is_beyond else [_inward(canvas, point, text)]
+                place = next((each for each in places if canvas.has_room(canvas.label_box(each, text))), None)
+                if place is not None:
                     canvas.label(place, text, colour_of(points.role, canvas.palette))
 
 
-def _is_apart(canvas: Canvas, place: QPointF, other: QPointF, text: str) -> bool:
-    box, gap = canvas.painter.fontMetrics().boundingRect(text), _LABEL_GAP_PX * canvas.unit
-    return abs(place.x() - other.x()) > box.width() + gap or abs(place.y() - other.y()) > box.height()
-
-
-def _outward(canvas: Canvas, points: PointSet, point: Point, text: str) -> QPointF:
-    """Beyond a point and its interval: the points nearer to the Car stay in sight."""
+def _outward(canvas: Canvas, points: PointSet, point: Point, text: str) -> Sequence[QPointF]:
+    """Beyond a point and its interval, where the points nearer to the Car stay in sight; beside that, where the line's
+    own number is; farther out."""
     ends = (*points.intervals, *points.brackets)
-    place = canvas.at(next((end for _, end in ends if _is_behind(point, end)), point))
-    inward = _toward(canvas, place, canvas.at((0.0, 0.0)), text) - place
-    return QPointF(place.x() - inward.x(), place.y() - inward.y())
+    end = canvas.at(next((end for _, end in ends if _is_behind(point, end)), point))
+    inward = _toward(canvas, end, canvas.at((0.0, 0.0)), text) - end
+    first = QPointF(end.x() - inward.x(), end.y() - inward.y())
+    length, box = max(math.hypot(inward.x(), inward.y()), 1e-9), canvas.label_box(first, text)
+    ahead_x, ahead_y = -inward.x() / length, -inward.y() / length
+    out = abs(ahead_x) * box.width() + abs(ahead_y) * box.height()
+    side = abs(ahead_y) * box.width() + abs(ahead_x) * box.height()
+    ways = ((0.0, 0.0), (-ahead_y * side, ahead_x * side), (ahead_y * side, -ahead_x * side),
+            (ahead_x * out, ahead_y * out))
+    return [QPointF(first.x() + x, first.y() + y) for x, y in ways]
 
 
 def _is_behind(point: Point, end: Point) -> bool:
@@ -180,5 +184,17 @@ def _paint_points(canvas: Canvas, points: PointSet) -> None:
     is_drawn = points.role in _DRAWN
     painter.setPen(canvas.pen(colour if is_drawn else canvas.palette.surface, 2.2 if is_drawn else 1.0))
     painter.setBrush(QColor(colour))
+    if points.errors_m:
+        _paint_errors(canvas, points)
+        return
     for point in points.known:
         draw_marker(painter, points.role, canvas.at(point), _RADIUS_PX * canvas.unit)
+
+
+def _paint_errors(canvas: Canvas, points: PointSet) -> None:
+    """Ringed, so that a point without an error is seen too."""
+    scale_m = scale_of(points.errors_m)
+    canvas.painter.setPen(canvas.pen(canvas.palette.ink, 1.0))
+    for point, error_m in zip(points.known, points.errors_m):
+        canvas.painter.setBrush(QColor(*colour_of_error(error_m, scale_m)))
+        draw_marker(canvas.painter, points.role, canvas.at(point), 1.3 * _RADIUS_PX * canvas.unit)

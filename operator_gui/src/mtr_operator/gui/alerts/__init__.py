@@ -1,0 +1,2 @@
+"""What the Operator hears."""
+# SPDX-License-Identifier: Apache-2.0

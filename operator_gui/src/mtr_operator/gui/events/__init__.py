@@ -1,0 +1,2 @@
+"""The event list on the screen."""
+# SPDX-License-Identifier: Apache-2.0

@@ -1,0 +1,61 @@
+"""Verifies a bundle in a thread, and says what was found."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import logging
+import pathlib
+from typing import TYPE_CHECKING, ClassVar
+
+from PyQt5.QtCore import QThread, pyqtSignal
+
+from ..i18n import translate
+from ..sentences import translated
+
+if TYPE_CHECKING:
+    from mtr_operator.evidence.verification import Verification
+
+FINISH_LIMIT_MS = 20_000
+
+
+class BundleCheck(QThread):
+    """Signals: checked(path, Verification)."""
+
+    checked = pyqtSignal(object, object)
+    _running: ClassVar[set[BundleCheck]] = set()
+
+    def __init__(self, path: pathlib.Path):
+        super().__init__()
+        self._path = path
+        self._running.add(self)
+        self.finished.connect(lambda: self._running.discard(self))
+
+    @classmethod
+    def finish_all(cls) -> None:
+        """Wait for what is being verified: a thread that Qt ends with the window is a crash."""
+        for check in list(cls._running):
+            check.wait(FINISH_LIMIT_MS)
+
+    def run(self) -> None:
+        """See QThread."""
+        # Needs a package of its own, which only bundles need.
+        from mtr_operator.evidence.verification import Verification, verify_bundle
+        try:
+            found = verify_bundle(self._path)
+        # Qt ends the process when an exception leaves this function.
+        except Exception as error:
+            logging.exception("The bundle was not verified because of a defect of the application.")
+            found = Verification(problems=(f"The application has a defect: {type(error).__name__}: {error}",))
+        self.checked.emit(self._path, found)
+
+
+def check_text(path: pathlib.Path, found: Verification) -> str:
+    """What is intact, by whom and when; or what is not."""
+    manifest = found.manifest
+    if manifest is None or not found.is_intact:
+        problems = " ".join(map(translated, found.problems))
+        return translate("BundleCheck", "{name} is not as it was signed: {problems}").format(
+            name=path.name, problems=problems)
+    return translate("BundleCheck", "{name} is intact: {count} files, bundle {number} of {station}, signed {time} with "
+                                    "the key {key}; compare it with the station's.").format(
+        name=path.name, count=len(manifest.files), number=manifest.number, station=manifest.station,
+        time=manifest.created, key=manifest.key)

@@ -1,0 +1,2 @@
+"""Texts on keys of one kind."""
+# SPDX-License-Identifier: Apache-2.0
