@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import math
 import pathlib
+
+from mtr_operator.domain.limits import DISTANCE
 
 from ..store.place import ADDRESS_VARIABLE, default_address, default_spool
 from ..store.reading import PAGE
@@ -35,7 +38,10 @@ def parser() -> argparse.ArgumentParser:
 def _importing(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     command = commands.add_parser("import", parents=[_of_store()], help="tests into the store; again changes nothing")
     command.add_argument("paths", nargs="*", type=pathlib.Path, metavar="PATH",
-                         help="progress file, folder of a test, or folder with such folders; none: only what waits")
+                         help="progress file, bundle, folder of a test, or folder with such; none: only what waits")
+    command.add_argument("--station", action="append", default=[], metavar="KEY",
+                         help="take only bundles that are signed with this key, or another one that is named so; "
+                              "without any, each intact bundle is taken")
     command.add_argument("--campaign", default="", help="name under which the tests belong together")
     command.add_argument("--spool", type=pathlib.Path, default=None,
                          help=f"folder in which tests wait while the store is away (default {default_spool()})")
@@ -67,11 +73,25 @@ def _comparing(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
                                   help="repeatability, reproducibility, and what each factor adds")
     command.add_argument("--by", default="key,car,place", help=f"of {','.join(FACTORS)}; default %(default)s",
                          type=_factors)
+    command.add_argument("--at-least", type=_metres, default=None, metavar="M",
+                         help="lower limit of the distance, for Cpk and Ppk")
+    command.add_argument("--at-most", type=_metres, default=None, metavar="M", help="upper limit, likewise")
     command.set_defaults(run=spread)
     command = commands.add_parser("trend", parents=[_of_store(), of_distance], help="over time, with control limits")
     command.add_argument("--baseline", type=int, default=0,
                          help="so many of the first tests make the limits; default all")
     command.set_defaults(run=show_trend)
+
+
+def _metres(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not DISTANCE.allows(value):
+        raise argparse.ArgumentTypeError(f"{text} is no distance; allowed is {DISTANCE.low:g} to "
+                                         f"{DISTANCE.high:g} m.")
+    return value
 
 
 def _factors(text: str) -> str:

@@ -8,9 +8,10 @@ from typing import Any, Iterator
 from mtr_operator.cli.exit_codes import EXIT_PASS
 from mtr_operator.report.table import line_name
 
+from ..statistics.capability import Capability, capability
 from ..statistics.comparison import compare_sets
 from ..statistics.components import components
-from ..statistics.documents import comparison_document, spread_document, trend_document
+from ..statistics.documents import capability_document, comparison_document, spread_document, trend_document
 from ..statistics.places import Tests
 from ..statistics.texts import MEANING, interval_text, row_texts
 from ..statistics.trend import trend
@@ -56,7 +57,8 @@ def spread(options: argparse.Namespace) -> int:
         of_kept = {factor: [levels[index] for index in kept] for factor, levels in factors.items()}
         found.append((name, line, word, len(known) - len(kept), components(values, of_kept)))
     if options.json:
-        print_json([{"line": line, "name": name, "what": word, "without_value": without, **spread_document(each)}
+        print_json([{"line": line, "name": name, "what": word, "without_value": without, **spread_document(each),
+                     **capability_document(capability(each, options.at_least, options.at_most))}
                     for name, line, word, without, each in found])
         return EXIT_PASS
     for name, _, word, without, each in found:
@@ -70,7 +72,16 @@ def spread(options: argparse.Namespace) -> int:
             print(f"  {part.factor} ({part.levels}): {part.sigma:.3f} m, 95 % {interval_text(part.low, part.high)}")
         for sentence in each.left_out:
             print(f"  left out: {sentence}")
+        for row in _capability_texts(capability(each, options.at_least, options.at_most)):
+            print(f"  {row}")
     return EXIT_PASS
+
+
+def _capability_texts(found: Capability | None) -> list[str]:
+    if found is None:
+        return []
+    indices = (("Cpk, by repeatability", found.within), ("Ppk, by reproducibility", found.overall))
+    return [f"{name}: {index.value:.2f}, 95 % {index.low:.2f} to {index.high:.2f}" for name, index in indices]
 
 
 def show_trend(options: argparse.Namespace) -> int:

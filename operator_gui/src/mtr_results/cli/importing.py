@@ -18,7 +18,7 @@ from .output import print_json
 
 def import_tests(options: argparse.Namespace) -> int:
     """Import what waits, then what is named; the exit code says whether all of it is in the store or waits for it."""
-    door = place_of(options).door()
+    door = place_of(options).door(frozenset(options.station))
     found = []
     for intake in _taken(door, options):
         found.append(intake)

@@ -8,7 +8,9 @@ from ..store.place import Place
 from ..store.reading import Search
 
 # Name of the argument, and of the attribute of Search -> what it means.
-FILTERS = {"scenario": "its name: autolock, key_press, zone_map, handle_request", "car": "model and VIN, as listed",
+FILTERS = {"scenario": "its name: autolock, key_press, zone_map, handle_request, digital_key, sleep_time, "
+                        "relay_resistance",
+           "car": "model and VIN, as listed",
            "software": "of the Car", "key": "its serial number", "verdict": "pass, inconclusive or fail",
            "campaign": "its name", "place": "where it was measured", "since": "day or moment, UTC: 2026-11-01",
            "until": "day or moment, UTC; a day counts whole"}

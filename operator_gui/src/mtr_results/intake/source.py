@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import pathlib
-from typing import Callable, ContextManager, Iterator
+from typing import Collection, Iterator
 
 from mtr_operator.history.places import stamps
 from mtr_operator.storage.journal_file import SUFFIX
@@ -13,12 +13,9 @@ from mtr_operator.storage.progress_file import FILE_NAME
 from mtr_operator.storage.recovery import progress_path
 
 from ..errors import StoreError
+from .bundle import unpacked
 
 BUNDLE_SUFFIX = ".mtr.zip"
-# A file with a test in it -> how it is opened: a context with the progress file of what was unpacked. Whatever makes
-# bundles enters itself here; it has verified what it hands out.
-Opener = Callable[[pathlib.Path], ContextManager[pathlib.Path]]
-OPENERS: dict[str, Opener] = {}
 
 
 def tests_in(path: pathlib.Path) -> list[pathlib.Path]:
@@ -31,24 +28,24 @@ def tests_in(path: pathlib.Path) -> list[pathlib.Path]:
     own = path / FILE_NAME
     if own.exists() or own.with_suffix(SUFFIX).exists():
         return [own if own.exists() else own.with_suffix(SUFFIX)]
-    bundles = [found for suffix in {BUNDLE_SUFFIX, *OPENERS} for found in path.glob(f"*{suffix}")]
-    found = sorted([*map(pathlib.Path, stamps([path])), *bundles])
+    found = sorted([*map(pathlib.Path, stamps([path])), *path.glob(f"*{BUNDLE_SUFFIX}")])
     if not found:
         raise StoreError(f"The folder {path} holds no test: neither {FILE_NAME} nor folders with one.")
     return found
 
 
 @contextlib.contextmanager
-def opened(path: pathlib.Path) -> Iterator[pathlib.Path]:
-    """Context with the progress file of the test in a file; StoreError for a bundle that nothing here opens."""
-    for suffix, opener in OPENERS.items():
-        if path.name.endswith(suffix):
-            with opener(path) as unpacked:
-                yield unpacked
-            return
-    if path.name.endswith(BUNDLE_SUFFIX):
-        raise StoreError(f"{path} is a bundle, which this version cannot open; import the folder of the test.")
-    yield path
+def opened(path: pathlib.Path, stations: Collection[str] = ()) -> Iterator[pathlib.Path]:
+    """Context with the progress file of the test in a file; a bundle is verified, then unpacked meanwhile.
+
+    stations: keys of those whose bundles are taken, none for any. StoreError for a bundle that is not as it was signed,
+    or signed by another station.
+    """
+    if not path.name.endswith(BUNDLE_SUFFIX):
+        yield path
+        return
+    with unpacked(path, stations) as folder:
+        yield folder / FILE_NAME
 
 
 def files_of(path: pathlib.Path) -> dict[str, pathlib.Path]:

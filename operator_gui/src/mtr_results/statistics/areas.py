@@ -93,11 +93,18 @@ def _enclosed(rays: Sequence[Ray], distances: Sequence[float]) -> float:
 
 
 def _areas(rays: Sequence[Ray], distances: Floats) -> Floats:
-    """Shoelace formula, for each row of distances."""
+    """Shoelace formula, for each row of distances: with o and d the origins and directions of the rays, a line and the
+    next one (') add (o + r d) x (o' + r' d'), of which all but the distances r is the same for each row."""
     origins = np.array([(ray.origin_x, ray.origin_y) for ray in rays])
     directions = np.array([(ray.direction_x, ray.direction_y) for ray in rays])
-    points = origins + distances[:, :, None] * directions
-    after = np.roll(points, -1, axis=1)
-    doubled = np.sum(points[:, :, 0] * after[:, :, 1] - points[:, :, 1] * after[:, :, 0], axis=1)
+    next_origins, next_directions = np.roll(origins, -1, axis=0), np.roll(directions, -1, axis=0)
+    alone = _cross(directions, next_origins) + np.roll(_cross(origins, next_directions), 1)
+    pairs = distances * np.roll(distances, -1, axis=1)
+    doubled = np.sum(_cross(origins, next_origins)) + distances @ alone + pairs @ _cross(directions, next_directions)
     found: Floats = np.abs(doubled) / 2.0
+    return found
+
+
+def _cross(first: Floats, second: Floats) -> Floats:
+    found: Floats = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
     return found

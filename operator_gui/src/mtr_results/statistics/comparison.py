@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any, Sequence
 
 from mtr_operator.domain.errors import OperatorError
-from mtr_operator.domain.verdict.verdict import Verdict
 from mtr_operator.history.line_pairs import Side
 from mtr_operator.report.table import line_name
 
@@ -173,10 +172,7 @@ def _holes(tests: Tests, split: int) -> tuple[tuple[str, str, str], ...]:
 
 
 def _verdicts(tests: Tests, split: int) -> tuple[dict[str, int], dict[str, int]]:
-    words = []
-    for test in range(len(tests.sides)):
-        judgement = tests.assessment(test).judgement
-        words.append((Verdict.NOT_SET if judgement is None else judgement.verdict).word)
+    words = [tests.verdict(test).word for test in range(len(tests.sides))]
     return dict(collections.Counter(words[:split])), dict(collections.Counter(words[split:]))
 
 

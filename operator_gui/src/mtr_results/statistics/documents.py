@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from .capability import Capability, Index
 from .comparison import UNITS, Comparison, Row
 from .components import Component, Spread
 from .estimate import Estimate, Known
@@ -48,6 +49,17 @@ def spread_document(spread: Spread) -> Document:
             "components": [_component(component) for component in spread.components],
             "repeatability_m": finite(spread.repeatability), "reproducibility_m": finite(spread.reproducibility),
             "left_out": list(spread.left_out)}
+
+
+def capability_document(found: Capability | None) -> Document:
+    """Both indices; nothing where none can be told."""
+    if found is None:
+        return {}
+    return {"cpk": _index(found.within), "ppk": _index(found.overall)}
+
+
+def _index(index: Index) -> Document:
+    return {"value": index.value, "low": index.low, "high": index.high}
 
 
 def _component(component: Component) -> Document:

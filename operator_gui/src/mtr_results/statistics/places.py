@@ -9,6 +9,7 @@ from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.results.figure import Figure, Kind
 from mtr_operator.domain.results.line_result import LineResult, LineStatus
 from mtr_operator.domain.verdict.assessment import Assessment
+from mtr_operator.domain.verdict.verdict import Verdict
 from mtr_operator.history.comparison import DistanceReader
 from mtr_operator.history.line_pairs import Side, line_pairs
 
@@ -40,7 +41,8 @@ class Tests:
             self.results.append({pair.number: pair.second for pair in pairs})
             self.alone.append(alone)
         self._readers = [DistanceReader(side) for side in sides]
-        self._assessments = [reader.assessment() for reader in self._readers]
+        self._assessments: dict[int, Assessment] = {}
+        self._distances: dict[tuple[int, int, str], Known | None] = {}
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -49,10 +51,24 @@ class Tests:
 
     def assessment(self, test: int) -> Assessment:
         """Budgets and verdicts of a test."""
+        if test not in self._assessments:
+            self._assessments[test] = self._readers[test].assessment()
         return self._assessments[test]
+
+    def verdict(self, test: int) -> Verdict:
+        """Of a test by its limits; without any nothing is judged."""
+        judgement = None if self.sides[test].progress.limits is None else self.assessment(test).judgement
+        return Verdict.NOT_SET if judgement is None else judgement.verdict
 
     def distance(self, test: int, line: int, word: str) -> Known | None:
         """What a test says of a distance; None where that is invalid or not there, or the key may have slept."""
+        key = test, line, word
+        # Asked for by its line, and by the area that it is a corner of.
+        if key not in self._distances:
+            self._distances[key] = self._distance(*key)
+        return self._distances[key]
+
+    def _distance(self, test: int, line: int, word: str) -> Known | None:
         result = self.results[test].get(line)
         if result is None:
             return None

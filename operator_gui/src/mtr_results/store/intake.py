@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pathlib
 from dataclasses import dataclass
-from typing import Any, Iterator
+from typing import Any, Collection, Iterator
 
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.storage.progress_file import FILE_NAME
@@ -34,13 +34,16 @@ class Intake:
 
 
 class Door:
-    """Through which tests come in. database: None while the store is away; why says so."""
+    """Through which tests come in. database: None while the store is away; why says so. stations: keys of those whose
+    bundles are believed, none for any."""
 
-    def __init__(self, database: Database | None, files: KeptFiles | None, spool: Spool, why: str = ""):
+    def __init__(self, database: Database | None, files: KeptFiles | None, spool: Spool, why: str = "",
+                 stations: Collection[str] = ()):
         self._database = database
         self._files = files
         self._spool = spool
         self._why = why
+        self._stations = stations
 
     def take_waiting(self) -> Iterator[Intake]:
         """Tests of the spool, as far as the store takes them; one that it refuses goes on waiting, for a person."""
@@ -55,7 +58,7 @@ class Door:
     def take(self, path: pathlib.Path, campaign: str = "") -> Intake:
         """One test in a file; no error reaches the caller, so that one bad file stops no other."""
         try:
-            with opened(path) as record_path:
+            with opened(path, self._stations) as record_path:
                 record = read_record(record_path)
                 if self._database is not None:
                     try:

@@ -6,6 +6,7 @@ import contextlib
 import os
 import pathlib
 from dataclasses import dataclass
+from typing import Collection
 
 import platformdirs
 
@@ -61,10 +62,13 @@ class Place:
         folder = self.files or (None if file is None else file.with_name(file.name + _FILES_SUFFIX))
         return None if folder is None else KeptFiles(folder)
 
-    def door(self) -> Door:
-        """Through which tests come in, also while the store is away; StoreError where waiting does not help."""
+    def door(self, stations: Collection[str] = ()) -> Door:
+        """Through which tests come in, also while the store is away; StoreError where waiting does not help.
+
+        stations: see Door.
+        """
         spool = Spool(self.spool or default_spool())
         try:
-            return Door(self.open(), self.kept_files(), spool)
+            return Door(self.open(), self.kept_files(), spool, stations=stations)
         except StoreAway as error:
-            return Door(None, self.kept_files(), spool, str(error))
+            return Door(None, self.kept_files(), spool, str(error), stations)

@@ -58,11 +58,11 @@ def test_import_names_each_file_that_is_none_and_takes_the_others(run, tmp_path)
     assert run("import", path.parent)[:2] == (0, f"known: {path}\n")
 
 
-def test_bundle_is_refused_in_words_until_something_opens_it(run, tmp_path):
+def test_file_that_calls_itself_a_bundle_is_refused_in_words(run, tmp_path):
     bundle = tmp_path / "one.mtr.zip"
     bundle.write_bytes(b"PK")
     status, _, err = run("import", bundle)
-    assert status == 2 and "import the folder of the test" in err
+    assert status == 2 and "is torn, or no bundle" in err
 
 
 def test_empty_folder_unknown_test_and_wrong_address_are_one_sentence(run, tmp_path, capsys):
@@ -117,7 +117,11 @@ def test_spread_and_trend_of_each_distance(run):
     assert "6 tests, 0 without a value" in out and "key (2): " in out and "car: all tests have the same one" in out
     spread = json.loads(run("spread", "scenario=key_press", "--json", "--line", "1")[1])[0]
     assert spread["repeatability_m"] == pytest.approx(0.05, rel=1e-2)
-    assert spread["reproducibility_m"] > 0.4
+    assert spread["reproducibility_m"] > 0.4 and "cpk" not in spread
+    limited = ("spread", "scenario=key_press", "--by", "key,car", "--line", "1", "--at-least", "4")
+    out = run(*limited)[1]
+    assert "Cpk, by repeatability: 8.33, 95 % " in out and "Ppk, by reproducibility: 0." in out
+    assert json.loads(run(*limited, "--json")[1])[0]["cpk"]["value"] == pytest.approx(1.25 / 0.15, rel=1e-2)
     found = json.loads(run("trend", "scenario=key_press", "--json")[1])
     assert len(found["tests"]) == 6 and len(found["distances"]) == 4
     assert "mean 5.250 m" in run("trend", "scenario=key_press", "--line", "1")[1]

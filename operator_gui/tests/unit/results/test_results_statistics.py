@@ -9,8 +9,9 @@ import pytest
 
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.history.comparison import compare
+from mtr_results.statistics.capability import capability
 from mtr_results.statistics.comparison import AREA, NEARER, NOT_SHOWN, compare_sets
-from mtr_results.statistics.components import components
+from mtr_results.statistics.components import Component, Spread, components
 from mtr_results.statistics.estimate import Known, estimate
 from mtr_results.statistics.multiplicity import chance, holm
 from mtr_results.statistics.places import Tests
@@ -146,6 +147,26 @@ def test_factor_without_effect_is_zero_with_an_upper_end_and_few_tests_are_no_sp
     found = components(values, {"key": list("aabbcc")})
     assert found.components[0].sigma == 0.0 == found.components[0].low < found.components[0].high
     assert components([5.0, 5.1], {}).reason and components([5.0] * 4, {}).reason
+
+
+def test_capability_counts_to_the_nearer_limit_in_three_sigmas():
+    spread = Spread(30, 2.0, (Component("key", 3, 0.08, 0.0, 0.2), Component("repeat", 30, 0.06, 0.04, 0.09)))
+    found = capability(spread, 1.5, 3.0)
+    assert found.within.value == pytest.approx(0.5 / 0.18) and found.overall.value == pytest.approx(0.5 / 0.3)
+    assert capability(spread, None, 2.3).overall.value == pytest.approx(1.0)
+    assert capability(spread, 2.1, None).overall.value == pytest.approx(-0.1 / 0.3)
+    assert capability(spread, None, None) is None and capability(components([5.0] * 4, {}), 1.0, None) is None
+
+
+def test_interval_of_an_index_holds_about_as_often_as_it_says():
+    generator = np.random.default_rng(3)
+    held = 0
+    for _ in range(400):
+        values = generator.normal(2.0, 0.1, 20)
+        spread = Spread(20, float(values.mean()), (Component("repeat", 20, float(values.std(ddof=1)), 0.0, 1.0),))
+        index = capability(spread, 1.6, None).overall
+        held += index.low <= 0.4 / 0.3 <= index.high
+    assert 0.92 <= held / 400 <= 0.98
 
 
 def test_trend_marks_what_is_beyond_its_limits_and_only_that():
