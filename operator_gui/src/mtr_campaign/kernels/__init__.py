@@ -1,0 +1,2 @@
+"""What runs one simulated test."""
+# SPDX-License-Identifier: Apache-2.0

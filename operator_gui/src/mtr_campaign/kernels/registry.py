@@ -1,0 +1,37 @@
+"""The kernels by their names; each is loaded when it is used."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Callable
+
+from ..errors import CampaignError
+from ..plan.plan import Plan
+from .outcome import Kernel
+
+
+def _radio() -> Kernel:
+    from .radio.kernel import RadioKernel
+    return RadioKernel()
+
+
+def _stack() -> Kernel:
+    from .stack import StackKernel
+    return StackKernel()
+
+
+_KERNELS: dict[str, Callable[[], Kernel]] = {"radio": _radio, "stack": _stack}
+
+
+def kernel_of(name: str) -> Kernel:
+    """CampaignError for one that there is not."""
+    if name not in _KERNELS:
+        raise CampaignError(f"The kernel is {name!r}; allowed is {', '.join(_KERNELS)}.")
+    return _KERNELS[name]()
+
+
+def check_plan(plan: Plan) -> None:
+    """Each setting is known and possible at its ends; CampaignError names the first one that is not."""
+    from .order import order_of
+    kernel = kernel_of(plan.kernel)
+    for run in plan.borders():
+        kernel.check(order_of(run))

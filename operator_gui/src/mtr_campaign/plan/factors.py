@@ -1,0 +1,105 @@
+"""What a plan lets vary: values, or a range that is drawn from."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from statistics import NormalDist
+from typing import Any, Union
+
+from ..errors import CampaignError
+from .run import Value
+
+# A seed for each of a million repetitions is more than any campaign has.
+MAX_VALUES = 1_000_000
+_WAYS = "a list of values, {from: 1, to: 10}, {low: 0.5, high: 2.0} or {mean: 0.0, sigma: 0.01}"
+
+
+@dataclass(frozen=True)
+class Values:
+    """One of these."""
+
+    values: tuple[Value, ...]
+
+    def at(self, part: float) -> Value:
+        """The value of a part of the whole, 0 to 1."""
+        return self.values[min(int(part * len(self.values)), len(self.values) - 1)]
+
+    def ends(self) -> tuple[Value, ...]:
+        """What has to be possible for all of it to be."""
+        return self.values if len(self.values) <= 64 else (self.values[0], self.values[-1])
+
+
+@dataclass(frozen=True)
+class Uniform:
+    """Anything between two ends alike."""
+
+    low: float
+    high: float
+
+    def at(self, part: float) -> Value:
+        """See Values."""
+        return self.low + part * (self.high - self.low)
+
+    def ends(self) -> tuple[Value, ...]:
+        """See Values."""
+        return self.low, self.high
+
+
+@dataclass(frozen=True)
+class Normal:
+    """Normally distributed, cut off at three sigmas."""
+
+    mean: float
+    sigma: float
+
+    def at(self, part: float) -> Value:
+        """See Values."""
+        whole = NormalDist(self.mean, self.sigma)
+        least = NormalDist().cdf(-3.0)
+        return whole.inv_cdf(least + part * (1.0 - 2.0 * least))
+
+    def ends(self) -> tuple[Value, ...]:
+        """See Values."""
+        return self.mean - 3.0 * self.sigma, self.mean + 3.0 * self.sigma
+
+
+Factor = Union[Values, Uniform, Normal]
+
+
+def factor_from(name: str, content: Any) -> Factor:
+    """The factor that a plan describes; CampaignError says what it may be."""
+    if isinstance(content, list) and content and all(isinstance(each, (int, float, str, bool)) for each in content):
+        if len({(type(each), each) for each in content}) != len(content):
+            raise CampaignError(f"The values of {name} hold one twice; each is run once.")
+        return Values(tuple(content))
+    if not isinstance(content, dict):
+        raise CampaignError(f"{name} is {content!r}; allowed is {_WAYS}.")
+    if set(content) == {"from", "to"} and all(_is_whole(each) for each in content.values()):
+        return _whole_numbers(name, content["from"], content["to"])
+    if set(content) == {"low", "high"} and all(_is_number(each) for each in content.values()):
+        if content["low"] >= content["high"]:
+            raise CampaignError(f"{name} reaches from {content['low']:g} to {content['high']:g}; low has to be the "
+                                "smaller one.")
+        return Uniform(float(content["low"]), float(content["high"]))
+    if set(content) == {"mean", "sigma"} and all(_is_number(each) for each in content.values()):
+        if content["sigma"] <= 0.0:
+            raise CampaignError(f"sigma of {name} is {content['sigma']:g}; allowed is more than 0.")
+        return Normal(float(content["mean"]), float(content["sigma"]))
+    raise CampaignError(f"{name} is {content!r}; allowed is {_WAYS}.")
+
+
+def _whole_numbers(name: str, first: int, last: int) -> Values:
+    if not first <= last:
+        raise CampaignError(f"{name} reaches from {first} to {last}; allowed is up to a larger number.")
+    if last - first >= MAX_VALUES:
+        raise CampaignError(f"{name} has {last - first + 1} values; allowed are at most {MAX_VALUES}.")
+    return Values(tuple(range(first, last + 1)))
+
+
+def _is_whole(value: Any) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)

@@ -1,0 +1,163 @@
+"""A plan: which tests are simulated, read from a small YAML file."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import pathlib
+import re
+from dataclasses import dataclass
+from typing import Any, Callable, Iterator, Mapping
+
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.storage.plain_yaml import BadYaml, load_yaml
+
+from ..errors import CampaignError
+from . import designs
+from .factors import Factor, factor_from
+from .run import Run, Value
+
+# So many runs of the radio kernel take a day on some cores, and a row each in the store.
+MAX_RUNS = 100_000
+GRID, LATIN_HYPERCUBE, SOBOL, OPTIMISE = "grid", "latin_hypercube", "sobol", "optimise"
+_DESIGN_ENTRIES: dict[str, dict[str, type]] = {
+    GRID: {}, LATIN_HYPERCUBE: {"runs": int, "seed": int}, SOBOL: {"samples": int, "seed": int},
+    OPTIMISE: {"runs": int, "seed": int, "figure": str, "aim": str, "wanted": float}}
+_AIMS = ("minimise", "maximise", "wanted")
+_ENTRIES = ("name", "kernel", "scenario", "design", "set", "vary")
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
+
+
+@dataclass(frozen=True)
+class Design:
+    """How runs follow from the factors.
+
+    Attributes:
+        runs: of a Latin hypercube or an optimisation; samples: of Sobol indices, a power of two. figure, aim, wanted:
+            what is optimised, and to which end.
+    """
+
+    kind: str = GRID
+    runs: int = 0
+    samples: int = 0
+    seed: int = 1
+    figure: str = ""
+    aim: str = "minimise"
+    wanted: float = 0.0
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Attributes: name: of the campaign, also in the store. fixed: settings of all runs. factors: what varies."""
+
+    name: str
+    kernel: str
+    scenario: str
+    fixed: Mapping[str, Value]
+    factors: Mapping[str, Factor]
+    design: Design
+
+    @property
+    def size(self) -> int:
+        """How many runs; CampaignError when nobody could want so many."""
+        design = self.design
+        size = design.runs
+        if design.kind == GRID:
+            size = designs.grid_size(self.factors)
+        elif design.kind == SOBOL:
+            size = designs.sobol_size(self.factors, design.samples)
+        if not 1 <= size <= MAX_RUNS:
+            raise CampaignError(f"The plan {self.name} asks for {size} runs; allowed are 1 to {MAX_RUNS}. Vary less, "
+                                "or take a latin_hypercube with fewer runs.")
+        return size
+
+    def run(self, settings: Mapping[str, Value]) -> Run:
+        """With these beside the fixed settings."""
+        return Run(self.kernel, self.scenario, {**self.fixed, **settings})
+
+    def runs(self) -> Iterator[Run]:
+        """All of them but those of an optimisation, which follow from what was measured."""
+        design = self.design
+        makers: dict[str, Callable[[], Iterator[dict[str, Value]]]] = {
+            GRID: lambda: designs.grid(self.factors),
+            LATIN_HYPERCUBE: lambda: designs.latin_hypercube(self.factors, design.runs, design.seed),
+            SOBOL: lambda: designs.sobol(self.factors, design.samples, design.seed)}
+        yield from map(self.run, makers[design.kind]())
+
+    def borders(self) -> Iterator[Run]:
+        """Runs in which each factor is at its ends, by which a plan is checked before it begins."""
+        middle = {name: factor.at(0.5) for name, factor in self.factors.items()}
+        yield self.run(middle)
+        for name, factor in self.factors.items():
+            yield from (self.run({**middle, name: value}) for value in factor.ends())
+
+
+def load_plan(path: pathlib.Path) -> Plan:
+    """The plan in a file; CampaignError says what is wrong with it."""
+    try:
+        content = load_yaml(path)
+    except OSError as error:
+        raise CampaignError(f"The plan {path} cannot be read: {error.strerror or error}.") from None
+    except BadYaml as error:
+        raise CampaignError(f"The plan {path} {error}.") from None
+    try:
+        return plan_from(content, path.stem)
+    except CampaignError as error:
+        raise CampaignError(f"Plan {path}: {error}") from None
+
+
+def plan_from(content: Any, usual_name: str) -> Plan:
+    """The plan of a file's content."""
+    if not isinstance(content, dict):
+        raise CampaignError("It has to consist of lines of the form 'entry: value'.")
+    unknown = sorted(str(name) for name in set(content) - set(_ENTRIES))
+    if unknown:
+        raise CampaignError(f"Entry {unknown[0]} is unknown; allowed are {', '.join(_ENTRIES)}.")
+    name = content.get("name", usual_name)
+    if not isinstance(name, str) or not _NAME.fullmatch(name):
+        raise CampaignError(f"name is {name!r}; allowed are up to 64 letters, digits, dots and dashes.")
+    kernel, scenario = content.get("kernel", "radio"), content.get("scenario")
+    if scenario not in SCENARIOS:
+        raise CampaignError(f"scenario is {scenario!r}; allowed is {', '.join(SCENARIOS)}.")
+    fixed = {str(key): _value(str(key), value) for key, value in _table(content, "set").items()}
+    factors = {str(key): factor_from(str(key), value) for key, value in _table(content, "vary").items()}
+    both = sorted(set(fixed) & set(factors))
+    if both:
+        raise CampaignError(f"{both[0]} is under set and under vary; it can stand under one of them.")
+    plan = Plan(name, str(kernel), scenario, fixed, factors, _design(_table(content, "design")))
+    if not factors and plan.design.kind != GRID:
+        raise CampaignError(f"The design {plan.design.kind} needs something under vary.")
+    _ = plan.size
+    return plan
+
+
+def _design(content: Mapping[str, Any]) -> Design:
+    given = dict(content)
+    kind = given.pop("kind", GRID)
+    if kind not in _DESIGN_ENTRIES:
+        raise CampaignError(f"The design is {kind!r}; allowed is {', '.join(_DESIGN_ENTRIES)}.")
+    entries = _DESIGN_ENTRIES[kind]
+    for name, value in given.items():
+        if name not in entries:
+            raise CampaignError(f"Entry {name} of the design {kind} is unknown; allowed are "
+                                f"{', '.join(['kind', *entries])}.")
+        kinds = (int, float) if entries[name] is float else (entries[name],)
+        if not isinstance(value, kinds) or isinstance(value, bool):
+            raise CampaignError(f"Entry {name} of the design is {value!r}; allowed is a {entries[name].__name__}.")
+    design = Design(kind, **given)
+    if kind == SOBOL and (design.samples < 2 or design.samples & (design.samples - 1)):
+        raise CampaignError(f"samples is {design.samples}; allowed is a power of two, as 64.")
+    if kind == OPTIMISE and (design.aim not in _AIMS or not design.figure):
+        raise CampaignError(f"An optimisation needs a figure, and as aim one of {', '.join(_AIMS)}.")
+    return design
+
+
+def _table(content: Mapping[str, Any], name: str) -> Mapping[Any, Any]:
+    table = content.get(name) or {}
+    if not isinstance(table, dict):
+        raise CampaignError(f"{name} is {table!r}; allowed is a table of names and values.")
+    return table
+
+
+def _value(name: str, value: Any) -> Value:
+    if isinstance(value, (int, float, str, bool)) or (isinstance(value, list) and value):
+        return value  # type: ignore[return-value]  # a list is what some parameters are
+    raise CampaignError(f"{name} is {value!r}; allowed is a number, a text, true or false.")

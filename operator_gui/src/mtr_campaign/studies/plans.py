@@ -1,0 +1,17 @@
+"""Plans of the studies that ship."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import dataclasses
+import pathlib
+from typing import Any
+
+from ..plan.plan import Plan, load_plan
+
+_FOLDER = pathlib.Path(__file__).parent
+
+
+def shipped_plan(name: str, **design: Any) -> Plan:
+    """The plan of a study; design: what of it is another one."""
+    plan = load_plan(_FOLDER / f"{name}.yaml")
+    return dataclasses.replace(plan, design=dataclasses.replace(plan.design, **design))

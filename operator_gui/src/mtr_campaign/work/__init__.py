@@ -1,0 +1,2 @@
+"""Runs a campaign: workers, results, the store."""
+# SPDX-License-Identifier: Apache-2.0
