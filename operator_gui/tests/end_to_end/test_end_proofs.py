@@ -24,6 +24,16 @@ def test_short_form_of_the_benchmark_of_results_loses_nothing(tmp_path):
     assert {"SQLite: import", "PostgreSQL: import"} <= {row["name"] for row in rows}
 
 
+def test_short_form_of_the_benchmark_of_campaigns_loses_nothing_when_a_worker_is_killed(tmp_path):
+    command = [sys.executable, PROOFS / "campaigns.py", "--runs", "8", "--pairs", "0", "--short", "--out", tmp_path]
+    done = subprocess.run(command, capture_output=True, text=True, check=False,
+                          env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+    assert done.returncode == 0, done.stdout + done.stderr
+    rows = json.loads((tmp_path / "campaign.json").read_text(encoding="utf-8"))["table"]
+    assert len([row for row in rows if row["must"] == 0]) == 4
+    assert {"radio: 1 workers", "radio: 4 workers"} <= {row["name"] for row in rows}
+
+
 @pytest.mark.parametrize(("name", "arguments"), [("kills", ("--kills", "8")),
                                                  ("fuzz", ("--files", "300", "--statuses", "2000"))])
 def test_short_form_of_a_proof_finds_nothing(tmp_path, name, arguments):
