@@ -1,5 +1,6 @@
 """The direction of dependence: pure code imports only pure code, and no layer reaches over its border."""
 # SPDX-License-Identifier: Apache-2.0
+import ast
 import pathlib
 from typing import Iterator
 
@@ -9,6 +10,7 @@ from project import TOP, imports, package_folder
 PACKAGES = TOP / "catkin_ws" / "src"
 OPERATOR = TOP / "operator_gui" / "src" / "mtr_operator"
 RESULTS = TOP / "operator_gui" / "src" / "mtr_results"
+CAMPAIGN = TOP / "operator_gui" / "src" / "mtr_campaign"
 
 ROS = {"rospy", "roslib", "rostest", "rosbag", "roslaunch", "tf2_ros", "tf", "actionlib"}
 ROS_MESSAGES = {"std_msgs", "sensor_msgs", "nav_msgs", "geometry_msgs", "rosgraph_msgs", "visualization_msgs",
@@ -128,9 +130,21 @@ def test_only_the_car_link_speaks_can(path):
     assert not imports(path) & CAN
 
 
+# Writes Parquet where the store's package is there, and says so where it is not.
+PARQUET = "parquet.py"
+
+
 @pytest.mark.parametrize("path", list(operator_files()), ids=ids)
 def test_the_application_works_without_the_store_of_results(path):
-    assert not imports(path) & {"mtr_results", "sqlalchemy", "alembic", "duckdb"}
+    engine = set() if path.name == PARQUET else {"duckdb"}
+    assert not imports(path) & ({"mtr_results", "mtr_campaign", "sqlalchemy", "alembic"} | engine)
+
+
+def test_parquet_is_imported_only_when_it_is_written():
+    path, = (path for path in operator_files() if path.name == PARQUET)
+    top = ast.parse(path.read_text(encoding="utf-8")).body
+    names = {alias.name for node in top if isinstance(node, ast.Import) for alias in node.names}
+    assert "duckdb" not in names | {str(node.module) for node in top if isinstance(node, ast.ImportFrom)}
 
 
 # What the store takes of the application: what decides, reads and reports, neither links nor windows.
@@ -142,6 +156,21 @@ def test_the_store_of_results_knows_neither_ros_nor_qt_nor_links(path):
     found = imports(path)
     assert not found & (ROS | ROS_MESSAGES | OWN_ROBOT | QT | CAN | {"zmq", "serial", "mtr_proto"})
     assert not {name for name in found for folder in LIVE if name == folder or name.startswith(f"{folder}.")}
+
+
+@pytest.mark.parametrize("path", list(operator_files(RESULTS)), ids=ids)
+def test_the_store_of_results_works_without_campaigns(path):
+    assert not imports(path) & {"mtr_campaign", "dask", "distributed", "optuna", "SALib"}
+
+
+@pytest.mark.parametrize("path", list(operator_files(CAMPAIGN)), ids=ids)
+def test_campaigns_know_neither_ros_nor_qt_nor_sockets(path):
+    assert not imports(path) & (ROS | ROS_MESSAGES | QT | CAN | SOCKETS | {"mtr_proto"})
+
+
+@pytest.mark.parametrize("path", [path for path in operator_files(CAMPAIGN) if "kernels" not in path.parts], ids=ids)
+def test_only_kernels_know_the_simulation(path):
+    assert not imports(path) & {"mtr_simulation", "mtr_core", "mtr_bringup"}
 
 
 def without_databases() -> Iterator[pathlib.Path]:

@@ -14,7 +14,7 @@ from project import TOP, imports, is_standard, package_folders, package_name, tr
 FROM_THE_START = {"git", "make", "sudo", "apt", "bash", "coreutils", "dpkg", "findutils", "grep", "mawk", "mount",
                   "passwd", "sed", "util-linux"}
 # What root, and who does not call `make bare-root`, can do without; the scripts say when it is missing.
-BY_HAND = {"chrony", "debootstrap", "sudo"}
+BY_HAND = {"chrony", "debootstrap", "docker.io", "podman", "sudo"}
 
 # Lists of packages that single make targets install; `make setup` does not.
 OF_TARGETS = ("debian-bench-packages.txt", "debian-docs-packages.txt", "debian-range-packages.txt")
@@ -83,10 +83,23 @@ def started_by_shell(text: str) -> Set[str]:
     text = re.sub(r"'[^']*'", "''", text)
     text = re.sub(r"\$\([A-Z_]+\)", ";", text)
     text = re.sub(r'"([^"]*)"', lambda quoted: "; ".join(re.findall(r"\$\([^()]*\)", quoted.group(1))), text)
-    own = set(re.findall(r"^([a-z_]+)\(\)", text, re.MULTILINE))
+    own = functions_of(text)
     commands = re.split(r"\n|&&|\|\|?|;|\$?\(|\b(?:if|then|else|elif|do|while|until|sudo|exec|xargs|env)\b|!", text)
     found = [re.match(r"\s*@?(?:[A-Z_]+=\S*\s+)*([a-z][a-z0-9_.+-]*)(?=\s|$)", command) for command in commands]
     return {first.group(1) for first in found if first} - SHELL_WORDS - own
+
+
+def functions_of(text: str) -> Set[str]:
+    """Functions that a shell script defines."""
+    return set(re.findall(r"^([a-z_]+)\(\)", text, re.MULTILINE))
+
+
+def started_by_script(path: pathlib.Path) -> Set[str]:
+    """Programs in a shell script; functions of the file beside it that it sources are none."""
+    text = path.read_text(encoding="utf-8")
+    sourced = [path.parent / name for name in re.findall(r"^source .*/([\w-]+\.bash)\"$", text, re.MULTILINE)]
+    theirs = [functions_of(each.read_text(encoding="utf-8")) for each in sourced]
+    return started_by_shell(text) - set().union(*theirs)
 
 
 def recipes(path: pathlib.Path) -> str:
@@ -107,7 +120,7 @@ def started_by_launch_file(path: pathlib.Path) -> Set[str]:
 def all_started() -> Iterator[Tuple[pathlib.Path, Set[str]]]:
     """Every file that starts programs, with them."""
     for path in tracked("*.sh", "*.bash", ".ci/run"):
-        yield path, started_by_shell(path.read_text(encoding="utf-8"))
+        yield path, started_by_script(path)
     for path in tracked("Makefile", "*/Makefile"):
         yield path, started_by_shell(recipes(path))
     for path in tracked("*.launch", "*.test"):
@@ -144,7 +157,9 @@ def test_the_program_is_here_after_the_set_up(program):
 MODULE_PACKAGES = {
     "PyQt5": "python3-pyqt5", "can": "pip:python-can", "cantools": "pip:cantools", "catkin_pkg": "catkin",
     "cosmic_ray": "pip:cosmic-ray", "google": "python3-protobuf", "mujoco": "pip:mujoco",
-    "alembic": "pip:alembic", "duckdb": "pip:duckdb", "jinja2": "pip:jinja2",
+    "SALib": "pip:SALib", "alembic": "pip:alembic", "dask": "pip:dask", "distributed": "pip:distributed",
+    "duckdb": "pip:duckdb", "jinja2": "pip:jinja2", "optuna": "pip:optuna",
+    "isotp": "pip:can-isotp", "udsoncan": "pip:udsoncan", "mcap": "pip:mcap",
     "markupsafe": "pip:markupsafe", "sqlalchemy": "pip:sqlalchemy", "starlette": "pip:starlette",
     "uvicorn": "pip:uvicorn",
     "roscpp": "python3-roscpp-msg", "senpy": "pip:senpy-sensei", "urdf_parser_py": "pip:urdf-parser-py",

@@ -1,6 +1,7 @@
 """The checkout is a set of catkin packages wherever it lies: built from its top, or cloned into a workspace's src."""
 # SPDX-License-Identifier: Apache-2.0
 import os
+import re
 import shutil
 import subprocess
 
@@ -45,3 +46,25 @@ def copy_what_a_build_leaves(clone):
         (clone / name / "copy").mkdir(parents=True)
         shutil.copy(TOP / "proto" / "package.xml", clone / name / "copy")
     subprocess.run(["bash", "-c", command], cwd=clone, check=True)
+
+
+# Headers of mtr_core and of messages are made while the workspace is built; what compiles against them has to wait.
+COMPILED = re.compile(r"add_(?:library|executable)\((\S+)")
+WAITS = re.compile(r"add_dependencies\((\S+)\s+\$\{catkin_EXPORTED_TARGETS\}\)")
+LINKED = re.compile(r"target_link_libraries\((\S+)((?:\s+[^\s)]+)+)\)")
+
+
+@pytest.mark.parametrize("folder", package_folders(), ids=package_name)
+def test_in_one_common_build_nothing_is_compiled_before_its_headers_are_made(folder):
+    text = (folder / "CMakeLists.txt").read_text(encoding="utf-8")
+    waiting = set(WAITS.findall(text))
+    # A target waits for those that it is linked with.
+    links = {target: set(names.split()) for target, names in LINKED.findall(text)}
+    needs = "COMPONENTS" in text
+    assert sorted(target for target in COMPILED.findall(text) if needs and target not in waiting
+                  and not links.get(target, set()) & waiting) == []
+
+
+def test_the_headers_that_mtr_core_makes_are_a_target_to_wait_for():
+    text = (TOP / "catkin_ws" / "src" / "mtr_core" / "CMakeLists.txt").read_text(encoding="utf-8")
+    assert re.search(r"catkin_package\([^)]*EXPORTED_TARGETS \$\{PROJECT_NAME\}_headers\)", text)

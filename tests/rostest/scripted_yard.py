@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 from nav_msgs.msg import Odometry
+from scripted_sensors import GYRO_NOISE_RADPS, MILLIMETRE
 from scripted_time import NS, STEP_NS, Speaker
 from sensor_msgs.msg import Imu, LaserScan
 
@@ -15,6 +16,7 @@ FIELD_OF_VIEW_RAD = 1.5 * math.pi
 GRAVITY_MPS2 = 9.81
 CAR_M, YARD_M = (4.3, 1.8), (13.0, 11.0)
 START = Pose2(0.0, -3.2, 0.0)
+SWEEP_TICKS = schedule.LIDAR.period_ns // STEP_NS
 
 
 def _rectangle(length, width):
@@ -59,6 +61,7 @@ class YardRobot:
         scan.angle_increment = FIELD_OF_VIEW_RAD / (BEAMS - 1)
         scan.scan_time, scan.range_min, scan.range_max = schedule.LIDAR.period_ns * NS, 0.1, 30.0
         self.speakers = [self.gyro, self.wheels, self.lidar]
+        self._ticks = 0
 
     def drive(self, speed_mps, turn_radps):
         """One tick of motion, and what the sensors will say at its end."""
@@ -66,10 +69,13 @@ class YardRobot:
         half = 0.5 * turn_radps * duration_s
         self.pose = self.pose @ Pose2(speed_mps * duration_s * math.cos(half), speed_mps * duration_s * math.sin(half),
                                       2.0 * half)
-        self.gyro.message.angular_velocity.z = turn_radps
+        self._ticks += 1
+        # What repeats itself to the last bit is taken for frozen.
+        self.gyro.message.angular_velocity.z = turn_radps + (GYRO_NOISE_RADPS if self._ticks % 2 else -GYRO_NOISE_RADPS)
         wheels, moved = self.wheels.message, START.inverse() @ self.pose
         wheels.twist.twist.linear.x, wheels.twist.twist.angular.z = speed_mps, turn_radps
         wheels.pose.pose.position.x, wheels.pose.pose.position.y = moved.x, moved.y
         wheels.pose.pose.orientation.z = math.sin(0.5 * moved.heading)
         wheels.pose.pose.orientation.w = math.cos(0.5 * moved.heading)
-        self.lidar.message.ranges = ranges_from(self.pose).tolist()
+        noise_m = MILLIMETRE if self._ticks // SWEEP_TICKS % 2 else -MILLIMETRE
+        self.lidar.message.ranges = (ranges_from(self.pose) + noise_m).tolist()

@@ -7,7 +7,9 @@ from typing import List
 from PyQt5.QtCore import QRect, Qt
 from PyQt5.QtGui import QColor, QImage, QPainter
 
-_COLUMNS, _WIDTH, _HEIGHT, _TEXT = 4, 560, 420, 24
+_COLUMNS, _WIDTH, _TEXT = 4, 560, 24
+# As high as the pictures of the squarest screen become at that width.
+_HEIGHT = 384
 
 
 def contact_sheet(pictures: List[pathlib.Path], path: pathlib.Path) -> None:

@@ -231,7 +231,7 @@ def campaign(laptop: Laptop) -> None:
     person.click("Tests so far")
     person.wait_for("1 tests, 1 of them shown.")
     laptop.must_fit()
-    choose_rows(laptop, 0)
+    person.choose_rows(person.application.window.history.table, 0)
     person.click("Repeat")
     person.wait_for("3 lines")
     person.hold("Hold to start")
@@ -240,7 +240,7 @@ def campaign(laptop: Laptop) -> None:
     person.click("New test")
     person.click("Tests so far")
     person.wait_for("2 tests, 2 of them shown.")
-    choose_rows(laptop, 0, 1)
+    person.choose_rows(person.application.window.history.table, 0, 1)
     person.click("Compare two")
     laptop.must("the comparison", _three_rows_compared)
     laptop.must_fit()
@@ -271,22 +271,6 @@ def tab_to(laptop: Laptop, text: str) -> None:
             return
         laptop.person.press("Tab")
     raise AssertionError(f"Tab does not reach {text}")
-
-
-def choose_rows(laptop: Laptop, *rows: int) -> None:
-    """Click rows of the history's table, from the second one on with Ctrl."""
-    table = laptop.person.application.window.history.table
-    for number, row in enumerate(rows):
-        place = laptop.person.until("a row", lambda row=row: _place_of_row(table, row))
-        click = ["mousemove", str(place.x()), str(place.y()), "click", "1"]
-        xdotool(*(["keydown", "ctrl", *click, "keyup", "ctrl"] if number else click))
-
-
-def _place_of_row(table: QTableView, row: int) -> Any:
-    if table.model().rowCount() <= row:
-        return None
-    rect = table.visualRect(table.model().index(row, 0))
-    return table.viewport().mapToGlobal(rect.center()) if rect.isValid() else None
 
 
 def _three_rows_compared() -> bool:

@@ -6,7 +6,7 @@ import pathlib
 import subprocess
 import sys
 import time
-from typing import Iterator, Optional
+from typing import Iterator, Optional, Type
 
 from mtr_operator.robot_link.server import ConnectionServer
 from mtr_operator.robot_link.substitute import RobotSubstitute
@@ -48,7 +48,8 @@ class Robot:
     Attributes: status_port, command_port.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, kind: Type[VirtualRobot] = VirtualRobot) -> None:
+        self._kind = kind
         self.status_port = self.command_port = 0
         self._starts = 0
         self._server: Optional[ConnectionServer] = None
@@ -59,7 +60,7 @@ class Robot:
         self._starts += 1
         server = self._server = ConnectionServer(self.status_port, self.command_port).__enter__()
         self.status_port, self.command_port = server.subscriber_port, server.publisher_port
-        self._substitute = RobotSubstitute(server, time_factor=TIME_FACTOR, robot=VirtualRobot(self._starts, WORLD))
+        self._substitute = RobotSubstitute(server, time_factor=TIME_FACTOR, robot=self._kind(self._starts, WORLD))
         self._substitute.start()
 
     def switch_off(self) -> None:

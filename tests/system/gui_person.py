@@ -8,16 +8,26 @@ import time
 import traceback
 from typing import Any, Callable, List, Optional
 
+from gui_looks import Camera
+from gui_words import Words
 from PyQt5.QtCore import QObject, QPoint, pyqtSignal
-from PyQt5.QtGui import QPixmap
-from PyQt5.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QLineEdit, QScrollArea, QWidget
+from PyQt5.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QComboBox,
+    QLabel,
+    QLineEdit,
+    QScrollArea,
+    QTableView,
+    QWidget,
+)
 
 from mtr_operator.gui.app import Application, make_qt
 from mtr_operator.gui.forms.hold_button import HoldButton
 
 POLL_S = 0.05
-# Repainting a window in other colours.
-SETTLE_S = 0.5
+# Longer than a button has to be held.
+HOLD_MORE_S = 0.5
 
 
 class GuiThread(QObject):
@@ -48,11 +58,13 @@ class GuiThread(QObject):
 class Person:
     """Looks for visible texts only, and knows nothing of the code behind them.
 
-    Attributes: application: what the person sits at.
+    Attributes: application: what the person sits at. words: of a window that does not speak English, in which the texts
+        are given all the same.
     """
 
-    def __init__(self, application: Application, gui: GuiThread, limit_s: float):
+    def __init__(self, application: Application, gui: GuiThread, limit_s: float, words: Optional[Words] = None):
         self.application = application
+        self.words = words
         self._gui = gui
         self._limit_s = limit_s
 
@@ -70,24 +82,32 @@ class Person:
         """Result of a function in the GUI thread."""
         return self._gui.ask(function)
 
+    def said(self, text: str) -> str:
+        """A text as the window says it."""
+        return text if self.words is None else self.words.of(text)
+
     def click(self, *texts: str) -> None:
         """Click the button with this text, or with the first of several that there is."""
+        texts = tuple(map(self.said, texts))
         self._click_at(self.until(f"The button {' or '.join(texts)!r}",
                                   lambda: place_of(next(filter(None, map(button_of, texts)), None))))
 
     def hold(self, text: str) -> None:
         """Hold the button with this text for as long as it wants to be held."""
-        place = self.until(f"The button {text!r}", lambda: place_of(button_of(text)))
+        said = self.said(text)
+        place = self.until(f"The button {said!r}", lambda: place_of(button_of(said)))
         xdotool("mousemove", str(place.x()), str(place.y()), "mousedown", "1")
-        time.sleep(HoldButton.HOLD_MS / 1000.0 + SETTLE_S)
+        time.sleep(HoldButton.HOLD_MS / 1000.0 + HOLD_MORE_S)
         xdotool("mouseup", "1")
 
     def wait_for(self, text: str, limit_s: Optional[float] = None) -> None:
         """Wait until a text with this part is visible."""
-        self.until(f"{text!r}", lambda: any(text in shown for shown in visible_texts()), limit_s)
+        said = self.said(text)
+        self.until(f"{said!r}", lambda: any(said in shown for shown in visible_texts()), limit_s)
 
     def type_into(self, label: str, text: str) -> None:
         """Replace what stands in the field with this label."""
+        label = self.said(label)
         self._click_at(self.until(f"The field {label!r}", lambda: place_of(field_of(label, QLineEdit))))
         focus = self._gui.ask(lambda: int(QApplication.activeWindow().winId()) if QApplication.activeWindow() else 0)
         if focus:
@@ -97,18 +117,23 @@ class Person:
 
     def choose(self, label: str, entry: str) -> None:
         """Choose an entry of the list with this label."""
+        label, entry = self.said(label), self.said(entry)
         self._click_at(self.until(f"The list {label!r}", lambda: place_of(field_of(label, QComboBox))))
         self._click_at(self.until(f"The entry {entry!r}", lambda: place_of_entry(label, entry)))
         # A choice of another language takes the label away.
         self.until(f"{entry!r} chosen", lambda: (box := field_of(label, QComboBox)) is None
                    or entry in box.currentText())
 
-    def look(self, folder: pathlib.Path, name: str) -> None:
-        """Keep a picture of what the screen shows where the window is, in both themes."""
-        for theme in ("dark", "light"):
-            self._gui.ask(lambda theme=theme: self.application.appearance.use(theme) or True)
-            time.sleep(SETTLE_S)
-            self._gui.ask(lambda theme=theme: _grab(self.application.window).save(str(folder / f"{name}_{theme}.png")))
+    def choose_rows(self, table: QTableView, *rows: int) -> None:
+        """Click rows of a table, from the second one on with Ctrl."""
+        for number, row in enumerate(rows):
+            place = self.until("a row", lambda row=row: _place_of_row(table, row))
+            click = ["mousemove", str(place.x()), str(place.y()), "click", "1"]
+            xdotool(*(["keydown", "ctrl", *click, "keyup", "ctrl"] if number else click))
+
+    def look(self, camera: Camera, name: str) -> None:
+        """Keep pictures of what is open."""
+        self._gui.ask(lambda: camera.look(self.application, name) or True)
 
     def press(self, key: str) -> None:
         """Press a key."""
@@ -119,11 +144,11 @@ class Person:
         xdotool("mousemove", str(place.x()), str(place.y()), "click", "1")
 
 
-def _grab(window: QWidget) -> QPixmap:
-    """The part of the screen that the window and its dialog cover."""
-    front = QApplication.activeWindow()
-    area = window.frameGeometry() if front is None else window.frameGeometry().united(front.frameGeometry())
-    return QApplication.primaryScreen().grabWindow(0, area.x(), area.y(), area.width(), area.height())
+def _place_of_row(table: QTableView, row: int) -> Optional[QPoint]:
+    if table.model().rowCount() <= row:
+        return None
+    rect = table.visualRect(table.model().index(row, 0))
+    return table.viewport().mapToGlobal(rect.center()) if rect.isValid() else None
 
 
 def xdotool(*words: str) -> None:
@@ -187,15 +212,16 @@ def place_of_entry(label: str, entry: str) -> Optional[QPoint]:
     return None
 
 
-def run(script: Callable[[Person], None], settings_path: pathlib.Path, limit_s: float) -> int:
-    """Open the application and let a person follow the script; the exit code."""
+def run(script: Callable[[Person], None], settings_path: pathlib.Path, limit_s: float,
+        words: Optional[Words] = None) -> int:
+    """Open the application and let a person follow the script; the exit code. words: see Person."""
     app = make_qt()
     application, gui = Application(settings_path), GuiThread()
     application.open()
     status = [1]
 
     def follow() -> None:
-        person = Person(application, gui, limit_s)
+        person = Person(application, gui, limit_s, words)
         try:
             script(person)
             status[0] = 0

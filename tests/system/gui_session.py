@@ -17,10 +17,10 @@ LIMIT_S = 60.0
 MEASURING_LIMIT_S = 400.0
 
 
-def prepare(folder: pathlib.Path) -> pathlib.Path:
+def prepare(folder: pathlib.Path, language: str = "en") -> pathlib.Path:
     """Settings that keep all files in the folder; their path."""
     path = folder / "settings.json"
-    SettingsStore(path).change(dataclasses.replace(Settings(), language="en", theme="light",
+    SettingsStore(path).change(dataclasses.replace(Settings(), language=language, theme="light",
                                                    result_folder=folder / "results",
                                                    progress_folder=folder / "progress"))
     return path

@@ -9,11 +9,12 @@ import socket
 import subprocess
 import time
 from dataclasses import dataclass
-from typing import Dict, List, Optional
+from typing import Dict, List, Optional, Tuple
 
 START_LIMIT_S = 60.0
 STOP_LIMIT_S = 20.0
 POLL_S = 0.1
+SIM_LAUNCH = ("mtr_bringup", "sim.launch")
 LISTENING_PORTS = range(20000, 32000)
 
 
@@ -29,19 +30,21 @@ class StackOptions:
         folder: where its log, the CAN adapter's link and the true events go.
         seed: of every random number.
         real_time_factor: simulated seconds per second, 0 for as fast as the control loop allows.
-        lockstep_operator: time waits for the Operator's application.
+        lockstep_operator: time waits for the Operator's application; None: the launch file does not know of that.
         rviz: show the robot.
         arguments: further arguments of sim.launch.
         variables: further variables of the nodes' environment.
+        launch: package and name of the launch file, whose arguments are those of sim.launch as far as they are given.
     """
 
     folder: pathlib.Path
     seed: int = 1
     real_time_factor: float = 0.0
-    lockstep_operator: bool = True
+    lockstep_operator: Optional[bool] = True
     rviz: bool = False
     arguments: Optional[Dict[str, str]] = None
     variables: Optional[Dict[str, str]] = None
+    launch: Tuple[str, str] = SIM_LAUNCH
 
 
 def free_port() -> int:
@@ -58,7 +61,7 @@ def free_port() -> int:
 
 
 class Stack:
-    """roslaunch of sim.launch; use as a context manager.
+    """roslaunch of a simulated robot; use as a context manager.
 
     Attributes:
         status_port: where the robot publishes Status.
@@ -121,12 +124,14 @@ class Stack:
         options = self.options
         arguments = {
             "seed": str(options.seed), "real_time_factor": str(options.real_time_factor),
-            "lockstep_operator": str(options.lockstep_operator).lower(), "rviz": str(options.rviz).lower(),
+            "rviz": str(options.rviz).lower(),
             "car_port_link": str(self.can_link), "truth_dir": str(self.log.parent),
             "status_port": str(self.status_port), "command_port": str(self.command_port),
             **(options.arguments or {}),
         }
-        return ["roslaunch", "-p", str(self._master_port), "mtr_bringup", "sim.launch",
+        if options.lockstep_operator is not None:
+            arguments["lockstep_operator"] = str(options.lockstep_operator).lower()
+        return ["roslaunch", "-p", str(self._master_port), *options.launch,
                 *(f"{name}:={value}" for name, value in arguments.items())]
 
     def _wait_until_reachable(self, process: "subprocess.Popen[bytes]") -> None:

@@ -1,6 +1,7 @@
 """The demo says what is wrong or missing in its results."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
+import subprocess
 
 import pytest
 import yaml
@@ -11,6 +12,7 @@ from mtr_bringup.demo import (
     OUTPUTS,
     DemoOptions,
     DemoResult,
+    keep_in_store,
     last_event,
     parameters_of,
     parts_of,
@@ -116,3 +118,23 @@ def test_unknown_car_is_refused_before_anything_is_deleted(tmp_path):
 
 def test_speed_is_robot_time_by_wall_time():
     assert DemoResult(700.0, 100.0, ()).real_time_factor == 7.0
+
+
+def test_tests_of_the_demo_end_in_a_store_and_the_address_is_told(tmp_path, monkeypatch, capsys):
+    began = []
+    done = subprocess.CompletedProcess([], 0)
+    monkeypatch.setattr(demo.subprocess, "run", lambda command, **_: began.append(command) or done)
+    assert keep_in_store(tmp_path) == []
+    assert began[0][1:4] == ["-m", "mtr_results", "import"] and began[0][-1] == str(tmp_path)
+    said = capsys.readouterr().out
+    assert "http://127.0.0.1:8321/" in said and str(tmp_path / "results.sqlite") in said
+
+
+def test_a_store_that_takes_nothing_is_a_problem_of_the_demo(tmp_path, monkeypatch):
+    monkeypatch.setattr(demo.subprocess, "run", lambda command, **_: subprocess.CompletedProcess(command, 2))
+    assert "could not be put into the store" in keep_in_store(tmp_path)[0]
+
+
+def test_with_other_parameters_nobody_knows_how_many_lines_there_are(tmp_path):
+    assert DemoOptions(tmp_path).least_lines("autolock") == 16
+    assert DemoOptions(tmp_path, parameters=tmp_path / "mine.yaml").least_lines("autolock") == 1
