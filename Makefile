@@ -6,7 +6,8 @@ SHELL := /bin/bash
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations wheels clean \
 	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-gui bench-stalls bench-real-time \
-	bench-truth bench-results bench-faults firmware flash bare-root docs tidy mutants
+	bench-truth bench-results bench-campaign bench-faults bench-can gazebo try-cars firmware flash bare-root noetic-root \
+	noetic-container docs tidy mutants
 
 SEED ?= 1
 # Simulated seconds per second for `make sim`; 0 is as fast as the control loop allows.
@@ -52,7 +53,7 @@ $(STAMPS)/build: $(BUILD_INPUTS) setup/debian-packages.txt setup/python-requirem
 	@setup/build.sh
 	@mv $@.begun $@
 
-demo: setup build $(if $(EMULATED),firmware) ## Run scenarios on the simulated robot and Car, beside the truth; results in out/demo
+demo: setup build $(if $(EMULATED),firmware) ## Run scenarios on the simulated robot and Car, beside the truth; results in out/demo, in a store too
 	@$(RUN) python -m mtr_bringup.demo --seed $(SEED) --car $(CAR) --out out/demo $(if $(SCENARIOS),--scenarios $(SCENARIOS)) \
 		$(if $(EMULATED),--firmware $(FIRMWARE_ELF))
 
@@ -66,9 +67,14 @@ gui: setup build ## Open the Operator's window, filled in for the robot and Car 
 		--can-channel $(CURDIR)/out/sim/can --can-bitrate 500000 \
 		--car-profile "$$(python -c 'from mtr_simulation.car.choice import chosen_car; print(chosen_car("$(CAR)").profile)')"
 
-screenshots: setup build ## Picture of every window and screen in both themes, from a simulated run; in out/screenshots
+screenshots: setup build ## Pictures of every window in each theme, language and size, with contact sheets; in out/screenshots
 	@$(RUN) xvfb-run -a -s "-screen 0 1440x1000x24 -nolisten tcp" \
 		env QT_QPA_PLATFORM=xcb python tests/system/gui_screenshots.py out/screenshots
+
+try-cars: setup build ## Profiles of three real cars on a simulated Car that speaks their frames: DBC=folder of their databases
+	@test -n "$(DBC)" || { echo "make try-cars needs DBC=FOLDER, the folder of the cars' CAN databases; they are no part of the project."; exit 2; }
+	@$(RUN) mtr-operator try operator_gui/examples/cars/*.yaml --databases $(DBC)
+	@$(RUN) MTR_CAR_DATABASES=$(abspath $(DBC)) python -m pytest -q operator_gui/tests/unit/test_car_try.py
 
 translations: ## Collect the window's texts, compile the translations
 	@cd operator_gui/src/mtr_operator/gui && pylupdate5 -noobsolete $$(find . -name '*.py' | sort) \
@@ -108,6 +114,14 @@ BARE ?= test
 bare-root: ## The whole test on a fresh clone in a fresh Debian 12; needs root and debootstrap
 	@setup/bare_root.sh $(BARE)
 
+# Parts of the proof, all without but gazebo: declared build unit gtest rostest drive gazebo. KEEP=FOLDER keeps the Debian 11 for the next run.
+NOETIC ?=
+noetic-root: ## The robot's packages on Noetic's platform: an empty catkin workspace in a fresh Debian 11; needs root and debootstrap
+	@setup/noetic_root.sh $(NOETIC)
+
+noetic-container: ## The same in ros:noetic; needs podman or docker
+	@setup/noetic_root.sh container $(NOETIC)
+
 docs: setup build ## API pages of all packages, in out/docs
 	@setup/install.sh setup/debian-docs-packages.txt
 	@$(RUN) setup/docs.sh
@@ -143,6 +157,9 @@ bench-gui: setup build ## The Operator's window: Stop, pictures, processor, memo
 	@$(RUN) xvfb-run -a -s "-screen 0 1440x1000x24 -nolisten tcp" env QT_QPA_PLATFORM=xcb \
 		python -m mtr_benchmarks.gui --out out/bench
 
+bench-can: setup build ## The Car's bus at full load, learning, replay; figures in out/bench/can.json; CAN_OPTIONS=--short
+	@$(RUN) OPENBLAS_NUM_THREADS=1 python -m mtr_benchmarks.can_bus --out out/bench $(CAN_OPTIONS)
+
 bench-faults: setup build ## The matrix of states and faults on the simulated robot; figures in out/bench/faults.json
 	@$(RUN) python -m mtr_benchmarks.faults --seed $(SEED) --out out/bench
 
@@ -151,6 +168,14 @@ bench-stalls: setup build ## Each node stopped and the clock set while the robot
 
 bench-real-time: setup build ## Silences, latencies and load of the robot's nodes on an idle and a busy machine; out/bench/real_time.json
 	@$(RUN) python -m mtr_benchmarks.real_time --out out/bench
+
+# Not after setup and build: Gazebo 11 is not for Debian 12. Any shell with a workspace that was built where it is will do;
+# make noetic-root NOETIC="declared build gazebo" makes one and runs this in it.
+GAZEBO_OPTIONS ?=
+gazebo: ## Autolock and Key press on the wall clock in Gazebo and MuJoCo; figures in out/bench/gazebo.json. In a sourced workspace with Gazebo 11
+	@command -v gzserver >/dev/null || { echo "gazebo: gzserver is missing; Gazebo 11 is in Debian 11 and for Ubuntu 20.04." >&2; exit 2; }
+	@python3 -c 'import mtr_gazebo' 2>/dev/null || { echo "gazebo: source the workspace's devel/setup.bash first." >&2; exit 2; }
+	@PYTHONPATH=$$PYTHONPATH:$(CURDIR)/operator_gui/src python3 -m mtr_benchmarks.gazebo --seed $(SEED) --out out/bench $(GAZEBO_OPTIONS)
 
 bench-truth: setup build ## Lines of both scenarios, one disturbance each, against the truth; figures in out/bench/truth.json
 	@$(RUN) python -m mtr_benchmarks.truth --seed $(SEED) --out out/bench
@@ -162,6 +187,15 @@ RESULT_TESTS ?= 10000
 bench-results: setup build ## The store of results with 10,000 tests of 40 lines: import, list, comparison, page; RESULT_TESTS=10000
 	@$(RUN) PYTHONPATH=$$PYTHONPATH:$(CURDIR)/operator_gui/tests/support OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
 		python operator_gui/tests/proofs/results.py --tests $(RESULT_TESTS) --seed $(SEED) --out out/bench
+
+# Whole stacks take minutes each: bench-campaign measures them for STACKS=2 and more.
+CAMPAIGN_RUNS ?= 200
+CAMPAIGN_PAIRS ?= 100
+STACKS ?= 0
+bench-campaign: setup build ## Simulated campaigns: rate, workers, a killed one, the demo with itself; CAMPAIGN_PAIRS=100 STACKS=0
+	@$(RUN) PYTHONPATH=$$PYTHONPATH:$(CURDIR)/operator_gui/tests/proofs OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
+		python operator_gui/tests/proofs/campaigns.py --runs $(CAMPAIGN_RUNS) --pairs $(CAMPAIGN_PAIRS) --stacks $(STACKS) \
+		--seed $(SEED) --out out/bench
 
 fuzz: setup build ## 10,000 mutated progress files and journals, 100,000 Statuses; figures in out/bench/fuzz.json
 	@mkdir -p out/bench

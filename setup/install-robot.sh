@@ -13,7 +13,7 @@ set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 here=$top/setup/robot
 # Not on a robot: the simulated world, and what measures.
-not_needed="mtr_benchmarks mtr_tests"
+not_needed="mtr_benchmarks mtr_gazebo mtr_tests"
 
 fail() {
   echo "install-robot: $*" >&2
@@ -64,7 +64,7 @@ install_packages() {
     chrony logrotate >/dev/null
   [[ -d /etc/ros/rosdep/sources.list.d ]] || rosdep init
   rosdep update --rosdistro noetic >/dev/null
-  rosdep install --from-paths "$top" --ignore-src --rosdistro noetic -y --skip-keys "$not_needed"
+  rosdep install --from-paths "$top" --ignore-src --rosdistro noetic -y --skip-keys "$not_needed gazebo_dev"
 }
 
 build() {

@@ -213,7 +213,7 @@ SUITES: Dict[str, Callable[[], Counts]] = {
     "lint": lint, "unit": unit, "gtest": gtest, "firmware": firmware, "rostest": rostest, "system": system,
 }
 # Compilation and the suites that wait for nodes take about as long as those that compute on one core.
-LANES = (("gtest", "rostest", "system"), ("lint", "unit", "firmware"))
+LANES = (("rostest", "system", "firmware"), ("lint", "gtest", "unit"))
 
 if __name__ == "__main__":
     sys.exit(main(sys.argv[1:]))
