@@ -1,5 +1,6 @@
 """A recording of the robot that maps the Car, and its replay, which decides the same."""
 # SPDX-License-Identifier: Apache-2.0
+import os
 import pathlib
 import signal
 import subprocess
@@ -15,6 +16,8 @@ SCRIPTS = TOP / "launch" / "scripts"
 PARAMETERS = pathlib.Path(__file__).parent / "parameters"
 # Map and Car are fitted by workers, which take some seconds on a busy machine; the recording has to go on meanwhile.
 AFTER_S = 30.0
+# The recorder is stopped for so much robot time: farther than localization lets the wheels be silent.
+LOCALIZED_FROM_S, RECORDER_STANDS_S = 3.0, 0.6
 # The way round and what follows take about 90 s of robot time; the replay waits for nodes that do not follow.
 REPLAY_LIMIT_S, END_LIMIT_S = 300.0, 60.0
 
@@ -28,6 +31,7 @@ def recorded(out):
         measuring = Application(stack).start("autolock", PARAMETERS / "autolock.yaml", out / "autolock")
         observer = Observer(stack.status_port)
         try:
+            stop_recorder(recording.pid, observer)
             mapped = observer.wait_for(lambda status: status.car.mapped)
             observer.wait_for(lambda status: status.state.stamp_s > mapped.state.stamp_s + AFTER_S)
         finally:
@@ -37,6 +41,21 @@ def recorded(out):
             said, _ = recording.communicate(timeout=END_LIMIT_S)
             measuring.communicate(timeout=END_LIMIT_S)
     return pathlib.Path(said.split()[1].partition("_*.bag")[0])
+
+
+def stop_recorder(pid, observer):
+    """Let the recorder stand as on a busy machine: the simulated robot's clock does not wait for it."""
+    begun = observer.wait_for(lambda status: status.state.stamp_s > LOCALIZED_FROM_S)
+    recorders = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text(encoding="ascii").split()
+    groups = [os.getpgid(int(recorder)) for recorder in recorders]
+    assert groups and os.getpgid(pid) not in groups
+    try:
+        for group in groups:
+            os.killpg(group, signal.SIGSTOP)
+        observer.wait_for(lambda status: status.state.stamp_s > begun.state.stamp_s + RECORDER_STANDS_S)
+    finally:
+        for group in groups:
+            os.killpg(group, signal.SIGCONT)
 
 
 def bags(prefix):

@@ -7,7 +7,7 @@ from std_msgs.msg import Header
 
 from mtr_bringup.recording.command_line import play
 from mtr_bringup.recording.pace import Follower, Pace
-from mtr_bringup.recording.player import opened_bags, recorded
+from mtr_bringup.recording.player import LATE_LIMIT_S, Played, in_time, opened_bags, recorded
 from mtr_bringup.recording.profiles import CannotReplay
 
 PATIENCE_S = 10.0
@@ -60,6 +60,35 @@ def test_bags_in_any_order_are_played_in_the_order_of_their_times(tmp_path):
     bag_of(tmp_path / "early.bag", 2, 4)
     bags = opened_bags([tmp_path / "late.bag", tmp_path / "early.bag"])
     assert [(played.time_s, played.topic) for played in recorded(bags, ["/a"])] == [(at, "/a") for at in range(2, 6)]
+
+
+class Stamped:
+    """A message with a header."""
+
+    def __init__(self, stamp_s):
+        self.header = Header(stamp=rospy.Time.from_sec(stamp_s))
+
+
+# The recorder stood from 1.0 to 1.3 s, and had one topic's messages before the other's.
+STOOD = [Played(1.0, "/a", Stamped(1.0)), *(Played(1.3, topic, Stamped(stamp_s)) for topic in ("/a", "/b")
+                                           for stamp_s in (1.1, 1.2, 1.3)), Played(1.4, "/c", Header())]
+
+
+def test_clock_that_did_not_wait_for_the_recorder_has_messages_played_at_their_stamps():
+    played = list(in_time(STOOD, by_stamps=True))
+    assert [one.topic for one in played] == ["/a", "/a", "/b", "/a", "/b", "/a", "/b", "/c"]
+    assert [one.time_s for one in played] == pytest.approx([1.0, 1.1, 1.1, 1.2, 1.2, 1.3, 1.3, 1.4])
+
+
+def test_robots_messages_are_played_when_they_were_received():
+    assert list(in_time(STOOD, by_stamps=False)) == STOOD
+
+
+@pytest.mark.parametrize("stamp_s", [0.0, 100.0 - LATE_LIMIT_S, 100.0 + LATE_LIMIT_S, 1e6])
+def test_stamp_far_from_its_receipt_does_not_count(stamp_s):
+    neighbours = [Played(99.9, "/a", Stamped(99.9)), Played(100.1, "/a", Stamped(100.1))]
+    played = list(in_time([neighbours[0], Played(100.0, "/b", Stamped(stamp_s)), neighbours[1]], by_stamps=True))
+    assert [one.time_s for one in played] == pytest.approx([99.9, 100.0, 100.1])
 
 
 def test_bag_that_is_none_is_told(tmp_path):

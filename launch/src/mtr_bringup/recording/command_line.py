@@ -20,12 +20,13 @@ import yaml
 
 from mtr_core import names
 from mtr_core.errors import RobotError, range_problem
+from mtr_core.lockstep.clock import LOCKSTEP_PARAMETER
 
 from ..graph_watch.environment import as_around
 from ..preflight.command_line import master_answers
 from .bags import decisions_in
 from .decisions import differences
-from .player import Player
+from .player import RECORDED_IN_LOCKSTEP, Player
 from .profiles import DEFAULT_LIMIT_MB, MAX_LIMIT_MB, MIN_LIMIT_MB, PROFILES, CannotRecord, check_room, command_of
 
 CANNOT = 2
@@ -74,12 +75,14 @@ def parsed(arguments: List[str]) -> argparse.Namespace:
 
 
 def keep_parameters(path: pathlib.Path) -> None:
-    """Write what the nodes of a replay were started with."""
+    """Write what the nodes of a replay were started with, and whether the recorded clock waited for them."""
     kept: Dict[str, Any] = {}
     for name in KEPT_PARAMETERS:
         value = rospy.get_param(name, None)
         if value is not None:
             kept[name.lstrip("/")] = value
+    simulated, waiting = rospy.get_param("/use_sim_time", False), rospy.get_param(LOCKSTEP_PARAMETER, False)
+    kept[RECORDED_IN_LOCKSTEP.lstrip("/")] = bool(simulated and waiting)
     path.write_text(yaml.safe_dump(kept), encoding="utf-8")
 
 

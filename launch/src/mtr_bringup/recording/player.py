@@ -1,10 +1,16 @@
-"""Plays the inputs of a recording, and waits for the nodes that decide anew."""
+"""Plays the inputs of a recording, and waits for the nodes that decide anew.
+
+A robot's messages are played when the recorder received them. A simulated clock in lock-step waits for the robot's
+nodes and not for the recorder, which on a busy machine receives late, one topic more than another: then each message is
+played at its own stamp.
+"""
 # SPDX-License-Identifier: Apache-2.0
 import heapq
+import operator
 import pathlib
 import threading
 import time
-from typing import Any, Dict, Iterator, List, NamedTuple, Sequence
+from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, Sequence, Tuple
 
 import rosbag
 import rosgraph
@@ -28,10 +34,14 @@ CLOCK_STEP_S = 0.01
 # Recorded time before the first message, in which the nodes' ticks begin.
 LEAD_S = 1.0
 QUEUE = 100
+# Written by the recorder beside the bag: its clock did not wait for it.
+RECORDED_IN_LOCKSTEP = "/recorded_in_lockstep"
+# The recorder is seldom so late; what it holds back for the order of the stamps fits into memory.
+LATE_LIMIT_S = 5.0
 
 
 class Played(NamedTuple):
-    """A message of the recording. time_s: when it was recorded."""
+    """A message of the recording. time_s: when it is played, in recorded time."""
 
     time_s: float
     topic: str
@@ -66,7 +76,7 @@ class Player:
         begin_s = clock_s = min(bag.get_start_time() for bag in bags) - LEAD_S
         self._pace.begin(begin_s)
         started_s = time.monotonic()
-        for played in recorded(bags, list(self._topics)):
+        for played in in_time(recorded(bags, list(self._topics)), rospy.get_param(RECORDED_IN_LOCKSTEP, False)):
             while clock_s < played.time_s and not rospy.is_shutdown():
                 clock_s = min(clock_s + CLOCK_STEP_S, played.time_s)
                 rospy.rostime.wallsleep(max(0.0, started_s + (clock_s - begin_s) / self._rate - time.monotonic()))
@@ -150,6 +160,22 @@ def recorded(bags: Sequence[rosbag.Bag], topics: Sequence[str]) -> Iterator[Play
     streams = [bag.read_messages(topics=topics) for bag in bags]
     for topic, message, stamp in heapq.merge(*streams, key=lambda read: read.timestamp.to_nsec()):
         yield Played(stamp.to_sec(), topic, message)
+
+
+def in_time(played: Iterable[Played], by_stamps: bool) -> Iterator[Played]:
+    """What was recorded, each at its own stamp and in this order when by_stamps; a stamp that lies
+    LATE_LIMIT_S and more from its receipt says nothing about when it was sent."""
+    if not by_stamps:
+        yield from played
+        return
+    waiting: List[Tuple[float, int, Played]] = []
+    for number, one in enumerate(played):
+        stamp_s = stamp_s_of(one)
+        time_s = stamp_s if abs(one.time_s - stamp_s) < LATE_LIMIT_S else one.time_s
+        heapq.heappush(waiting, (time_s, number, one._replace(time_s=time_s)))
+        while waiting[0][0] <= one.time_s - LATE_LIMIT_S:
+            yield heapq.heappop(waiting)[2]
+    yield from (one for _, _, one in sorted(waiting, key=operator.itemgetter(0, 1)))
 
 
 def stamp_s_of(played: Played) -> float:
