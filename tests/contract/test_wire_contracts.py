@@ -31,7 +31,10 @@ STATUS = {
     "log": 14, "notifications": 15, "rejected_messages": 16, "software_version": 17,
     "car_check": 18, "waypoint_problems": 19, "steady_time_s": 20, "interventions": 21, "emergency_stop": 22,
     "motion_source": 23, "hold_id": 24, "controller_name": 25, "surroundings": 26,
+    "preflight": 27,
 }
+PREFLIGHT = {"made_s": 1, "items": 2, "checks": 3, "bad": 4}
+PREFLIGHT_ITEM = {"name": 1, "level": 2, "sentence": 3}
 TYPE_NAMES = {2: "float", 5: "int32", 8: "bool", 13: "uint32"}
 
 
@@ -40,8 +43,10 @@ def test_robot_state_keeps_the_numbers_and_types_of_the_thesis():
     assert {name: (fields[name].number, TYPE_NAMES[fields[name].type]) for name in ROBOT_STATE} == ROBOT_STATE
 
 
-def test_command_and_status_keep_their_field_numbers():
-    for message, promised in ((robot_link_pb2.Command, COMMAND), (robot_link_pb2.Status, STATUS)):
+def test_messages_keep_their_field_numbers():
+    for message, promised in ((robot_link_pb2.Command, COMMAND), (robot_link_pb2.Status, STATUS),
+                              (robot_link_pb2.PreflightReport, PREFLIGHT),
+                              (robot_link_pb2.PreflightItem, PREFLIGHT_ITEM)):
         fields = message.DESCRIPTOR.fields_by_name
         assert {name: fields[name].number for name in promised} == promised
 

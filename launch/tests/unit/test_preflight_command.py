@@ -10,7 +10,9 @@ from mtr_bringup.preflight.expected import Setup
 from mtr_bringup.preflight.finding import bad, exit_code, good
 from mtr_bringup.preflight.records import RobotRecord
 from mtr_bringup.preflight.report import standing_findings, write
+from mtr_core import names
 from mtr_description.shipped import shipped_base, shipped_geometry
+from mtr_dispatcher.preflight_report import report_in
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
 
@@ -62,3 +64,21 @@ def test_program_is_installed_with_its_packages():
     source = TOP / "launch" / "src"
     for package in (path.parent for path in (source / "mtr_bringup").rglob("__init__.py")):
         assert f'"{".".join(package.relative_to(source).parts)}"' in setup
+
+
+def test_findings_are_left_with_the_master_for_the_operator(monkeypatch):
+    master = {}
+    monkeypatch.setattr(command_line.rospy, "set_param", master.__setitem__)
+    monkeypatch.setattr(command_line.clock, "steady_ns", lambda: 90_000_000_000)
+    command_line.tell_operator([good("a.b", "imu", "Fine."), bad("c.d", "disk", "Full.", 0.1, 1.0, unit="GB")])
+    report = report_in(master[names.PREFLIGHT_REPORT])
+    assert report.made_s == pytest.approx(90.0) and (report.checks, report.bad) == (2, 1)
+    assert report.items == (("disk", True, "Full."), ("imu", False, "Fine."))
+
+
+def test_master_that_does_not_take_them_is_a_sentence(monkeypatch, capsys):
+    def refuse(*_):
+        raise ConnectionRefusedError("gone")
+    monkeypatch.setattr(command_line.rospy, "set_param", refuse)
+    command_line.tell_operator([])
+    assert capsys.readouterr().err.startswith("The Operator's application will not show this")

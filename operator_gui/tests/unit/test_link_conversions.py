@@ -7,8 +7,10 @@ import pytest
 
 from mtr_operator.domain import requests, robot_status
 from mtr_operator.domain.geometry.pose import Pose
+from mtr_operator.domain.robot_status import PreflightItem, PreflightReport
 from mtr_operator.robot_link import conversions
 from mtr_operator.robot_link.conversions import CommandHeader, UndecodableMessage
+from mtr_operator.robot_link.preflight import preflight_from
 from mtr_proto import robot_link_pb2 as pb
 
 HEADER = CommandHeader(2 ** 63 - 1, 5, 12.5, seen_status_id=7, seen_robot_time_s=3.25)
@@ -44,7 +46,8 @@ STATUS = robot_status.RobotStatus(
     rejected_messages=6, software_version="1.2", sent_s=100.125, steady_s=50.5,
     interventions=robot_status.Interventions(1, 2, 3, 4, 5, 6, 7),
     emergency_stop=robot_status.EmergencyStop.RELEASED, motion_source=robot_status.MotionSource.MANUAL, hold_id=2 ** 62,
-    controller_name="Jana")
+    controller_name="Jana", preflight=PreflightReport(40.5, (PreflightItem("disk", True, "Full."),
+                                                              PreflightItem("/imu/data", False, "50 Hz.")), 12, 1))
 
 
 @pytest.mark.parametrize("desired", DESIRED)
@@ -107,6 +110,27 @@ def test_robot_of_before_says_nothing_of_interventions_and_holds():
     assert status.motion_source is robot_status.MotionSource.UNKNOWN
 
 
+def test_robot_of_before_says_nothing_of_a_preflight_and_another_that_none_was_made():
+    message = pb.Status(id=1, robot_session_id=2, sent_time_s=3.5)
+    assert conversions.robot_status_from(message).preflight is None
+    message.preflight.SetInParent()
+    assert conversions.decode_status(message.SerializeToString()).preflight == PreflightReport()
+
+
+@pytest.mark.parametrize("made_s", [math.nan, math.inf])
+def test_preflight_of_no_time_is_none(made_s):
+    message = pb.PreflightReport(made_s=made_s, items=[pb.PreflightItem(name="disk")], checks=1, bad=1)
+    assert preflight_from(message) == PreflightReport()
+
+
+def test_preflight_item_that_does_not_say_that_nothing_is_wrong_is_bad():
+    message = pb.PreflightReport(made_s=1.0, items=[pb.PreflightItem(name="disk", sentence="Full."),
+                                                    pb.PreflightItem(level=pb.SEVERITY_WARNING)] * 40)
+    report = preflight_from(message)
+    assert len(report.items) == 64 and all(item.is_bad for item in report.items)
+    assert (report.checks, report.bad) == (64, 64)
+
+
 def test_unmapped_car_has_no_dimensions():
     message = conversions.status_message_from(STATUS)
     message.car.mapped = False
@@ -121,8 +145,10 @@ def test_other_bytes_are_undecodable(payload):
         conversions.decode_status(payload)
 
 
-@pytest.mark.parametrize("message", ["Command", "Status", "RobotState", "CarDimensions", "CarCheck", "Interventions"])
+@pytest.mark.parametrize("message", ["Command", "Status", "RobotState", "CarDimensions", "CarCheck", "Interventions",
+                                     "PreflightReport", "PreflightItem"])
 def test_every_status_field_of_the_proto_is_read(message):
     """A field added to the proto must be thought of here."""
-    known = {"Command": 14, "Status": 26, "RobotState": 19, "CarDimensions": 11, "CarCheck": 8, "Interventions": 7}
+    known = {"Command": 14, "Status": 27, "RobotState": 19, "CarDimensions": 11, "CarCheck": 8, "Interventions": 7,
+             "PreflightReport": 4, "PreflightItem": 3}
     assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]

@@ -18,9 +18,12 @@ import rospy
 
 from mtr_core import names
 from mtr_core.errors import ConfigurationError, range_problem
+from mtr_core.liveness import NS
+from mtr_core.lockstep import clock
 from mtr_description.robot_description import described_robot
 from mtr_description.robot_geometry import RobotGeometry
 from mtr_description.shipped import shipped_base
+from mtr_dispatcher.preflight_report import PreflightItem, parameter_of, report_of
 
 from .clocks import clock_finding, network_findings
 from .expected import Setup
@@ -52,6 +55,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     findings += robot_findings(options)
     bad_count = sum(finding.is_bad for finding in findings)
     print(f"{len(findings)} checks, {bad_count} BAD.")
+    tell_operator(findings)
     return exit_code(findings) if saved(findings, options.json) else CANNOT_CHECK
 
 
@@ -141,6 +145,16 @@ def motion_findings(listener: Listener, geometry: Optional[RobotGeometry], setup
         if is_finished(found, recording.motion_s()):
             break
     return found
+
+
+def tell_operator(findings: List[Finding]) -> None:
+    """Leave them with the ROS master, where the dispatcher finds them for the application until the master ends."""
+    items = tuple(PreflightItem(finding.subject, finding.is_bad, finding.text) for finding in findings)
+    try:
+        rospy.set_param(names.PREFLIGHT_REPORT, parameter_of(report_of(clock.steady_ns() * NS, items)))
+    except (OSError, rospy.ROSException) as error:
+        print(f"The Operator's application will not show this: the ROS master does not take it ({error}).",
+              file=sys.stderr)
 
 
 def saved(findings: List[Finding], path: Optional[pathlib.Path]) -> bool:

@@ -173,6 +173,37 @@ class LogMessage:
     text: str
 
 
+# A Status is stamped before what it says of a preflight is known.
+_PREFLIGHT_SLACK_S = 1.0
+
+
+@dataclass(frozen=True)
+class PreflightItem:
+    """One thing that a preflight looked at, and a sentence of it. is_bad: the robot shall not be used like that."""
+
+    name: str
+    is_bad: bool
+    sentence: str
+
+
+@dataclass(frozen=True)
+class PreflightReport:
+    """The last preflight of this run of the robot: `rosrun mtr_bringup preflight`, made by whoever sets it up.
+
+    made_s: when it ended, on the robot's steady clock; NaN: none was made. items: what is wrong first, of checks in
+    all; bad: how many of them found something wrong.
+    """
+
+    made_s: float = math.nan
+    items: tuple[PreflightItem, ...] = ()
+    checks: int = 0
+    bad: int = 0
+
+    def was_made_before(self, steady_s: float) -> bool:
+        """False before one was made, and for one of another run of a simulated clock."""
+        return not math.isnan(self.made_s) and not self.made_s > steady_s + _PREFLIGHT_SLACK_S
+
+
 @dataclass(frozen=True)
 class RobotStatus:
     """One Status message. NaN or None where the robot did not say.
@@ -182,7 +213,7 @@ class RobotStatus:
     controlled_by_other: another application has the robot; the confirmations are absent then.
     car_check: None for a robot that cannot check the Car's frame.
     controller_name: owner of the key whose Commands the robot obeys; empty on a link that is not encrypted.
-    surroundings: None in most Statuses, and of a robot of before.
+    surroundings, preflight: None in most Statuses, and of a robot of before.
     hold_id: not 0: the robot stands until the Operator has it go on, see requests.DesiredState.resume_hold_id.
     """
 
@@ -232,6 +263,7 @@ class RobotStatus:
     hold_id: int = 0
     controller_name: str = ""
     surroundings: Surroundings | None = None
+    preflight: PreflightReport | None = None
 
     @property
     def key_place(self) -> Point:

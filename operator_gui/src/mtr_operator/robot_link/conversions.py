@@ -14,6 +14,7 @@ from mtr_operator.domain.geometry.pose import Pose
 from mtr_proto import robot_link_pb2 as pb
 
 from .plausibility import not_finite, plausible, violation_of
+from .preflight import preflight_from, preflight_message
 from .surroundings import surroundings_from, surroundings_message
 
 MAX_MESSAGE_BYTES = 64 * 1024
@@ -144,7 +145,8 @@ def robot_status_from(message: pb.Status) -> robot_status.RobotStatus:
         emergency_stop=robot_status.EmergencyStop(message.emergency_stop),
         motion_source=robot_status.MotionSource(message.motion_source), hold_id=message.hold_id,
         controller_name=message.controller_name,
-        surroundings=surroundings_from(message.surroundings) if message.HasField("surroundings") else None)
+        surroundings=surroundings_from(message.surroundings) if message.HasField("surroundings") else None,
+        preflight=preflight_from(message.preflight) if message.HasField("preflight") else None)
 
 
 def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
@@ -188,6 +190,8 @@ def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
         _fill_check(message.car_check, status.car_check)
     if status.surroundings is not None:
         message.surroundings.CopyFrom(surroundings_message(status.surroundings))
+    if status.preflight is not None:
+        message.preflight.CopyFrom(preflight_message(status.preflight))
     return message
 
 

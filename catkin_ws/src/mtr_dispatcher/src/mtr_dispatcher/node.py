@@ -35,12 +35,12 @@ from .access.rates import Rates
 from .conversions import desired_message, lock_message
 from .core import Dispatcher
 from .link_server import LinkError, LinkServer, Ports, Received
+from .master_watch import MasterWatch
 from .memory import end_beyond, give_back, resident_mib
 from .operator_wait import OperatorWait
 from .parameters import Parameters
 from .sensors import Eyes, mounted_lidars
 from .session import CommandResult, SessionState, is_same
-from .start_failures import StartFailures
 from .status.builder import Identity
 from .status.emergency import EmergencyWatch
 from .status.inputs import STALE_AFTER_S, Inputs
@@ -74,8 +74,8 @@ class DispatcherNode:
         self._status = b""
         self._clock_watch, self._throttle = ClockWatch(), Throttle(LOG_PERIOD_S)
         self._emergency = EmergencyWatch(parameters.emergency_stop)
-        self._failures = StartFailures(lambda: rospy.get_param(names.START_FAILURES, {}))
-        self._failures.start()
+        self._master = MasterWatch(lambda parameter: rospy.get_param(parameter, None))
+        self._master.start()
         self._topics = (
             TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0),
             TickInput(names.CAR_ESTIMATE, CarEstimate, schedule.CAR_LOCATOR),
@@ -214,7 +214,8 @@ class DispatcherNode:
         pose, car, mode, peripherals, check, drive, motion = (
             topic.fresh_at(now_ns, STALE_AFTER_S) for topic in self._topics)
         return Inputs(now_ns * NS, pose, car, mode, peripherals, check, drive, motion, steady_s,
-                      self._clock_watch.steps, self._emergency.at(steady_s), self._failures.known)
+                      self._clock_watch.steps, self._emergency.at(steady_s), self._master.failures,
+                      preflight=self._master.preflight)
 
     def _publish_status(self, now_ns: int, inputs: Optional[Inputs] = None) -> None:
         inputs = inputs or self._inputs(now_ns)

@@ -7,16 +7,17 @@ from xmlrpc.client import Fault, ProtocolError
 
 import pytest
 
+from mtr_core import names
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import Press, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_dispatcher.command import MAX_BUTTON, Command
 from mtr_dispatcher.core import Dispatcher
+from mtr_dispatcher.master_watch import MasterWatch
 from mtr_dispatcher.order_numbers import OrderNumbers
 from mtr_dispatcher.parameters import Parameters
 from mtr_dispatcher.sent_statuses import KEPT, SentStatuses
 from mtr_dispatcher.session import MAX_FIRST_ID, MAX_ID_STEP, CommandResult, ControlSession
-from mtr_dispatcher.start_failures import StartFailures
 from mtr_dispatcher.status.builder import Identity
 from mtr_dispatcher.status.emergency import EmergencyStop, EmergencyWatch
 from mtr_dispatcher.status.inputs import Inputs
@@ -282,9 +283,9 @@ def test_operator_reads_which_sensor_stops_the_wheels(code, is_told):
 
 @pytest.mark.parametrize("parameter", [None, [], "text", 7, {}])
 def test_what_anybody_has_set_on_the_master_is_no_failure_of_a_node(parameter):
-    failures = StartFailures(lambda: parameter)
-    failures.update()
-    assert failures.known == {}
+    master = MasterWatch(lambda _: parameter)
+    master.update()
+    assert master.failures == {} and master.preflight is None
 
 
 @pytest.mark.parametrize("trouble", [ConnectionRefusedError("master"), CannotSendRequest(), Fault(1, "master"),
@@ -292,12 +293,14 @@ def test_what_anybody_has_set_on_the_master_is_no_failure_of_a_node(parameter):
 def test_few_nodes_are_told_and_a_master_that_does_not_answer_changes_nothing(trouble):
     answers = [{f"node_{number}": "Why." for number in range(100)}, trouble]
 
-    def ask():
+    def ask(name):
+        if name != names.START_FAILURES:
+            return None
         answer = answers.pop(0)
         if isinstance(answer, Exception):
             raise answer
         return answer
-    failures = StartFailures(ask)
-    failures.update()
-    failures.update()
-    assert list(failures.known) == ["node_0", "node_1", "node_10", "node_11"]
+    master = MasterWatch(ask)
+    master.update()
+    master.update()
+    assert list(master.failures) == ["node_0", "node_1", "node_10", "node_11"]

@@ -13,6 +13,7 @@ from .car_pose import CarPose, UncertainPose, base_in_car
 from .inputs import CarFields, CheckFields, Inputs, ModeFields, PeripheralsFields, PoseFields
 from .log_buffer import Entry
 from .notices import Notice
+from .preflight import PREFLIGHT_EVERY, add_preflight
 from .surroundings import fill
 from .texts import cut, problem_messages
 
@@ -20,7 +21,7 @@ MAX_ACCURACY_CM = 2 ** 31 - 1
 # Words of DriveStatus.
 MOTION_SOURCES = {"none": link.MOTION_SOURCE_NONE, "locked": link.MOTION_SOURCE_LOCKED,
                   "manual": link.MOTION_SOURCE_MANUAL, "planner": link.MOTION_SOURCE_PLANNER}
-LEFT_OUT = ("surroundings", "log", "notifications", "presses")
+LEFT_OUT = ("surroundings", "preflight", "log", "notifications", "presses")
 
 
 class Identity(NamedTuple):
@@ -80,6 +81,8 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
                                  problems=problem_messages(notice.problem))
     if report.fresh.surroundings is not None:
         fill(status.surroundings, report.fresh.surroundings)
+    if report.status_id % PREFLIGHT_EVERY == 0:
+        add_preflight(status.preflight, report.fresh.preflight)
     return _bounded(status)
 
 

@@ -5,6 +5,7 @@ from typing import Any, Mapping, NamedTuple, Optional, Protocol, Sequence
 
 from mtr_core.problems import ProblemFields
 
+from ..preflight_report import PreflightReport
 from .emergency import EmergencyStop
 from .surroundings import Surroundings
 
@@ -134,6 +135,7 @@ class Inputs(NamedTuple):
         emergency_stop: as its owners say.
         start_failures: why nodes cannot start, by their names.
         surroundings: what the robot sees, None in a Status that does not carry it.
+        preflight: what the last one found, None before one was made.
     """
 
     now_s: float
@@ -149,3 +151,4 @@ class Inputs(NamedTuple):
     emergency_stop: EmergencyStop = EmergencyStop.ABSENT
     start_failures: Mapping[str, str] = MappingProxyType({})
     surroundings: Optional[Surroundings] = None
+    preflight: Optional[PreflightReport] = None

@@ -1,8 +1,12 @@
-"""Why nodes cannot start, asked of the ROS master beside everything else. No ROS inside."""
+"""What other programs left with the ROS master for the Operator, asked beside everything else. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import threading
 import time
-from typing import Any, Callable, Dict
+from typing import Any, Callable, Dict, Optional
+
+from mtr_core import names
+
+from .preflight_report import PreflightReport, report_in
 
 # A node is started again after 2 s.
 ASK_PERIOD_WALL_S = 1.0
@@ -16,26 +20,29 @@ def failures_in(parameter: Any) -> Dict[str, str]:
     return {str(node): str(known[node]) for node in sorted(known, key=str)[:MAX_TOLD]}
 
 
-class StartFailures:
+class MasterWatch:
     """Asks from a thread of its own: a call to a busy master takes its time.
 
     Attributes:
-        known: the newest answer.
+        failures: why nodes cannot start, by their names; the newest answer.
+        preflight: what the last preflight found, None before one was made.
     """
 
-    def __init__(self, ask: Callable[[], Any]):
-        """ask: what the master has; whatever it raises is no answer."""
-        self.known: Dict[str, str] = {}
+    def __init__(self, ask: Callable[[str], Any]):
+        """ask: the value of a parameter, None when there is none; whatever it raises is no answer."""
+        self.failures: Dict[str, str] = {}
+        self.preflight: Optional[PreflightReport] = None
         self._ask = ask
 
     def start(self) -> None:
         """Begin to ask."""
-        threading.Thread(target=self._run, name="start failures", daemon=True).start()
+        threading.Thread(target=self._run, name="master watch", daemon=True).start()
 
     def update(self) -> None:
-        """Ask once; without an answer the one before stands."""
+        """Ask once; without an answer what was known before stands."""
         try:
-            self.known = failures_in(self._ask())
+            self.failures = failures_in(self._ask(names.START_FAILURES))
+            self.preflight = report_in(self._ask(names.PREFLIGHT_REPORT))
         except Exception:  # Of sockets, HTTP, XML, the master: a thread that ended would tell nothing any more.
             return
 

@@ -1,0 +1,30 @@
+"""What a preflight found, to and from its message."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+
+from mtr_operator.domain.robot_status import PreflightItem, PreflightReport
+from mtr_proto import robot_link_pb2 as pb
+
+# As many as a robot sends.
+_MAX_ITEMS = 64
+
+
+def preflight_from(message: pb.PreflightReport) -> PreflightReport:
+    """As the domain knows it. What does not say that nothing is wrong is bad; a time that is none is no report."""
+    if not message.HasField("made_s") or not math.isfinite(message.made_s):
+        return PreflightReport()
+    items = tuple(PreflightItem(item.name, item.level != pb.SEVERITY_INFO, item.sentence)
+                  for item in message.items[:_MAX_ITEMS])
+    return PreflightReport(message.made_s, items, max(message.checks, len(items)),
+                           max(message.bad, sum(item.is_bad for item in items)))
+
+
+def preflight_message(report: PreflightReport) -> pb.PreflightReport:
+    """As a robot sends it."""
+    if math.isnan(report.made_s):
+        return pb.PreflightReport()
+    items = [pb.PreflightItem(name=item.name, sentence=item.sentence,
+                              level=pb.SEVERITY_ERROR if item.is_bad else pb.SEVERITY_INFO) for item in report.items]
+    return pb.PreflightReport(made_s=report.made_s, items=items, checks=report.checks, bad=report.bad)
