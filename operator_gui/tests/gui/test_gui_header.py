@@ -4,7 +4,7 @@ import pytest
 from PyQt5.QtCore import QAbstractAnimation
 
 from mtr_operator.domain.ports import LockState
-from mtr_operator.domain.robot_status import Mode, Notification
+from mtr_operator.domain.robot_status import Mode, Notification, PreflightItem, PreflightReport
 from mtr_operator.gui.header.symbols import BatterySymbol, LinkSymbol, LocksSymbol
 from mtr_operator.gui.header.warning_symbol import PULSE_MS, PULSE_SCALE, WarningSymbol
 from mtr_operator.gui.theme.appearance import Appearance
@@ -61,6 +61,39 @@ def test_status_word_says_each_reason_with_an_advice(operator, opener):
     assert status.popup.texts() == ["Not ready"]
     assert "\N{MULTIPLICATION X} Battery Nearly empty: 5 %. Charge it before the test." in texts
     assert "\N{MULTIPLICATION X} Robot The robot is still starting. Wait a moment." in texts
+
+
+def test_preflight_is_told_with_all_its_sentences_on_demand(operator, opener):
+    status = operator.window.header.status
+    operator.wait(lambda: "Ready" in status.text())
+    assert "? Preflight The robot does not say whether one was made." in shown(operator)
+    opener.spoil_with(preflight=PreflightReport(), steady_s=500.0)
+    operator.wait(lambda: "? Preflight Never made since the robot was started." in shown(operator))
+    assert not status.preflight.isVisibleTo(status.popup)
+    fine = PreflightItem("/imu/data", False, "50 Hz.")
+    opener.spoil_with(preflight=PreflightReport(320.0, (fine, fine), 2, 0), steady_s=500.0)
+    operator.wait(lambda: "\N{CHECK MARK} Preflight 2 of 2 right, 3 min ago." in shown(operator))
+    full = PreflightItem("disk", True, "Full {0}.")
+    opener.spoil_with(preflight=PreflightReport(320.0, (full, fine), 2, 1), steady_s=500.0)
+    operator.wait(lambda: "Not ready" in status.text())
+    assert ("\N{MULTIPLICATION X} Preflight 1 of 2 wrong, 3 min ago. disk: Full {0}. Then make it again on the robot: "
+            "rosrun mtr_bringup preflight") in shown(operator)
+    assert status.toolTip() == "The robot's preflight found: disk: Full {0}."
+    operator.click(status)
+    assert not status.preflight.sentences.isVisible()
+    operator.click(status.preflight.button)
+    assert status.preflight.sentences.isVisible()
+    assert status.preflight.sentences.text().splitlines() == [
+        "\N{MULTIPLICATION X}  disk: Full {0}.", "\N{CHECK MARK}  /imu/data: 50 Hz."]
+    status.popup.hide()
+
+
+def shown(operator):
+    status = operator.window.header.status
+    operator.click(status)
+    texts = status.checklist.texts()
+    status.popup.hide()
+    return texts
 
 
 def test_warning_alone_does_not_hinder_a_test(operator, opener):

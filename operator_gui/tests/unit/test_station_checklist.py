@@ -7,20 +7,39 @@ import pytest
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.ports import BusTraffic, LockState
-from mtr_operator.domain.robot_status import CarDimensions, EmergencyStop, Mode, Notification, Problem, RobotStatus
+from mtr_operator.domain.robot_status import (
+    CarDimensions,
+    EmergencyStop,
+    Mode,
+    Notification,
+    PreflightItem,
+    PreflightReport,
+    Problem,
+    RobotStatus,
+)
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.alert import Alert, Heard, alert_of
 from mtr_operator.station.checks.checklist import Facts, Wanted, checklist, hindrances
 from mtr_operator.station.checks.finding import Check, Finding, State
+from mtr_operator.station.checks.preflight_check import OLD_AFTER_S
 from mtr_operator.station.disk_watch import free_bytes
 from mtr_operator.station.estimate import USUAL_CAR, plan_of
 from mtr_operator.station.events import RobotSnapshot
-from mtr_operator.station.readiness import Phase, ReadinessWord, readiness_of
+from mtr_operator.station.mailbox import Mailbox
+from mtr_operator.station.readiness import Cause, Phase, Readiness, ReadinessWord, Reason, can_resume, readiness_of
 
 STATUS = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, pose_valid=True, mode=Mode.FOLLOWING_WAYPOINT,
                      battery_percent=80, position_sigma_m=0.02, emergency_stop=EmergencyStop.RELEASED)
 TRAFFIC = BusTraffic(0.3, 0.1, 0.1)
 LIDAR = Problem("drive_control.lidar_covered", (("lidar", "rear LiDAR"),), "The rear LiDAR is covered.")
+
+
+FINE, FULL = PreflightItem("/imu/data", False, "50 Hz."), PreflightItem("disk", True, "Full.")
+
+
+def after_preflight(*found, age_s=180.0):
+    report = PreflightReport(1000.0 - age_s, found, len(found), sum(item.is_bad for item in found))
+    return dataclasses.replace(snapshot(steady_s=1000.0), preflight=report)
 
 
 def snapshot(lock=LockState.LOCKED, problem="", traffic=TRAFFIC, is_secret=False, is_exposed=False, **changes):
@@ -36,7 +55,7 @@ def test_each_thing_is_looked_at_in_its_order():
     shown = checklist(Facts(snapshot(), 0.1, free_bytes=10 ** 11))
     assert [item.check for item in shown] == list(Check)
     assert {item.check for item in shown if item.state is not State.GOOD} == {
-        Check.SIZE, Check.KEY, Check.LIMITS}
+        Check.PREFLIGHT, Check.SIZE, Check.KEY, Check.LIMITS}
     assert not hindrances(shown)
 
 
@@ -93,7 +112,9 @@ def test_each_item_says_what_was_found(robot, check, state, finding):
     snapshot(notifications=(Notification("no_emergency_stop", 3, "None."),)),
     snapshot(notifications=(Notification("link_lost", 3, "Lost."),)),
     snapshot(notifications=(Notification("x", 3, "Stands.", (LIDAR,)),)),
-    snapshot(notifications=(Notification("peripherals_silent", 3, "Silent."),))])
+    snapshot(notifications=(Notification("peripherals_silent", 3, "Silent."),)),
+    after_preflight(FINE), after_preflight(FINE, age_s=1e6), after_preflight(FULL, FINE),
+    after_preflight(FULL, age_s=1e6), after_preflight(FULL, age_s=-100.0)])
 def test_list_and_status_word_never_contradict_each_other__B10(robot):
     can_start = readiness_of(robot, 0.1, Phase.IDLE).can_start
     assert bool(hindrances(checklist(Facts(robot, 0.1, free_bytes=10 ** 11)))) is not can_start
@@ -121,6 +142,42 @@ def test_battery_is_measured_by_the_plan():
     (None, State.UNKNOWN), (10_000_000, State.BAD), (400_000_000, State.NOTE), (10 ** 11, State.GOOD)])
 def test_room_on_the_disk(free, state):
     assert items(snapshot(), free_bytes=free)[Check.DISK].state is state
+
+
+@pytest.mark.parametrize(("robot", "state", "finding", "said", "numbers"), [
+    (snapshot(), State.UNKNOWN, Finding.PREFLIGHT_UNTOLD, "", ()),
+    (dataclasses.replace(snapshot(), preflight=PreflightReport()), State.UNKNOWN, Finding.PREFLIGHT_NEVER, "", ()),
+    (after_preflight(FINE, FINE), State.GOOD, Finding.PREFLIGHT_FINE, "", (2, 2, 180.0)),
+    (after_preflight(FINE, age_s=-0.5), State.GOOD, Finding.PREFLIGHT_FINE, "", (1, 1, 0.0)),
+    (after_preflight(FINE, age_s=OLD_AFTER_S + 1.0), State.NOTE, Finding.PREFLIGHT_OLD, "", (1, 1, OLD_AFTER_S + 1.0)),
+    (after_preflight(FULL, FINE), State.BAD, Finding.PREFLIGHT_BAD, "disk: Full.", (1, 2, 180.0)),
+    (after_preflight(FULL, age_s=OLD_AFTER_S + 1.0), State.BAD, Finding.PREFLIGHT_BAD, "disk: Full.",
+     (1, 1, OLD_AFTER_S + 1.0)),
+    (after_preflight(FULL, age_s=-100.0), State.UNKNOWN, Finding.PREFLIGHT_NEVER, "", ())])
+def test_preflight_is_told_with_its_age(robot, state, finding, said, numbers):
+    item = items(robot)[Check.PREFLIGHT]
+    assert (item.state, item.finding, item.said, item.numbers) == (state, finding, said, numbers)
+
+
+def test_preflight_brings_all_its_sentences():
+    assert items(after_preflight(FULL, FINE))[Check.PREFLIGHT].parts == (
+        (State.BAD, "disk: Full."), (State.GOOD, "/imu/data: 50 Hz."))
+
+
+def test_bad_preflight_hinders_a_start_and_not_a_test_that_runs():
+    robot = after_preflight(FULL)
+    assert readiness_of(robot, 0.1, Phase.IDLE).reasons == (Reason(Cause.PREFLIGHT_BAD, True, "disk: Full."),)
+    assert not can_resume(readiness_of(robot, 0.1, Phase.PAUSED))
+    assert readiness_of(robot, 0.1, Phase.MEASURING) == Readiness(ReadinessWord.MEASURING)
+
+
+def test_preflight_is_kept_between_its_statuses_and_ends_with_the_robot():
+    mailbox, report = Mailbox(), PreflightReport(1.0, (FINE,), 1, 0)
+    kept = []
+    for changes in ({}, {"preflight": report}, {}, {"robot_session_id": 2}):
+        mailbox.put_robot(snapshot(**changes))
+        kept.append(mailbox.take().robot.preflight)
+    assert kept == [None, report, report, None]
 
 
 def test_room_is_that_where_the_folder_will_be_made(tmp_path):

@@ -10,7 +10,7 @@ from mtr_operator.domain.eventlog.entry import EventEntry
 from mtr_operator.domain.ports import BusTraffic, CarLink, LockFacts, LockState
 from mtr_operator.domain.requests import Waypoint
 from mtr_operator.domain.results.line_result import LineResult
-from mtr_operator.domain.robot_status import CarDimensions, RobotStatus
+from mtr_operator.domain.robot_status import CarDimensions, PreflightReport, RobotStatus
 
 from .handle_prompt import Prompt
 
@@ -21,7 +21,8 @@ class RobotSnapshot:
 
     waypoint: where the robot was sent last, None when nowhere. is_secret: the link is encrypted. traffic: of the Car's
     bus, None where there is no bus to ask. facts: what its profile tells beforehand, None without one.
-    is_exposed: whoever is in the robot's network can read the link and send.
+    is_exposed: whoever is in the robot's network can read the link and send. preflight: the newest that the robot
+    has told, None while it has told nothing of it.
     """
 
     status: RobotStatus
@@ -32,6 +33,7 @@ class RobotSnapshot:
     traffic: BusTraffic | None = None
     facts: LockFacts | None = None
     is_exposed: bool = False
+    preflight: PreflightReport | None = None
 
 
 def known_facts(car: CarLink) -> LockFacts | None:

@@ -6,12 +6,13 @@ However many Statuses come, the view gets one batch whenever it asks for one: it
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Callable
 
 from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.robot_status import Problem, RobotStatus
 
+from .checks.kept_preflight import KeptPreflight
 from .events import RobotSnapshot, StationEvent
 from .trail import Passing, Places, thinned
 
@@ -48,6 +49,7 @@ class Mailbox:
         self._trail: Places = []
         self._passing = Passing()
         self._trail_begins = False
+        self._preflight = KeptPreflight()
         self._said: dict[str, tuple[Problem, ...]] = {}
 
     def put(self, event: StationEvent) -> None:
@@ -63,7 +65,8 @@ class Mailbox:
         status = snapshot.status
         with self._lock:
             first = self._is_empty()
-            self._robot = snapshot
+            self._preflight.learn(status)
+            self._robot = replace(snapshot, preflight=self._preflight.report)
             self._sight = self._sight if status.surroundings is None else status
             self._said.update((problems[0].text, problems) for problems in status.problems() if problems)
             if self._passing.begins_anew(status):

@@ -9,6 +9,7 @@ from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import Mode, RobotStatus, WaypointResult
 
+from .checks.preflight_check import first_bad
 from .events import RobotSnapshot
 from .motion import Motion, is_driving
 
@@ -65,6 +66,7 @@ class Cause(enum.Enum):
     POSITION_LOST = "position lost"
     HELD = "held"
     WAY_BLOCKED = "way blocked"
+    PREFLIGHT_BAD = "preflight bad"
 
 
 HELD_CODE = "held"
@@ -103,7 +105,8 @@ def readiness_of(robot: RobotSnapshot | None, silent_s: float, phase: Phase, mot
     """
     if robot is None or silent_s >= SILENCE_LIMIT_S:
         return Readiness(ReadinessWord.LOST, (Reason(Cause.ROBOT_SILENT, True, f"{silent_s:.0f}"),))
-    reasons = sorted([*_robot_reasons(robot.status), *_car_reasons(robot)], key=lambda reason: not reason.is_blocking)
+    found = [*_robot_reasons(robot.status), *_car_reasons(robot), *_preflight_reasons(robot, phase)]
+    reasons = sorted(found, key=lambda reason: not reason.is_blocking)
     word = _word_of_motion(robot.status, phase, motion)
     if word is not None:
         hindrances = _hindrances(robot.status)
@@ -164,6 +167,14 @@ def _robot_reasons(status: RobotStatus) -> list[Reason]:
                 for code, notification in notified.items()
                 if notification.severity >= WARNING and code not in (*MODE_CODES, "low_battery")]
     return reasons
+
+
+def _preflight_reasons(robot: RobotSnapshot, phase: Phase) -> list[Reason]:
+    """A test that runs goes on: somebody looks at the robot meanwhile."""
+    report = robot.preflight
+    if phase in RUNNING or report is None or not report.bad or not report.was_made_before(robot.status.steady_s):
+        return []
+    return [Reason(Cause.PREFLIGHT_BAD, True, first_bad(report))]
 
 
 def _car_reasons(robot: RobotSnapshot) -> list[Reason]:

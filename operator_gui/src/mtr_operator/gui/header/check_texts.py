@@ -6,7 +6,7 @@ import math
 
 from mtr_operator.station.checks.finding import Check, Finding, Item
 
-from ..i18n import number, translate
+from ..i18n import duration, number, translate
 from ..names import domain_word
 from ..sentences import translated
 
@@ -17,7 +17,8 @@ def check_title(check: Check) -> str:
     """What is looked at."""
     return {
         Check.LINK: translate("Check", "Link"), Check.ENCRYPTION: translate("Check", "Encryption"),
-        Check.ROBOT: translate("Check", "Robot"), Check.EMERGENCY_STOP: translate("Check", "Emergency stop"),
+        Check.ROBOT: translate("Check", "Robot"), Check.PREFLIGHT: translate("Check", "Preflight"),
+        Check.EMERGENCY_STOP: translate("Check", "Emergency stop"),
         Check.POSITION: translate("Check", "Position"), Check.SIZE: translate("Check", "Car's size"),
         Check.LIDARS: translate("Check", "LiDARs"), Check.BOARD: translate("Check", "Lift and buttons"),
         Check.BATTERY: translate("Check", "Battery"),
@@ -29,11 +30,13 @@ def check_title(check: Check) -> str:
 
 def check_text(item: Item) -> str:
     """What was found, in a sentence."""
-    finding, said = item.finding, translated(item.said)
-    first, second = (*item.numbers, math.nan, math.nan)[:2]
-    texts = {**_of_link(), **_of_robot(said), **_of_place(said, bool(item.numbers)), **_of_battery(),
-             **_of_car(said, is_cyclic=not math.isnan(second)), **_of_files(said)}
+    # Robot, link and file may say braces.
+    finding, said = item.finding, translated(item.said).replace("{", "{{").replace("}", "}}")
+    first, second, third = (*item.numbers, math.nan, math.nan, math.nan)[:3]
+    texts = {**_of_link(), **_of_robot(said), **_of_preflight(said), **_of_place(said, bool(item.numbers)),
+             **_of_battery(), **_of_car(said, is_cyclic=not math.isnan(second)), **_of_files(said)}
     return texts[finding].format(first=_shown(item, first), second=_shown(item, second, 1),
+                                 age="" if math.isnan(third) else duration(third),
                                  said=domain_word(item.said) if finding is Finding.LOCKS_HEARD else "")
 
 
@@ -62,6 +65,16 @@ def _of_robot(said: str) -> dict[Finding, str]:
         Finding.STOP_UNKNOWN: translate("Check", "The robot does not say whether it has one by hand."),
         Finding.LIDARS_FINE: translate("Check", "The robot reports nothing against them."),
         Finding.BOARD_FINE: translate("Check", "The robot reports nothing against them."),
+    }
+
+
+def _of_preflight(said: str) -> dict[Finding, str]:
+    return {
+        Finding.PREFLIGHT_FINE: translate("Check", "{first} of {second} right, {age} ago."),
+        Finding.PREFLIGHT_OLD: translate("Check", "{first} of {second} right, but {age} ago."),
+        Finding.PREFLIGHT_BAD: " ".join((translate("Check", "{first} of {second} wrong, {age} ago."), said)),
+        Finding.PREFLIGHT_NEVER: translate("Check", "Never made since the robot was started."),
+        Finding.PREFLIGHT_UNTOLD: translate("Check", "The robot does not say whether one was made."),
     }
 
 
@@ -130,6 +143,8 @@ def check_advice(item: Item) -> str:
         Finding.ROBOT_FAULT: translate("Check", "Make sure that nothing blocks the robot; if the fault stays, switch "
                                                 "it off and on."),
         Finding.OTHER_OPERATOR: translate("Check", "End the other application; control comes here by itself."),
+        Finding.PREFLIGHT_OLD: translate("Check", "Make it again on the robot: rosrun mtr_bringup preflight"),
+        Finding.PREFLIGHT_BAD: translate("Check", "Then make it again on the robot: rosrun mtr_bringup preflight"),
         Finding.STOP_ENGAGED: translate("Check", "Release it when the area is clear."),
         Finding.STOP_ABSENT: translate("Check", "Stay where you reach the button on the robot."),
         Finding.POSITION_LOST: translate("Check", "Drive or turn it by hand where it sees the Car; if it stays lost, "

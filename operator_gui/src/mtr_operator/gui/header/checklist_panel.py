@@ -61,11 +61,16 @@ class ChecklistPanel(QWidget):
     @staticmethod
     def _fill(row: tuple[QLabel, ...], item: Item) -> None:
         sign, name, sentence = row
-        sign.setText(_SIGNS[item.state])
+        sign.setText(sign_of(item.state))
         sign.setAccessibleName(state_word(item.state))
         show_state(sign, "check", item.state.value)
         name.setText(check_title(item.check))
         sentence.setText(" ".join(filter(None, (check_text(item), check_advice(item)))))
+
+
+def sign_of(state: State) -> str:
+    """The state as a character."""
+    return _SIGNS[state]
 
 
 def state_word(state: State) -> str:

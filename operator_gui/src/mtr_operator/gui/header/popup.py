@@ -59,10 +59,10 @@ class Popup(QFrame):
     def open_below(self, button: QWidget) -> None:
         """Show it below a button, within the button's window."""
         self._button = button
-        self._fit()
+        self.fit()
         self.show()
         # Labels that wrap know their height only when they are shown.
-        self._fit()
+        self.fit()
 
     def texts(self) -> list[str]:
         """What is shown."""
@@ -73,7 +73,7 @@ class Popup(QFrame):
         self._width = width
         self._column.insertWidget(1, content)
 
-    def _fit(self) -> None:
+    def fit(self) -> None:
         """As high as its content, within the screen on which its button is."""
         button = self._button
         if button is None:
@@ -91,7 +91,7 @@ class Popup(QFrame):
 
     def _suit_motion(self, may_move: bool) -> None:
         self.stop.setVisible(may_move)
-        self._fit()
+        self.fit()
 
     def _add(self, text: str, role: str) -> None:
         label = QLabel(text)

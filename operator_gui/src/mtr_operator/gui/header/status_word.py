@@ -12,6 +12,7 @@ from ..stopping import Stopping
 from ..theme.state import show_state
 from .checklist_panel import ChecklistPanel
 from .popup import Popup
+from .preflight_details import PreflightDetails
 from .reasons import advice_text, reason_text, word_text
 
 # Told apart without colours too.
@@ -35,7 +36,7 @@ _LIST_WIDTH = 680
 class StatusWord(QPushButton):
     """Attributes: popup: the list of reasons. checklist: below them, what has to be right before the robot moves.
 
-    events: below it, the way to the event list. Signals: events_wanted.
+    preflight: below it, its sentences. events: below them, the way to the event list. Signals: events_wanted.
     """
 
     events_wanted = pyqtSignal()
@@ -44,6 +45,8 @@ class StatusWord(QPushButton):
         super().__init__(parent)
         self.popup = Popup(self, stopping)
         self.checklist = ChecklistPanel()
+        self.preflight = PreflightDetails()
+        self.preflight.toggled.connect(self.popup.fit)
         self.events = QPushButton(self.tr("All events"))
         self.events.setProperty("role", "flat")
         self.events.clicked.connect(self._want_events)
@@ -73,13 +76,18 @@ class StatusWord(QPushButton):
         """Show another checklist."""
         self._items = items
         if self.popup.isVisible():
-            self.checklist.show_items(items)
+            self._show_items()
+
+    def _show_items(self) -> None:
+        self.checklist.show_items(self._items)
+        self.preflight.show_items(self._items)
 
     def _below(self) -> QWidget:
         holder = QWidget()
         column = QVBoxLayout(holder)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self.checklist)
+        column.addWidget(self.preflight)
         column.addWidget(self.events)
         return holder
 
@@ -88,7 +96,7 @@ class StatusWord(QPushButton):
         self.events_wanted.emit()
 
     def _open(self) -> None:
-        self.checklist.show_items(self._items)
+        self._show_items()
         self._fill()
         self.popup.open_below(self)
 

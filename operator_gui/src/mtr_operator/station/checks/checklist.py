@@ -10,6 +10,7 @@ from ..events import RobotSnapshot
 from ..readiness import SILENCE_LIMIT_S
 from . import car_checks, robot_checks
 from .finding import Check, Finding, Item, State
+from .preflight_check import preflight
 
 # A long test with its pictures takes some 20 MB, and its journal is written before the robot goes on.
 LEAST_FREE_BYTES, FEW_FREE_BYTES = 50_000_000, 500_000_000
@@ -68,6 +69,7 @@ def _of_robot(robot: RobotSnapshot, facts: Facts) -> Iterator[Item]:
     yield Item(Check.LINK, State.GOOD, Finding.LINK_ALIVE, numbers=(facts.silent_s,))
     yield _encryption(robot)
     yield from robot_checks.condition(status)
+    yield preflight(robot)
     yield robot_checks.emergency_stop(status.emergency_stop)
     yield robot_checks.position(status)
     yield robot_checks.size(status.car)

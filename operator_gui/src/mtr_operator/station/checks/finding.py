@@ -12,6 +12,7 @@ class Check(enum.Enum):
     LINK = "link"
     ENCRYPTION = "encryption"
     ROBOT = "robot"
+    PREFLIGHT = "preflight"
     EMERGENCY_STOP = "emergency stop"
     POSITION = "position"
     SIZE = "size"
@@ -50,6 +51,11 @@ class Finding(enum.Enum):
     ROBOT_FAULT = "robot fault"
     OTHER_OPERATOR = "other operator"
     ROBOT_SAYS = "robot says"
+    PREFLIGHT_FINE = "preflight fine"
+    PREFLIGHT_OLD = "preflight old"
+    PREFLIGHT_BAD = "preflight bad"
+    PREFLIGHT_NEVER = "preflight never"
+    PREFLIGHT_UNTOLD = "preflight untold"
     STOP_RELEASED = "stop released"
     STOP_ENGAGED = "stop engaged"
     STOP_ABSENT = "stop absent"
@@ -96,7 +102,7 @@ class Item:
     """One line of the list.
 
     said: what robot, link or file say of it themselves, translatable. numbers: that the view's sentence holds, in the
-    finding's order, in s, m, percent, MB or counts.
+    finding's order, in s, m, percent, MB or counts. parts: all sentences of what was looked at elsewhere.
     """
 
     check: Check
@@ -104,3 +110,4 @@ class Item:
     finding: Finding
     said: str = ""
     numbers: tuple[float, ...] = ()
+    parts: tuple[tuple[State, str], ...] = ()
