@@ -9,10 +9,12 @@ import signal
 import pytest
 import rosbag
 import rospy
+from genpy.dynamic import generate_dynamic
 from geometry_msgs.msg import Twist
 
+from mtr_bringup.recording import mcap_file
 from mtr_bringup.recording.bags import decisions_in
-from mtr_bringup.recording.command_line import compare, parsed, run
+from mtr_bringup.recording.command_line import compare, parsed, run, written_as_mcap
 from mtr_bringup.recording.decisions import CarSeen, Decisions, differences
 from mtr_bringup.recording.profiles import FULL, PROFILES, REPLAYED, SMALL, CannotRecord, check_room, command_of
 from mtr_core import names
@@ -123,6 +125,40 @@ def test_bags_are_compared_by_the_program(tmp_path, capsys):
     assert "10.0 cm" in capsys.readouterr().out
     assert len(decisions_in([tmp_path / "a.bag"]).cars) == 3
     assert compare([recorded, "--replayed", str(tmp_path / "none.bag")]) == 2
+
+
+def test_mcap_has_every_message_with_its_definition(tmp_path, capsys):
+    mcap_reader = pytest.importorskip("mcap.reader")
+    bag_at(tmp_path / "small_1_0.bag")
+    bag_at(tmp_path / "small_1_1.bag", 1.0)
+    bag_at(tmp_path / "small_2_0.bag")
+    assert written_as_mcap(tmp_path / "small_1") == 0
+    assert capsys.readouterr().out.count(": 6 messages.") == 2
+    assert sorted(path.name for path in tmp_path.glob("*.mcap*")) == ["small_1_0.mcap", "small_1_1.mcap"]
+    with (tmp_path / "small_1_1.mcap").open("rb") as file:
+        reader = mcap_reader.make_reader(file)
+        assert reader.get_header().profile == "ros1"
+        found = list(reader.iter_messages())
+    assert [each[2].log_time for each in found] == sorted([1_000_000_000, 2_000_000_000, 3_000_000_000] * 2)
+    schema, channel, message = next(each for each in reversed(found) if each[1].topic == names.CAR_ESTIMATE)
+    assert (schema.name, schema.encoding, channel.message_encoding) == ("mtr_msgs/CarEstimate", "ros1msg", "ros1")
+    # By what stands in the file alone.
+    kinds = generate_dynamic(schema.name, schema.data.decode())
+    car = kinds[schema.name]().deserialize(message.data)
+    assert (car.state, car.revision, car.x, car.length) == (2, 1, 2.0, 4.5)
+
+
+def test_mcap_of_a_bag_that_cannot_be_read_is_a_sentence_and_no_file(tmp_path, capsys):
+    pytest.importorskip("mcap.writer")
+    (tmp_path / "small_1_0.bag").write_bytes(b"no bag")
+    assert written_as_mcap(tmp_path / "small_1") == 2
+    assert "small_1_0.bag cannot be read" in capsys.readouterr().err and not list(tmp_path.glob("*.mcap"))
+
+
+def test_without_the_library_mcap_is_refused_before_anything_is_recorded(monkeypatch):
+    monkeypatch.setattr(mcap_file, "Writer", None)
+    with pytest.raises(CannotRecord, match="pip install mcap"):
+        mcap_file.check_mcap()
 
 
 def panels(part):

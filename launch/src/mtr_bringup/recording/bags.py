@@ -1,7 +1,7 @@
-"""Decisions in recorded bags."""
+"""What is in recorded bags: decisions, and every message as it is."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
-from typing import Any, Iterable
+from typing import Any, Iterable, Iterator
 
 import rosbag
 
@@ -10,6 +10,7 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 
 from .decisions import CarSeen, Decisions
+from .mcap_file import Recorded
 from .profiles import CannotRecord
 
 DECIDED = [names.CAR_ESTIMATE, names.LOCALIZED_POSE]
@@ -26,6 +27,21 @@ def decisions_in(bags: Iterable[pathlib.Path]) -> Decisions:
         except (rosbag.ROSBagException, OSError) as error:
             raise CannotRecord(f"{path} cannot be read: {error}.") from None
     return found
+
+
+def messages_in(path: pathlib.Path) -> Iterator[Recorded]:
+    """All messages of a bag in the order of their times; CannotRecord when it cannot be read."""
+    try:
+        with rosbag.Bag(str(path)) as bag:
+            for topic, raw, time, header in bag.read_messages(raw=True, return_connection_header=True):
+                yield Recorded(topic, raw[0], _text(header["message_definition"]), raw[1], time.to_nsec())
+    except (rosbag.ROSBagException, OSError) as error:
+        raise CannotRecord(f"{path} cannot be read: {error}.") from None
+
+
+def _text(value: Any) -> str:
+    # Of a header of ROS's protocol, which Python 3 reads as bytes or as text, by the version of ROS.
+    return value.decode() if isinstance(value, bytes) else str(value)
 
 
 def _take(found: Decisions, topic: str, message: Any) -> None:

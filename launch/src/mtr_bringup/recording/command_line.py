@@ -1,7 +1,8 @@
-"""rosrun mtr_bringup record [--profile small|full]: a bag of the running robot, bounded in size, until Ctrl-C.
+"""rosrun mtr_bringup record [--profile small|full] [--mcap]: a bag of the running robot, bounded in size, until Ctrl-C.
 
-The parameters of the nodes are written beside it (PREFIX.yaml), so that a replay has the same. Topics that the robot
-has under other names: /front/scan:=/scan and the like, as for every node.
+With --mcap the same as MCAP beside it when the recording has ended. The parameters of the nodes are written beside it
+(PREFIX.yaml), so that a replay has the same. Topics that the robot has under other names: /front/scan:=/scan and the
+like, as for every node.
 Exit status: that of rosbag; 2 when nothing can be recorded.
 """
 # SPDX-License-Identifier: Apache-2.0
@@ -24,8 +25,9 @@ from mtr_core.lockstep.clock import LOCKSTEP_PARAMETER
 
 from ..graph_watch.environment import as_around
 from ..preflight.command_line import master_answers
-from .bags import decisions_in
+from .bags import decisions_in, messages_in
 from .decisions import differences
+from .mcap_file import check_mcap, write_mcap
 from .player import RECORDED_IN_LOCKSTEP, Player
 from .profiles import DEFAULT_LIMIT_MB, MAX_LIMIT_MB, MIN_LIMIT_MB, PROFILES, CannotRecord, check_room, command_of
 
@@ -42,8 +44,10 @@ def record(arguments: Optional[List[str]] = None) -> int:
     try:
         if not master_answers():
             raise CannotRecord("There is no ROS master; start the robot first (roslaunch mtr_bringup robot.launch).")
+        if options.mcap:
+            check_mcap()
         prefix = options.out / f"{options.profile}_{datetime.datetime.now():%Y-%m-%d_%H-%M-%S}"
-        check_room(options.out, options.limit, shutil.disk_usage(str(options.out)).free)
+        check_room(options.out, options.limit * (2 if options.mcap else 1), shutil.disk_usage(str(options.out)).free)
         keep_parameters(prefix.with_suffix(".yaml"))
     except (RobotError, OSError) as error:
         print(error, file=sys.stderr)
@@ -51,7 +55,23 @@ def record(arguments: Optional[List[str]] = None) -> int:
     mapped = rospy.names.load_mappings(given)
     command = command_of(options.profile, prefix, options.limit, lambda topic: mapped.get(topic, topic))
     print(f"Recording {prefix}_*.bag, the newest {options.limit:.0f} MB; Ctrl-C ends it.", flush=True)
-    return run(command)
+    status = run(command)
+    return status or (written_as_mcap(prefix) if options.mcap else 0)
+
+
+def written_as_mcap(prefix: pathlib.Path) -> int:
+    """Write an MCAP file beside each bag of a recording; the exit status."""
+    # Of now on Ctrl-C ends this program, and leaves no file that looks whole.
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
+    try:
+        for bag in sorted(prefix.parent.glob(f"{prefix.name}_*.bag")):
+            count = write_mcap(bag.with_suffix(".mcap"), messages_in(bag))
+            print(f"{bag.with_suffix('.mcap')}: {count} messages.", flush=True)
+    except (CannotRecord, OSError) as error:
+        print(error, file=sys.stderr)
+        return CANNOT
+    return 0
 
 
 def parsed(arguments: List[str]) -> argparse.Namespace:
@@ -63,6 +83,8 @@ def parsed(arguments: List[str]) -> argparse.Namespace:
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path(), help="folder for the bags (this one)")
     parser.add_argument("--limit", type=float, default=None, help="MB on the disk at most, the oldest go (small: "
                         f"{DEFAULT_LIMIT_MB['small']:.0f}, full: {DEFAULT_LIMIT_MB['full']:.0f})")
+    parser.add_argument("--mcap", action="store_true", help="write MCAP files beside the bags when it has ended, which "
+                        "takes as much room again; needs the Python package mcap")
     options = parser.parse_args(arguments)
     if options.limit is None:
         options.limit = DEFAULT_LIMIT_MB[options.profile]
