@@ -76,3 +76,18 @@ def test_higher_exponent_makes_a_boxier_bumper():
     round_one, boxy = (CarShape(front_exponent=exponent).bumper_plan(1.0, 0.5) for exponent in (2.2, 7.0))
     assert all(sharp[0] >= bowed[0] - 1e-9 for sharp, bowed in zip(boxy, round_one))
     assert boxy[1][0] > round_one[1][0] + 0.05
+
+
+def test_tow_bar_and_low_mirrors_are_met_at_their_height_only():
+    plain = CarShape(clearance_m=0.2)
+    fitted = CarShape(clearance_m=0.2, tow_bar_m=0.15, low_mirrors_m=0.12, tailgate_m=0.5)
+    low, high = (np.concatenate([seen_from(fitted, height_m, corner) for corner in CORNERS])
+                 for height_m in (0.22, 0.35))
+    assert low[:, 0].min() == pytest.approx(-0.5 * plain.length_m, abs=0.03)
+    assert high[:, 0].min() == pytest.approx(-0.5 * plain.length_m - fitted.tow_bar_m, abs=0.03)
+    assert np.abs(low[:, 1]).max() == pytest.approx(0.5 * plain.width_m + fitted.low_mirrors_m, abs=0.02)
+
+
+def test_car_on_large_wheels_can_be_built():
+    points = seen_from(CarShape(wheel_radius_m=0.45, clearance_m=0.4), 0.3, CORNERS[0])
+    assert len(points) > 10

@@ -1,6 +1,6 @@
 """Solids of a parked car: bumpers with rounded corners, sills, wheel arches, wheels, cabin and mirrors."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import List, Tuple
+from typing import Iterator, List, Tuple
 
 from mtr_core.se2 import Pose2
 
@@ -18,13 +18,18 @@ FRONT_TOP_M, REAR_TOP_M, SHOULDER_TOP_M, CABIN_FOOT_M = 0.78, 0.90, 0.80, 0.75
 TUNNEL_HALF_WIDTH_M = 0.55
 MIRROR_X_M, MIRROR_Z_M = 0.75, 1.0
 MIRROR_HALF = (0.06, 0.10, 0.07)
+# Of what a shape may have besides: a bar of 6 cm, what stands out between 0.16 and 0.40 m, a plate; each begins inside.
+ROOT_M = 0.1
+TOW_BAR_Z_M, TOW_BAR_HALF_WIDTH_M, TOW_BAR_HALF_HEIGHT_M = 0.38, 0.03, 0.1
+LOW_MIRROR_X_M, LOW_MIRROR_Z_M, LOW_MIRROR_HALF_LENGTH_M, LOW_MIRROR_HALF_HEIGHT_M = 0.65, 0.28, 0.08, 0.12
+TAILGATE_Z_M, TAILGATE_SIDE_M, TAILGATE_HALF_HEIGHT_M = 0.65, 0.2, 0.03
 
 
 def car_body(name: str, shape: CarShape, world_from_car: Pose2) -> Body:
     """Body with frame car: origin on the ground below the Car's centre."""
     return Body(name, world_from_car, (
         _bumper(f"{name}_front", shape, 1.0, FRONT_TOP_M), _bumper(f"{name}_rear", shape, -1.0, REAR_TOP_M),
-        *_lower_body(shape), *_wheels(shape), *_cabin(shape)))
+        *_lower_body(shape), *_wheels(shape), *_cabin(shape), *_fittings(shape)))
 
 
 def parked_car_body(name: str, shape: CarShape, world_from_car: Pose2) -> Body:
@@ -53,8 +58,9 @@ def _lower_body(shape: CarShape) -> List[Part]:
     shoulder_middle, shoulder_half = _between(2.0 * shape.wheel_radius_m + 0.05, SHOULDER_TOP_M)
     for x in (half_axles, -half_axles):
         parts.append(Part(Box((ARCH_HALF_LENGTH_M + 0.02, TUNNEL_HALF_WIDTH_M, tunnel_half)), (x, 0.0, tunnel_middle)))
-        parts.append(Part(Box((ARCH_HALF_LENGTH_M + 0.02, half_width - SILL_INSET_M, shoulder_half)),
-                          (x, 0.0, shoulder_middle), surface=Surface.UPPER))
+        if shoulder_half > 0.0:
+            parts.append(Part(Box((ARCH_HALF_LENGTH_M + 0.02, half_width - SILL_INSET_M, shoulder_half)),
+                              (x, 0.0, shoulder_middle), surface=Surface.UPPER))
     return parts
 
 
@@ -72,3 +78,18 @@ def _cabin(shape: CarShape) -> List[Part]:
     return [Part(cabin, (-0.25, 0.0, middle), surface=Surface.UPPER),
             *(Part(Box(MIRROR_HALF), (MIRROR_X_M, side * mirror_y, MIRROR_Z_M), surface=Surface.UPPER)
               for side in (1, -1))]
+
+
+def _fittings(shape: CarShape) -> Iterator[Part]:
+    rear_x, side_y = -shape.length_m / 2.0, shape.width_m / 2.0
+    if shape.tow_bar_m > 0.0:
+        half = (shape.tow_bar_m + ROOT_M) / 2.0
+        yield Part(Box((half, TOW_BAR_HALF_WIDTH_M, TOW_BAR_HALF_HEIGHT_M)), (rear_x + ROOT_M - half, 0.0, TOW_BAR_Z_M))
+    if shape.low_mirrors_m > 0.0:
+        half = (shape.low_mirrors_m + ROOT_M) / 2.0
+        yield from (Part(Box((LOW_MIRROR_HALF_LENGTH_M, half, LOW_MIRROR_HALF_HEIGHT_M)),
+                         (LOW_MIRROR_X_M, side * (side_y - ROOT_M + half), LOW_MIRROR_Z_M)) for side in (1, -1))
+    if shape.tailgate_m > 0.0:
+        half = (shape.tailgate_m + ROOT_M) / 2.0
+        yield Part(Box((half, side_y - TAILGATE_SIDE_M, TAILGATE_HALF_HEIGHT_M)),
+                   (rear_x + ROOT_M - half, 0.0, TAILGATE_Z_M), surface=Surface.UPPER)

@@ -29,6 +29,9 @@ class CarShape(ParameterSet):
         front_exponent: of the superellipse that is the front bumper's plan; 2 is round, 6 nearly a box.
         rear_exponent: the same of the rear bumper.
         undercut_m: how far the bumpers' lower edge stands back.
+        tow_bar_m: how far a tow bar stands out behind; 0: none.
+        low_mirrors_m: how far mirrors of a low car, or steps, stand out on both sides at a LiDAR's height; 0: none.
+        tailgate_m: how far a lowered tailgate stands out behind, above the LiDARs' planes; 0: none.
     """
 
     length_m: float = number(4.5, 3.0, 6.0, "m")
@@ -41,6 +44,9 @@ class CarShape(ParameterSet):
     front_exponent: float = number(3.0, 2.0, 8.0, "(exponent)")
     rear_exponent: float = number(4.0, 2.0, 8.0, "(exponent)")
     undercut_m: float = number(0.0, 0.0, 0.1, "m")
+    tow_bar_m: float = number(0.0, 0.0, 0.3, "m")
+    low_mirrors_m: float = number(0.0, 0.0, 0.3, "m")
+    tailgate_m: float = number(0.0, 0.0, 0.6, "m")
 
     def __post_init__(self) -> None:
         super().__post_init__()
