@@ -12,11 +12,27 @@ import time
 from typing import List, Optional
 
 from ..harness.report import finish
-from .drives.selection import ABDUCT, ABDUCTIONS, PLAIN, QUICK_ABDUCTIONS, BenchmarkDrive, abductions, all_drives
+from .drives.selection import (
+    ABDUCT,
+    ABDUCTIONS,
+    ANY_CAR,
+    ANY_CARS,
+    PLAIN,
+    QUICK_ABDUCTIONS,
+    QUICK_ANY_CARS,
+    BenchmarkDrive,
+    abductions,
+    all_drives,
+    any_cars,
+)
 from .one_abduction import run_abduction
+from .one_any_car import run_any_car
 from .one_drive import DriveResult, DriveTask, run_drive
 from .real_time import measure_real_time
-from .report import abduction_report, report
+from .report import abduction_report, any_car_report, report
+
+# What is done in a drive of a variant; any other's is judged for all methods.
+PROGRAMS = {ABDUCT: run_abduction, ANY_CAR: run_any_car}
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
@@ -25,6 +41,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
     options = parser.parse_args(arguments)
     if options.kidnappings is not None and options.kidnappings < 1:
         parser.error(f"--kidnappings is {options.kidnappings}; at least 1 robot is carried away.")
+    if options.any_cars is not None and options.any_cars < 1:
+        parser.error(f"--any-cars is {options.any_cars}; at least 1 Car is drawn.")
     drives = selected(options)
     if any(drive.variant == PLAIN for drive in drives) and not options.mrpt.is_file():
         parser.error(f"There is no program {options.mrpt}; `make bench-localization` builds it.")
@@ -35,6 +53,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
         results = run_all(tasks, options.jobs)
     if options.kidnappings_only:
         return finish(abduction_report(results), options.out / "abductions.json")
+    if options.any_cars_only:
+        return finish(any_car_report(results), options.out / "any_car.json")
     # Alone on the machine, for it measures time.
     real_time = None if options.only else measure_real_time()
     return finish(report(results, real_time), options.out / "localization.json")
@@ -52,23 +72,30 @@ def command_line() -> argparse.ArgumentParser:
     parser.add_argument("--kidnappings", type=int, metavar="N", help="robots in each scene that are carried away while "
                         f"they drive; default {ABDUCTIONS}, with --quick {QUICK_ABDUCTIONS}")
     parser.add_argument("--kidnap-seed", type=int, default=1, help="seed of the first of them; default 1")
-    parser.add_argument("--kidnappings-only", action="store_true", help="only these; figures go to abductions.json")
+    parser.add_argument("--any-cars", type=int, metavar="N", help="Cars that are drawn by chance; default "
+                        f"{ANY_CARS}, with --quick {QUICK_ANY_CARS}")
+    parser.add_argument("--any-car-seed", type=int, default=1, help="seed of the first of them; default 1")
+    only = parser.add_mutually_exclusive_group()
+    only.add_argument("--kidnappings-only", action="store_true", help="only these; figures go to abductions.json")
+    only.add_argument("--any-cars-only", action="store_true", help="only these; figures go to any_car.json")
     parser.add_argument("--keep", type=pathlib.Path, help="keep the recordings in this folder; of robots that are "
-                        "carried away while they drive only those that were wrong and valid")
+                        "carried away while they drive, and of Cars drawn by chance, only those that were wrong")
     return parser
 
 
 def selected(options: argparse.Namespace) -> List[BenchmarkDrive]:
     """Drives that the command line asks for."""
     robots = options.kidnappings or (QUICK_ABDUCTIONS if options.quick else ABDUCTIONS)
-    drives = [] if options.kidnappings_only else all_drives(options.quick)
-    drives += abductions(robots, options.kidnap_seed)
+    cars = options.any_cars or (QUICK_ANY_CARS if options.quick else ANY_CARS)
+    drives = [] if options.kidnappings_only or options.any_cars_only else all_drives(options.quick)
+    drives += [] if options.any_cars_only else abductions(robots, options.kidnap_seed)
+    drives += [] if options.kidnappings_only else any_cars(cars, options.any_car_seed)
     return [drive for drive in drives if drive.name.startswith(options.only)]
 
 
 def run_one(task: DriveTask) -> DriveResult:
     """What the drive's variant asks for."""
-    return run_abduction(task) if task.drive.variant == ABDUCT else run_drive(task)
+    return PROGRAMS.get(task.drive.variant, run_drive)(task)
 
 
 def run_all(tasks: List[DriveTask], jobs: int) -> List[DriveResult]:

@@ -8,6 +8,7 @@ from .drives.record import DriveError, record
 from .drives.selection import PLAIN, BenchmarkDrive
 from .drives.truth import DriveTruth, read_truth
 from .judging.abduction import Fate
+from .judging.any_car import CarVerdict
 from .methods.compared import compare
 from .methods.mrpt import MrptError
 from .methods.outcome import MRPT_ICP, THIS_SYSTEM, MethodOutcome
@@ -25,6 +26,7 @@ class DriveResult(NamedTuple):
         segments: pieces of the drive, as in its meta.json.
         fate: of a robot that was carried away while it drove.
         repeats: one sentence for each drive that was made before and proved nothing.
+        car: what became of a Car that the seed drew.
     """
 
     drive: BenchmarkDrive
@@ -33,6 +35,7 @@ class DriveResult(NamedTuple):
     segments: List[Dict[str, Any]]
     fate: Optional[Fate] = None
     repeats: Sequence[str] = ()
+    car: Optional[CarVerdict] = None
 
 
 class DriveTask(NamedTuple):

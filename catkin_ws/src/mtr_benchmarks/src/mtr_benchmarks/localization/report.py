@@ -5,8 +5,8 @@ from typing import Any, Dict, List, Optional, Sequence
 
 from ..harness.report import BenchmarkReport
 from ..harness.rows import Row
-from .drives.selection import ABDUCT, CAMPAIGN, KIDNAP, PLAIN, SCENES
-from .judging import abduction, campaign, kidnapping, position_rows
+from .drives.selection import ABDUCT, ANY_CAR, CAMPAIGN, KIDNAP, PLAIN, SCENES
+from .judging import abduction, any_car, campaign, kidnapping, position_rows
 from .judging.figures import scene_figures
 from .methods.outcome import METHODS, THIS_SYSTEM, MethodOutcome
 from .one_drive import DriveResult
@@ -28,7 +28,11 @@ ABOUT_ABDUCTED = {
     "key": "as published, frame map laid on the truth by the adjusted key frames: the Car locator has no part in it",
     "repeats": "drives that touched something or gave no map, and were made again with another seed",
 }
-
+ABOUT_ANY_CAR = {
+    "right": "centre, length and width as published are off by at most 3 cm or 3 of their own sigmas, the heading by "
+             "0.5 deg or 3 of its own",
+    "asked": "there is no map, or the Car locator publishes nothing and says why",
+}
 
 PER_DRIVE = ("online_rmse_m", "online_p95_m", "online_max_m", "moving_p95_m", "standstill_p95_m", "yaw_p95_deg",
              "nees_ratio", "cpu_ms_per_scan", "unknown_share")
@@ -44,7 +48,7 @@ def report(results: Sequence[DriveResult], real_time: Optional[RealTimeFigures])
     rows = position_rows.rows(found, failed)
     rows += [row for each in campaigns for row in campaign.rows(each)]
     rows += kidnapping.rows(kidnapped, sum(position_rows.failed(failed, scene, KIDNAP) for scene in SCENES))
-    rows += abduction_rows(results)
+    rows += abduction_rows(results) + any_car_rows(results)
     rows += real_time.rows() if real_time else []
     figures = {
         "about": ABOUT,
@@ -54,9 +58,10 @@ def report(results: Sequence[DriveResult], real_time: Optional[RealTimeFigures])
         "campaign": [asdict(each) for each in campaigns],
         "kidnapped": asdict(kidnapped),
         "abducted": abducted_figures(results),
+        "any_car": any_car_figures(results),
         "real_time": real_time.as_json() if real_time else {},
         "failures": failed,
-        "drives": [drive_figures(each) for each in results if each.drive.variant != ABDUCT],
+        "drives": [drive_figures(each) for each in results if each.drive.variant not in (ABDUCT, ANY_CAR)],
     }
     return BenchmarkReport(rows, figures, remarks(results))
 
@@ -65,6 +70,25 @@ def abduction_report(results: Sequence[DriveResult]) -> BenchmarkReport:
     """Everything that goes into abductions.json."""
     figures = {"abducted": abducted_figures(results), "failures": failures(results)}
     return BenchmarkReport(abduction_rows(results), figures, remarks(results))
+
+
+def any_car_report(results: Sequence[DriveResult]) -> BenchmarkReport:
+    """Everything that goes into any_car.json."""
+    figures = {"any_car": any_car_figures(results), "failures": failures(results)}
+    return BenchmarkReport(any_car_rows(results), figures, remarks(results))
+
+
+def any_car_rows(results: Sequence[DriveResult]) -> List[Row]:
+    """Rows of the Cars that seeds drew."""
+    mine = [each for each in results if each.drive.variant == ANY_CAR]
+    return any_car.rows([each.car for each in mine if each.car], sum(bool(each.failures) for each in mine),
+                        sum(len(each.repeats) for each in mine))
+
+
+def any_car_figures(results: Sequence[DriveResult]) -> Dict[str, Any]:
+    """Each Car with what it was and what became of it."""
+    return {"about": ABOUT_ANY_CAR, "cars": [{"name": each.drive.name, **asdict(each.car)} for each in results
+                                             if each.car]}
 
 
 def abduction_rows(results: Sequence[DriveResult]) -> List[Row]:
@@ -95,6 +119,8 @@ def remarks(results: Sequence[DriveResult]) -> List[str]:
             for method, sentence in sentences.items()]
     said += [f"{each.drive.name}: {abduction.sentence(each.fate)}" for each in results
              if each.fate and each.fate.first_wrong]
+    said += [f"{each.drive.name}: {each.car.verdict}: {each.car.sentence}" for each in results
+             if each.car and each.car.verdict != any_car.RIGHT]
     return said + [f"Repeated: {sentence}" for each in results for sentence in each.repeats]
 
 

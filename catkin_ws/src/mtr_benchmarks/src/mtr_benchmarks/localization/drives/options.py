@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, replace
+from typing import Optional
 
 from mtr_core import sensor_figures as figures
 from mtr_core.errors import ConfigurationError
@@ -14,8 +15,12 @@ from mtr_simulation.site.car_shape import CAR_SHAPES, CarShape
 from mtr_simulation.site.scenario import Scenario, named_scenario
 from mtr_simulation.site.surroundings import Walk
 
+from .random_car import neighbour_of, random_car
+
 # The person's way, beside the Car's right: beyond all axes, and no radial of the pattern leads there.
 PERSON_BESIDE_M, PERSON_REACH_M = 3.7, 5.0
+# Shape of the Car that the seed draws.
+RANDOM = "random"
 
 
 @dataclass(frozen=True)
@@ -24,7 +29,7 @@ class DriveOptions(ParameterSet):
 
     Attributes:
         scene: named scenario of the simulator.
-        car: named shape of the simulator.
+        car: named shape of the simulator; random: what the seed draws, mapped and no more.
         lidar_height_m: of the LiDARs' plane above the ground.
         range_noise_m: 1 sigma; the most that the data sheets of LiDARs of this class allow.
         range_bias_m: constant error of all ranges.
@@ -68,8 +73,8 @@ class DriveOptions(ParameterSet):
     def __post_init__(self) -> None:
         super().__post_init__()
         named_scenario(self.scene)
-        if self.car not in CAR_SHAPES:
-            raise ConfigurationError(f"Parameter car is '{self.car}'; allowed is {', '.join(CAR_SHAPES)}.")
+        if self.car not in (RANDOM, *CAR_SHAPES):
+            raise ConfigurationError(f"Parameter car is '{self.car}'; allowed is {RANDOM}, {', '.join(CAR_SHAPES)}.")
         if self.kidnap and self.abduct:
             raise ConfigurationError("Parameters kidnap and abduct are both true; a robot is carried away in one way "
                                      "only.")
@@ -77,11 +82,19 @@ class DriveOptions(ParameterSet):
     @property
     def shape(self) -> CarShape:
         """The Car's body."""
-        return CAR_SHAPES[self.car]
+        return random_car(self.seed).shape if self.car == RANDOM else CAR_SHAPES[self.car]
+
+    @property
+    def neighbour(self) -> Optional[str]:
+        """Side of the Car beside which another one is parked."""
+        return random_car(self.seed).neighbour if self.car == RANDOM else None
 
     def scenario(self) -> Scenario:
         """The site with this Car, and with the person."""
         site = named_scenario(self.scene)
+        if self.neighbour:
+            beside = neighbour_of(self.seed, self.shape, self.neighbour, site.world_from_car)
+            site = replace(site, parked_cars=(*site.parked_cars, beside))
         return replace(site, car=self.shape, friction=self.friction, ground_tilt_rad=math.radians(self.tilt_deg),
                        person=self._walk(site) if self.person else None)
 

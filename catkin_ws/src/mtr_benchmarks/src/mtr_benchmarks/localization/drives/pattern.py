@@ -8,6 +8,7 @@ from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.site.car_shape import CarShape
 
 from .legs import CarryLeg, Leg, LiftLeg, PathLeg, Point, StandLeg, StraightLeg, TurnLeg, WanderLeg
+from .random_car import FRONT, LEFT, REAR, RIGHT
 
 ROBOT = shipped_robot()
 LOOP_DISTANCE_M, LOOP_SPEED_MPS = 1.6, 0.5
@@ -19,6 +20,8 @@ RADIAL_NEAR_M, RADIAL_STEP_M = 1.5, 1.0
 STAND_FIRST_S, STAND_S, STAND_AFTER_LOOP_S = 2.0, 1.5, 4.0
 START, LOOP, SETTLE, TRANSFER, AXIS, RADIAL, KIDNAP, WANDER, ABDUCT = (
     "start", "loop", "settle", "transfer", "axis", "radial", "kidnap", "wander", "abduct")
+# Of the ring the two places at a side: the first of them.
+CLOSED_PLACES = {FRONT: 7, LEFT: 1, REAR: 3, RIGHT: 5}
 # Lifted away from the Car, which is to the left on the way round it; then it stands as the fail-safes let it.
 LIFTED = LiftLeg(-2.0, math.radians(20.0))
 STAND_AFTER_LIFT_S = 20.0
@@ -43,6 +46,7 @@ class DrivePlan(NamedTuple):
         reach_m: how far from the Car the radials go.
         endless: axes and radials are driven again and again.
         kidnap: instead of axes and radials the robot is lifted and put down elsewhere.
+        closed: the side of the Car on which another one is parked; the robot goes to and fro round the other three.
         abducted_after_s: instead of them it wanders for so long, is carried away, and wanders on; None: it does not.
     """
 
@@ -52,15 +56,17 @@ class DrivePlan(NamedTuple):
     endless: bool = False
     kidnap: bool = False
     abducted_after_s: Optional[float] = None
+    closed: Optional[str] = None
 
 
 def pieces(shape: CarShape, start: Pose2, plan: DrivePlan) -> Iterator[DrivePiece]:
     """Leg by leg from the start, a pose in frame car."""
     here = (start.x, start.y)
     yield DrivePiece(StandLeg(STAND_FIRST_S), START)
-    way = _loop_way(shape, here)
-    yield from (DrivePiece(TurnLeg(_bearing(here, way[0])), LOOP), DrivePiece(PathLeg(way, LOOP_SPEED_MPS), LOOP),
-                DrivePiece(StandLeg(STAND_AFTER_LOOP_S), SETTLE))
+    for way in _loop_ways(shape, here, plan.closed):
+        yield from (DrivePiece(TurnLeg(_bearing(here, way[0])), LOOP), DrivePiece(PathLeg(way, LOOP_SPEED_MPS), LOOP))
+        here = way[-1]
+    yield DrivePiece(StandLeg(STAND_AFTER_LOOP_S), SETTLE)
     if plan.kidnap:
         yield from (DrivePiece(LIFTED, KIDNAP), DrivePiece(StandLeg(STAND_AFTER_LIFT_S), KIDNAP))
         return
@@ -68,7 +74,7 @@ def pieces(shape: CarShape, start: Pose2, plan: DrivePlan) -> Iterator[DrivePiec
         yield from (DrivePiece(WanderLeg(plan.abducted_after_s), WANDER), DrivePiece(CarryLeg(), ABDUCT),
                     DrivePiece(WanderLeg(WANDER_AFTER_S), ABDUCT))
         return
-    here, again = way[-1], True
+    again = True
     while again:
         for direction in plan.axes_rad:
             legs, here = _axis(shape, here, direction)
@@ -97,12 +103,19 @@ def outline_distance(shape: CarShape, direction_rad: float) -> float:
     return min(0.5 * shape.length_m / max(cos, 1e-9), 0.5 * shape.width_m / max(sin, 1e-9))
 
 
-def _loop_way(shape: CarShape, here: Point) -> Tuple[Point, ...]:
-    """Once round, from the place next to the robot back to it."""
+def _loop_ways(shape: CarShape, here: Point, closed: Optional[str]) -> List[Tuple[Point, ...]]:
+    """Once round, from the place next to the robot back to it; with a closed side to its one end, to its other end, and
+    back."""
     places = ring(shape, LOOP_DISTANCE_M)
+    if closed is not None:
+        begin = CLOSED_PLACES[closed]
+        places = [places[(begin + 2 + step) % len(places)] for step in range(len(places) - 2)]
     first = min(range(len(places)), key=lambda index: math.hypot(places[index][0] - here[0],
                                                                  places[index][1] - here[1]))
-    return tuple(places[(first + step) % len(places)] for step in range(len(places) + 1))
+    if closed is None:
+        return [tuple(places[(first + step) % len(places)] for step in range(len(places) + 1))]
+    ways = [tuple(places[first:]), tuple(reversed(places[:-1])), tuple(places[1:first + 1])]
+    return [way for way in ways if way]
 
 
 def _axis(shape: CarShape, here: Point, direction: float) -> Tuple[List[DrivePiece], Point]:

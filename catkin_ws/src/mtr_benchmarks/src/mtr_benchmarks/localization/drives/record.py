@@ -22,7 +22,7 @@ from mtr_simulation.sim import TICK_S, Sim
 from mtr_simulation.site.car_shape import size_at
 
 from .legs import CarryLeg, Leg, LegFollower, LiftLeg, WanderLeg, leg_name
-from .options import DriveOptions
+from .options import RANDOM, DriveOptions
 from .pattern import LOOP, START, DrivePiece, DrivePlan, pieces
 from .recording import Recording, pose_values
 from .site_bodies import random_jump, site_bodies
@@ -49,6 +49,8 @@ class DriveError(Exception):
 
 def plan(options: DriveOptions) -> DrivePlan:
     """Axes and radials of a drive: seeds take turns so that all directions are seen."""
+    if options.car == RANDOM:
+        return DrivePlan((), (), 0.0, closed=options.neighbour)
     first = options.seed % 8
     axes = tuple(EIGHTH_RAD * ((first + 3 * step) % 8) for step in range(4))
     # None to the right, where a person may walk.
@@ -86,7 +88,7 @@ def _meta(options: DriveOptions, world_from_start: Pose2, segments: List[Dict[st
     return {"options": asdict(options), "map_from_car": pose_values(world_from_start.inverse() @ site.world_from_car),
             "prior_car_from_start": pose_values(site.start_in_car), "world_from_car": pose_values(site.world_from_car),
             "length_m": shape.length_m, "width_m": shape.width_m,
-            "front_overhang_m": 0.5 * (shape.length_m - shape.wheelbase_m),
+            "wheelbase_m": shape.wheelbase_m, "front_overhang_m": 0.5 * (shape.length_m - shape.wheelbase_m),
             "at_lidar": size_at(shape, options.lidar_height_m)._asdict(),
             "loop_end_s": max((each["end_s"] for each in segments if each["kind"] == LOOP), default=end_s),
             "end_s": end_s, "segments": segments}

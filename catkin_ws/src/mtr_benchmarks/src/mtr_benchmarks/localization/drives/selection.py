@@ -3,15 +3,18 @@
 from dataclasses import replace
 from typing import List, NamedTuple
 
-from .options import DriveOptions
+from .options import RANDOM, DriveOptions
+from .random_car import random_car
 
 SCENES = ("lot", "far", "cones", "open")
 CARS = ("hatchback", "sedan", "van")
-PLAIN, RANGE_BIAS, OPPOSED, TILT, KIDNAP, CAMPAIGN, ABDUCT = (
-    "plain", "range_bias", "opposed_bias", "tilt", "kidnap", "campaign", "abduct")
+PLAIN, RANGE_BIAS, OPPOSED, TILT, KIDNAP, CAMPAIGN, ABDUCT, ANY_CAR = (
+    "plain", "range_bias", "opposed_bias", "tilt", "kidnap", "campaign", "abduct", "any_car")
 SEEDS, VARIANT_SEEDS, OPPOSED_SEEDS, KIDNAP_SEEDS, QUICK_SEEDS = 10, 5, 3, 3, 2
 # Robots that are carried away while they drive, in each scene.
 ABDUCTIONS, QUICK_ABDUCTIONS = 50, 2
+# Cars that are drawn by chance, each mapped once.
+ANY_CARS, QUICK_ANY_CARS = 200, 8
 # A drive that proves nothing is repeated with its seed and a multiple of this, which no other drive has.
 NEXT_SEED = 100_000
 RANGE_BIAS_M, OPPOSED_BIAS_M, TILT_DEG = 0.02, 0.01, 1.0
@@ -59,9 +62,23 @@ def abductions(robots: int, first_seed: int = 1) -> List[BenchmarkDrive]:
             for seed in range(first_seed, first_seed + robots) for scene in SCENES]
 
 
+def any_cars(cars: int, first_seed: int = 1) -> List[BenchmarkDrive]:
+    """So many Cars that their seeds draw; scenes take turns."""
+    return [BenchmarkDrive(any_car(SCENES[seed % len(SCENES)], seed), ANY_CAR)
+            for seed in range(first_seed, first_seed + cars)]
+
+
+def any_car(scene: str, seed: int) -> DriveOptions:
+    """The way round the Car that the seed draws, with a robot that it draws, too."""
+    drawn = random_car(seed)
+    return DriveOptions(scene=scene, seed=seed, car=RANDOM, lidar_height_m=drawn.lidar_height_m, rear=drawn.rear_lidar)
+
+
 def repeated(drive: BenchmarkDrive) -> BenchmarkDrive:
-    """The same with the next seed, in the same Car and at the same height."""
-    return drive._replace(options=replace(drive.options, seed=drive.options.seed + NEXT_SEED))
+    """The same with the next seed, with the same Car and at the same height, unless seeds draw these."""
+    seed = drive.options.seed + NEXT_SEED
+    return drive._replace(options=any_car(drive.options.scene, seed) if drive.variant == ANY_CAR
+                          else replace(drive.options, seed=seed))
 
 
 def options(scene: str, seed: int) -> DriveOptions:

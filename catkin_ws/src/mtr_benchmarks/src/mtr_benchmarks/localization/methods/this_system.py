@@ -5,7 +5,7 @@ import math
 import pathlib
 import subprocess
 from dataclasses import replace
-from typing import Any, Dict, Iterable, NamedTuple
+from typing import Any, Dict, Iterable, NamedTuple, Optional
 
 import numpy as np
 from roslib.packages import find_node
@@ -18,7 +18,6 @@ from mtr_car_locator.scan import Scan
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 from mtr_description.shipped import shipped_geometry
-from mtr_simulation.site.car_shape import CAR_SHAPES
 
 from ..drives.pose_track import PoseTrack, aligned, at, compose, pose_track, read_columns
 from ..drives.recording import BAG
@@ -35,6 +34,10 @@ class SystemFailure(Exception):
     """The system gave nothing to judge; the text is what it said."""
 
 
+class NotLocated(SystemFailure):
+    """The Car locator asks about the Car, or says why there is none."""
+
+
 class NoMap(SystemFailure):
     """The way round the Car gave no map."""
 
@@ -44,7 +47,7 @@ def run_this_system(folder: pathlib.Path, truth: DriveTruth) -> MethodOutcome:
     out = folder / "replay"
     summary = mapped(folder / BAG, out)
     track = read_replayed(out / "trajectory.csv")
-    found = locate(out, truth.meta, scans_in(folder / BAG, shipped_geometry().lidars()))
+    found = locate(out, truth.meta, scans_in(folder / BAG, shipped_geometry().lidars()), usual_sheet(truth.meta))
     return MethodOutcome(errors_of(track, car_pose(found), truth), float(summary["cpu_ms_per_scan"]),
                    car_errors(found, key_frames(out), truth))
 
@@ -77,15 +80,20 @@ def read_replayed(path: pathlib.Path) -> PoseTrack:
     return pose_track(columns["stamp_s"], poses, covariances.reshape(-1, 3, 3), columns["valid"] > 0.5)
 
 
-def locate(out: pathlib.Path, meta: Dict[str, Any], scans: Iterable[Scan] = ()) -> CarFit:
-    """The Car among the surfaces; the Operator said where the robot was put, and what the data sheet says of a Car
-    that the LiDARs' plane meets below its widest line."""
+def usual_sheet(meta: Dict[str, Any]) -> Optional[DataSheet]:
+    """What a laboratory gives of a Car that the LiDARs' plane meets below its widest line."""
+    return data_sheet(meta) if is_below_widest_line(meta) else None
+
+
+def locate(out: pathlib.Path, meta: Dict[str, Any], scans: Iterable[Scan] = (),
+           sheet: Optional[DataSheet] = None) -> CarFit:
+    """The Car among the surfaces, or NotLocated; the Operator said where the robot was put, and perhaps what the data
+    sheet says."""
     prior = Pose2(*meta["prior_car_from_start"].values()).inverse()
-    sheet = data_sheet(meta) if is_below_widest_line(meta) else DataSheet()
     try:
-        return fit_files(out, prior, replace(PARAMETERS, sheet=sheet), scans)
+        return fit_files(out, prior, replace(PARAMETERS, sheet=sheet or DataSheet()), scans)
     except RobotError as error:
-        raise SystemFailure(f"The Car was not located: {error}") from None
+        raise NotLocated(f"The Car was not located: {error}") from None
 
 
 def is_below_widest_line(meta: Dict[str, Any]) -> bool:
@@ -99,7 +107,7 @@ def data_sheet(meta: Dict[str, Any]) -> DataSheet:
     """What a lab knows of its Car."""
     return DataSheet(known_length_m=meta["length_m"], known_width_m=meta["width_m"],
                       front_overhang_m=meta["front_overhang_m"],
-                      wheelbase_m=CAR_SHAPES[meta["options"]["car"]].wheelbase_m)
+                      wheelbase_m=meta["wheelbase_m"])
 
 
 def car_pose(found: CarFit) -> MeasuredCar:

@@ -1,0 +1,69 @@
+"""What the system says of a Car that it has never seen: right, asked about, or wrong."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import dataclass
+from typing import Any, Dict, List, Optional, Sequence, Tuple
+
+import numpy as np
+
+from ...harness.rows import Requirement, Row
+from ..methods.errors import percentile
+from ..methods.outcome import CarErrors
+
+RIGHT, ASKED, WRONG = "right", "asked", "wrong"
+# What is published may be off by so much whatever it says of itself, and else by so many of its sigmas.
+RIGHT_M, RIGHT_DEG, RIGHT_SIGMAS = 0.03, 0.5, 3.0
+FOUND_CARS = Requirement("any Car: found right", "(share)", goal=0.995, must=0.975, at_least=True)
+WRONG_CARS = Requirement("any Car: wrong without a word", "(count)", must=0.0)
+SEEN = Requirement("any Car: centre and size in the LiDAR's plane where body is seen, 95 %", "m", must=0.01)
+
+
+@dataclass(frozen=True)
+class CarVerdict:
+    """Of one Car; names are those of the file.
+
+    Attributes:
+        verdict: right, asked (a sentence asks the Operator, nothing is published) or wrong.
+        sentence: what was asked, or what is wrong.
+        drawn: numbers of the Car, and what stands beside it.
+        errors: None where nothing was published.
+    """
+
+    verdict: str
+    sentence: str
+    drawn: Dict[str, Any]
+    errors: Optional[CarErrors] = None
+
+
+def verdict(errors: CarErrors, drawn: Dict[str, Any]) -> CarVerdict:
+    """Of what was published: the Car's pose in the map, and its size."""
+    beyond = [f"{name} by {100.0 * abs(error):.1f} cm with a sigma of {100.0 * sigma:.1f}"
+              for name, error, sigma in published(errors) if abs(error) > max(RIGHT_M, RIGHT_SIGMAS * sigma)]
+    yaw_sigma_deg = math.degrees(errors.sigmas[2])
+    if errors.yaw_error_deg > max(RIGHT_DEG, RIGHT_SIGMAS * yaw_sigma_deg):
+        beyond.append(f"heading by {errors.yaw_error_deg:.2f} deg with a sigma of {yaw_sigma_deg:.2f}")
+    return CarVerdict(WRONG if beyond else RIGHT, ", ".join(beyond), drawn, errors)
+
+
+def published(errors: CarErrors) -> List[Tuple[str, float, float]]:
+    """Name, error and sigma in m of what the Car's estimate says of place and size."""
+    return [("centre along", errors.along_error_m, errors.sigmas[0]),
+            ("centre across", errors.across_error_m, errors.sigmas[1]),
+            ("length", errors.length_error_body_m, errors.length_sigma_m),
+            ("width", errors.width_error_body_m, errors.width_sigma_m)]
+
+
+def rows(verdicts: Sequence[CarVerdict], failed_drives: int = 0, repeated: int = 0) -> List[Row]:
+    """A drive that failed, or no Car at all, meets nothing."""
+    counts = {each: sum(one.verdict == each for one in verdicts) for each in (RIGHT, ASKED, WRONG)}
+    details: Dict[str, Optional[float]] = {"failed_drives": failed_drives, "repeated_drives": repeated}
+    is_complete = bool(verdicts) and not failed_drives
+    told = f"{counts[RIGHT]} of {len(verdicts)} right, {counts[ASKED]} asked about" + (
+        f", {failed_drives} drives failed" if failed_drives else "") + (
+        f", {repeated} drives repeated" if repeated else "")
+    body = [one.errors for one in verdicts if one.errors and not one.errors.only_wheels]
+    seen_m = np.abs([value for each in body for value in (each.along_error_m, each.across_error_m, each.length_error_m,
+                                                           each.width_error_m)])
+    return [Row(FOUND_CARS, counts[RIGHT] / len(verdicts) if verdicts else None, is_complete, details, told),
+            Row(WRONG_CARS, counts[WRONG] if verdicts else None, is_complete, details),
+            Row(SEEN, percentile(seen_m), is_complete, details, f"{len(body)} Cars")]

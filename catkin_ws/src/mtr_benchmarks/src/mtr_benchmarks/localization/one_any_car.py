@@ -1,0 +1,61 @@
+"""One Car that a seed draws: recording of the way round it, map, and what the Car locator makes of it."""
+# SPDX-License-Identifier: Apache-2.0
+import shutil
+from dataclasses import asdict
+from typing import Any, Dict, List, Tuple
+
+from mtr_car_locator.conversions import scans_in
+from mtr_description.shipped import shipped_geometry
+
+from .drives.random_car import random_car
+from .drives.record import DriveError, record
+from .drives.recording import BAG
+from .drives.selection import BenchmarkDrive, repeated
+from .drives.truth import read_truth
+from .judging.any_car import ASKED, WRONG, CarVerdict, verdict
+from .methods.outcome import THIS_SYSTEM
+from .methods.this_system import NoMap, NotLocated, SystemFailure, car_errors, data_sheet, key_frames, locate, mapped
+from .one_drive import RECORDING, DriveResult, DriveTask
+
+MAX_DRIVES = 5
+
+
+def run_any_car(task: DriveTask) -> DriveResult:
+    """A drive that touches something proves nothing and is repeated with the next seed, and told; what the system
+    refuses counts. Of the recordings only those of Cars that were found wrong are kept."""
+    drive = task.drive
+    repeats: List[str] = []
+    for _ in range(MAX_DRIVES):
+        try:
+            found, segments = _drive(drive, task)
+            return DriveResult(drive, {}, {}, segments, None, repeats, found)
+        except DriveError as error:
+            repeats.append(f"{drive.name}: {error}")
+            drive = repeated(drive)
+        except SystemFailure as error:
+            return DriveResult(drive, {}, {THIS_SYSTEM: str(error)}, [], None, repeats)
+    return DriveResult(task.drive, {}, {RECORDING: f"{MAX_DRIVES} drives gave nothing. {repeats[-1]}"}, [], None,
+                       repeats)
+
+
+def _drive(drive: BenchmarkDrive, task: DriveTask) -> Tuple[CarVerdict, List[Dict[str, Any]]]:
+    folder = task.folder / drive.name
+    drawn = random_car(drive.options.seed)
+    about = {**asdict(drawn.shape), "lidar_height_m": drawn.lidar_height_m, "rear_lidar": drawn.rear_lidar,
+             "knows_sheet": drawn.knows_sheet, "neighbour": drawn.neighbour}
+    is_kept = False
+    try:
+        segments = record(drive.options, folder)["segments"]
+        truth, out = read_truth(folder), folder / "replay"
+        try:
+            mapped(folder / BAG, out)
+            car = locate(out, truth.meta, scans_in(folder / BAG, shipped_geometry().lidars()),
+                         data_sheet(truth.meta) if drawn.knows_sheet else None)
+        except (NoMap, NotLocated) as error:
+            return CarVerdict(ASKED, str(error), about), segments
+        found = verdict(car_errors(car, key_frames(out), truth), about)
+        is_kept = task.keep and found.verdict == WRONG
+        return found, segments
+    finally:
+        if not is_kept:
+            shutil.rmtree(folder, ignore_errors=True)
