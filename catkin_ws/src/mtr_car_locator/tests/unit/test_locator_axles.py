@@ -29,8 +29,23 @@ def tyres(treads, seen=0.7, shift=0.15):
     return rows
 
 
+def mirrors(x=0.65, out=0.06):
+    """Rows of what stands out on both sides between the wheels, with the short edge along the sill below it."""
+    rows = [(x, side * (0.5 * WIDTH_M + out), side * 0.5 * math.pi, 0.16, SIGMA_M, 60) for side in (1.0, -1.0)]
+    return rows + [(x + end * 0.08, side * 0.5 * WIDTH_M, 0.0 if end > 0.0 else math.pi, 0.14, SIGMA_M, 60)
+                   for end in (1.0, -1.0) for side in (1.0, -1.0)]
+
+
+def in_line(rows, shift_m):
+    """The same, of a car that is parked before the Car or behind it, with a body that is seen."""
+    other = [(x + shift_m, *rest) for x, *rest in rows]
+    return other + [(shift_m, side * (0.5 * WIDTH_M + 0.02), side * 0.5 * math.pi, 4.4, SIGMA_M, 90)
+                    for side in (1.0, -1.0)]
+
+
 def wheels_of(rows, **sheet):
-    return wheels_between(wheel_sides(surfels(rows)), 0.0, WIDTH_M, DataSheet(**sheet))
+    wheels, = wheels_between(wheel_sides(surfels(rows)), 0.0, WIDTH_M, DataSheet(**sheet))
+    return wheels
 
 
 def test_treads_give_both_axles_though_the_outer_faces_were_seen_in_part():
@@ -73,6 +88,42 @@ def test_car_of_which_only_parts_of_the_tyres_were_seen_is_located():
     assert fit.by_wheels and fit.quality < 0.3
     assert fit.rectangle.pose.x == pytest.approx(CENTRE_M, abs=0.005)
     assert fit.rectangle.pose.y == pytest.approx(0.0, abs=0.005)
+
+
+@pytest.mark.parametrize("x", [0.3, 0.65, 0.9, -0.8])
+def test_mirror_beside_a_wheel_hides_neither(x):
+    plain, beside = (wheels_of(tyres(TREADS) + more, **SHEET) for more in ([], mirrors(x)))
+    assert beside.centre_m == pytest.approx(plain.centre_m, abs=0.01)
+
+
+@pytest.mark.parametrize("shift_m", [5.2, -5.2])
+def test_car_that_is_parked_in_line_hides_no_wheels(shift_m):
+    wheels = wheels_of(tyres(TREADS) + in_line(tyres(TREADS), shift_m), **SHEET)
+    assert wheels.centre_m == pytest.approx(CENTRE_M, abs=0.005)
+
+
+@pytest.mark.parametrize("shift_m", [5.2, -5.2])
+def test_wheels_of_a_car_in_line_are_told_from_the_cars_by_the_starting_place(shift_m):
+    rows = tyres(TREADS) + [(x + shift_m, *rest) for x, *rest in tyres(TREADS)]
+    fit = fit_car(surfels(rows), prior(0.2, 0.1, 0.05), LocatorParameters(sheet=DataSheet(**SHEET)))
+    assert fit.by_wheels and fit.rectangle.pose.x == pytest.approx(CENTRE_M, abs=0.005)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_directions_of_a_few_surfaces_do_not_turn_the_car(seed):
+    turns = np.random.default_rng(seed).normal(0.06, 0.04, len(tyres(TREADS)))
+    rows = [(x, y, normal + turn, *rest) for (x, y, normal, *rest), turn in zip(tyres(TREADS), turns)]
+    fit = fit_car(surfels(rows), prior(0.2, 0.1, 0.05), LocatorParameters(sheet=DataSheet(**SHEET)))
+    assert fit.by_wheels and abs(math.degrees(fit.rectangle.pose.heading)) < 0.3
+
+
+@pytest.mark.parametrize("wheelbase_m", [1.87, 2.52, 3.68])
+def test_length_by_wheels_holds_the_smallest_and_the_longest_cars(wheelbase_m):
+    """Smart fortwo (2.70 m), Honda N-Box (3.40 m), Ford F-150 (5.89 m)."""
+    shift = 0.5 * (wheelbase_m - (FRONT_M - REAR_M))
+    rows = [(x + shift * math.copysign(1.0, x), *rest) for x, *rest in tyres(TREADS)]
+    wheels, length_m = wheels_of(rows), {1.87: 2.695, 2.52: 3.395, 3.68: 5.885}[wheelbase_m]
+    assert abs(wheels.length_m - length_m) < 3.0 * wheels.length_sigma_m
 
 
 def test_shoulder_of_a_tyre_is_no_tread():

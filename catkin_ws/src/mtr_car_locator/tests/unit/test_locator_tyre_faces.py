@@ -1,11 +1,13 @@
 """Axles from the outer faces of the tyres: exact although noise and uneven ground smear them."""
 # SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from mtr_car_locator.measure.close_up import CloseUp
 from mtr_car_locator.measure.tyre_faces import faces_in
-from mtr_car_locator.measure.wheels import wheels_from
+from mtr_car_locator.measure.wheels import Face, wheels_from
 from mtr_car_locator.parameters import DataSheet
 
 FRONT_M, REAR_M, LEVEL_M = 1.43, -1.42, 0.9
@@ -25,6 +27,15 @@ def seen(*parts, side=1.0):
     return CloseUp(points, np.tile((0.0, -side), (len(points), 1)))
 
 
+def middles(faces):
+    return [each.middle_m for each in faces]
+
+
+def tyres_at(*sides):
+    """Faces of tyres of one size with these middles, left and right."""
+    return [[Face(middle - 0.3, middle + 0.3) for middle in each] for each in sides]
+
+
 @pytest.fixture
 def rng():
     return np.random.default_rng(1)
@@ -34,13 +45,13 @@ def rng():
 @pytest.mark.parametrize("heights_m", [0.0, 0.03])
 def test_middles_are_exact_to_two_millimetres(rng, name, side, heights_m):
     tyres = [face(rng, middle, heights_m=heights_m) for middle in (REAR_M, FRONT_M)]
-    assert faces_in(seen(*tyres, side=side), name, LEVEL_M) == pytest.approx([REAR_M, FRONT_M], abs=0.002)
+    assert middles(faces_in(seen(*tyres, side=side), name, LEVEL_M)) == pytest.approx([REAR_M, FRONT_M], abs=0.002)
 
 
 def test_bumper_and_sill_that_are_met_now_and_then_are_no_faces(rng):
     bumper, sill = face(rng, 2.1, 1000, 0.25), face(rng, 0.0, 2000, 1.1)
     found = faces_in(seen(face(rng, REAR_M), face(rng, FRONT_M), bumper, sill), "left", LEVEL_M)
-    assert found == pytest.approx([REAR_M, FRONT_M], abs=0.003)
+    assert middles(found) == pytest.approx([REAR_M, FRONT_M], abs=0.003)
 
 
 def test_whole_side_and_next_to_nothing_are_no_faces(rng):
@@ -50,13 +61,13 @@ def test_whole_side_and_next_to_nothing_are_no_faces(rng):
 
 
 def test_data_sheet_turns_axles_into_the_centre():
-    wheels = wheels_from([[REAR_M, FRONT_M], [REAR_M, FRONT_M]], SHEET)
+    wheels = wheels_from(tyres_at([REAR_M, FRONT_M], [REAR_M, FRONT_M]), SHEET)
     assert wheels.centre_m == pytest.approx(FRONT_M + 1.0 - 0.5 * 4.85, abs=0.003)
     assert 0.005 < wheels.centre_sigma_m < 0.008
 
 
 def test_end_of_a_bumper_as_long_as_a_tyre_is_told_by_the_other_side_and_the_wheelbase():
-    wheels = wheels_from([[REAR_M, FRONT_M, 2.1], [-2.2, REAR_M, FRONT_M]], SHEET)
+    wheels = wheels_from(tyres_at([REAR_M, FRONT_M, 2.1], [-2.2, REAR_M, FRONT_M]), SHEET)
     assert wheels.front_axle_m == pytest.approx(FRONT_M, abs=0.003)
 
 
@@ -64,8 +75,23 @@ def test_end_of_a_bumper_as_long_as_a_tyre_is_told_by_the_other_side_and_the_whe
     [[REAR_M, FRONT_M], [FRONT_M]], [[REAR_M, FRONT_M], [REAR_M + 0.2, FRONT_M + 0.2]],
     [[REAR_M, FRONT_M - 0.1], [REAR_M, FRONT_M - 0.1]]])
 def test_faces_that_do_not_stand_as_the_cars_wheels_are_none(faces):
-    assert wheels_from(faces, SHEET) is None
+    assert wheels_from(tyres_at(*faces), SHEET) is None
 
 
 def test_two_ways_to_see_a_car_in_the_faces_are_not_guessed_between():
-    assert wheels_from([[-2.4, -1.4, 1.0, 1.4]] * 2, DataSheet()) is None
+    assert wheels_from(tyres_at(*[[-2.4, -1.4, 1.0, 1.4]] * 2), DataSheet()) is None
+
+
+@pytest.mark.parametrize("wheelbase_m", [0.0, 2.85])
+@pytest.mark.parametrize("front", [Face(FRONT_M - 0.38, FRONT_M + 0.3), Face(FRONT_M - 0.22, FRONT_M + 0.3)])
+def test_mirror_that_lengthens_the_front_faces_or_hides_their_ends_makes_the_centre_unsure(front, wheelbase_m):
+    sheet = replace(SHEET, wheelbase_m=wheelbase_m)
+    beside = [[Face(REAR_M - 0.3, REAR_M + 0.3), front]] * 2
+    plain, off = (wheels_from(each, sheet) for each in (tyres_at(*[[REAR_M, FRONT_M]] * 2), beside))
+    assert 0.015 < abs(off.centre_m - plain.centre_m) < 3.0 * off.centre_sigma_m
+    assert plain.centre_sigma_m < 0.01
+
+
+def test_car_that_is_parked_in_line_has_other_wheels():
+    faces = tyres_at(*[[REAR_M, FRONT_M, FRONT_M + 2.4, FRONT_M + 5.2]] * 2)
+    assert wheels_from(faces, DataSheet()).front_axle_m == pytest.approx(FRONT_M, abs=0.003)

@@ -70,6 +70,6 @@ class Alignment:
 
     def _rough_wheels(self, in_car: Surfels, car: Rectangle) -> CarWheels:
         found = wheels_between(wheel_sides(in_car), 0.0, car.width, self._sheet)
-        if found is None:
+        if not found:
             raise NotLocated(problems.WHEELS_APART())
-        return found
+        return min(found, key=lambda each: abs(each.centre_m))

@@ -22,6 +22,8 @@ from .scoring import Score, score_of
 MARGIN_M = 0.8
 HEADING_BIN_RAD, HEADING_SIGMA_BINS = math.radians(0.5), 3.0
 MAX_HEADINGS, MIN_SHARE_OF_BEST_HEADING = 3, 0.4
+# Directions of a few surfaces of wheels are off by so many bins together, either way.
+FAN_STEPS = 10
 LEVEL_BIN_M, LEVEL_SIGMA_BINS = 0.02, 1.5
 # So much surface makes a level: half a sill, or the middle of a bumper.
 MIN_SURFACE_M = {"front": 0.25, "rear": 0.25, "left": 0.4, "right": 0.4}
@@ -72,20 +74,53 @@ def headings(surfels: Surfels, prior: Prior, tolerance_rad: float) -> List[float
     density = smoothed(counts, HEADING_SIGMA_BINS)
     density[np.abs(0.5 * (edges[:-1] + edges[1:])) > tolerance_rad] = 0.0
     best = peaks(density, MIN_SHARE_OF_BEST_HEADING * density.max())[:MAX_HEADINGS]
-    return [float(0.5 * (edges[index] + edges[index + 1])) for index in best]
+    found = [float(0.5 * (edges[index] + edges[index + 1])) for index in best]
+    for peak in list(found):
+        sharper = peak + sharpest(surfels.in_frame(prior.car.pose @ Pose2(0.0, 0.0, peak)))
+        if abs(sharper) <= tolerance_rad and all(abs(sharper - other) >= HEADING_BIN_RAD for other in found):
+            found.append(sharper)
+    return found
+
+
+def sharpest(seen: Surfels) -> float:
+    """Turn of the frame, in rad, in which the long sides' surface lies at the sharpest levels.
+
+    The places of a wheel's few surfaces are known better than their directions, and two wheels of a side lie far apart.
+    """
+    best_turn, best = 0.0, -1.0
+    for step in range(-FAN_STEPS, FAN_STEPS + 1):
+        # From the middle outwards, so that of two alike the smaller turn is kept.
+        turn = HEADING_BIN_RAD * ((step + FAN_STEPS + 1) // 2) * (-1.0) ** (step + FAN_STEPS)
+        turned = seen.in_frame(Pose2(0.0, 0.0, turn))
+        sharpness = sum(_sharpness(side_of(name, turned, -math.inf)) for name in LONG_SIDES)
+        if sharpness > best:
+            best_turn, best = turn, sharpness
+    return best_turn
+
+
+def _sharpness(side: Side) -> float:
+    """Sum of the squares of the surface at each level."""
+    density = smoothed(_surface_by_level(side)[0], LEVEL_SIGMA_BINS)
+    return float(density @ density)
 
 
 def levels(side: Side) -> List[float]:
     """Distances outwards at which the side has much surface, the most first."""
-    if len(side.outward) == 0:
-        return []
-    low = side.outward.min() - 5 * LEVEL_BIN_M
-    count = math.ceil((side.outward.max() - low) / LEVEL_BIN_M) + 5
-    counts, _ = np.histogram(side.outward, bins=count, range=(low, low + count * LEVEL_BIN_M))
-    density = smoothed(counts * SAMPLE_M, LEVEL_SIGMA_BINS)
+    surface_m, low = _surface_by_level(side)
+    density = smoothed(surface_m, LEVEL_SIGMA_BINS)
     # A single level of surface s makes a peak of this height.
     height = MIN_SURFACE_M[side.name] / (LEVEL_SIGMA_BINS * math.sqrt(2.0 * math.pi))
     return [low + (index + 0.5) * LEVEL_BIN_M for index in peaks(density, height)[:MAX_LEVELS]]
+
+
+def _surface_by_level(side: Side) -> Tuple[FloatArray, float]:
+    """Surface in m in each bin of LEVEL_BIN_M outwards, and where the first begins."""
+    if len(side.outward) == 0:
+        return np.zeros(1), 0.0
+    low = side.outward.min() - 5 * LEVEL_BIN_M
+    count = math.ceil((side.outward.max() - low) / LEVEL_BIN_M) + 5
+    counts, _ = np.histogram(side.outward, bins=count, range=(low, low + count * LEVEL_BIN_M))
+    return counts * SAMPLE_M, float(low)
 
 
 def smoothed(values: FloatArray, sigma_bins: float) -> FloatArray:
@@ -112,8 +147,7 @@ def _rectangles(seen: Surfels, sheet: DataSheet) -> Iterator[Tuple[Rectangle, Op
         ahead, behind = levels(front.within(*middle)), levels(rear.within(*middle))
         for x, length in _spans(ahead, behind, sheet.length_m, sheet.size_tolerance_m):
             yield Rectangle(Pose2(x, y, 0.0), length, width), None
-        wheels = wheels_between(treads, y, width, sheet)
-        if wheels:
+        for wheels in wheels_between(treads, y, width, sheet):
             yield Rectangle(Pose2(wheels.centre_m, y, 0.0), wheels.length_m, width), wheels
 
 

@@ -76,9 +76,11 @@ def _chosen(found: List[CarCandidate]) -> CarCandidate:
 
 def _check(fit: CarFit, prior: Prior, parameters: LocatorParameters) -> None:
     sheet, car, size = parameters.sheet, fit.rectangle, fit.in_plane
-    for name, found_m, expected in (("length", size.length or car.length, sheet.length_m),
-                                    ("width", size.width or car.width, sheet.width_m)):
-        if abs(found_m - expected) > sheet.size_tolerance_m:
+    # A length that wheels tell is a guess within its sigma.
+    guess_m = 2.0 * fit.length_sigma if fit.by_wheels else 0.0
+    for name, found_m, expected, unsure_m in (("length", size.length or car.length, sheet.length_m, guess_m),
+                                              ("width", size.width or car.width, sheet.width_m, 0.0)):
+        if abs(found_m - expected) > sheet.size_tolerance_m + unsure_m:
             raise NotLocated(problems.OTHER_SIZE(dimension=name, found_m=found_m, expected_m=expected,
                                                  allowed_m=sheet.size_tolerance_m))
     off_m, off_rad = prior.error_of(car.pose)

@@ -16,6 +16,9 @@ HALF_CHORD_M, HALF_CHORD_SIGMA_M = 0.31, 0.025
 FACE_SIGMA_M = 0.04
 # When all returns tell it, it was 1 mm rms off on level ground, 5 mm on slopes of 1 deg (recorded drives).
 EXACT_FACE_SIGMA_M = 0.004
+# Faces of one Car differ so much in length at most: tyres are met at different heights where the ground is uneven. What
+# is longer has something beside it, on one side of its middle.
+FACE_SIZE_NOISE_M = 0.04
 # So far from where the face puts it a tread is looked for, and so much of its width has to be seen.
 TREAD_GATE_M, MIN_TREAD_M = 0.12, 0.06
 # Treads of recorded drives lie up to 5 mm inside, by their rounded shoulders and the smeared edge towards the face.
@@ -63,15 +66,16 @@ def axles_at(front_m: float, rear_m: float, ahead: Sequence[Side], behind: Seque
     return _solved(rows)
 
 
-def axles_between(fronts_m: Sequence[float], rears_m: Sequence[float], known_wheelbase_m: float = 0.0) -> Axles:
-    """Axles from the middles of the outer faces alone, left and right, when all returns tell these to millimetres.
+def axles_between(fronts: Sequence[Tuple[float, float]], rears: Sequence[Tuple[float, float]],
+                  known_wheelbase_m: float = 0.0) -> Axles:
+    """Axles from the middles of the outer faces alone, left and right, with 1 sigma each, when all returns tell these.
 
     Where the ground is uneven the front of a tyre is met at another height than its rear, and so at another chord; both
     ends of its face are met at the same.
     """
     rows: List[Tuple[Tuple[float, float, float], float, float]] = [((0.0, 0.0, 1.0), HALF_CHORD_M, HALF_CHORD_SIGMA_M)]
-    rows += [((1.0, 0.0, 0.0), front, EXACT_FACE_SIGMA_M) for front in fronts_m]
-    rows += [((0.0, 1.0, 0.0), rear, EXACT_FACE_SIGMA_M) for rear in rears_m]
+    rows += [((1.0, 0.0, 0.0), *front) for front in fronts]
+    rows += [((0.0, 1.0, 0.0), *rear) for rear in rears]
     if known_wheelbase_m:
         rows.append(((1.0, -1.0, 0.0), known_wheelbase_m, WHEELBASE_SIGMA_M))
     return _solved(rows)

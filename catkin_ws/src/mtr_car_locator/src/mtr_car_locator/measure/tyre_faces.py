@@ -9,7 +9,7 @@ from mtr_core.arrays import FloatArray, IntArray
 from .close_up import CloseUp
 from .incidence import MIN_TYRE_INCIDENCE_COSINE
 from .side import OUTWARDS
-from .wheels import MAX_FACE_M, MIN_FACE_M
+from .wheels import MAX_FACE_M, MIN_FACE_M, Face
 
 BIN_M = 0.01
 # Returns so near the level are the face's: noise, the robot's sway, and how far the level itself may be off.
@@ -21,8 +21,8 @@ MIN_RETURNS = 100
 GAP_BINS, SMEARED_BINS = 5, 3
 
 
-def faces_in(close_up: CloseUp, name: str, level_m: float) -> List[float]:
-    """Middles along the side `name` of the faces at its level, in m, from the rear; close_up is in the Car's frame.
+def faces_in(close_up: CloseUp, name: str, level_m: float) -> List[Face]:
+    """The faces along the side `name` at its level, from the rear; close_up is in the Car's frame.
 
     A face ends where half as many returns are as in its midst: noise and the heights at which it was met smear both its
     ends alike, so the middle is exact to millimetres although the length is not.
@@ -37,8 +37,8 @@ def faces_in(close_up: CloseUp, name: str, level_m: float) -> List[float]:
     density = np.convolve(np.append(count, np.zeros(GAP_BINS)), np.full(3, 1.0 / 3.0), "same")
     minimum = MIN_SHARE_OF_DENSEST * np.percentile(density[density > 0.0], DENSEST_PERCENT)
     ends = [_ends(density, *piece) for piece in _pieces(np.nonzero(density > minimum)[0])]
-    return [(first + 0.5 + 0.5 * (low + high)) * BIN_M for low, high in ends
-            if MIN_FACE_M <= (high - low) * BIN_M <= MAX_FACE_M]
+    faces = [Face((first + 0.5 + low) * BIN_M, (first + 0.5 + high) * BIN_M) for low, high in ends]
+    return [face for face in faces if MIN_FACE_M <= face.size_m <= MAX_FACE_M]
 
 
 def _pieces(bins: IntArray) -> List[Tuple[int, int]]:

@@ -53,6 +53,12 @@ def published(errors: CarErrors) -> List[Tuple[str, float, float]]:
             ("width", errors.width_error_body_m, errors.width_sigma_m)]
 
 
+def errors_where_seen(errors: CarErrors) -> List[float]:
+    """Of centre and size in the LiDARs' plane, along the Car where both ends were seen, across it where both sides."""
+    along = [errors.along_error_m, errors.length_error_m] if errors.length_plane_sigma_m else []
+    return along + ([errors.across_error_m, errors.width_error_m] if errors.width_plane_sigma_m else [])
+
+
 def rows(verdicts: Sequence[CarVerdict], failed_drives: int = 0, repeated: int = 0) -> List[Row]:
     """A drive that failed, or no Car at all, meets nothing."""
     counts = {each: sum(one.verdict == each for one in verdicts) for each in (RIGHT, ASKED, WRONG)}
@@ -62,8 +68,7 @@ def rows(verdicts: Sequence[CarVerdict], failed_drives: int = 0, repeated: int =
         f", {failed_drives} drives failed" if failed_drives else "") + (
         f", {repeated} drives repeated" if repeated else "")
     body = [one.errors for one in verdicts if one.errors and not one.errors.only_wheels]
-    seen_m = np.abs([value for each in body for value in (each.along_error_m, each.across_error_m, each.length_error_m,
-                                                           each.width_error_m)])
+    seen_m = np.abs([value for each in body for value in errors_where_seen(each)])
     return [Row(FOUND_CARS, counts[RIGHT] / len(verdicts) if verdicts else None, is_complete, details, told),
             Row(WRONG_CARS, counts[WRONG] if verdicts else None, is_complete, details),
             Row(SEEN, percentile(seen_m), is_complete, details, f"{len(body)} Cars")]
