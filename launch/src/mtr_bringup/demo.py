@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import argparse
 import csv
+import json
 import os
 import pathlib
 import shutil
@@ -208,11 +209,16 @@ def run_scenario(stack: Stack, name: str, folder: pathlib.Path, options: DemoOpt
     """Run one scenario with the Operator's application, as a person would from the command line; its exit status."""
     parameters = options.parameters or parameters_of(name, options.car)
     print(f"=== {name}", flush=True)
+    # A comparison of two demos knows by it that both are of the same Car.
+    identity = options.stack_folder / "identity.yaml"
+    identity.parent.mkdir(parents=True, exist_ok=True)
+    identity.write_text(json.dumps({"car_model": f"simulated {pathlib.Path(options.car).stem}"}), encoding="utf-8")
     return subprocess.run([
         sys.executable, "-m", "mtr_operator", "run", name, "--params", str(parameters),
         "--out", str(folder), "--robot", "127.0.0.1", "--subscriber-port", str(stack.status_port),
         "--publisher-port", str(stack.command_port), "--can-interface", "slcan", "--can-channel", str(stack.can_link),
         "--can-bitrate", "500000", "--car-profile", chosen_car(options.car).profile, "--bundle",
+        "--identity", str(identity),
         # The output that takes the handle is switched over the Car's bus.
         *(["--can-normal"] if name == "handle_request" else []),
     ], check=False).returncode

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import subprocess
+import types
 
 import pytest
 import yaml
@@ -19,6 +20,7 @@ from mtr_bringup.demo import (
     problems_of,
     read_rows,
     run_demo,
+    run_scenario,
 )
 from mtr_core.errors import ConfigurationError
 
@@ -138,3 +140,18 @@ def test_a_store_that_takes_nothing_is_a_problem_of_the_demo(tmp_path, monkeypat
 def test_with_other_parameters_nobody_knows_how_many_lines_there_are(tmp_path):
     assert DemoOptions(tmp_path).least_lines("autolock") == 16
     assert DemoOptions(tmp_path, parameters=tmp_path / "mine.yaml").least_lines("autolock") == 1
+
+
+def test_record_of_a_test_names_the_simulated_car(tmp_path, monkeypatch):
+    commands = []
+
+    def run(command, check):
+        commands.append(command)
+        return subprocess.CompletedProcess(command, 0)
+
+    monkeypatch.setattr(subprocess, "run", run)
+    stack = types.SimpleNamespace(status_port=1, command_port=2, can_link="can")
+    assert run_scenario(stack, "autolock", tmp_path / "autolock", DemoOptions(tmp_path, car="honest")) == 0
+    (command,) = commands
+    identity = yaml.safe_load(pathlib.Path(command[command.index("--identity") + 1]).read_text(encoding="utf-8"))
+    assert identity == {"car_model": "simulated honest"}

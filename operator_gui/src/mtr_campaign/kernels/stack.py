@@ -21,7 +21,7 @@ from ..errors import CampaignError
 from .order import Order
 from .outcome import Outcome, outcome_of
 
-CAR_FILE, DEMO_FOLDER, LOG_FILE, PARAMETER_FILE = "car.yaml", "demo", "log.txt", "parameters.yaml"
+CAR_FOLDER, DEMO_FOLDER, LOG_FILE, PARAMETER_FILE = "car", "demo", "log.txt", "parameters.yaml"
 # The slowest scenario of the demo takes some minutes of wall time.
 _LIMIT_S = 3600.0
 
@@ -40,9 +40,12 @@ class StackKernel:
     def run(self, order: Order, folder: pathlib.Path, digest: str) -> Outcome:
         """See Kernel."""
         name = order.scenario.name
-        (folder / CAR_FILE).write_text(yaml.safe_dump(order.car_file), encoding="utf-8")
+        # The record of the test names the Car by its file.
+        car = folder / CAR_FOLDER / f"{order.car.name}.yaml"
+        car.parent.mkdir()
+        car.write_text(yaml.safe_dump(order.car_file), encoding="utf-8")
         (folder / PARAMETER_FILE).write_text(yaml.safe_dump(order.parameters.to_mapping()), encoding="utf-8")
-        status = self._demo(["--seed", str(order.seed), "--car", str(folder / CAR_FILE), "--scenarios", name,
+        status = self._demo(["--seed", str(order.seed), "--car", str(car), "--scenarios", name,
                              "--params", str(folder / PARAMETER_FILE), "--out", str(folder / DEMO_FOLDER)],
                             folder / LOG_FILE)
         path = folder / DEMO_FOLDER / name / FILE_NAME

@@ -179,7 +179,7 @@ def test_whole_stack_is_a_demo_in_a_folder_of_its_own(folder, monkeypatch, write
     (done,) = course.runs.values()
     assert began[0]["--seed"] == "7" and began[0]["--scenarios"] == "key_press"
     place = folder.of_run(done.digest)
-    assert yaml.safe_load((place / "car.yaml").read_text(encoding="utf-8"))["key"]["battery_v"] == 2.5
+    assert yaml.safe_load((place / "car" / "honest.yaml").read_text(encoding="utf-8"))["key"]["battery_v"] == 2.5
     assert "maximum_distance_m" in (place / "parameters.yaml").read_text(encoding="utf-8")
     if writes:
         assert done.outcome["figures"]["press_mean_m"] == pytest.approx(5.75)

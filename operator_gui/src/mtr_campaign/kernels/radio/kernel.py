@@ -9,6 +9,7 @@ from mtr_core.errors import RobotError
 from mtr_core.parameters import parameters_from
 from mtr_operator.car_link.profile import load_profile
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.identity.identity import Identity
 from mtr_operator.domain.ports import LockFacts
 from mtr_operator.domain.results.progress import JournalMark
 from mtr_operator.domain.results.session_record import now, session_record
@@ -35,6 +36,7 @@ class RadioKernel:
         measured = measure(_test_of(order))
         progress = measured.progress
         progress.session.update(session_record(now(), "simulated: radio", order.car.profile))
+        progress.identity = Identity(car_model=f"simulated {order.car.name}")
         # The mark tells the store that it is this test, however often it is run.
         progress.kept = JournalMark(f"campaign {digest}", len(progress.results))
         save_progress(folder / FILE_NAME, progress)
